@@ -1,0 +1,39 @@
+// Which channels of a file serve as which plane: the spellings of the renderers, in one table.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gloam/exr.h"
+
+namespace gloam {
+
+/// A channel as the headers list it.
+struct FileChannel {
+  int part = 0;
+  std::string part_view;  ///< attribute `view` of its part; "" where there is none
+  std::string part_name;  ///< attribute `name` of its part
+  std::string name;       ///< full name in the file
+  std::string type;       ///< "half", "float" or "uint"
+};
+
+/// What the channel names of a file mean.
+struct NamedPlanes {
+  std::vector<std::string> views;   ///< that hold channels or are asked for; one empty name where the file names none
+  std::vector<PlaneSource> planes;  ///< by view, then in the order of plane_kinds()
+  std::map<std::string, std::vector<std::string>> assumed;  ///< by plane: a sentence for each choice among equals
+};
+
+/// What the user says (see ReadOptions).
+struct NameOptions {
+  std::vector<std::string> views;
+  std::map<std::string, std::string> channels;
+};
+
+/// Pure: the same names give the same planes. Channels are taken in file order, which decides among equals.
+/// Throws UsageError for a plane that does not exist, Error for a view or channel that the file does not hold.
+NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vector<std::string>& multi_view,
+                        const NameOptions& options = {});
+
+}  // namespace gloam

@@ -1,0 +1,681 @@
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfStringVectorAttribute.h>
+#include <OpenEXR/ImfTiledInputPart.h>
+#include <OpenEXR/ImfVecAttribute.h>
+#include <OpenEXR/ImfVersion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <utility>
+
+#include "camera_io.h"
+#include "channel_names.h"
+#include "conventions.h"
+#include "exr_stream.h"
+#include "gloam/error.h"
+#include "gloam/exr.h"
+#include "gloam/planes.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double assumed_fov = 60;
+
+// --- Errors
+// -----------------------------------------------------------------------------------------------------------
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return text;
+}
+
+/// OpenEXR's message without the file's name, which stands before it anyway.
+std::string cause(const std::exception& error, const fs::path& path) {
+  const std::string text = one_line(error.what()), quoted = '"' + path.string() + "\". ";
+  const size_t at = text.find(quoted);
+  return at == std::string::npos ? text : text.substr(at + quoted.size());
+}
+
+/// Runs what OpenEXR does with a file; whatever it throws becomes one line that names the file.
+template <typename Work>
+auto guarded(const fs::path& path, Work&& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error("{}: not enough memory to read it", path.string());
+  } catch (const std::exception& error) {
+    throw Error("{}: truncated or corrupted EXR ({}); render or copy it again", path.string(), cause(error, path));
+  }
+}
+
+/// Adds the file's name to an error about its contents.
+template <typename Work>
+auto named(const fs::path& path, Work&& work) {
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    throw UsageError("{}: {}", path.string(), error.what());
+  } catch (const Error& error) {
+    throw Error("{}: {}", path.string(), error.what());
+  }
+}
+
+// --- What a header claims
+// ---------------------------------------------------------------------------------------------
+
+/// Ends exclusive and in 64 bits, so that a fuzzed window cannot overflow.
+struct Box {
+  int64_t x0, y0, x1, y1;
+  bool empty() const { return x1 <= x0 || y1 <= y0; }
+  bool too_large() const { return x1 - x0 > max_pixels || y1 - y0 > max_pixels || (x1 - x0) * (y1 - y0) > max_pixels; }
+};
+
+Box box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, int64_t(box.max.x) + 1, int64_t(box.max.y) + 1}; }
+
+Box united(const Box& a, const Box& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+Window window_of(const Box& box) { return {int(box.x0), int(box.y0), int(box.x1), int(box.y1)}; }
+
+void check_size(const fs::path& path, const Box& box, const char* what) {
+  constexpr int64_t end = 1LL << 30;  // coordinates beyond it overflow in OpenEXR
+  if (box.empty()) throw Error("{}: corrupted EXR: its {} window is empty", path.string(), what);
+  if (!box.too_large() && box.x0 > -end && box.y0 > -end && box.x1 < end && box.y1 < end) return;
+  throw Error("{}: claims a {} window of {} x {} pixels; at most 2^28 pixels in all are read", path.string(), what,
+              box.x1 - box.x0, box.y1 - box.y0);
+}
+
+/// Looks at the windows of all headers before OpenEXR builds its tables for them. A header that cannot be parsed is
+/// left to OpenEXR to refuse.
+void check_claims(const fs::path& path, ExrInput& stream) {
+  char start[8];
+  stream.read(start, 8);
+  const unsigned flags = unsigned(uint8_t(start[5])) << 8;
+  int version = int(uint8_t(start[4]) | flags);
+  try {
+    do {
+      Imf::Header header;
+      header.readFrom(stream, version);
+      if (header.readsNothing()) break;
+      check_size(path, box_of(header.displayWindow()), "display");
+      check_size(path, box_of(header.dataWindow()), "data");
+    } while (flags & Imf::MULTI_PART_FILE_FLAG);
+  } catch (const IEX_NAMESPACE::BaseExc&) {
+  }
+  stream.seekg(0);
+}
+
+int bytes_of(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
+
+int64_t bytes_per_pixel(const Imf::Header& header) {
+  int64_t bytes = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) bytes += bytes_of(c.channel().type);
+  return bytes;
+}
+
+int64_t lines_per_chunk(const Imf::Header& header) {
+  switch (header.compression()) {
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
+      return 1;
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 32;
+  }
+}
+
+/// Refuses a part whose buffers could not be honest for a file of this size. No codec packs a million to one.
+void check_plausible(const fs::path& path, const Imf::Header& header, uint64_t file_size) {
+  const Box data = box_of(header.dataWindow());
+  const int64_t width = data.x1 - data.x0, height = data.y1 - data.y0, per_pixel = bytes_per_pixel(header);
+  int64_t chunk = width * std::min(height, lines_per_chunk(header));
+  if (header.hasTileDescription()) chunk = int64_t(header.tileDescription().xSize) * header.tileDescription().ySize;
+  const bool honest = chunk <= INT32_MAX / std::max<int64_t>(per_pixel, 1) &&
+                      uint64_t(width * height) / (1 << 20) * uint64_t(per_pixel) <= file_size;
+  if (!honest)
+    throw Error("{}: truncated or corrupted EXR (claims {} x {} pixels in {} bytes); render or copy it again",
+                path.string(), width, height, file_size);
+}
+
+// --- Attributes
+// -------------------------------------------------------------------------------------------------------
+
+template <typename Attribute>
+const Attribute* attribute(const Imf::Header& header, const std::string& name) {
+  return header.findTypedAttribute<Attribute>(name);
+}
+
+std::optional<Imath::M44d> matrix(const Imf::Header& header, const std::string& name) {
+  if (const auto* found = attribute<Imf::M44dAttribute>(header, name)) return found->value();
+  if (const auto* found = attribute<Imf::M44fAttribute>(header, name)) return Imath::M44d(found->value());
+  return {};
+}
+
+std::optional<double> number(const Imf::Header& header, const std::string& name) {
+  if (const auto* found = attribute<Imf::FloatAttribute>(header, name)) return found->value();
+  if (const auto* found = attribute<Imf::DoubleAttribute>(header, name)) return found->value();
+  return {};
+}
+
+std::string text(const Imf::Header& header, const std::string& name) {
+  const auto* found = attribute<Imf::StringAttribute>(header, name);
+  return found ? found->value() : "";
+}
+
+glm::dvec3 origin_in(const Imf::Header& header, const std::string& prefix) {
+  const auto* found = attribute<Imf::V3dAttribute>(header, prefix + "gloamOrigin");
+  return found ? glm::dvec3(found->value().x, found->value().y, found->value().z) : glm::dvec3(0.0);
+}
+
+/// Near and far planes are trusted only where they can be planes.
+void read_clipping(const Imf::Header& header, const std::string& prefix, Camera& camera) {
+  if (const auto near = number(header, prefix + "near"); near && *near > 0) camera.near = near;
+  if (const auto far = number(header, prefix + "far"); far && *far > 0) camera.far = far;
+}
+
+std::optional<Camera> camera_in(const Imf::Header& header, const std::string& prefix, const Window& display) {
+  const auto to_camera = matrix(header, prefix + "worldToCamera"), to_ndc = matrix(header, prefix + "worldToNDC");
+  if (!to_camera || !to_ndc) return {};
+  Camera camera = camera_from_matrices(*to_camera, *to_ndc, display, origin_in(header, prefix));
+  camera.source = text(header, prefix + "gloamCamera");
+  if (camera.source.empty()) camera.source = "header";
+  // gloam writes matrices for a camera whose place is unknown too; they must not come back as knowledge.
+  if (text(header, prefix + "gloamPose") == "unknown") camera.pose.reset();
+  read_clipping(header, prefix, camera);
+  return camera;
+}
+
+// --- Decoding
+// ---------------------------------------------------------------------------------------------------------
+
+/// Where one channel of the file goes: the first is decoded into, the rest are copies (a part that views share).
+struct Decoding {
+  std::vector<Channel*> targets;
+  float outside = 0;
+};
+using PartDecoding = std::map<std::string, Decoding>;  // by channel name
+
+Imf::Slice slice_of(Channel& channel, const Window& window) {
+  const Layout& layout = channel.layout();
+  return Imf::Slice::Make(Imf::FLOAT, channel.row(0), Imath::V2i(window.x0, window.y0), layout.width, layout.height,
+                          sizeof(float), sizeof(float) * size_t(layout.pitch));
+}
+
+void check_sampling(const Imf::Header& header, const PartDecoding& decoding) {
+  for (const auto& [name, unused] : decoding) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    if (channel && (channel->xSampling != 1 || channel->ySampling != 1))
+      throw Error("channel '{}' is subsampled {} x {}; save it at full resolution", name, channel->xSampling,
+                  channel->ySampling);
+  }
+}
+
+Imf::FrameBuffer frame_buffer(PartDecoding& decoding, const Window& window) {
+  Imf::FrameBuffer buffer;
+  for (auto& [name, target] : decoding) buffer.insert(name, slice_of(*target.targets.front(), window));
+  return buffer;
+}
+
+/// Sets what the part's data window leaves out.
+void fill_outside(Channel& channel, const Box& data, const Window& window, float value) {
+  const int width = window.width();
+  const int left = int(data.x0 - window.x0), right = int(data.x1 - window.x0);
+  const int top = int(data.y0 - window.y0), bottom = int(data.y1 - window.y0);
+  for (int y = 0; y < window.height(); ++y) {
+    float* row = channel.row(y);
+    if (y < top || y >= bottom) {
+      std::fill(row, row + width, value);
+      continue;
+    }
+    std::fill(row, row + left, value);
+    std::fill(row + right, row + width, value);
+  }
+}
+
+void copy_image(const Channel& from, Channel& to) { std::memcpy(to.data(), from.data(), from.layout().bytes()); }
+
+long long count_nonfinite(const Plane& plane) {
+  long long count = 0;
+  for (const Channel& channel : plane.channels)
+    for (int y = 0; y < channel.layout().height; ++y)
+      for (const float* p = channel.row(y); p != channel.row(y) + channel.layout().width; ++p)
+        count += !std::isfinite(*p);
+  return count;
+}
+
+void scale_image(Channel& channel, float scale) {
+  for (int y = 0; y < channel.layout().height; ++y)
+    for (float* p = channel.row(y); p != channel.row(y) + channel.layout().width; ++p) *p *= scale;
+}
+
+void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding, const Window& window) {
+  const Imf::Header& header = file.header(part);
+  const Imf::FrameBuffer buffer = frame_buffer(decoding, window);
+  if (header.hasTileDescription()) {
+    Imf::TiledInputPart input(file, part);
+    input.setFrameBuffer(buffer);
+    input.readTiles(0, input.numXTiles(0) - 1, 0, input.numYTiles(0) - 1, 0);
+  } else {
+    Imf::InputPart input(file, part);
+    input.setFrameBuffer(buffer);
+    input.readPixels(header.dataWindow().min.y, header.dataWindow().max.y);
+  }
+  const Box data = box_of(header.dataWindow());
+  for (auto& [name, target] : decoding) {
+    fill_outside(*target.targets.front(), data, window, target.outside);
+    for (size_t i = 1; i < target.targets.size(); ++i) copy_image(*target.targets.front(), *target.targets[i]);
+  }
+}
+
+std::string type_name(Imf::PixelType type) {
+  return type == Imf::HALF ? "half" : type == Imf::FLOAT ? "float" : "uint";
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+void append_new(std::vector<std::string>& list, const std::vector<std::string>& items) {
+  for (const std::string& item : items)
+    if (!contains(list, item)) list.push_back(item);
+}
+
+}  // namespace
+
+// --- FrameFile
+// --------------------------------------------------------------------------------------------------------
+
+struct FrameFile::Impl {
+  fs::path path;
+  ReadOptions options;
+  std::unique_ptr<ExrInput> stream;
+  std::unique_ptr<Imf::MultiPartInputFile> file;
+  Window display, window;
+  NamedPlanes names;
+  std::vector<std::string> channel_names;
+  std::map<std::string, Camera> cameras;
+  std::vector<std::string> camera_notes;
+  std::string convention, space;
+  std::map<std::pair<std::string, std::string>, long long> nonfinite;  // by plane and view
+
+  void open();
+  void check_parts() const;
+  void find_planes();
+  void find_window();
+  void find_cameras();
+  std::vector<FileChannel> list_channels() const;
+  std::vector<std::string> multi_view() const;
+  const Imf::Header& header_of(const std::string& view) const;
+  std::optional<Camera> header_camera(const std::string& view) const;
+  std::map<std::string, Camera> json_cameras();
+  const PlaneSource* source(const std::string& plane, const std::string& view) const;
+  std::string any_text(const std::string& name) const;
+
+  std::vector<std::string> needed(const std::vector<std::string>& planes) const;
+  Frame allocate(const std::vector<std::string>& planes) const;
+  void decode(Frame& frame);
+  void convert_depth(View& view, Frame& frame);
+  void convert_normals(View& view, Frame& frame);
+  NormalSpace said_space(const PlaneSource& normal) const;
+  void settle_camera(View& view, Frame& frame) const;
+};
+
+void FrameFile::Impl::open() {
+  stream = std::make_unique<ExrInput>(path);
+  char magic[4] = {};
+  if (stream->size() >= 4) stream->read(magic, 4);
+  stream->seekg(0);
+  if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) != 0) throw Error("{}: is not an EXR file", path.string());
+  use_all_threads();
+  guarded(path, [&] {
+    check_claims(path, *stream);
+    file = std::make_unique<Imf::MultiPartInputFile>(*stream);
+  });
+  check_parts();
+}
+
+void FrameFile::Impl::check_parts() const {
+  for (int part = 0; part < file->parts(); ++part) {
+    const Imf::Header& header = file->header(part);
+    if (header.hasType() && Imf::isDeepData(header.type()))
+      throw Error("{}: is a deep EXR, with many samples per pixel; flatten it first", path.string());
+    check_size(path, box_of(header.displayWindow()), "display");
+    check_size(path, box_of(header.dataWindow()), "data");
+  }
+}
+
+std::vector<FileChannel> FrameFile::Impl::list_channels() const {
+  std::vector<FileChannel> channels;
+  for (int part = 0; part < file->parts(); ++part) {
+    const Imf::Header& header = file->header(part);
+    const std::string view = header.hasView() ? header.view() : "", name = header.hasName() ? header.name() : "";
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+      channels.push_back({part, view, name, c.name(), type_name(c.channel().type)});
+  }
+  return channels;
+}
+
+std::vector<std::string> FrameFile::Impl::multi_view() const {
+  for (int part = 0; part < file->parts(); ++part)
+    if (Imf::hasMultiView(file->header(part))) return Imf::multiView(file->header(part));
+  return {};
+}
+
+void FrameFile::Impl::find_planes() {
+  const std::vector<FileChannel> channels = list_channels();
+  for (const FileChannel& channel : channels) channel_names.push_back(channel.name);
+  named(path, [&] { names = name_planes(channels, multi_view(), {options.views, options.channels}); });
+  // Mitsuba's depth is the length of the ray, whatever the user called it.
+  if (any_text("generatedBy").find("Mitsuba") == std::string::npos) return;
+  for (PlaneSource& plane : names.planes)
+    if (plane.plane == "depth") plane.said = Said::ray_distance;
+}
+
+void FrameFile::Impl::find_window() {
+  Box box = box_of(file->header(0).displayWindow());
+  display = window_of(box);
+  for (const PlaneSource& plane : names.planes)
+    for (const ChannelSource& channel : plane.channels)
+      box = united(box, box_of(file->header(channel.part).dataWindow()));
+  check_size(path, box, "display and data");
+  window = window_of(box);
+}
+
+/// The header that speaks for a view: that of the first part of this view, else the first.
+const Imf::Header& FrameFile::Impl::header_of(const std::string& view) const {
+  for (int part = 0; part < file->parts(); ++part)
+    if (const Imf::Header& header = file->header(part); header.hasView() && header.view() == view) return header;
+  return file->header(0);
+}
+
+std::optional<Camera> FrameFile::Impl::header_camera(const std::string& view) const {
+  for (int part = 0; part < file->parts(); ++part) {
+    const Imf::Header& header = file->header(part);
+    if (!view.empty())
+      if (auto camera = camera_in(header, view + ".", display)) return camera;
+    if (header.hasView() && header.view() != view) continue;
+    // Matrices without a view's name are those of the part's view, or of the default view.
+    const std::vector<std::string> views = multi_view();
+    if (!header.hasView() && !views.empty() && views.front() != view) continue;
+    if (auto camera = camera_in(header, "", display)) return camera;
+  }
+  return {};
+}
+
+std::map<std::string, Camera> FrameFile::Impl::json_cameras() {
+  std::optional<fs::path> json = options.camera_file;
+  if (json->empty()) json = find_camera_file(path);
+  return json ? read_camera_file(*json, display, camera_notes) : std::map<std::string, Camera>{};
+}
+
+void FrameFile::Impl::find_cameras() {
+  std::map<std::string, Camera> from_json;
+  bool json_read = false;
+  for (const std::string& view : names.views) {
+    std::optional<Camera> camera;
+    if (options.camera_file.empty())
+      camera = named(path, [&] { return guarded(path, [&] { return header_camera(view); }); });
+    if (!camera) {
+      if (!std::exchange(json_read, true)) from_json = json_cameras();
+      const auto exact = from_json.find(view), single = from_json.find("");
+      if (exact != from_json.end()) camera = exact->second;
+      // A single camera serves a single view, under any name; two eyes do not share one.
+      else if (single != from_json.end() && names.views.size() == 1)
+        camera = single->second;
+    }
+    if (options.fov_degrees) {
+      Camera flagged = camera_from_fov(*options.fov_degrees, display, "--fov");
+      if (camera) flagged.pose = camera->pose, flagged.near = camera->near, flagged.far = camera->far;
+      camera = flagged;
+    }
+    if (!camera) continue;
+    if (options.near) camera->near = options.near;
+    if (options.far) camera->far = options.far;
+    cameras.emplace(view, *camera);
+  }
+}
+
+const PlaneSource* FrameFile::Impl::source(const std::string& plane, const std::string& view) const {
+  for (const PlaneSource& candidate : names.planes)
+    if (candidate.plane == plane && candidate.view == view) return &candidate;
+  return nullptr;
+}
+
+std::string FrameFile::Impl::any_text(const std::string& name) const {
+  for (int part = 0; part < file->parts(); ++part)
+    if (std::string value = text(file->header(part), name); !value.empty()) return value;
+  return "";
+}
+
+/// The planes asked for and, for the background of the normals, depth.
+std::vector<std::string> FrameFile::Impl::needed(const std::vector<std::string>& planes) const {
+  std::vector<std::string> all;
+  append_new(all, planes);
+  if (contains(all, "normal")) append_new(all, {"depth"});
+  return all;
+}
+
+Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes) const {
+  Frame frame;
+  frame.display = display;
+  frame.window = window;
+  const Layout layout(window.width(), window.height());
+  for (const std::string& name : names.views) {
+    View& view = frame.views.emplace_back();
+    view.name = name;
+    const auto camera = cameras.find(name);
+    if (camera != cameras.end()) view.camera = camera->second;
+    const Imf::Header& header = header_of(name);
+    const bool prefixed = !name.empty() && attribute<Imf::V3dAttribute>(header, name + ".gloamOrigin");
+    view.origin = origin_in(header, prefixed ? name + "." : "");
+    for (const std::string& plane : planes) {
+      const PlaneSource* from = source(plane, name);
+      if (!from) continue;
+      Plane& to = view.planes[plane];
+      to.name = plane;
+      for (size_t i = 0; i < from->channels.size(); ++i) to.channels.emplace_back(layout);
+    }
+  }
+  return frame;
+}
+
+void FrameFile::Impl::decode(Frame& frame) {
+  std::map<int, PartDecoding> parts;
+  for (View& view : frame.views)
+    for (auto& [name, plane] : view.planes) {
+      const PlaneSource& from = *source(name, view.name);
+      for (size_t i = 0; i < from.channels.size(); ++i) {
+        Decoding& decoding = parts[from.channels[i].part][from.channels[i].name];
+        decoding.targets.push_back(&plane.channels[i]);
+        if (decoding.targets.size() == 1) decoding.outside = plane_kind(name).outside;
+      }
+    }
+  for (auto& [part, decoding] : parts) {
+    named(path, [&] { check_sampling(file->header(part), decoding); });
+    check_plausible(path, file->header(part), stream->size());
+    guarded(path, [&] { decode_part(*file, part, decoding, window); });
+  }
+  for (View& view : frame.views)
+    for (auto& [name, plane] : view.planes) {
+      const PlaneSource& from = *source(name, view.name);
+      for (size_t i = 0; i < from.channels.size(); ++i)
+        if (from.channels[i].scale != 1) scale_image(plane.channels[i], from.channels[i].scale);
+      if (options.count_nonfinite) nonfinite[{name, view.name}] = count_nonfinite(plane);
+    }
+}
+
+/// Gives the view a camera where none is known, and says so where it matters.
+void FrameFile::Impl::settle_camera(View& view, Frame& frame) const {
+  if (view.camera) return;
+  view.camera = camera_from_fov(assumed_fov, display, "assumed 60 degrees");
+  view.camera->near = options.near;
+  view.camera->far = options.far;
+  if (view.find("depth") || view.find("normal"))
+    append_new(frame.assumed, {fmt::format("camera: none by flag, header or a JSON beside the file; a horizontal field "
+                                           "of view of {:g} degrees is assumed (--fov, --camera)",
+                                           assumed_fov)});
+}
+
+void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
+  const auto depth = view.planes.find("depth");
+  if (depth == view.planes.end()) return;
+  ReadOptions as_named = options;
+  const bool automatic = options.depth == DepthConvention::automatic;
+  if (automatic && source("depth", view.name)->said == Said::ray_distance) {
+    as_named.depth = DepthConvention::ray;
+    append_new(frame.assumed,
+               {fmt::format("depth: '{}' is taken as the distance along the ray, as its renderer writes it (--depth z "
+                            "says otherwise)",
+                            source("depth", view.name)->channels.front().name)});
+  }
+  const Plane* alpha = view.find("alpha");
+  std::vector<std::string> notes;
+  convention = named(path, [&] {
+    return to_view_depth(depth->second.channels.front(), alpha ? &alpha->channels.front() : nullptr, window,
+                         *view.camera, as_named, notes);
+  });
+  append_new(frame.assumed, notes);
+}
+
+/// What flags, the header and the names say about the space of the normals.
+NormalSpace FrameFile::Impl::said_space(const PlaneSource& normal) const {
+  if (options.normal_space != NormalSpace::automatic) return options.normal_space;
+  const std::string written = any_text("gloamNormalSpace");
+  if (written == "view") return NormalSpace::view;
+  if (written == "world") return NormalSpace::world;
+  if (normal.said == Said::view_space) return NormalSpace::view;
+  if (normal.said == Said::world_space) return NormalSpace::world;
+  return any_text("BlenderMultiChannel").empty() ? NormalSpace::automatic : NormalSpace::world;
+}
+
+void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
+  const auto found = view.planes.find("normal");
+  if (found == view.planes.end()) return;
+  Plane& normal = found->second;
+  const Plane* depth = view.find("depth");
+  NormalSpace said = said_space(*source("normal", view.name));
+  std::vector<std::string> notes;
+  if (said == NormalSpace::automatic && depth) {
+    said =
+        named(path, [&] { return detect_normal_space(normal, depth->channels.front(), window, *view.camera, notes); });
+  } else if (said == NormalSpace::automatic) {
+    said = NormalSpace::view;
+    notes.push_back("normal: taken as view space, as there is no depth to tell it from (--normal-space)");
+  }
+  if (said == NormalSpace::world && !view.camera->pose) {
+    said = NormalSpace::view;
+    notes.push_back("normal: in world space, but where the camera stands is not known; taken as view space (--camera)");
+  }
+  if (said == NormalSpace::world) to_view_space(normal, *view.camera->pose);
+  space = said == NormalSpace::world ? "world" : "view";
+  append_new(frame.assumed, notes);
+}
+
+FrameFile::FrameFile(const fs::path& path, const ReadOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->options = options;
+  impl_->open();
+  guarded(path, [&] {
+    impl_->find_planes();
+    impl_->find_window();
+  });
+  impl_->find_cameras();
+}
+
+FrameFile::~FrameFile() = default;
+FrameFile::FrameFile(FrameFile&&) noexcept = default;
+
+const fs::path& FrameFile::path() const { return impl_->path; }
+Window FrameFile::display() const { return impl_->display; }
+Window FrameFile::window() const { return impl_->window; }
+const std::vector<std::string>& FrameFile::views() const { return impl_->names.views; }
+const std::vector<PlaneSource>& FrameFile::planes() const { return impl_->names.planes; }
+std::vector<std::string> FrameFile::all_channels() const { return impl_->channel_names; }
+std::string FrameFile::text_attribute(const std::string& name) const { return impl_->any_text(name); }
+std::string FrameFile::normal_space() const { return impl_->space; }
+
+long long FrameFile::nonfinite(const std::string& plane, const std::string& view) const {
+  const auto found = impl_->nonfinite.find({plane, view});
+  return found == impl_->nonfinite.end() ? 0 : found->second;
+}
+
+std::vector<std::string> FrameFile::common_planes() const {
+  std::vector<std::string> common;
+  for (const PlaneSource& plane : planes()) {
+    const bool everywhere = std::all_of(views().begin(), views().end(), [&](const std::string& view) {
+      return impl_->source(plane.plane, view) != nullptr;
+    });
+    if (everywhere) append_new(common, {plane.plane});
+  }
+  return common;
+}
+
+std::optional<Camera> FrameFile::camera(const std::string& view) const {
+  const auto found = impl_->cameras.find(view);
+  return found == impl_->cameras.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string FrameFile::depth_convention() const {
+  if (!impl_->convention.empty()) return impl_->convention;
+  const auto& all = planes();
+  const auto depth = std::find_if(all.begin(), all.end(), [](const PlaneSource& p) { return p.plane == "depth"; });
+  if (depth == all.end()) return "";
+  switch (impl_->options.depth) {
+    case DepthConvention::ray:
+      return "ray";
+    case DepthConvention::ndc:
+      return "ndc";
+    case DepthConvention::reversed:
+      return "reversed";
+    case DepthConvention::z:
+      return "z";
+    default:
+      return depth->said == Said::ray_distance ? "ray" : "z";
+  }
+}
+
+Frame FrameFile::read(const std::vector<std::string>& planes) {
+  const std::vector<std::string> needed = impl_->needed(planes);
+  Frame frame = guarded(impl_->path, [&] { return impl_->allocate(needed); });
+  impl_->decode(frame);
+  if (const auto general = impl_->names.assumed.find(""); general != impl_->names.assumed.end())
+    append_new(frame.assumed, general->second);
+  for (const std::string& plane : needed)
+    if (const auto notes = impl_->names.assumed.find(plane); notes != impl_->names.assumed.end())
+      append_new(frame.assumed, notes->second);
+  append_new(frame.assumed, impl_->camera_notes);
+  for (View& view : frame.views) {
+    impl_->settle_camera(view, frame);
+    impl_->convert_depth(view, frame);
+    impl_->convert_normals(view, frame);
+  }
+  normalise(frame, impl_->options.background);
+  for (View& view : frame.views)
+    std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
+  return frame;
+}
+
+}  // namespace gloam

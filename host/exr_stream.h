@@ -1,0 +1,54 @@
+// OpenEXR streams over file descriptors: errors are kept, not lost, and no byte is copied twice.
+#pragma once
+
+#include <OpenEXR/ImfIO.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gloam {
+
+/// Lets OpenEXR compress and decompress on every core. Takes effect once.
+void use_all_threads();
+
+/// Reads a regular file. Small reads (headers come byte by byte) go through a buffer, whole chunks straight to OpenEXR.
+/// Not memory-mapped on purpose: a mapped file that another program cuts short while it is read ends this one.
+class ExrInput : public Imf::IStream {
+ public:
+  /// Throws Error naming the path when it is missing, a folder, not readable or not a regular file.
+  explicit ExrInput(const std::filesystem::path& path);
+  ~ExrInput() override;
+  bool read(char* bytes, int count) override;
+  uint64_t tellg() override { return position_; }
+  void seekg(uint64_t position) override { position_ = position; }
+  uint64_t size() const { return size_; }
+
+ private:
+  void read_at(uint64_t position, char* bytes, size_t count) const;
+  int descriptor_ = -1;
+  uint64_t position_ = 0, size_ = 0, buffered_from_ = 0;
+  std::vector<char> buffer_;
+};
+
+/// Writes a file. OpenEXR writes its last bytes in a destructor that swallows errors: `close` throws what was missed.
+class ExrOutput : public Imf::OStream {
+ public:
+  explicit ExrOutput(const std::filesystem::path& path);
+  ~ExrOutput() override;
+  void write(const char* bytes, int count) override;
+  uint64_t tellp() override { return position_; }
+  void seekp(uint64_t position) override;
+  void close();
+
+ private:
+  void flush();
+  [[noreturn]] void fail();
+  int descriptor_ = -1;
+  int error_ = 0;
+  uint64_t position_ = 0, buffered_from_ = 0;
+  std::vector<char> buffer_;
+};
+
+}  // namespace gloam

@@ -1,0 +1,76 @@
+#include "gloam/frame.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "gloam/error.h"
+
+namespace gloam {
+namespace {
+
+constexpr size_t page = 4096;
+
+float* allocate(const Layout& layout) {
+  const size_t bytes = (layout.bytes() + page - 1) / page * page;
+  void* memory = std::aligned_alloc(page, bytes);
+  if (!memory) throw std::bad_alloc();
+  return static_cast<float*>(memory);
+}
+
+std::vector<std::string> view_names(const Frame& frame) {
+  std::vector<std::string> names;
+  for (const View& view : frame.views) names.push_back("'" + view.name + "'");
+  return names;
+}
+
+}  // namespace
+
+void Channel::Free::operator()(float* p) const { std::free(p); }
+
+Channel::Channel(const Layout& layout) : layout_(layout), data_(allocate(layout)) {}
+
+Channel::Channel(const Layout& layout, float value) : Channel(layout) {
+  std::fill_n(data_.get(), layout_.count(), value);
+}
+
+Channel Channel::clone() const {
+  if (!data_) return {};
+  Channel copy(layout_);
+  std::memcpy(copy.data(), data(), layout_.bytes());
+  return copy;
+}
+
+void Channel::fill_padding(float value) {
+  if (!data_) return;
+  std::fill_n(data_.get(), size_t(Layout::guard), value);
+  for (int y = 0; y < layout_.height; ++y) std::fill(row(y) + layout_.width, row(y) + layout_.pitch, value);
+  std::fill_n(data_.get() + layout_.count() - Layout::guard, size_t(Layout::guard), value);
+}
+
+Plane Plane::clone() const {
+  Plane copy;
+  copy.name = name;
+  for (const Channel& channel : channels) copy.channels.push_back(channel.clone());
+  return copy;
+}
+
+const Plane* View::find(const std::string& plane) const {
+  const auto found = planes.find(plane);
+  return found == planes.end() ? nullptr : &found->second;
+}
+
+const View& Frame::view(const std::string& name) const {
+  for (const View& view : views)
+    if (view.name == name) return view;
+  throw Error("view '{}' is not in this frame, which has {}", name, enumerate(view_names(*this)));
+}
+
+View& Frame::view(const std::string& name) { return const_cast<View&>(std::as_const(*this).view(name)); }
+
+bool is_background(float depth) { return depth == std::numeric_limits<float>::infinity(); }
+
+}  // namespace gloam

@@ -1,0 +1,37 @@
+// The one error type: a full sentence for a person, and the exit status that goes with it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gloam {
+
+/// Something the user has to know, in one line that names the thing, the value, what is allowed and what to do.
+/// Thrown with the full message; only `main` catches it. Exit status 1.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& message) : std::runtime_error(message) {}
+  template <typename... Args>
+  explicit Error(fmt::format_string<Args...> format, Args&&... args)
+      : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
+  virtual int exit_status() const { return 1; }
+};
+
+/// The command line itself is wrong (unknown name, value out of range). Exit status 2.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+  int exit_status() const override { return 2; }
+};
+
+/// The candidate with the smallest edit distance to `name`, as ": did you mean 'x'?"; empty when none is near.
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
+/// "a, b and c"
+std::string enumerate(const std::vector<std::string>& items);
+
+}  // namespace gloam

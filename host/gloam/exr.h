@@ -1,0 +1,117 @@
+// EXR in and out. Opening reads headers only; `read` decodes the planes asked for and nothing else.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// Largest frame accepted, in pixels: a header that claims more is refused before anything is allocated.
+inline constexpr long long max_pixels = 1LL << 28;
+
+enum class DepthConvention { automatic, z, ray, ndc, reversed };
+enum class NormalSpace { automatic, view, world };
+
+/// What the user says about the file, instead of what would be found or assumed. Every field may stay empty.
+struct ReadOptions {
+  std::filesystem::path camera_file;  ///< --camera
+  std::optional<double> fov_degrees;  ///< --fov: horizontal, 1 to 179
+  DepthConvention depth = DepthConvention::automatic;
+  std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
+  std::optional<float> background;  ///< --background: the one value (after NaN, +inf) that means background
+  NormalSpace normal_space = NormalSpace::automatic;
+  std::vector<std::string> views;               ///< --view, --views: empty = all
+  bool count_nonfinite = false;                 ///< have `read` count NaN and infinite values as they stand in the file
+  std::map<std::string, std::string> channels;  ///< --plane depth=Layer.Z: plane -> channel, channels (a,b,c) or layer
+};
+
+/// One channel of the file that serves as one component of a plane.
+struct ChannelSource {
+  int part = 0;
+  std::string name;  ///< full name in the file
+  std::string type;  ///< "half", "float" or "uint"
+  float scale = 1;   ///< what brings a value to gloam's meaning: -1 for the y of motion vectors that point up
+};
+
+/// What a channel's name already tells about its values.
+enum class Said { nothing, ray_distance, world_space, view_space, unsure_motion };
+
+/// A plane that could be decoded.
+struct PlaneSource {
+  std::string plane;  ///< "depth", "normal", ... (planes.h)
+  std::string view;
+  std::vector<ChannelSource> channels;
+  Said said = Said::nothing;
+};
+
+/// An open EXR file: what it holds, as far as headers and the camera file beside it tell.
+///
+/// Throws Error (one line, naming the file) for: missing, not an EXR, truncated, deep, more than `max_pixels`, unknown
+/// view, planes or views of different size that cannot be brought together, unreadable or ambiguous camera file.
+class FrameFile {
+ public:
+  FrameFile(const std::filesystem::path& path, const ReadOptions& options);
+  ~FrameFile();
+  FrameFile(FrameFile&&) noexcept;
+
+  const std::filesystem::path& path() const;
+  Window display() const;
+  /// Union of the display window and all data windows that hold known planes.
+  Window window() const;
+  /// Selected views, in file order; one empty name where the file names none.
+  const std::vector<std::string>& views() const;
+  /// Known planes of the selected views.
+  const std::vector<PlaneSource>& planes() const;
+  /// Names of the planes that every selected view has.
+  std::vector<std::string> common_planes() const;
+  /// Every channel of the file, for messages about what it does hold.
+  std::vector<std::string> all_channels() const;
+  /// The camera of a view; none when neither flags, header nor a JSON give one.
+  std::optional<Camera> camera(const std::string& view) const;
+  /// A text attribute of the header ("aoDefinition"); empty when absent.
+  std::string text_attribute(const std::string& name) const;
+
+  /// Decodes the named planes of all selected views (a plane that a view lacks is skipped) and brings them to gloam's
+  /// conventions: depth to planar view-space z with +inf background, normals to unit view space. `depth` is decoded
+  /// too where a named plane needs it (background of the normals is found by depth), never anything else.
+  /// Where no camera is known, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.
+  Frame read(const std::vector<std::string>& planes);
+
+  /// NaN and infinite values that `read` found in a plane, before anything was mended; 0 unless `count_nonfinite`.
+  long long nonfinite(const std::string& plane, const std::string& view) const;
+
+  /// How the depth will be or was understood: "z", "ray", "ndc", "reversed", "negative z"; empty without depth.
+  std::string depth_convention() const;
+  /// "view" or "world"; empty without normals or before `read`.
+  std::string normal_space() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// How a frame is written.
+struct WriteOptions {
+  bool half = false;  ///< AO and other bounded planes as half; depth stays float
+  std::string compression = "zip";
+};
+
+/// Writes all planes of all views as one scanline EXR: gloam's channel names (planes.h), further views in OpenEXR's
+/// multi-view form (`right.Z`, `N.right.X`, the `multiView` attribute), cameras as `worldToCamera`, `worldToNDC` and
+/// `gloamOrigin` (per further view
+/// `<view>.worldToCamera` ...), normals marked by `gloamNormalSpace` = view. Written to a temporary file beside `path`
+/// and renamed, so that a failed or interrupted run leaves nothing half written.
+/// Throws Error naming the path when it cannot be written.
+void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options = {});
+
+/// The door that every frame passes, whether read from disk or made in memory: depth that is NaN, infinite, zero,
+/// negative, >= 1e10 or equal to `background` or to a known `far` becomes +inf; normals become unit, or zero where they
+/// are NaN, infinite, zero or on background; padding is set to each plane's `outside` value.
+void normalise(Frame& frame, std::optional<float> background = {});
+
+}  // namespace gloam

@@ -1,0 +1,22 @@
+// Output files that exist whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace gloam {
+
+/// Calls `write(temporary)` with a path in the folder of `path`, then renames it to `path`. On any error, and on
+/// SIGINT or SIGTERM, the temporary file is removed and `path` is left as it was. Throws Error naming `path`.
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path&)>& write);
+
+/// Installs handlers for SIGINT and SIGTERM that remove a temporary file in the making, say in one line that the
+/// command was interrupted, and leave with status 128 + signal.
+void remove_temporaries_on_signal();
+
+/// A whole text file. Throws Error naming it.
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace gloam

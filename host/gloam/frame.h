@@ -1,0 +1,99 @@
+// A frame: named planes of floats per view, one camera per view.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/camera.h"
+
+namespace gloam {
+
+/// Pixel rectangle, ends exclusive. EXR coordinates: y down.
+struct Window {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool operator==(const Window&) const = default;
+};
+
+/// How one channel lies in memory, on the host and on the device alike.
+///
+/// `guard` floats, then `height` rows of `pitch` floats of which the first `width` are the image, then `guard` floats.
+/// The pitch is a multiple of 16, so that no kernel has a tail; the guard lets a row of lanes be loaded up to `guard`
+/// pixels outside the first and the last row.
+struct Layout {
+  static constexpr int guard = 64;
+  int width = 0, height = 0, pitch = 0;
+  Layout() = default;
+  Layout(int width, int height) : width(width), height(height), pitch((width + 15) / 16 * 16) {}
+  size_t count() const { return size_t(pitch) * size_t(height) + 2 * size_t(guard); }
+  size_t bytes() const { return count() * sizeof(float); }
+  size_t index(int x, int y) const { return size_t(guard) + size_t(y) * size_t(pitch) + size_t(x); }
+  bool operator==(const Layout&) const = default;
+};
+
+/// One image of floats in the layout above, 4096-byte aligned so that a CPU device can use it in place. Move-only.
+class Channel {
+ public:
+  Channel() = default;
+  /// Memory is not initialised.
+  explicit Channel(const Layout& layout);
+  /// Everything, padding and guard included, is `value`.
+  Channel(const Layout& layout, float value);
+  Channel clone() const;
+
+  const Layout& layout() const { return layout_; }
+  float* data() { return data_.get(); }
+  const float* data() const { return data_.get(); }
+  float* row(int y) { return data_.get() + layout_.index(0, y); }
+  const float* row(int y) const { return data_.get() + layout_.index(0, y); }
+  float& at(int x, int y) { return data_[layout_.index(x, y)]; }
+  float at(int x, int y) const { return data_[layout_.index(x, y)]; }
+  /// Sets all that is not image (row padding and guards) to `value`.
+  void fill_padding(float value);
+
+ private:
+  struct Free {
+    void operator()(float* p) const;
+  };
+  Layout layout_;
+  std::unique_ptr<float[], Free> data_;
+};
+
+/// A named plane: one channel per component, all of one layout.
+struct Plane {
+  std::string name;
+  std::vector<Channel> channels;
+  Plane clone() const;
+};
+
+/// One eye, one camera.
+struct View {
+  std::string name;  ///< "" when the file names none
+  std::optional<Camera> camera;
+  glm::dvec3 origin{0.0};  ///< what the plane `position` is relative to (gloamOrigin), in double
+  std::map<std::string, Plane> planes;
+  const Plane* find(const std::string& plane) const;
+};
+
+/// Planes as kernels expect them: depth > 0 or +inf, normals unit (or zero where unknown) in view space.
+struct Frame {
+  Window display;  ///< what the camera frames
+  Window window;   ///< what the planes cover: the display window and whatever data lies outside it
+  std::vector<View> views;
+  std::vector<std::string> assumed;  ///< one sentence for each thing that was not said by file or flag
+
+  int width() const { return window.width(); }
+  int height() const { return window.height(); }
+  View& view(const std::string& name);
+  const View& view(const std::string& name) const;
+};
+
+/// Background is +inf; everything else is a surface.
+bool is_background(float depth);
+
+}  // namespace gloam

@@ -1,0 +1,27 @@
+// The planes that gloam knows: their components, the channels written for them, their bounds.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gloam {
+
+/// What a plane's values mean for a reader and for the checks that run over every technique.
+struct PlaneKind {
+  std::string name;                     ///< "depth"
+  std::vector<std::string> components;  ///< kernel argument suffixes: {""} or {"x", "y", "z"}
+  std::vector<std::string> channels;    ///< EXR channels written, one per component: "Z", or "N.X", "N.Y", "N.Z"
+  float outside;                        ///< value of pixels that no data window covers and of the row padding
+  enum Meaning { value, unit_interval, unit_vector, view_depth } meaning;
+  std::string help;
+};
+
+/// All planes with a fixed meaning, in the order in which they are shown.
+const std::vector<PlaneKind>& plane_kinds();
+
+/// The kind of a plane; a name not in the table is one component, channel = name, any value (a new technique needs no
+/// entry here).
+PlaneKind plane_kind(std::string_view name);
+
+}  // namespace gloam

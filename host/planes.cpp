@@ -1,0 +1,67 @@
+#include "gloam/planes.h"
+
+#include <cctype>
+#include <limits>
+
+namespace gloam {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+PlaneKind kind(std::string name, std::vector<std::string> components, std::vector<std::string> channels, float outside,
+               PlaneKind::Meaning meaning, std::string help) {
+  return {std::move(name), std::move(components), std::move(channels), outside, meaning, std::move(help)};
+}
+
+/// "peel.00", "stochastic.12": one depth layer of many, written as "<name>.Z".
+bool is_depth_layer(std::string_view name) {
+  const size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return false;
+  const std::string_view stem = name.substr(0, dot), number = name.substr(dot + 1);
+  return (stem == "peel" || stem == "stochastic") && number.size() == 2 &&
+         std::isdigit(static_cast<unsigned char>(number[0])) && std::isdigit(static_cast<unsigned char>(number[1]));
+}
+
+}  // namespace
+
+const std::vector<PlaneKind>& plane_kinds() {
+  using K = PlaneKind;
+  static const std::vector<PlaneKind> kinds = {
+      kind("depth", {""}, {"Z"}, inf, K::view_depth, "planar view-space distance, scene units; background is +inf"),
+      kind("normal", {"x", "y", "z"}, {"N.X", "N.Y", "N.Z"}, 0, K::unit_vector, "unit, view space"),
+      kind("color", {"r", "g", "b"}, {"R", "G", "B"}, 0, K::value, "scene-linear radiance"),
+      kind("alpha", {""}, {"A"}, 0, K::unit_interval, "coverage; 0 is background"),
+      kind("albedo", {"r", "g", "b"}, {"albedo.R", "albedo.G", "albedo.B"}, 0, K::unit_interval, "base colour"),
+      kind("roughness", {""}, {"roughness"}, 1, K::unit_interval, "perceptual; GGX alpha is its square"),
+      kind("reflectance", {"r", "g", "b"}, {"reflectance.R", "reflectance.G", "reflectance.B"}, 0, K::unit_interval,
+           "specular reflectance at normal incidence (F0)"),
+      kind("position", {"x", "y", "z"}, {"P.X", "P.Y", "P.Z"}, 0, K::value,
+           "world space, relative to the attribute gloamOrigin where present"),
+      kind("back_depth", {""}, {"backZ"}, inf, K::view_depth,
+           "first back face of the same instance behind the visible surface"),
+      kind("instance", {""}, {"instance"}, 0, K::value, "identity of the instance seen"),
+      kind("peel_count", {""}, {"peel.count"}, 0, K::value, "how many surfaces lie under the pixel centre"),
+      kind("outline_count", {""}, {"outline.count"}, 0, K::value, "signed crossings in front of the surface"),
+      kind("mask", {""}, {"mask"}, 0, K::unit_interval, "where an effect is wanted"),
+      kind("motion", {"x", "y"}, {"motion.X", "motion.Y"}, 0, K::value, "pixels, current to previous frame, y down"),
+      kind("ao", {""}, {"AO"}, 1, K::unit_interval, "ambient occlusion; 1 is open"),
+      kind("ao_raw", {""}, {"AO_raw"}, 1, K::unit_interval, "ambient occlusion before filtering"),
+      kind("bent_normal", {"x", "y", "z"}, {"bent.X", "bent.Y", "bent.Z"}, 0, K::unit_vector,
+           "mean unoccluded direction, view space"),
+      kind("cone", {""}, {"cone"}, 0, K::unit_interval, "cosine of the half angle of the visible cone"),
+      kind("reflection", {"r", "g", "b", "a"}, {"reflection.R", "reflection.G", "reflection.B", "reflection.A"}, 0,
+           K::value, "reflected radiance; A is the confidence"),
+      kind("hit", {""}, {"hit.Z"}, 0, K::value, "length of the reflected ray"),
+  };
+  return kinds;
+}
+
+PlaneKind plane_kind(std::string_view name) {
+  for (const PlaneKind& known : plane_kinds())
+    if (known.name == name) return known;
+  const std::string own(name);
+  if (is_depth_layer(name)) return kind(own, {""}, {own + ".Z"}, inf, PlaneKind::view_depth, "one depth layer");
+  return kind(own, {""}, {own}, 0, PlaneKind::value, "");
+}
+
+}  // namespace gloam

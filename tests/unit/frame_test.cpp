@@ -1,0 +1,204 @@
+// Frames in memory, the table of planes, messages, and files that exist whole or not at all.
+#include "gloam/frame.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "gloam/error.h"
+#include "gloam/files.h"
+#include "gloam/planes.h"
+
+namespace {
+
+using namespace gloam;
+namespace fs = std::filesystem;
+
+/// A folder that goes away with the test.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "gloam_frame_XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  size_t count() const { return size_t(std::distance(fs::directory_iterator(path), {})); }
+};
+
+void put(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+TEST(Layout, PitchIsAMultipleOf16AndRowsAreApart) {
+  const Layout layout(17, 3);
+  EXPECT_EQ(layout.pitch, 32);
+  EXPECT_EQ(layout.index(0, 0), size_t(Layout::guard));
+  EXPECT_EQ(layout.index(0, 1) - layout.index(0, 0), 32u);
+  EXPECT_EQ(layout.count(), 3u * 32 + 2 * Layout::guard);
+}
+
+TEST(Channel, IsPageAligned) {
+  for (int width : {1, 17, 1000}) EXPECT_EQ(reinterpret_cast<uintptr_t>(Channel(Layout(width, 5)).data()) % 4096, 0u);
+}
+
+TEST(Channel, FillPaddingLeavesTheImageAlone) {
+  Channel channel(Layout(17, 3), 1);
+  channel.fill_padding(9);
+  int image = 0, padding = 0;
+  for (size_t i = 0; i < channel.layout().count(); ++i) (channel.data()[i] == 1 ? image : padding) += 1;
+  EXPECT_EQ(image, 17 * 3);
+  EXPECT_EQ(padding, int(channel.layout().count()) - 17 * 3);
+  EXPECT_EQ(channel.at(16, 2), 1);
+  EXPECT_EQ(channel.row(2)[17], 9);
+}
+
+TEST(Channel, CloneIsIndependent) {
+  Channel channel(Layout(4, 4), 2);
+  Channel copy = channel.clone();
+  copy.at(1, 1) = 5;
+  EXPECT_EQ(channel.at(1, 1), 2);
+  EXPECT_EQ(copy.at(0, 0), 2);
+  EXPECT_EQ(Channel().clone().data(), nullptr);
+}
+
+TEST(Channel, ImpossibleSizeThrows) { EXPECT_THROW(Channel(Layout(1 << 30, 1 << 30)), std::bad_alloc); }
+
+TEST(Frame, UnknownViewNamesThoseThereAre) {
+  Frame frame;
+  frame.views.resize(2);
+  frame.views[0].name = "left";
+  frame.views[1].name = "right";
+  EXPECT_EQ(&frame.view("right"), &frame.views[1]);
+  try {
+    frame.view("middle");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("'left' and 'right'"), std::string::npos);
+  }
+}
+
+TEST(Planes, TableIsConsistent) {
+  std::set<std::string> names, channels;
+  for (const PlaneKind& kind : plane_kinds()) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_EQ(kind.components.size(), kind.channels.size()) << kind.name;
+    for (const std::string& channel : kind.channels) EXPECT_TRUE(channels.insert(channel).second) << channel;
+    EXPECT_FALSE(kind.help.empty());
+    EXPECT_EQ(kind.meaning == PlaneKind::view_depth, is_background(kind.outside)) << kind.name;
+  }
+}
+
+TEST(Planes, DepthLayersAndUnknownNames) {
+  EXPECT_EQ(plane_kind("peel.00").channels, std::vector<std::string>{"peel.00.Z"});
+  EXPECT_EQ(plane_kind("stochastic.12").meaning, PlaneKind::view_depth);
+  EXPECT_EQ(plane_kind("ao").outside, 1);
+  EXPECT_EQ(plane_kind("curvature").channels, std::vector<std::string>{"curvature"});
+  EXPECT_EQ(plane_kind("peel.x").channels, std::vector<std::string>{"peel.x"});
+}
+
+TEST(Messages, SuggestionIsNearOrAbsent) {
+  EXPECT_EQ(suggestion("depht", {"normal", "depth"}), ": did you mean 'depth'?");
+  EXPECT_EQ(suggestion("HBAO", {"hbao", "ssao"}), ": did you mean 'hbao'?");
+  EXPECT_EQ(suggestion("zebra", {"normal", "depth"}), "");
+  EXPECT_EQ(suggestion("x", {}), "");
+}
+
+TEST(Messages, Enumerate) {
+  EXPECT_EQ(enumerate({}), "");
+  EXPECT_EQ(enumerate({"a"}), "a");
+  EXPECT_EQ(enumerate({"a", "b", "c"}), "a, b and c");
+}
+
+TEST(Messages, ExitStatus) {
+  EXPECT_EQ(Error("x").exit_status(), 1);
+  EXPECT_EQ(UsageError("x").exit_status(), 2);
+}
+
+TEST(WriteAtomically, ReplacesTheFile) {
+  Folder folder;
+  put(folder.path / "out.txt", "old");
+  write_atomically(folder.path / "out.txt", [](const fs::path& temporary) { put(temporary, "new"); });
+  EXPECT_EQ(read_text(folder.path / "out.txt"), "new");
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(WriteAtomically, FailureLeavesTheOldFileAndNothingElse) {
+  Folder folder;
+  const fs::path path = folder.path / "out.txt";
+  put(path, "old");
+  try {
+    write_atomically(path, [](const fs::path& temporary) {
+      put(temporary, "half");
+      throw std::runtime_error("no space\nleft in " + temporary.string());
+    });
+    FAIL();
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with(path.string())) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    EXPECT_EQ(message.find(".part"), std::string::npos) << "the temporary name means nothing to the user";
+  }
+  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(WriteAtomically, RefusesWhatCannotBeWritten) {
+  Folder folder;
+  put(folder.path / "file", "x");
+  auto never = [](const fs::path&) { FAIL() << "called"; };
+  EXPECT_THROW(write_atomically(folder.path / "file" / "out.txt", never), Error);  // a file in place of a folder
+  EXPECT_THROW(write_atomically(folder.path / "missing" / "out.txt", never), Error);
+  EXPECT_THROW(write_atomically(folder.path, never), Error);
+  EXPECT_THROW(write_atomically("/dev/null", never), Error);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(WriteAtomically, SymbolicLinkStaysOne) {
+  Folder folder;
+  put(folder.path / "real", "old");
+  fs::create_symlink("real", folder.path / "link");
+  write_atomically(folder.path / "link", [](const fs::path& temporary) { put(temporary, "new"); });
+  EXPECT_TRUE(fs::is_symlink(folder.path / "link"));
+  EXPECT_EQ(read_text(folder.path / "real"), "new");
+}
+
+TEST(WriteAtomically, SignalRemovesTheTemporary) {
+  for (int signal : {SIGINT, SIGTERM}) {
+    Folder folder;
+    put(folder.path / "out.txt", "old");
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::close(STDERR_FILENO);
+      remove_temporaries_on_signal();
+      write_atomically(folder.path / "out.txt", [&](const fs::path& temporary) {
+        put(temporary, "half");
+        ::raise(signal);
+      });
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
+    EXPECT_EQ(folder.count(), 1u);
+    EXPECT_EQ(read_text(folder.path / "out.txt"), "old");
+  }
+}
+
+TEST(ReadText, NamesWhatItCannotRead) {
+  Folder folder;
+  EXPECT_THROW(read_text(folder.path), Error);
+  try {
+    read_text(folder.path / "missing.json");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("missing.json"), std::string::npos);
+  }
+}
+
+}  // namespace
