@@ -1,0 +1,43 @@
+// What the numbers in a file mean, and how they become gloam's: depth, background, normal space.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/camera.h"
+#include "gloam/exr.h"
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// Depth as found in the file to planar view-space z, in place; background to +inf.
+///
+/// `ray` is the distance from the eye; it needs the camera. `ndc` is window depth d in 0..1, 0 at near and 1 at far, as
+/// OpenGL (after its default depth range) and Direct3D write it: z = n f / (f - d (f - n)). `reversed` is 1 at near and
+/// 0 at far: z = n f / (n + d (f - n)), or n / d for an infinite far plane. Both are linear for an orthographic camera.
+/// They need near, and ndc and orthographic cameras far as well, from the options or else from the camera; a reversed
+/// depth without far is taken to have an infinite one. `automatic` is z.
+///
+/// Background: NaN, infinite, 0 and anything below 1e-30 (no denormals reach a kernel), 1e10 and more, the far plane
+/// where it is known (to a rounding of float), exactly `options.background`, both compared before conversion. ndc: d <
+/// 0 or d >= 1; reversed: d <= 0 or d > 1. Negative depth is background, unless all surfaces are negative: then the
+/// plane is "negative z" and is flipped. `alpha`, where given, tells a surface on the near plane of ndc (d = 0) from a
+/// pixel that was never drawn (d = 0 and alpha 0).
+///
+/// Returns the convention used ("z", "ray", "ndc", "reversed", "negative z") and appends what was assumed.
+/// Throws Error naming what is missing or out of range (near, far).
+std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
+                          const ReadOptions& options, std::vector<std::string>& assumed);
+
+/// Which space the normals are in, from the data: the one in which they agree better with those estimated from `depth`
+/// (view-space z) at about 4096 pixels spread over the image. `view` where no pose is known or no pixel can tell.
+/// Normals stored as 0.5 + 0.5 n (no component below 0, and they agree better decoded) are decoded in place.
+/// Appends what was found to `assumed`, in one sentence.
+NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Window& window, const Camera& camera,
+                                std::vector<std::string>& assumed);
+
+/// Rotates world-space normals into view space, in place.
+void to_view_space(Plane& normal, const Pose& pose);
+
+}  // namespace gloam
