@@ -1,0 +1,26 @@
+// OpenCL behind gloam/device.h.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <map>
+#include <string>
+
+#include "gloam/device.h"
+
+namespace gloam {
+
+/// "CL_OUT_OF_RESOURCES" for -5.
+std::string cl_error_name(int code);
+
+struct Device::Impl {
+  DeviceInfo info;
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue;
+  std::map<std::string, cl::Program> programs;  ///< by build options and source file
+
+  /// The built program of a kernel file. Throws Error with the build log.
+  cl::Program& program(const std::string& source, const std::string& options);
+};
+
+}  // namespace gloam

@@ -1,0 +1,41 @@
+// OpenCL devices: finding one, and what a run needs to know of it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gloam {
+
+struct DeviceInfo {
+  std::string platform, name, type;  ///< type: "cpu", "gpu" or "other"
+  std::string driver;
+  int lanes = 1;  ///< pixels per work-item that suit the device: its float vector width on PoCL's CPUs
+  bool has_double = false;
+  bool shares_memory = false;                         ///< host memory can be used in place
+  bool rounds_correctly = false;                      ///< offers -cl-fp32-correctly-rounded-divide-sqrt
+  unsigned long long memory = 0, largest_buffer = 0;  ///< bytes
+};
+
+/// All devices of all platforms. Throws Error when there is no platform (and says how to install one).
+std::vector<DeviceInfo> list_devices();
+
+/// An open device with its queue and its compiled programs. Move-only.
+class Device {
+ public:
+  /// `text` is part of the platform's or the device's name, any case; empty: the first GPU, else the first CPU.
+  /// Throws Error listing the devices there are when none fits.
+  explicit Device(const std::string& text = "");
+  ~Device();
+  Device(Device&&) noexcept;
+
+  const DeviceInfo& info() const;
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gloam

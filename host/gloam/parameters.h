@@ -1,0 +1,65 @@
+// Parameters of a technique: the table that describes them and the bytes that a kernel gets.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gloam {
+
+/// Defaults of bool parameters in parameter lists.
+inline constexpr int off = 0, on = 1;
+
+/// One parameter; its place in the kernel's struct is its place in the table.
+struct Parameter {
+  enum class Type { floating, integer, boolean, choice };
+  std::string name;
+  Type type;
+  double initial, min, max;          ///< bool: 0 or 1; choice: index
+  std::vector<std::string> choices;  ///< choice only
+  std::string unit, help;
+};
+
+Parameter float_parameter(const char* name, double initial, double min, double max, const char* unit, const char* help);
+Parameter int_parameter(const char* name, int initial, int min, int max, const char* unit, const char* help);
+Parameter bool_parameter(const char* name, int initial, const char* help);
+/// `choices` as "(a, b, c)".
+Parameter choice_parameter(const char* name, const char* initial, const char* choices, const char* help);
+
+/// "float", "int", "bool" or "choice".
+std::string type_name(const Parameter& parameter);
+/// "0 to 32", "on or off", "a, b or c".
+std::string allowed_values(const Parameter& parameter);
+
+/// Values for a table of parameters, in the layout of the kernel's struct.
+class ParameterValues {
+ public:
+  ParameterValues() = default;
+  explicit ParameterValues(std::vector<Parameter> table);
+
+  const std::vector<Parameter>& table() const { return table_; }
+  bool has(const std::string& name) const;
+  /// Sets from text; throws UsageError with the range ("hbao+: radius = -1 ...: 0 to inf scene units allowed").
+  void set(const std::string& name, const std::string& value, const std::string& technique);
+  double number(const std::string& name) const;
+  /// As a user would write it: "0.5", "on", "quadratic".
+  std::string text(const std::string& name) const;
+
+  const void* bytes() const { return bytes_.data(); }
+  size_t size() const { return bytes_.size(); }
+  template <typename Params>
+  Params as() const {
+    Params params;
+    std::memcpy(&params, bytes_.data(), sizeof params);
+    return params;
+  }
+
+ private:
+  size_t index_of(const std::string& name) const;
+  std::vector<Parameter> table_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace gloam

@@ -1,0 +1,47 @@
+// The only place that enqueues: every pass is timed, checked and named here.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gloam/device.h"
+#include "gloam/frame.h"
+#include "gloam/plan.h"
+
+namespace gloam {
+
+enum class Math { precise, fast };
+enum class Real { float32, float64 };
+
+struct RunOptions {
+  Math math = Math::fast;
+  Real real = Real::float32;
+  int lanes = 0;  ///< pixels per work-item: 1, 4, 8, 16; 0: what suits the device (half of it for double)
+  int seed = 0;
+  int repeat = 1;                                  ///< timed runs; more than one: after an untimed warm-up
+  std::function<void(int done, int of)> progress;  ///< called after each pass
+};
+
+struct PassTime {
+  std::string view, name;  ///< "hbao+/estimate"
+  std::vector<double> ms;  ///< one per repeat, by OpenCL events; wall clock where a device's events read 0
+};
+
+struct RunResult {
+  Frame frame;                   ///< the plan's outputs, with the input's windows, views and cameras
+  std::vector<PassTime> passes;  ///< per view, in order
+  std::vector<double> total_ms;  ///< one per repeat: the sum over passes
+  int lanes = 1;
+  unsigned long long device_bytes = 0;  ///< of the largest view
+};
+
+/// Bytes of device memory that one view of a plan takes.
+unsigned long long device_bytes(const Plan& plan, const Layout& layout);
+
+/// Runs a plan on every view of a frame that has passed the door (`normalise`).
+/// Throws Error: out of device memory (needed and available), double where the device has none, build errors with the
+/// kernel's log, kernel arguments that do not match the declaration (naming both sides).
+RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options = {});
+
+}  // namespace gloam

@@ -1,0 +1,66 @@
+// A technique is data: what it reads, what it writes, its parameters, and the passes it takes for given parameters.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gloam/parameters.h"
+
+namespace gloam {
+
+/// A plane behind a kernel argument. Argument and plane mostly share the name; a kernel that serves several planes
+/// names its argument otherwise: {"source", "ao_raw"}. A plane of several components takes as many arguments, in order
+/// (`normal_x`, `normal_y`, `normal_z`).
+struct Binding {
+  std::string argument, plane;
+  Binding(const char* name) : argument(name), plane(name) {}
+  Binding(const char* argument, const char* plane) : argument(argument), plane(plane) {}
+};
+
+/// One kernel launch over all pixels. Kernel arguments: (Frame, Params, reads..., writes...); a technique without
+/// parameters has no Params argument.
+struct Pass {
+  std::string name;                                  ///< "estimate": shown as "hbao+/estimate"
+  std::string kernel;                                ///< function in the technique's source
+  std::vector<Binding> reads, writes;                ///< planes that no technique declares are intermediate
+  std::vector<std::pair<std::string, int>> defines;  ///< counts that shape loops, and choices
+};
+
+/// A named set of parameter values.
+struct Preset {
+  std::string name;  ///< low, medium, high or ultra
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+struct Technique {
+  std::string name;     ///< as users type it: "hbao+"
+  std::string summary;  ///< one line
+  std::string paper;    ///< author, year
+  std::string source;   ///< kernel file below kernels/: "hbao_plus/hbao_plus.cl"
+  std::vector<std::string> reads, writes;
+  std::vector<std::string> outputs;  ///< planes that `gloam run` writes; empty: `writes`. Others than `writes` are made
+                                     ///< by the technique that `then` names
+  std::string then;                  ///< technique that follows by default, such as a filter; inherits parameters of
+                                     ///< the same name
+  std::vector<Parameter> parameters;
+  std::vector<Preset> presets;
+  std::function<std::vector<Pass>(const ParameterValues&)> passes;
+};
+
+/// Lets a technique write its passes as a function of its own parameter struct.
+template <typename Params>
+std::function<std::vector<Pass>(const ParameterValues&)> passes_of(std::vector<Pass> (*passes)(const Params&)) {
+  return [passes](const ParameterValues& values) { return passes(values.as<Params>()); };
+}
+
+/// All techniques, sorted by name.
+const std::vector<Technique>& registry();
+
+/// Throws UsageError with the nearest name.
+const Technique& find_technique(const std::string& name);
+
+std::vector<std::string> technique_names();
+
+}  // namespace gloam

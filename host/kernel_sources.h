@@ -1,0 +1,16 @@
+// The kernel files below kernels/, embedded at build time.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace gloam {
+
+/// Path below kernels/ -> text.
+const std::map<std::string, std::string>& kernel_sources();
+
+/// A kernel file with its includes of other kernel files put in, each once, and #line directives so that build logs
+/// name file and line. Throws Error for a file that does not exist.
+std::string flatten(const std::string& file);
+
+}  // namespace gloam

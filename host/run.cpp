@@ -1,0 +1,306 @@
+#include "gloam/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "device_impl.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+
+namespace gloam {
+namespace {
+
+#define FRAME_SCALAR float
+#define FRAME_NAME FrameOfFloats
+#include "shared/frame.h"
+#undef FRAME_SCALAR
+#undef FRAME_NAME
+#define FRAME_SCALAR double
+#define FRAME_NAME FrameOfDoubles
+#include "shared/frame.h"
+#undef FRAME_SCALAR
+#undef FRAME_NAME
+static_assert(Layout::guard == FRAME_GUARD);
+
+template <typename KernelFrame>
+KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout& layout, int seed) {
+  using Scalar = decltype(KernelFrame::scale_x);
+  return {layout.width,
+          layout.height,
+          layout.pitch,
+          seed,
+          Scalar(1 / camera.fx),
+          Scalar(1 / camera.fy),
+          Scalar(camera.cx - frame.window.x0),
+          Scalar(camera.cy - frame.window.y0),
+          Scalar(camera.orthographic ? 0 : 1),
+          Scalar(camera.orthographic ? 1 : 0)};
+}
+
+/// Planes of a plan with their number of components.
+std::map<std::string, int> planes_of(const Plan& plan) {
+  std::map<std::string, int> planes;
+  const auto add = [&](const std::string& name) { planes[name] = int(plane_kind(name).components.size()); };
+  for (const std::string& plane : plan.inputs) add(plane);
+  for (const PlannedPass& p : plan.passes) {
+    for (const Binding& b : p.pass.reads) add(b.plane);
+    for (const Binding& b : p.pass.writes) add(b.plane);
+  }
+  return planes;
+}
+
+/// One view's planes on the device. On a device that shares memory the host's own pages are used.
+class Buffers {
+ public:
+  Buffers(Device::Impl& device, const Layout& layout) : device_(device), layout_(layout) {}
+
+  void upload(const Plane& plane) {
+    for (const Channel& channel : plane.channels) {
+      const cl_mem_flags flags =
+          CL_MEM_READ_ONLY | (device_.info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
+      buffers_[plane.name].emplace_back(device_.context, flags, layout_.bytes(), const_cast<float*>(channel.data()));
+    }
+  }
+
+  void allocate(const std::string& name) {
+    const PlaneKind kind = plane_kind(name);
+    for (size_t i = 0; i < kind.components.size(); ++i) {
+      if (device_.info.shares_memory) {
+        Channel channel(layout_);
+        channel.fill_padding(kind.outside);
+        buffers_[name].emplace_back(device_.context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, layout_.bytes(),
+                                    channel.data());
+        host_[name].push_back(std::move(channel));
+      } else {
+        cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layout_.bytes());
+        const size_t guard = Layout::guard * sizeof(float);
+        device_.queue.enqueueFillBuffer(buffer, kind.outside, 0, guard);
+        device_.queue.enqueueFillBuffer(buffer, kind.outside, layout_.bytes() - guard, guard);
+        buffers_[name].push_back(std::move(buffer));
+      }
+    }
+  }
+
+  bool has(const std::string& name) const { return buffers_.count(name) != 0; }
+  std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
+
+  /// Takes a computed plane back to the host.
+  Plane download(const std::string& name) {
+    const PlaneKind kind = plane_kind(name);
+    Plane plane{name, {}};
+    for (size_t i = 0; i < kind.components.size(); ++i) {
+      cl::Buffer& buffer = buffers_.at(name)[i];
+      if (device_.info.shares_memory) {
+        void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout_.bytes());
+        device_.queue.enqueueUnmapMemObject(buffer, mapped);
+        device_.queue.finish();
+        plane.channels.push_back(std::move(host_.at(name)[i]));
+      } else {
+        Channel channel(layout_);
+        device_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, layout_.bytes(), channel.data());
+        plane.channels.push_back(std::move(channel));
+      }
+      plane.channels.back().fill_padding(kind.outside);
+    }
+    return plane;
+  }
+
+ private:
+  Device::Impl& device_;
+  Layout layout_;
+  std::map<std::string, std::vector<cl::Buffer>> buffers_;
+  std::map<std::string, std::vector<Channel>> host_;
+};
+
+std::string build_options(const PlannedPass& planned, const Device::Impl& device, const RunOptions& options,
+                          int lanes) {
+  std::string text = fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D LANES={}", lanes);
+  if (options.math == Math::fast) text += " -D MATH_FAST=1";
+  if (options.math == Math::precise && device.info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
+  if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
+  for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
+  return text;
+}
+
+/// Argument names that the declaration promises.
+std::vector<std::string> declared_arguments(const PlannedPass& planned) {
+  std::vector<std::string> names = {"frame"};
+  if (!planned.technique->parameters.empty()) names.push_back("params");
+  for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
+    for (const Binding& binding : *list) {
+      for (const std::string& component : plane_kind(binding.plane).components) {
+        names.push_back(component.empty() ? binding.argument : binding.argument + "_" + component);
+      }
+    }
+  }
+  return names;
+}
+
+/// The kernel's own argument names; empty where the driver does not tell.
+std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
+  std::vector<std::string> names;
+  try {
+    for (cl_uint i = 0; i < kernel.getInfo<CL_KERNEL_NUM_ARGS>(); ++i) {
+      std::string name = kernel.getArgInfo<CL_KERNEL_ARG_NAME>(i);
+      while (!name.empty() && name.back() == '\0') name.pop_back();
+      names.push_back(name);
+    }
+  } catch (const cl::Error&) {
+    return {};
+  }
+  return names;
+}
+
+cl::Kernel build_kernel(const PlannedPass& planned, Device::Impl& device, const RunOptions& options, int lanes) {
+  cl::Program& program = device.program(planned.technique->source, build_options(planned, device, options, lanes));
+  cl::Kernel kernel;
+  try {
+    kernel = cl::Kernel(program, planned.pass.kernel.c_str());
+  } catch (const cl::Error& error) {
+    throw Error("{}: kernels/{} has no kernel '{}' ({})", planned.label(), planned.technique->source,
+                planned.pass.kernel, cl_error_name(error.err()));
+  }
+  const std::vector<std::string> declared = declared_arguments(planned), actual = kernel_arguments(kernel);
+  if (!actual.empty() && declared != actual) {
+    throw Error("{}: the pass declares ({}), kernel '{}' takes ({})", planned.label(), fmt::join(declared, ", "),
+                planned.pass.kernel, fmt::join(actual, ", "));
+  }
+  return kernel;
+}
+
+void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, const Frame& frame, const Camera& camera,
+                   const Layout& layout, Buffers& buffers, const RunOptions& options) {
+  cl_uint index = 0;
+  if (options.real == Real::float64) {
+    kernel.setArg(index++, kernel_frame<FrameOfDoubles>(frame, camera, layout, options.seed));
+  } else {
+    kernel.setArg(index++, kernel_frame<FrameOfFloats>(frame, camera, layout, options.seed));
+  }
+  if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
+  for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
+    for (const Binding& binding : *list) {
+      for (cl::Buffer& buffer : buffers.of(binding.plane)) kernel.setArg(index++, buffer);
+    }
+  }
+}
+
+/// Milliseconds that a launch took, by its event; by the wall clock where the device has no timestamps.
+double launch(cl::CommandQueue& queue, cl::Kernel& kernel, const Layout& layout, int lanes) {
+  const auto start = std::chrono::steady_clock::now();
+  cl::Event event;
+  queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(size_t(layout.pitch / lanes), size_t(layout.height)),
+                             cl::NullRange, nullptr, &event);
+  event.wait();
+  const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+  if (status < 0) throw cl::Error(status, "kernel execution");
+  const cl_ulong from = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+  const cl_ulong to = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+  return to > from ? double(to - from) * 1e-6 : wall;
+}
+
+int lanes_for(const DeviceInfo& info, const RunOptions& options) {
+  if (options.lanes != 0) return options.lanes;
+  return options.real == Real::float64 && info.lanes > 4 ? info.lanes / 2 : info.lanes;
+}
+
+std::string mebibytes(unsigned long long bytes) { return fmt::format("{} MiB", (bytes + (1 << 20) - 1) >> 20); }
+
+void check_memory(const Plan& plan, const Layout& layout, const DeviceInfo& info) {
+  const unsigned long long needed = device_bytes(plan, layout);
+  if (needed > info.memory) {
+    throw Error("{}: {}x{} pixels need {} of device memory, and {} has {}; use a smaller frame or another --device",
+                plan.technique, layout.width, layout.height, mebibytes(needed), info.name, mebibytes(info.memory));
+  }
+  if (layout.bytes() > info.largest_buffer) {
+    throw Error(
+        "{}: one plane of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another "
+        "--device",
+        plan.technique, layout.width, layout.height, mebibytes(layout.bytes()), info.name,
+        mebibytes(info.largest_buffer));
+  }
+}
+
+void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device, const RunOptions& options,
+              int lanes, View& out, RunResult& result) {
+  const Layout layout(frame.width(), frame.height());
+  Buffers buffers(device, layout);
+  for (const std::string& name : plan.inputs) {
+    const Plane* plane = view.find(name);
+    if (!plane) throw Error("{}: view '{}' has no plane '{}'", plan.technique, view.name, name);
+    if (plane->channels.front().layout() != layout)
+      throw Error("{}: plane '{}' is not the size of the frame", plan.technique, name);
+    buffers.upload(*plane);
+  }
+  for (const auto& [name, components] : planes_of(plan)) {
+    if (!buffers.has(name)) buffers.allocate(name);
+  }
+  std::vector<cl::Kernel> kernels;
+  for (const PlannedPass& planned : plan.passes) {
+    kernels.push_back(build_kernel(planned, device, options, lanes));
+    set_arguments(kernels.back(), planned, frame, *view.camera, layout, buffers, options);
+  }
+  const size_t first = result.passes.size();
+  for (const PlannedPass& planned : plan.passes) result.passes.push_back({view.name, planned.label(), {}});
+  const int warm_ups = options.repeat > 1 ? 1 : 0;
+  for (int i = -warm_ups; i < options.repeat; ++i) {
+    for (size_t k = 0; k < kernels.size(); ++k) {
+      try {
+        const double ms = launch(device.queue, kernels[k], layout, lanes);
+        if (i >= 0) result.passes[first + k].ms.push_back(ms);
+      } catch (const cl::Error& error) {
+        throw Error("{} on {}: {} ({})", plan.passes[k].label(), device.info.name, error.what(),
+                    cl_error_name(error.err()));
+      }
+      if (options.progress)
+        options.progress(int((i + warm_ups) * kernels.size() + k + 1),
+                         int((options.repeat + warm_ups) * kernels.size()));
+    }
+  }
+  for (const std::string& name : plan.outputs) {
+    const Plane* given = view.find(name);
+    const bool is_input = std::find(plan.inputs.begin(), plan.inputs.end(), name) != plan.inputs.end();
+    out.planes.emplace(name, is_input ? given->clone() : buffers.download(name));
+  }
+}
+
+}  // namespace
+
+unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
+  unsigned long long channels = 0;
+  for (const auto& [name, components] : planes_of(plan)) channels += components;
+  return channels * layout.bytes();
+}
+
+RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {
+  Device::Impl& impl = device.impl();
+  if (options.real == Real::float64 && !impl.info.has_double) {
+    throw Error("{}: {} has no double precision; use --real float or another --device", plan.technique, impl.info.name);
+  }
+  const Layout layout(frame.width(), frame.height());
+  check_memory(plan, layout, impl.info);
+  RunResult result;
+  result.lanes = lanes_for(impl.info, options);
+  result.device_bytes = device_bytes(plan, layout);
+  result.frame.display = frame.display;
+  result.frame.window = frame.window;
+  result.frame.assumed = frame.assumed;
+  for (const View& view : frame.views) {
+    if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);
+    View out{view.name, view.camera, {}};
+    try {
+      run_view(plan, frame, view, impl, options, result.lanes, out, result);
+    } catch (const cl::Error& error) {
+      throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
+    }
+    result.frame.views.push_back(std::move(out));
+  }
+  result.total_ms.assign(size_t(std::max(options.repeat, 0)), 0.0);
+  for (const PassTime& pass : result.passes) {
+    for (size_t i = 0; i < pass.ms.size(); ++i) result.total_ms[i] += pass.ms[i];
+  }
+  return result;
+}
+
+}  // namespace gloam

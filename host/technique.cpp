@@ -1,0 +1,37 @@
+#include "gloam/technique.h"
+
+#include <algorithm>
+
+#include "gloam/error.h"
+
+namespace gloam {
+
+/// Generated: one entry per folder of kernels/ that has a technique.cpp.
+std::vector<std::vector<Technique>> technique_folders();
+
+const std::vector<Technique>& registry() {
+  static const std::vector<Technique> all = [] {
+    std::vector<Technique> techniques;
+    for (std::vector<Technique>& folder : technique_folders()) {
+      for (Technique& technique : folder) techniques.push_back(std::move(technique));
+    }
+    std::sort(techniques.begin(), techniques.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    return techniques;
+  }();
+  return all;
+}
+
+std::vector<std::string> technique_names() {
+  std::vector<std::string> names;
+  for (const Technique& technique : registry()) names.push_back(technique.name);
+  return names;
+}
+
+const Technique& find_technique(const std::string& name) {
+  for (const Technique& technique : registry()) {
+    if (technique.name == name) return technique;
+  }
+  throw UsageError("no technique '{}'{} (gloam list techniques shows all)", name, suggestion(name, technique_names()));
+}
+
+}  // namespace gloam

@@ -1,0 +1,85 @@
+// One kernel source for CPUs (a work-item is a row of LANES pixels) and GPUs (LANES = 1).
+//
+// real, integer, natural, mask: one value per lane. `real` is float, or double with -D REAL_DOUBLE; a mask has the
+// width of `real`, so that it can choose between reals. scalar: one value for all lanes, of real's type.
+#ifndef GLOAM_LANES_H
+#define GLOAM_LANES_H
+
+// Contraction would move sample coordinates to the neighbouring pixel now and then: off in every mode.
+#pragma OPENCL FP_CONTRACT OFF
+
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+#if LANES == 1
+#define N_LANES(type) type
+#define ANY(m) (m)
+#define IOTA 0
+#else
+#define N_LANES(type) JOIN(type, LANES)
+#define ANY(m) any(m)
+#define IOTA JOIN(IOTA, LANES)
+#define IOTA4 (int4)(0, 1, 2, 3)
+#define IOTA8 (int8)(0, 1, 2, 3, 4, 5, 6, 7)
+#define IOTA16 (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#endif
+
+#ifdef REAL_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double scalar;
+typedef N_LANES(double) real;
+#define to_real JOIN(convert_, N_LANES(double))
+#if LANES == 1
+typedef int mask;
+#else
+typedef N_LANES(long) mask;
+#endif
+#define REAL_INFINITY ((real)((double)INFINITY))
+#else
+typedef float scalar;
+typedef N_LANES(float) real;
+#define to_real JOIN(convert_, N_LANES(float))
+typedef N_LANES(int) mask;
+#define REAL_INFINITY ((real)(INFINITY))
+#endif
+
+typedef N_LANES(int) integer;
+typedef N_LANES(uint) natural;
+typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
+#define to_integer JOIN(convert_, N_LANES(int))
+#define to_natural JOIN(convert_, N_LANES(uint))
+#define to_stored JOIN(convert_, N_LANES(float))
+
+// A comparison of integers as a mask for reals.
+#if LANES == 1
+#define to_mask(m) (m)
+#else
+#ifdef REAL_DOUBLE
+#define to_mask(m) JOIN(convert_, N_LANES(long))(m)
+#else
+#define to_mask(m) (m)
+#endif
+#endif
+
+// Per lane: m ? a : b.
+static inline real choose(mask m, real a, real b) { return m ? a : b; }
+
+typedef struct {
+  real x, y, z;
+} real3;
+static inline real3 make3(real x, real y, real z) {
+  real3 v;
+  v.x = x;
+  v.y = y;
+  v.z = z;
+  return v;
+}
+static inline real3 choose3(mask m, real3 a, real3 b) {
+  return make3(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z));
+}
+static inline real3 scale3(real3 a, real s) { return make3(a.x * s, a.y * s, a.z * s); }
+static inline real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline real3 cross3(real3 a, real3 b) {
+  return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+#endif

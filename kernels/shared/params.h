@@ -1,0 +1,62 @@
+// A technique's parameters, written once as a list and used four times: host struct with defaults, kernel struct, size
+// check on both sides, and the table behind flags, JSON, range errors and docs.
+//
+//   #define NAME_PARAMS(P)
+//     P(float,  radius,     0.5f, 0, INFINITY, "scene units", "reach of an occluder")
+//     P(int,    directions, 8, 1, 32, "", "directions searched per pixel")
+//     P(bool,   jitter,     on, "turn the directions from pixel to pixel")
+//     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
+//   PARAMS(NameParams, NAME_PARAMS)
+//
+// Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints.
+#ifndef GLOAM_PARAMS_H
+#define GLOAM_PARAMS_H
+
+#define PARAM_STORED_float float
+#define PARAM_STORED_int int
+#define PARAM_STORED_bool int
+#define PARAM_STORED_choice int
+#define PARAM_ONE(...) +1
+
+#ifdef __OPENCL_VERSION__
+
+#define PARAM_FIELD(type, name, ...) PARAM_STORED_##type name;
+#define PARAMS(Type, LIST) \
+  typedef struct {         \
+    LIST(PARAM_FIELD)      \
+  } Type;                  \
+  typedef char Type##_size_check[sizeof(Type) == 4 * (0 LIST(PARAM_ONE)) ? 1 : -1];
+
+#else
+
+#include <cmath>
+
+#include "gloam/parameters.h"
+
+#define PARAM_CHOICES(...) __VA_ARGS__
+#define PARAM_FIELD_float(name, value, ...) float name = value;
+#define PARAM_FIELD_int(name, value, ...) int name = value;
+#define PARAM_FIELD_bool(name, value, ...) int name = ::gloam::value;
+#define PARAM_FIELD_choice(name, value, choices, ...) \
+  struct name##_values {                              \
+    enum { PARAM_CHOICES choices };                   \
+  };                                                  \
+  int name = name##_values::value;
+#define PARAM_FIELD(type, name, ...) PARAM_FIELD_##type(name, __VA_ARGS__)
+
+#define PARAM_ENTRY_float(name, value, min, max, unit, help) \
+  ::gloam::float_parameter(#name, value, min, max, unit, help)
+#define PARAM_ENTRY_int(name, value, min, max, unit, help) ::gloam::int_parameter(#name, value, min, max, unit, help)
+#define PARAM_ENTRY_bool(name, value, help) ::gloam::bool_parameter(#name, ::gloam::value, help)
+#define PARAM_ENTRY_choice(name, value, choices, help) ::gloam::choice_parameter(#name, #value, #choices, help)
+#define PARAM_ENTRY(type, name, ...) PARAM_ENTRY_##type(name, __VA_ARGS__),
+
+#define PARAMS(Type, LIST)                                                         \
+  struct Type {                                                                    \
+    LIST(PARAM_FIELD)                                                              \
+    static std::vector<::gloam::Parameter> table() { return {LIST(PARAM_ENTRY)}; } \
+  };                                                                               \
+  static_assert(sizeof(Type) == 4 * (0 LIST(PARAM_ONE)), #Type ": parameters are 4-byte scalars only");
+
+#endif
+#endif
