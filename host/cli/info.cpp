@@ -1,0 +1,217 @@
+// gloam info FRAME.exr: what was found, what was assumed, what can run, what is lacking.
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "options.h"
+
+namespace gloam::cli {
+namespace {
+
+struct PlaneFacts {
+  PlaneSource source;
+  double min = std::numeric_limits<double>::infinity(), max = -min, mean = 0;
+  long long nonfinite = 0, counted = 0;
+};
+
+/// Range and mean of a plane over the foreground (everything where there is no depth).
+PlaneFacts facts_of(const PlaneSource& source, const Frame& frame, const FrameFile& file) {
+  PlaneFacts facts{source};
+  facts.nonfinite = file.nonfinite(source.plane, source.view);
+  const View& view = frame.view(source.view);
+  const Plane* depth = view.find("depth");
+  double sum = 0;
+  for (const Channel& channel : view.find(source.plane)->channels) {
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        const float value = channel.at(x, y);
+        if ((depth && is_background(depth->channels[0].at(x, y))) || !std::isfinite(value)) continue;
+        facts.min = std::min(facts.min, double(value));
+        facts.max = std::max(facts.max, double(value));
+        sum += value;
+        ++facts.counted;
+      }
+    }
+  }
+  if (facts.counted) facts.mean = sum / double(facts.counted);
+  return facts;
+}
+
+/// Share of background over all views; none without depth.
+std::optional<double> background_share(const Frame& frame) {
+  long long background = 0, pixels = 0;
+  for (const View& view : frame.views) {
+    const Plane* depth = view.find("depth");
+    if (!depth) continue;
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) background += is_background(depth->channels[0].at(x, y));
+    }
+    pixels += (long long)frame.width() * frame.height();
+  }
+  if (pixels == 0) return {};
+  return double(background) / double(pixels);
+}
+
+Json camera_document(const Camera& camera, const Window& display) {
+  Json document = {{"source", camera.source}, {"type", camera.orthographic ? "orthographic" : "perspective"},
+                   {"fx", camera.fx},         {"fy", camera.fy},
+                   {"cx", camera.cx},         {"cy", camera.cy}};
+  if (!camera.orthographic) {
+    const double left = std::atan((camera.cx - display.x0) / camera.fx),
+                 right = std::atan((display.x1 - camera.cx) / camera.fx);
+    document["hfov_deg"] = (left + right) * 57.29577951308232;
+  }
+  document["near"] = camera.near ? Json(*camera.near) : Json();
+  document["far"] = camera.far ? Json(*camera.far) : Json();
+  document["position"] =
+      camera.pose ? Json{camera.pose->position.x, camera.pose->position.y, camera.pose->position.z} : Json();
+  return document;
+}
+
+/// Techniques that the file can feed, and what the others lack.
+void sort_techniques(const FrameFile& file, std::vector<std::string>& runs, Json& lacks) {
+  lacks = Json::object();
+  for (const std::string& name : technique_names()) {
+    try {
+      make_plan({.outputs = {name}}, file.common_planes(), holdings(file));
+      runs.push_back(name);
+    } catch (const MissingPlanes& missing) {
+      lacks[name] = missing.planes;
+    }
+  }
+}
+
+std::string types_of(const PlaneSource& source) {
+  std::string types;
+  for (const ChannelSource& channel : source.channels) {
+    if (types.find(channel.type) == std::string::npos) types += (types.empty() ? "" : "/") + channel.type;
+  }
+  return types;
+}
+
+std::string camera_line(const Json& camera) {
+  std::string line = fmt::format("{}, {}", camera["type"].get<std::string>(), camera["source"].get<std::string>());
+  if (camera.contains("hfov_deg")) line += fmt::format(", hfov {:.2f} deg", camera["hfov_deg"].get<double>());
+  return line + fmt::format(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}", camera["fx"].get<double>(),
+                            camera["fy"].get<double>(), camera["cx"].get<double>(), camera["cy"].get<double>());
+}
+
+void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, const Json& document,
+                const std::vector<std::string>& assumed) {
+  const Window display = file.display(), window = file.window();
+  fmt::print("{}: {} x {}", file.path().string(), display.width(), display.height());
+  if (window != display)
+    fmt::print(", data to {} x {} at ({}, {})", window.width(), window.height(), window.x0, window.y0);
+  if (file.views().size() > 1 || !file.views()[0].empty()) fmt::print(", views {}", fmt::join(file.views(), ", "));
+  fmt::print("\n\n");
+  std::vector<std::vector<std::string>> rows = {
+      {"plane", "view", "channels", "type", "min", "max", "mean", "not finite"}};
+  for (const PlaneFacts& f : facts) {
+    std::vector<std::string> names;
+    for (const ChannelSource& channel : f.source.channels) names.push_back(channel.name);
+    const auto figure = [&](double value) { return f.counted ? fmt::format("{:.4g}", value) : "-"; };
+    rows.push_back({f.source.plane, f.source.view, fmt::format("{}", fmt::join(names, " ")), types_of(f.source),
+                    figure(f.min), figure(f.max), figure(f.mean), std::to_string(f.nonfinite)});
+  }
+  print_table(rows, 4);
+  if (facts.empty()) fmt::print("no plane that gloam knows; the file has {}\n", fmt::join(file.all_channels(), ", "));
+  fmt::print("\n");
+  for (const auto& [view, camera] : document["cameras"].items())
+    fmt::print("camera {}{}\n", view.empty() ? "" : "of " + view + ": ", camera_line(camera));
+  if (document["camera"].is_null())
+    fmt::print("camera none: by no flag, no header, no JSON beside the file (--camera, --fov)\n");
+  if (!document["depth_convention"].is_null()) {
+    fmt::print("depth  {}, background {:.2f} %\n", document["depth_convention"].get<std::string>(),
+               100 * document["background_share"].get<double>());
+  }
+  if (!document["normal_space"].is_null()) fmt::print("normal {} space\n", document["normal_space"].get<std::string>());
+  for (const std::string& note : assumed) fmt::print("assumed: {}\n", note);
+  const std::vector<std::string> runs = document["runs"];
+  fmt::print("\nruns   {}\n", runs.empty() ? "nothing" : fmt::format("{}", fmt::join(runs, ", ")));
+  for (const auto& [technique, planes] : document["lacks"].items()) {
+    fmt::print("lacks  {}: {}\n", technique, fmt::join(planes.get<std::vector<std::string>>(), ", "));
+  }
+}
+
+Json planes_document(const std::vector<PlaneFacts>& facts) {
+  Json planes = Json::array();
+  for (const PlaneFacts& f : facts) {
+    Json channels = Json::array();
+    for (const ChannelSource& channel : f.source.channels) channels.push_back(channel.name);
+    const auto figure = [&](double value) { return f.counted ? Json(value) : Json(); };
+    planes.push_back({{"name", f.source.plane},
+                      {"view", f.source.view},
+                      {"channels", channels},
+                      {"type", types_of(f.source)},
+                      {"min", figure(f.min)},
+                      {"max", figure(f.max)},
+                      {"mean", figure(f.mean)},
+                      {"nonfinite", f.nonfinite}});
+  }
+  return planes;
+}
+
+void info_command(const std::string& path, const FrameFlags& flags, const JsonFlag& json) {
+  ReadOptions options = flags.read_options();
+  options.count_nonfinite = true;
+  FrameFile file(path, options);
+  std::vector<std::string> all;
+  for (const PlaneSource& source : file.planes()) {
+    if (std::find(all.begin(), all.end(), source.plane) == all.end()) all.push_back(source.plane);
+  }
+  const Frame frame = file.read(all);
+  std::vector<PlaneFacts> facts;
+  for (const PlaneSource& source : file.planes()) facts.push_back(facts_of(source, frame, file));
+
+  Json cameras = Json::object(), first, lacks;
+  for (const std::string& view : file.views()) {
+    const std::optional<Camera> camera = file.camera(view);
+    if (!camera) continue;
+    cameras[view] = camera_document(*camera, file.display());
+    if (first.is_null()) first = cameras[view];
+  }
+  std::vector<std::string> runs;
+  sort_techniques(file, runs, lacks);
+  const auto text = [](const std::string& value) { return value.empty() ? Json() : Json(value); };
+  const std::optional<double> share = background_share(frame);
+  std::vector<std::string> views = file.views();
+  if (views == std::vector<std::string>{""}) views.clear();
+  const Window display = file.display(), window = file.window();
+  const Json document = {{"size", {display.width(), display.height()}},
+                         {"window", {window.x0, window.y0, window.x1, window.y1}},
+                         {"views", views},
+                         {"planes", planes_document(facts)},
+                         {"camera", first},
+                         {"cameras", cameras},
+                         {"depth_convention", text(file.depth_convention())},
+                         {"normal_space", text(file.normal_space())},
+                         {"background_share", share ? Json(*share) : Json()},
+                         {"assumed", frame.assumed},
+                         {"runs", runs},
+                         {"lacks", lacks}};
+  json.write(document);
+  if (!json.only_json()) print_info(file, facts, document, frame.assumed);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  struct Flags {
+    std::string frame;
+    FrameFlags frame_flags;
+    JsonFlag json;
+  };
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand("info", "what a frame holds, what is assumed, what can run on it");
+  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  flags->frame_flags.add_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Examples:\n  gloam info frame.exr\n  gloam info frame.exr --depth ray --json -\n"
+      "  gloam info frame.exr --plane depth=Layer.Z");
+  command->callback([flags] { info_command(flags->frame, flags->frame_flags, flags->json); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,176 @@
+// gloam list techniques|devices|metrics
+#include <memory>
+
+#include "gloam/device.h"
+#include "gloam/error.h"
+#include "options.h"
+
+namespace gloam::cli {
+namespace {
+
+Json parameter_document(const Parameter& p) {
+  Json document = {{"name", p.name}, {"type", type_name(p)}};
+  const ParameterValues initial({p});
+  const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "-inf"); };
+  const bool numeric = p.type == Parameter::Type::floating || p.type == Parameter::Type::integer;
+  if (p.type == Parameter::Type::integer) {
+    document["default"] = int(p.initial);
+    document["min"] = int(p.min);
+    document["max"] = int(p.max);
+  } else if (numeric) {
+    // Through float, as the kernel sees it, then in its shortest decimal form.
+    document["default"] = std::stod(initial.text(p.name));
+    document["min"] = bound(p.min);
+    document["max"] = bound(p.max);
+  } else {
+    document["default"] = p.type == Parameter::Type::boolean ? Json(p.initial != 0) : Json(initial.text(p.name));
+    document["min"] = nullptr;
+    document["max"] = nullptr;
+  }
+  document["choices"] = p.choices;
+  document["unit"] = p.unit;
+  document["help"] = p.help;
+  return document;
+}
+
+Json techniques_document() {
+  Json document = Json::array();
+  for (const Technique& t : registry()) {
+    Json parameters = Json::array();
+    for (const Parameter& p : t.parameters) parameters.push_back(parameter_document(p));
+    Json presets = Json::object();
+    for (const Preset& preset : t.presets) {
+      for (const auto& [name, value] : preset.settings) presets[preset.name][name] = value;
+    }
+    document.push_back({{"name", t.name},
+                        {"summary", t.summary},
+                        {"paper", t.paper},
+                        {"reads", t.reads},
+                        {"optional", Json::array()},
+                        {"writes", t.writes},
+                        {"then", t.then},
+                        {"parameters", parameters},
+                        {"presets", presets}});
+  }
+  return document;
+}
+
+void print_techniques() {
+  for (const Technique& t : registry()) {
+    fmt::print("{}: {}\n", t.name, t.summary);
+    if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
+    fmt::print("  reads   {}\n  writes  {}\n", fmt::join(t.reads, ", "), fmt::join(t.writes, ", "));
+    if (!t.then.empty()) fmt::print("  then    {}\n", t.then);
+    const ParameterValues initial(t.parameters);
+    for (const Parameter& p : t.parameters) {
+      fmt::print("  {} = {}  ({}) {}\n", p.name, initial.text(p.name), allowed_values(p), p.help);
+    }
+    for (const Preset& preset : t.presets) {
+      std::vector<std::string> settings;
+      for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
+      fmt::print("  preset {}: {}\n", preset.name, fmt::join(settings, " "));
+    }
+    fmt::print("\n");
+  }
+}
+
+/// docs/techniques.md: one section per technique.
+void print_techniques_markdown() {
+  fmt::print(
+      "# Techniques\n\nWritten by `gloam list techniques --markdown` from the folders of `kernels/`; do not edit.\n\n");
+  fmt::print("| technique | what it does | reads | writes |\n|---|---|---|---|\n");
+  for (const Technique& t : registry()) {
+    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, t.name, t.summary, fmt::join(t.reads, ", "),
+               fmt::join(t.writes, ", "));
+  }
+  for (const Technique& t : registry()) {
+    fmt::print("\n## `{}`\n\n{}.{}\n", t.name, t.summary, t.paper.empty() ? "" : " Source: " + t.paper + ".");
+    if (!t.then.empty()) fmt::print("Followed by `{}` unless `--filter` says otherwise.\n", t.then);
+    if (!t.parameters.empty()) fmt::print("\n| parameter | default | allowed | meaning |\n|---|---|---|---|\n");
+    const ParameterValues initial(t.parameters);
+    for (const Parameter& p : t.parameters) {
+      fmt::print("| `{}` | {} | {} | {} |\n", p.name, initial.text(p.name), allowed_values(p), p.help);
+    }
+    for (const Preset& preset : t.presets) {
+      std::vector<std::string> settings;
+      for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
+      fmt::print("{}Preset `{}`: {}.\n", &preset == &t.presets.front() ? "\n" : "", preset.name,
+                 fmt::join(settings, ", "));
+    }
+  }
+}
+
+void list_techniques(const JsonFlag& json, bool markdown) {
+  json.write(techniques_document());
+  if (json.only_json()) return;
+  if (markdown)
+    print_techniques_markdown();
+  else
+    print_techniques();
+}
+
+void list_devices_command(const JsonFlag& json) {
+  Json document = Json::array();
+  std::vector<std::vector<std::string>> rows = {{"platform", "device", "type", "double", "lanes", "memory"}};
+  for (const DeviceInfo& d : list_devices()) {
+    document.push_back({{"platform", d.platform},
+                        {"device", d.name},
+                        {"type", d.type},
+                        {"lanes", d.lanes},
+                        {"double", d.has_double},
+                        {"memory", d.memory}});
+    rows.push_back({d.platform, d.name, d.type, d.has_double ? "yes" : "no", std::to_string(d.lanes),
+                    fmt::format("{} MiB", d.memory >> 20)});
+  }
+  json.write(document);
+  if (!json.only_json()) print_table(rows, 4);
+}
+
+void list_metrics(const JsonFlag& json) {
+  const std::vector<std::pair<std::string, std::string>> metrics = {
+      {"pixels", "pixels that count: foreground in both"},
+      {"mae", "mean absolute difference"},
+      {"rmse", "root of the mean squared difference"},
+      {"bias", "mean difference, test - truth; above 0: the test is too bright"},
+      {"psnr", "dB, for a peak of 1; null for identical images"},
+      {"max", "largest absolute difference"},
+      {"over_1_255", "share of pixels that differ by more than 1/255"},
+      {"over_0_05", "share of pixels that differ by more than 0.05"},
+      {"ssim", "structural similarity, mean over the foreground"},
+      {"gmsd", "gradient magnitude similarity deviation over the foreground"},
+  };
+  Json document = Json::array();
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, help] : metrics) {
+    document.push_back({{"name", name}, {"help", help}});
+    rows.push_back({name, help});
+  }
+  json.write(document);
+  if (!json.only_json()) print_table(rows, 2);
+}
+
+}  // namespace
+
+void add_list(CLI::App& app) {
+  struct Flags {
+    std::string what;
+    bool markdown = false;
+    JsonFlag json;
+  };
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices or metrics");
+  command->add_option("what", flags->what, "techniques, devices or metrics")->required();
+  command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
+  flags->json.add_to(*command);
+  command->footer("Examples:\n  gloam list techniques\n  gloam list devices --json -");
+  command->callback([flags] {
+    if (flags->what == "techniques") return list_techniques(flags->json, flags->markdown);
+    if (flags->what == "devices") return list_devices_command(flags->json);
+    if (flags->what == "metrics") return list_metrics(flags->json);
+    const std::vector<std::string> known = {"techniques", "devices", "metrics"};
+    throw UsageError("list: no '{}'{}; techniques, devices and metrics can be listed", flags->what,
+                     suggestion(flags->what, known));
+  });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,120 @@
+// The command `gloam`: parses, runs one subcommand, turns every error into one line and an exit status.
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <set>
+
+#include "gloam/error.h"
+#include "gloam/files.h"
+#include "options.h"
+
+namespace gloam::cli {
+namespace {
+
+/// Every parameter of every technique is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
+std::vector<std::string> with_parameter_flags(int argc, char** argv) {
+  std::set<std::string> names;
+  for (const Technique& t : registry()) {
+    for (const Parameter& p : t.parameters) names.insert(p.name);
+  }
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const size_t equals = argument.find('=');
+    std::string name =
+        argument.rfind("--", 0) == 0 ? argument.substr(2, equals == std::string::npos ? equals : equals - 2) : "";
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (name.empty() || names.count(name) == 0) {
+      arguments.push_back(argument);
+      continue;
+    }
+    arguments.push_back("--set");
+    if (equals != std::string::npos) {
+      arguments.push_back(name + argument.substr(equals));
+    } else if (i + 1 < argc) {
+      arguments.push_back(name + "=" + argv[++i]);
+    } else {
+      throw UsageError("{} needs a value", argument);
+    }
+  }
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+  return arguments;
+}
+
+std::vector<std::string> flag_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const Technique& t : registry()) {
+    for (const Parameter& p : t.parameters) names.push_back("--" + p.name);
+  }
+  return names;
+}
+
+/// What is wrong with the command line, in one line.
+std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const std::string command = parsed.empty() ? "" : parsed.front()->get_name();
+  const std::string help = fmt::format("(gloam {}{}--help)", command, command.empty() ? "" : " ");
+  const std::vector<std::string> extras = app.remaining(true);
+  if (command.empty() && !extras.empty()) {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; })) names.push_back(sub->get_name());
+    return fmt::format("no command '{}'{}; there are {} {}", extras.front(), suggestion(extras.front(), names),
+                       enumerate(names), help);
+  }
+  if (!extras.empty()) {
+    const std::string& extra = extras.front();
+    const bool is_flag = extra.rfind("-", 0) == 0;
+    return fmt::format("{}: {} '{}'{} {}", command, is_flag ? "no flag" : "one argument too many:", extra,
+                       is_flag ? suggestion(extra.substr(0, extra.find('=')), flag_names(*parsed.front())) : "", help);
+  }
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return fmt::format("{}{}{} {}", command, command.empty() ? "" : ": ", message, help);
+}
+
+int run_command(int argc, char** argv) {
+  CLI::App app{
+      "gloam: ambient occlusion and other image-space effects on captured G-buffers, and how near to truth they are."};
+  app.footer(
+      "Examples:\n"
+      "  gloam info frame.exr\n"
+      "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
+      "  gloam compare ao.exr truth.exr -o difference.png\n"
+      "gloam COMMAND --help shows a command's flags.");
+  app.set_version_flag("--version", "gloam " GLOAM_VERSION);
+  app.require_subcommand(1);
+  add_info(app);
+  add_run(app);
+  add_compare(app);
+  add_plan(app);
+  add_list(app);
+  try {
+    app.parse(with_parameter_flags(argc, argv));
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    throw UsageError("{}", usage_message(app, error));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace gloam::cli
+
+int main(int argc, char** argv) {
+  gloam::remove_temporaries_on_signal();
+  try {
+    return gloam::cli::run_command(argc, argv);
+  } catch (const gloam::Error& error) {
+    fmt::print(stderr, "gloam: {}\n", error.what());
+    return error.exit_status();
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "gloam: out of memory; use a smaller frame\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "gloam: {}\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,235 @@
+#include "options.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "gloam/error.h"
+#include "gloam/files.h"
+
+namespace gloam::cli {
+namespace {
+
+double number(const std::string& text, const std::string& flag, double min, double max) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size() || !(value >= min && value <= max)) {
+    throw UsageError("{} {} is not allowed; a number from {:g} to {:g} is", flag, text, min, max);
+  }
+  return value;
+}
+
+template <typename Value>
+Value one_of(const std::string& text, const std::string& flag,
+             const std::vector<std::pair<std::string, Value>>& table) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : table) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  throw UsageError("{} {} is not allowed; {} are{}", flag, text, enumerate(names), suggestion(text, names));
+}
+
+}  // namespace
+
+std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');) items.push_back(item);
+  if (items.empty() || std::find(items.begin(), items.end(), "") != items.end() || text.back() == ',') {
+    throw UsageError("{} '{}' has an empty item; write a,b", flag, text);
+  }
+  return items;
+}
+
+void FrameFlags::add_to(CLI::App& app) {
+  app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")->type_name("FILE");
+  app.add_option("--fov", fov, "horizontal field of view in degrees, over every other camera")->type_name("DEG");
+  app.add_option("--depth", depth, "what depth values mean: auto, z, ray, ndc or reversed")->type_name("CONVENTION");
+  app.add_option("--near", near, "near plane, scene units (for ndc and reversed)")->type_name("Z");
+  app.add_option("--far", far, "far plane, scene units; depth there is background")->type_name("Z");
+  app.add_option("--background", background, "the depth value that means background")->type_name("VALUE");
+  app.add_option("--normal-space", normal_space, "space of the normals: auto, view or world")->type_name("SPACE");
+  app.add_option("--plane", planes, "take a plane from these channels or layer: depth=Layer.Z (repeatable)")
+      ->type_name("PLANE=CHANNELS")
+      ->expected(1)
+      ->take_all();
+  CLI::Option* one = app.add_option("--view", view, "use this view only")->type_name("NAME");
+  app.add_option("--views", views, "use these views, in this order")->type_name("A,B")->excludes(one);
+}
+
+ReadOptions FrameFlags::read_options() const {
+  ReadOptions options;
+  options.camera_file = camera;
+  if (!fov.empty()) options.fov_degrees = number(fov, "--fov", 1, 179);
+  const double most = std::numeric_limits<double>::infinity();
+  if (!near.empty()) options.near = number(near, "--near", 0, most);
+  if (!far.empty()) options.far = number(far, "--far", 0, most);
+  if (!background.empty()) options.background = float(number(background, "--background", -most, most));
+  options.depth = one_of<DepthConvention>(depth, "--depth",
+                                          {{"auto", DepthConvention::automatic},
+                                           {"z", DepthConvention::z},
+                                           {"ray", DepthConvention::ray},
+                                           {"ndc", DepthConvention::ndc},
+                                           {"reversed", DepthConvention::reversed}});
+  options.normal_space = one_of<NormalSpace>(
+      normal_space, "--normal-space",
+      {{"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}});
+  if (!view.empty()) options.views = {view};
+  if (!views.empty()) options.views = split_list(views, "--views");
+  for (const std::string& plane : planes) {
+    const size_t equals = plane.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == plane.size()) {
+      throw UsageError("--plane '{}' is not PLANE=CHANNELS; write depth=Layer.Z", plane);
+    }
+    options.channels[plane.substr(0, equals)] = plane.substr(equals + 1);
+  }
+  return options;
+}
+
+void TechniqueFlags::add_to(CLI::App& app) {
+  app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")->type_name("NAME");
+  app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
+      ->type_name("NAME");
+}
+
+PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
+  PlanRequest request{outputs, {}, then, preset, {}};
+  for (const std::string& setting : settings) {
+    const size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size()) {
+      throw UsageError("--set '{}' is not NAME=VALUE; write --set radius=0.3", setting);
+    }
+    request.settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  return request;
+}
+
+void RunFlags::add_to(CLI::App& app) {
+  app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")->type_name("TEXT");
+  app.add_option("--lanes", lanes, "pixels per work-item: auto, 1, 4, 8 or 16")->type_name("N");
+  app.add_option("--math", math, "precise (same bits at every lane width) or fast")->type_name("MODE");
+  app.add_option("--real", real, "float or double")->type_name("TYPE");
+  app.add_option("--seed", seed, "of the random numbers")->type_name("N");
+  app.add_option("--repeat", repeat, "timed runs; more than one: after a warm-up")->type_name("N");
+}
+
+RunOptions RunFlags::run_options() const {
+  RunOptions options;
+  options.lanes = one_of<int>(lanes, "--lanes", {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}});
+  options.math = one_of<Math>(math, "--math", {{"precise", Math::precise}, {"fast", Math::fast}});
+  options.real = one_of<Real>(real, "--real", {{"float", Real::float32}, {"double", Real::float64}});
+  if (repeat < 1 || repeat > 10000) throw UsageError("--repeat {} is not allowed; a number from 1 to 10000 is", repeat);
+  options.seed = seed;
+  options.repeat = repeat;
+  return options;
+}
+
+void JsonFlag::add_to(CLI::App& app) {
+  app.add_option("--json", path,
+                 "write the figures as JSON to this file; - is standard output, and nothing else goes there")
+      ->type_name("FILE|-");
+}
+
+void JsonFlag::write(const Json& document) const {
+  if (path.empty()) return;
+  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (path == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
+    return;
+  }
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error("{}: cannot be written", path);
+  });
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+Json milliseconds(std::vector<double> ms) {
+  const double middle = median(ms);
+  const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
+  return {{"median", middle}, {"min", ms.empty() ? 0 : *least}, {"max", ms.empty() ? 0 : *most}};
+}
+
+Json plan_document(const Plan& plan, const std::vector<std::string>& decoded) {
+  Json document = {{"outputs", plan.outputs},
+                   {"passes", Json::array()},
+                   {"decoded", decoded},
+                   {"skipped", Json::array()},
+                   {"depends_on_pixels", plan.depends_on_pixels}};
+  for (const PlannedPass& planned : plan.passes) {
+    Json reads = Json::array(), writes = Json::array();
+    for (const Binding& b : planned.pass.reads) reads.push_back(b.plane);
+    for (const Binding& b : planned.pass.writes) writes.push_back(b.plane);
+    document["passes"].push_back({{"name", planned.label()}, {"reads", reads}, {"writes", writes}});
+  }
+  for (const auto& [what, why] : plan.skipped) document["skipped"].push_back({{"what", what}, {"why", why}});
+  return document;
+}
+
+std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFile& file) {
+  std::vector<std::string> names;
+  for (const PlaneSource& source : file.planes()) {
+    if (std::find(planes.begin(), planes.end(), source.plane) == planes.end()) continue;
+    for (const ChannelSource& channel : source.channels) names.push_back(channel.name);
+  }
+  return names;
+}
+
+std::string holdings(const FrameFile& file) {
+  std::vector<std::string> names = file.all_channels();
+  const std::string name = file.path().filename().string();
+  if (names.empty()) return name + " has no channels";
+  const size_t most = 16;
+  const std::string rest = names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
+  names.resize(std::min(names.size(), most));
+  return fmt::format("{} has only {}{}", name, fmt::join(names, ", "), rest);
+}
+
+Plan plan_for(const FrameFile& file, const PlanRequest& request) {
+  return make_plan(request, file.common_planes(), holdings(file));
+}
+
+void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number) {
+  std::vector<size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const auto& row : rows) {
+    std::string line;
+    for (size_t i = 0; i < row.size(); ++i) {
+      const bool last = i + 1 == row.size();
+      line += i >= first_number ? fmt::format("{:>{}}", row[i], widths[i])
+              : last            ? row[i]
+                                : fmt::format("{:<{}}", row[i], widths[i]);
+      if (!last) line += "  ";
+    }
+    fmt::print("{}\n", line);
+  }
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,84 @@
+// Flags that several commands share, and how results are shown.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gloam/exr.h"
+#include "gloam/plan.h"
+#include "gloam/run.h"
+
+namespace gloam::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// How to read a frame.
+struct FrameFlags {
+  std::string camera, depth = "auto", normal_space = "auto", view, views;
+  std::vector<std::string> planes;
+  std::string fov, near, far, background;
+  void add_to(CLI::App& app);
+  /// Throws UsageError for values out of range.
+  ReadOptions read_options() const;
+};
+
+/// Which techniques, and with which parameters.
+struct TechniqueFlags {
+  std::vector<std::string> settings;
+  std::string preset, then;
+  void add_to(CLI::App& app);
+  PlanRequest request(const std::vector<std::string>& outputs) const;
+};
+
+/// Where and how to compute.
+struct RunFlags {
+  std::string device, lanes = "auto", math = "fast", real = "float";
+  int seed = 0, repeat = 1;
+  void add_to(CLI::App& app);
+  RunOptions run_options() const;
+};
+
+/// "--json FILE|-"
+struct JsonFlag {
+  std::string path;
+  void add_to(CLI::App& app);
+  /// Nothing but the document goes to standard output.
+  bool only_json() const { return path == "-"; }
+  void write(const Json& document) const;
+};
+
+/// "a,b" -> a b; throws UsageError for an empty item.
+std::vector<std::string> split_list(const std::string& text, const std::string& flag);
+
+/// median, min, max
+Json milliseconds(std::vector<double> ms);
+double median(std::vector<double> values);
+
+/// A plan as the contract has it.
+Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);
+
+/// Full channel names of the planes that a plan decodes.
+std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFile& file);
+
+/// "beauty.exr has only R, G, B": what a file holds, for error messages.
+std::string holdings(const FrameFile& file);
+
+/// A plan for a file; `MissingPlanes` names what it does hold.
+Plan plan_for(const FrameFile& file, const PlanRequest& request);
+
+/// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
+void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
+
+/// Notes (what was assumed) on standard error, one line each.
+void print_notes(const std::vector<std::string>& notes);
+
+// One function per command: adds it to the app.
+void add_list(CLI::App& app);
+void add_info(CLI::App& app);
+void add_plan(CLI::App& app);
+void add_run(CLI::App& app);
+void add_compare(CLI::App& app);
+
+}  // namespace gloam::cli

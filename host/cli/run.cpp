@@ -1,0 +1,198 @@
+// gloam run TECHNIQUE FRAME.exr -o OUT.exr
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+
+#include "gloam/error.h"
+#include "options.h"
+
+namespace gloam::cli {
+namespace {
+
+struct RunCommand {
+  std::string technique, frame, out, outputs;
+  bool bare = false, half = false;
+  FrameFlags frame_flags;
+  TechniqueFlags technique_flags;
+  RunFlags run_flags;
+  JsonFlag json;
+};
+
+/// Wall-clock time of the parts of a command, in order.
+class Stopwatch {
+ public:
+  void lap(const std::string& name) {
+    const auto now = std::chrono::steady_clock::now();
+    laps.emplace_back(name, std::chrono::duration<double, std::milli>(now - last_).count());
+    last_ = now;
+  }
+  double total() const {
+    double sum = 0;
+    for (const auto& [name, ms] : laps) sum += ms;
+    return sum;
+  }
+  std::vector<std::pair<std::string, double>> laps;
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// A bar on standard error once the work has taken a second; terminals only.
+std::function<void(int, int)> progress_bar() {
+  if (!isatty(STDERR_FILENO)) return {};
+  const auto start = std::chrono::steady_clock::now();
+  return [start](int done, int of) {
+    if (std::chrono::steady_clock::now() - start < std::chrono::seconds(1)) return;
+    const int width = 40, filled = width * done / of;
+    fmt::print(stderr, "\r[{:=<{}}{:<{}}] {}/{}{}", "", filled, "", width - filled, done, of,
+               done == of ? "\r\033[K" : "");
+    std::fflush(stderr);
+  };
+}
+
+/// How far the radius reaches on the screen, median over some foreground pixels; 0 where there is none.
+double median_radius_pixels(const Frame& frame, double radius) {
+  std::vector<double> pixels;
+  for (const View& view : frame.views) {
+    const Plane* depth = view.find("depth");
+    if (!depth || !view.camera) continue;
+    const Channel& z = depth->channels.front();
+    for (int y = 0; y < frame.height(); y += 1 + frame.height() / 64) {
+      for (int x = 0; x < frame.width(); x += 1 + frame.width() / 64) {
+        if (!is_background(z.at(x, y)))
+          pixels.push_back(radius * view.camera->fx / (view.camera->orthographic ? 1 : z.at(x, y)));
+      }
+    }
+  }
+  return median(pixels);
+}
+
+/// A radius that reaches less than two pixels or more than the image most likely has the wrong unit.
+void check_radius(const Plan& plan, const Frame& frame) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (!planned.values.has("radius")) continue;
+    const double radius = planned.values.number("radius"), pixels = median_radius_pixels(frame, radius);
+    if (pixels == 0 || radius == 0 || std::isinf(radius)) return;
+    if (pixels < 2 || pixels > frame.width()) {
+      print_notes(
+          {fmt::format("radius {:g} scene units reaches {:.3g} pixels (median) in this frame; is it in the frame's "
+                       "unit? --radius sets it",
+                       radius, pixels)});
+    }
+    return;
+  }
+}
+
+void print_times(const RunResult& result, const DeviceInfo& device, const Stopwatch& watch) {
+  const bool views = result.frame.views.size() > 1;
+  std::vector<std::vector<std::string>> rows = {{views ? "view" : "", "pass", "ms median", "min", "max"}};
+  const auto row = [&](const std::string& view, const std::string& name, const std::vector<double>& ms) {
+    const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
+    rows.push_back(
+        {view, name, fmt::format("{:.2f}", median(ms)), fmt::format("{:.2f}", *least), fmt::format("{:.2f}", *most)});
+  };
+  for (const PassTime& pass : result.passes) row(pass.view, pass.name, pass.ms);
+  row("", "total", result.total_ms);
+  if (!views) {
+    for (auto& r : rows) r.erase(r.begin());
+  }
+  print_table(rows, views ? 2 : 1);
+  std::vector<std::string> parts;
+  for (const auto& [name, ms] : watch.laps) parts.push_back(fmt::format("{} {:.0f}", name, ms));
+  fmt::print("{}, {} lanes; wall {:.0f} ms: {}\n", device.name, result.lanes, watch.total(), fmt::join(parts, ", "));
+}
+
+Json document(const RunCommand& flags, const Plan& plan, const RunResult& result, const DeviceInfo& device,
+              const std::vector<std::string>& decoded, const Stopwatch& watch) {
+  Json passes = Json::array();
+  for (const PassTime& pass : result.passes) {
+    Json entry = {{"name", pass.name}, {"ms", milliseconds(pass.ms)}};
+    if (!pass.view.empty()) entry["view"] = pass.view;
+    passes.push_back(entry);
+  }
+  Json wall = Json::object();
+  for (const auto& [name, ms] : watch.laps) wall[name] = ms;
+  return {{"technique", plan.technique},
+          {"device", device.name},
+          {"lanes", result.lanes},
+          {"math", flags.run_flags.math},
+          {"real", flags.run_flags.real},
+          {"passes", passes},
+          {"total_ms", milliseconds(result.total_ms)},
+          {"plan", plan_document(plan, decoded)},
+          {"skipped_share", 0.0},
+          {"device_bytes", result.device_bytes},
+          {"wall_ms", wall}};
+}
+
+void run_command(const RunCommand& flags) {
+  Stopwatch watch;
+  const RunOptions checked = flags.run_flags.run_options();
+  const ReadOptions reading = flags.frame_flags.read_options();
+  find_technique(flags.technique);
+  // The device starts up while the headers are read and the planes are decoded.
+  std::future<Device> starting = std::async(std::launch::async, [&] { return Device(flags.run_flags.device); });
+  FrameFile file(flags.frame, reading);
+  PlanRequest request = flags.technique_flags.request({flags.technique});
+  if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
+  const Plan plan = plan_for(file, request);
+  std::vector<std::string> planes = plan.inputs;
+  const std::vector<std::string> available = file.common_planes();
+  const bool carry_depth = !flags.bare && std::find(available.begin(), available.end(), "depth") != available.end();
+  if (carry_depth && std::find(planes.begin(), planes.end(), "depth") == planes.end()) planes.push_back("depth");
+  watch.lap("open");
+  Frame frame = file.read(planes);
+  watch.lap("decode");
+  print_notes(frame.assumed);
+  check_radius(plan, frame);
+  Device device = starting.get();
+  watch.lap("device");
+  RunOptions options = checked;
+  options.progress = progress_bar();
+  RunResult result = run(plan, frame, device, options);
+  watch.lap("compute");
+  for (View& view : result.frame.views) {
+    if (!flags.bare && view.find("depth") == nullptr && frame.view(view.name).find("depth") != nullptr) {
+      view.planes["depth"] = std::move(frame.view(view.name).planes["depth"]);
+    }
+    if (flags.bare) view.camera.reset();
+  }
+  write_frame(flags.out, result.frame, {flags.half});
+  watch.lap("write");
+  flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
+  if (flags.json.only_json()) return;
+  print_times(result, device.info(), watch);
+  fmt::print("wrote {} ({})\n", flags.out, fmt::join(plan.outputs, ", "));
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto flags = std::make_shared<RunCommand>();
+  CLI::App* command = app.add_subcommand("run", "run a technique on a frame");
+  command->add_option("technique", flags->technique, "gloam list techniques shows them")
+      ->required()
+      ->type_name("TECHNIQUE");
+  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
+  command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
+      ->type_name("A,B");
+  command->add_flag("--bare", flags->bare, "leave depth and cameras out of OUT.exr");
+  command->add_flag("--half", flags->half, "write AO as half instead of float");
+  flags->technique_flags.add_to(*command);
+  flags->run_flags.add_to(*command);
+  flags->frame_flags.add_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Examples:\n"
+      "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
+      "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
+      "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
+      "Every parameter of the technique is a flag (gloam list techniques).");
+  command->callback([flags] { run_command(*flags); });
+}
+
+}  // namespace gloam::cli
