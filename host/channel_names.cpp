@@ -74,6 +74,7 @@ const std::vector<Spelling>& spellings() {
       // Depth. gloam and OpenEXR: Z. Blender: Depth.Z, file output depth.V. RenderMan: z. Karma: Pz, hitPz, depth.
       // Mitsuba 2: the name that the user gave ("dd.y", "depth.Y"), Mitsuba 3: <name>.T, both ray distances.
       {"depth", "", "z", own},
+      {"depth", "depth", "z", renderer, planar},
       {"depth", "depth", one, renderer},
       {"depth", "z", one, renderer},
       {"depth", "zdepth", one, renderer},

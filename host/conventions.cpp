@@ -28,15 +28,20 @@ void for_each_row(const Layout& layout, const Body& body) {
 
 // --- Depth
 
-/// What is background besides infinities, NaN, 0 and anything from 1e10 on.
+/// What is background besides infinities, NaN, 0 and what is negative. A value that the user names takes the place of
+/// the rule for 1e10.
 struct Background {
   float value = std::numeric_limits<float>::quiet_NaN();  ///< --background; NaN equals nothing
+  float from = farthest;                                  ///< anything from here on
   float far_low = infinity, far_high = -infinity;         ///< the far plane with its rounding; empty where not known
 };
 
 Background background_of(std::optional<float> value, std::optional<double> far) {
   Background background;
-  if (value) background.value = *value;
+  if (value) {
+    background.value = *value;
+    background.from = infinity;
+  }
   if (far && std::isfinite(*far)) {
     background.far_low = float(*far * (1 - 2e-7));  // two roundings of float
     background.far_high = float(*far * (1 + 2e-7));
@@ -47,7 +52,7 @@ Background background_of(std::optional<float> value, std::optional<double> far) 
 /// Bitwise operators, so that a loop over it becomes vector instructions. NaN fails the first comparison.
 inline bool is_surface(float depth, const Background& background) {
   const bool at_far = (depth >= background.far_low) & (depth <= background.far_high);
-  return (depth >= nearest) & (depth < farthest) & !at_far & (depth != background.value);
+  return (depth >= nearest) & (depth < background.from) & !at_far & (depth != background.value);
 }
 
 /// Signs of the surfaces in a plane, as far as they had to be looked at.
@@ -358,11 +363,18 @@ void clean_plane(Plane& plane, const PlaneKind& kind, const Plane* depth, const 
   }
 }
 
-void normalise_view(View& view, std::optional<float> value) {
-  const Background background = background_of(value, view.camera ? view.camera->far : std::nullopt);
+Background background_of(const View& view, std::optional<float> value) {
+  return background_of(value, view.camera ? view.camera->far : std::nullopt);
+}
+
+Plane* depth_of(View& view) {
   const auto found = view.planes.find("depth");
-  Plane* depth = found == view.planes.end() || found->second.channels.empty() ? nullptr : &found->second;
-  if (depth) clean_depth(depth->channels[0], 1, background);  // first: it tells the background of the normals
+  return found == view.planes.end() || found->second.channels.empty() ? nullptr : &found->second;
+}
+
+/// Everything but the depth itself, which tells the background of the normals.
+void tidy_view(View& view, const Background& background) {
+  const Plane* depth = depth_of(view);
   for (auto& [name, plane] : view.planes) {
     const PlaneKind kind = plane_kind(name);
     if (&plane != depth) clean_plane(plane, kind, depth, background);
@@ -409,10 +421,13 @@ NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Windo
   }
   const std::string taken = encoded ? "decoded from 0..1 and taken" : "taken";
   if (!camera.pose) {
-    assumed.push_back(
-        fmt::format("normals: {} as view space, as the camera's pose is not known: they agree with depth "
-                    "to {:.2f}",
-                    taken, agreement.view));
+    // Normals of the view's own space agree with depth wherever the camera stands; others hardly.
+    if (agreement.view < 0.5) {
+      assumed.push_back(fmt::format("normals: taken as world space: as view space they agree with depth only to {:.2f}",
+                                    agreement.view));
+      return NormalSpace::world;
+    }
+    assumed.push_back(fmt::format("normals: {} as view space: they agree with depth to {:.2f}", taken, agreement.view));
     return NormalSpace::view;
   }
   const bool world = agreement.world > agreement.view;
@@ -431,8 +446,15 @@ void to_view_space(Plane& normal, const Pose& pose) {
   });
 }
 
+void tidy(Frame& frame, std::optional<float> background) {
+  for (View& view : frame.views) tidy_view(view, background_of(view, background));
+}
+
 void normalise(Frame& frame, std::optional<float> background) {
-  for (View& view : frame.views) normalise_view(view, background);
+  for (View& view : frame.views) {
+    if (Plane* depth = depth_of(view)) clean_depth(depth->channels[0], 1, background_of(view, background));
+  }
+  tidy(frame, background);
 }
 
 }  // namespace gloam

@@ -31,11 +31,15 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
                           const ReadOptions& options, std::vector<std::string>& assumed);
 
 /// Which space the normals are in, from the data: the one in which they agree better with those estimated from `depth`
-/// (view-space z) at about 4096 pixels spread over the image. `view` where no pose is known or no pixel can tell.
+/// (view-space z) at about 4096 pixels spread over the image. Without a pose: `view` where they
+/// agree at all, else `world`. `view` where no pixel can tell.
 /// Normals stored as 0.5 + 0.5 n (no component below 0, and they agree better decoded) are decoded in place.
 /// Appends what was found to `assumed`, in one sentence.
 NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Window& window, const Camera& camera,
                                 std::vector<std::string>& assumed);
+
+/// The rest of the door, `normalise`, for a frame whose `depth` has already been through `to_view_depth`.
+void tidy(Frame& frame, std::optional<float> background);
 
 /// Rotates world-space normals into view space, in place.
 void to_view_space(Plane& normal, const Pose& pose);

@@ -544,6 +544,8 @@ void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
   if (depth == view.planes.end()) return;
   ReadOptions as_named = options;
   const bool automatic = options.depth == DepthConvention::automatic;
+  const bool known_planar = source("depth", view.name)->said == Said::planar || !any_text("gloamCamera").empty();
+  if (automatic && known_planar) as_named.depth = DepthConvention::z;
   if (automatic && source("depth", view.name)->said == Said::ray_distance) {
     as_named.depth = DepthConvention::ray;
     append_new(frame.assumed,
@@ -586,8 +588,10 @@ void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
     notes.push_back("normal: taken as view space, as there is no depth to tell it from (--normal-space)");
   }
   if (said == NormalSpace::world && !view.camera->pose) {
-    said = NormalSpace::view;
-    notes.push_back("normal: in world space, but where the camera stands is not known; taken as view space (--camera)");
+    view.planes.erase(found);
+    append_new(frame.assumed, notes);
+    append_new(frame.assumed, {"normals: not used, as where the camera stands is not known (--camera tells)"});
+    return;
   }
   if (said == NormalSpace::world) to_view_space(normal, *view.camera->pose);
   space = said == NormalSpace::world ? "world" : "view";
@@ -672,7 +676,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
     impl_->convert_depth(view, frame);
     impl_->convert_normals(view, frame);
   }
-  normalise(frame, impl_->options.background);
+  tidy(frame, impl_->options.background);
   for (View& view : frame.views)
     std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
   return frame;

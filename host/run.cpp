@@ -222,6 +222,12 @@ void check_memory(const Plan& plan, const Layout& layout, const DeviceInfo& info
   }
 }
 
+void check_real(const Plan& plan, const DeviceInfo& info, const RunOptions& options) {
+  if (options.real == Real::float64 && !info.has_double) {
+    throw Error("{}: {} has no double precision; use --real float or another --device", plan.technique, info.name);
+  }
+}
+
 void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device, const RunOptions& options,
               int lanes, View& out, RunResult& result) {
   const Layout layout(frame.width(), frame.height());
@@ -273,11 +279,15 @@ unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
   return channels * layout.bytes();
 }
 
+void prepare(const Plan& plan, Device& device, const RunOptions& options) {
+  Device::Impl& impl = device.impl();
+  check_real(plan, impl.info, options);
+  for (const PlannedPass& planned : plan.passes) build_kernel(planned, impl, options, lanes_for(impl.info, options));
+}
+
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
-  if (options.real == Real::float64 && !impl.info.has_double) {
-    throw Error("{}: {} has no double precision; use --real float or another --device", plan.technique, impl.info.name);
-  }
+  check_real(plan, impl.info, options);
   const Layout layout(frame.width(), frame.height());
   check_memory(plan, layout, impl.info);
   RunResult result;

@@ -17,10 +17,6 @@ struct CompareCommand {
   JsonFlag json;
 };
 
-bool contains(const std::vector<std::string>& list, const std::string& item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
-}
-
 /// The plane to compare: the one asked for, else the first that both files have, results before inputs.
 std::string choose_plane(const FrameFile& test, const FrameFile& reference, const std::string& asked) {
   const std::vector<std::string> a = test.common_planes(), b = reference.common_planes();
@@ -49,32 +45,39 @@ bool ends_with_word(const std::string& stem, const std::string& word) {
   return !std::isalnum((unsigned char)stem[stem.size() - word.size() - 1]);
 }
 
-/// Pairs of views (test, reference): those of the same name; a reference of one unnamed view goes with the view that
-/// its file name ends in, or with the only one there is.
-std::vector<std::pair<std::string, std::string>> pair_views(const FrameFile& test, const FrameFile& reference) {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const std::string& name : test.views()) {
-    if (contains(reference.views(), name)) pairs.emplace_back(name, name);
+using ViewPairs = std::vector<std::pair<std::string, std::string>>;
+
+/// The view of a file of several that another file's name ends in: "truth_left" goes with "left".
+std::optional<std::string> view_by_name(const FrameFile& several, const FrameFile& one) {
+  for (const std::string& name : several.views()) {
+    if (ends_with_word(one.path().stem().string(), name)) return name;
+  }
+  return {};
+}
+
+/// Pairs of views (test, reference): the only two there are; the one that a file of one view is named after; those of
+/// the same name. A file's name wins over its view's: a file that lists both eyes and holds one is read as the first.
+ViewPairs pair_views(const FrameFile& test, const FrameFile& reference) {
+  const std::vector<std::string>&a = test.views(), &b = reference.views();
+  if (a.size() == 1 && b.size() == 1) return {{a[0], b[0]}};
+  const FrameFile& one = b.size() == 1 ? reference : test;
+  const std::optional<std::string> named =
+      a.size() == 1 || b.size() == 1 ? view_by_name(&one == &reference ? test : reference, one) : std::nullopt;
+  if (named) {
+    print_notes({fmt::format("{} goes with view '{}', which its name ends in; --view chooses another",
+                             one.path().filename().string(), *named)});
+    return {b.size() == 1 ? std::pair(*named, b[0]) : std::pair(a[0], *named)};
+  }
+  ViewPairs pairs;
+  for (const std::string& name : a) {
+    if (contains(b, name)) pairs.emplace_back(name, name);
   }
   if (!pairs.empty()) return pairs;
-  if (test.views().size() == 1 && reference.views().size() == 1) return {{test.views()[0], reference.views()[0]}};
-  const bool one_reference = reference.views().size() == 1;
-  const FrameFile& many = one_reference ? test : reference;
-  const FrameFile& one = one_reference ? reference : test;
-  if (one.views().size() == 1) {
-    for (const std::string& name : many.views()) {
-      if (ends_with_word(one.path().stem().string(), name)) {
-        print_notes({fmt::format("{} is compared with view '{}', which its name ends in; --view chooses another",
-                                 one.path().filename().string(), name)});
-        return one_reference ? std::vector<std::pair<std::string, std::string>>{{name, one.views()[0]}}
-                             : std::vector<std::pair<std::string, std::string>>{{one.views()[0], name}};
-      }
-    }
-  }
-  throw Error("{} has the views {} and {} has {}; --view NAME says which to compare", test.path().string(),
-              enumerate(test.views()), reference.path().string(),
-              reference.views().size() == 1 && reference.views()[0].empty() ? "one without a name"
-                                                                            : enumerate(reference.views()));
+  const auto words = [](const std::vector<std::string>& views) {
+    return views.size() == 1 && views[0].empty() ? "one without a name" : enumerate(views);
+  };
+  throw Error("{} has the views {} and {} has {}; --view NAME says which to compare", test.path().string(), words(a),
+              reference.path().string(), words(b));
 }
 
 /// The part of a channel that a window covers.

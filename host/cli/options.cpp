@@ -38,6 +38,10 @@ Value one_of(const std::string& text, const std::string& flag,
 
 }  // namespace
 
+bool contains(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
 std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
   std::vector<std::string> items;
   std::istringstream stream(text);

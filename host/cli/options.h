@@ -52,6 +52,8 @@ struct JsonFlag {
 /// "a,b" -> a b; throws UsageError for an empty item.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);
 
+bool contains(const std::vector<std::string>& list, const std::string& item);
+
 /// median, min, max
 Json milliseconds(std::vector<double> ms);
 double median(std::vector<double> values);

@@ -13,7 +13,7 @@ namespace gloam::cli {
 namespace {
 
 struct RunCommand {
-  std::string technique, frame, out, outputs;
+  std::string technique, frame, out, outputs, compression = "zip";
   bool bare = false, half = false;
   FrameFlags frame_flags;
   TechniqueFlags technique_flags;
@@ -128,39 +128,61 @@ Json document(const RunCommand& flags, const Plan& plan, const RunResult& result
           {"wall_ms", wall}};
 }
 
+/// Planes that the plan takes and every view of the frame still has.
+std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::string>& planes) {
+  std::vector<std::string> left;
+  for (const std::string& plane : planes) {
+    const bool everywhere =
+        std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
+    if (everywhere) left.push_back(plane);
+  }
+  return left;
+}
+
+/// What the output carries besides the results: depth and cameras, so that `compare` knows the background by itself.
+void carry_over(Frame& from, Frame& to, bool bare) {
+  for (View& view : to.views) {
+    if (bare) {
+      view.camera.reset();
+      continue;
+    }
+    std::map<std::string, Plane>& given = from.view(view.name).planes;
+    if (!view.find("depth") && given.count("depth")) view.planes["depth"] = std::move(given["depth"]);
+  }
+}
+
 void run_command(const RunCommand& flags) {
   Stopwatch watch;
-  const RunOptions checked = flags.run_flags.run_options();
-  const ReadOptions reading = flags.frame_flags.read_options();
+  RunOptions options = flags.run_flags.run_options();
   find_technique(flags.technique);
-  // The device starts up while the headers are read and the planes are decoded.
-  std::future<Device> starting = std::async(std::launch::async, [&] { return Device(flags.run_flags.device); });
-  FrameFile file(flags.frame, reading);
   PlanRequest request = flags.technique_flags.request({flags.technique});
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
-  const Plan plan = plan_for(file, request);
+  FrameFile file(flags.frame, flags.frame_flags.read_options());
+  Plan plan = plan_for(file, request);
+  watch.lap("open");
+  // The device starts up and compiles while the planes are decoded.
+  std::future<Device> starting = std::async(std::launch::async, [&, plan] {
+    Device device(flags.run_flags.device);
+    prepare(plan, device, options);
+    return device;
+  });
   std::vector<std::string> planes = plan.inputs;
   const std::vector<std::string> available = file.common_planes();
-  const bool carry_depth = !flags.bare && std::find(available.begin(), available.end(), "depth") != available.end();
-  if (carry_depth && std::find(planes.begin(), planes.end(), "depth") == planes.end()) planes.push_back("depth");
-  watch.lap("open");
+  if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");
   Frame frame = file.read(planes);
   watch.lap("decode");
   print_notes(frame.assumed);
+  const std::vector<std::string> left = planes_left(frame, plan.inputs);
+  // A plane turned out to be of no use (normals in the space of an unknown camera): make it instead.
+  if (left.size() < plan.inputs.size()) plan = make_plan(request, left, holdings(file));
   check_radius(plan, frame);
   Device device = starting.get();
   watch.lap("device");
-  RunOptions options = checked;
   options.progress = progress_bar();
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
-  for (View& view : result.frame.views) {
-    if (!flags.bare && view.find("depth") == nullptr && frame.view(view.name).find("depth") != nullptr) {
-      view.planes["depth"] = std::move(frame.view(view.name).planes["depth"]);
-    }
-    if (flags.bare) view.camera.reset();
-  }
-  write_frame(flags.out, result.frame, {flags.half});
+  carry_over(frame, result.frame, flags.bare);
+  write_frame(flags.out, result.frame, {flags.half, flags.compression});
   watch.lap("write");
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
   if (flags.json.only_json()) return;
@@ -182,6 +204,8 @@ void add_run(CLI::App& app) {
       ->type_name("A,B");
   command->add_flag("--bare", flags->bare, "leave depth and cameras out of OUT.exr");
   command->add_flag("--half", flags->half, "write AO as half instead of float");
+  command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")
+      ->type_name("NAME");
   flags->technique_flags.add_to(*command);
   flags->run_flags.add_to(*command);
   flags->frame_flags.add_to(*command);

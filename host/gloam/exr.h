@@ -23,7 +23,7 @@ struct ReadOptions {
   std::optional<double> fov_degrees;  ///< --fov: horizontal, 1 to 179
   DepthConvention depth = DepthConvention::automatic;
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
-  std::optional<float> background;  ///< --background: the one value (after NaN, +inf) that means background
+  std::optional<float> background;  ///< --background: the value that means background, instead of 1e10 and more
   NormalSpace normal_space = NormalSpace::automatic;
   std::vector<std::string> views;               ///< --view, --views: empty = all
   bool count_nonfinite = false;                 ///< have `read` count NaN and infinite values as they stand in the file
@@ -39,7 +39,7 @@ struct ChannelSource {
 };
 
 /// What a channel's name already tells about its values.
-enum class Said { nothing, ray_distance, world_space, view_space, unsure_motion };
+enum class Said { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
 
 /// A plane that could be decoded.
 struct PlaneSource {
@@ -110,8 +110,8 @@ struct WriteOptions {
 void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options = {});
 
 /// The door that every frame passes, whether read from disk or made in memory: depth that is NaN, infinite, zero,
-/// negative, >= 1e10 or equal to `background` or to a known `far` becomes +inf; normals become unit, or zero where they
-/// are NaN, infinite, zero or on background; padding is set to each plane's `outside` value.
+/// negative, equal to a known `far`, or `background` (where given, else 1e10 and more) becomes +inf; normals become
+/// unit, or zero where they are NaN, infinite, zero or on background; padding is set to each plane's `outside` value.
 void normalise(Frame& frame, std::optional<float> background = {});
 
 }  // namespace gloam

@@ -127,7 +127,9 @@ TEST(ChannelNames, RayDistanceIsKnownByName) {
   EXPECT_EQ(said_of({"distance.Y"}, "depth"), Said::ray_distance);
   EXPECT_EQ(said_of({"dd.y"}, "depth"), Said::ray_distance);
   EXPECT_EQ(said_of({"any.T"}, "depth"), Said::ray_distance);
-  EXPECT_EQ(said_of({"depth.Z"}, "depth"), Said::nothing);
+  EXPECT_EQ(said_of({"ViewLayer.Depth.Z"}, "depth"), Said::planar);
+  EXPECT_EQ(said_of({"depth.V"}, "depth"), Said::nothing);
+  EXPECT_EQ(said_of({"Z"}, "depth"), Said::nothing);
 }
 
 TEST(ChannelNames, MitsubaBeautyIsTheOnlyRgbaLayerLeft) {

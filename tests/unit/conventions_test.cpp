@@ -105,7 +105,7 @@ TEST(Depth, BackgroundOption) {
   ReadOptions options;
   options.background = 65504.0f;
   const Converted c = convert({65504, 65503, std::nextafter(65504.0f, 0.0f), 1, 0, 1e10f}, options);
-  EXPECT_EQ(c.depth, (std::vector<float>{inf, 65503, std::nextafter(65504.0f, 0.0f), 1, inf, inf}));
+  EXPECT_EQ(c.depth, (std::vector<float>{inf, 65503, std::nextafter(65504.0f, 0.0f), 1, inf, 1e10f}));
   options.depth = DepthConvention::ray;  // compared before conversion
   Camera camera = plain_camera();
   camera.cx = 0.5;
@@ -406,13 +406,25 @@ TEST(Normals, PositiveNormalsAreNotTakenForEncoded) {
   EXPECT_EQ(sentence.find("decoded"), std::string::npos) << sentence;
 }
 
-TEST(Normals, ViewWhereNothingCanTell) {
+TEST(Normals, WithoutAPoseThoseOfTheViewStillAgreeWithDepth) {
+  Scene scene;
+  scene.camera.pose.reset();
+  std::string sentence;
+  EXPECT_EQ(scene.detect(sentence), NormalSpace::view);
+  EXPECT_NE(sentence.find("view space"), std::string::npos) << sentence;
+}
+
+TEST(Normals, WithoutAPoseOthersAreWorldSpace) {
   Scene scene;
   scene.to_world();
   scene.camera.pose.reset();
   std::string sentence;
-  EXPECT_EQ(scene.detect(sentence), NormalSpace::view);
-  EXPECT_NE(sentence.find("pose"), std::string::npos) << sentence;
+  EXPECT_EQ(scene.detect(sentence), NormalSpace::world);
+  EXPECT_NE(sentence.find("world space"), std::string::npos) << sentence;
+}
+
+TEST(Normals, ViewWhereNothingCanTell) {
+  std::string sentence;
   Scene empty;
   empty.depth = Channel(empty.depth.layout(), inf);
   EXPECT_EQ(empty.detect(sentence), NormalSpace::view);
@@ -423,7 +435,7 @@ TEST(Normals, ViewWhereNothingCanTell) {
   Plane one{"normal", {}};
   for (int i = 0; i < 3; ++i) one.channels.emplace_back(Layout(1, 1), 0.5f);
   std::vector<std::string> assumed;
-  EXPECT_EQ(detect_normal_space(one, Channel(Layout(1, 1), 1.0f), {0, 0, 1, 1}, scene.camera, assumed),
+  EXPECT_EQ(detect_normal_space(one, Channel(Layout(1, 1), 1.0f), {0, 0, 1, 1}, Scene().camera, assumed),
             NormalSpace::view);
 }
 
@@ -454,9 +466,9 @@ TEST(Normalise, DepthAndItsLayers) {
   frame.views[0].camera = plain_camera();
   frame.views[0].camera->far = 60;
   normalise(frame, 5.0f);
-  EXPECT_EQ(values_of(frame, "depth"), (std::vector<float>{1, inf, inf, inf, inf, inf, inf, inf, inf, inf}));
-  EXPECT_EQ(values_of(frame, "back_depth"), (std::vector<float>{2, inf, inf, inf, inf, inf, inf, inf, inf, inf}));
-  EXPECT_EQ(values_of(frame, "peel.00"), (std::vector<float>{3, inf, inf, inf, inf, inf, inf, inf, inf, inf}));
+  EXPECT_EQ(values_of(frame, "depth"), (std::vector<float>{1, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
+  EXPECT_EQ(values_of(frame, "back_depth"), (std::vector<float>{2, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
+  EXPECT_EQ(values_of(frame, "peel.00"), (std::vector<float>{3, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
 }
 
 TEST(Normalise, NormalsAreUnitOrZero) {
