@@ -333,6 +333,7 @@ struct FrameFile::Impl {
   std::map<std::string, Camera> json_cameras();
   const PlaneSource* source(const std::string& plane, const std::string& view) const;
   std::string any_text(const std::string& name) const;
+  bool any_attribute(const std::string& name) const;
 
   std::vector<std::string> needed(const std::vector<std::string>& planes) const;
   Frame allocate(const std::vector<std::string>& planes) const;
@@ -470,6 +471,12 @@ std::string FrameFile::Impl::any_text(const std::string& name) const {
   return "";
 }
 
+bool FrameFile::Impl::any_attribute(const std::string& name) const {
+  for (int part = 0; part < file->parts(); ++part)
+    if (file->header(part).find(name.c_str()) != file->header(part).end()) return true;
+  return false;
+}
+
 /// The planes asked for and, for the background of the normals, depth.
 std::vector<std::string> FrameFile::Impl::needed(const std::vector<std::string>& planes) const {
   std::vector<std::string> all;
@@ -544,7 +551,7 @@ void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
   if (depth == view.planes.end()) return;
   ReadOptions as_named = options;
   const bool automatic = options.depth == DepthConvention::automatic;
-  const bool known_planar = source("depth", view.name)->said == Said::planar || !any_text("gloamCamera").empty();
+  const bool known_planar = source("depth", view.name)->said == Said::planar || any_attribute("gloamOrigin");
   if (automatic && known_planar) as_named.depth = DepthConvention::z;
   if (automatic && source("depth", view.name)->said == Said::ray_distance) {
     as_named.depth = DepthConvention::ray;

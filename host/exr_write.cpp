@@ -196,8 +196,10 @@ void write_to(const std::filesystem::path& temporary, const Frame& frame, const 
 
 }  // namespace
 
+void check(const WriteOptions& options) { compression_of(options.compression); }
+
 void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options) {
-  compression_of(options.compression);  // wrong usage, before anything is created
+  check(options);
   use_all_threads();
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     check_frame(frame);

@@ -279,9 +279,10 @@ unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
   return channels * layout.bytes();
 }
 
-void prepare(const Plan& plan, Device& device, const RunOptions& options) {
+void prepare(const Plan& plan, const Layout& layout, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
   check_real(plan, impl.info, options);
+  check_memory(plan, layout, impl.info);
   for (const PlannedPass& planned : plan.passes) build_kernel(planned, impl, options, lanes_for(impl.info, options));
 }
 

@@ -64,8 +64,8 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference) {
   const std::optional<std::string> named =
       a.size() == 1 || b.size() == 1 ? view_by_name(&one == &reference ? test : reference, one) : std::nullopt;
   if (named) {
-    print_notes({fmt::format("{} goes with view '{}', which its name ends in; --view chooses another",
-                             one.path().filename().string(), *named)});
+    note({fmt::format("{} goes with view '{}', which its name ends in; --view chooses another",
+                      one.path().filename().string(), *named)});
     return {b.size() == 1 ? std::pair(*named, b[0]) : std::pair(a[0], *named)};
   }
   ViewPairs pairs;
@@ -238,8 +238,7 @@ void compare_command(const CompareCommand& flags) {
       pictures.push_back(path.string());
     }
   }
-  if (!background_known)
-    print_notes({"no depth in either file: every pixel counts; --frame FRAME.exr tells the background"});
+  if (!background_known) note({"no depth in either file: every pixel counts; --frame FRAME.exr tells the background"});
   Json document = metrics_document(pooled(all));
   document["plane"] = plane;
   if (pairs.size() > 1) document["views"] = views;

@@ -21,9 +21,10 @@ PlaneFacts facts_of(const PlaneSource& source, const Frame& frame, const FrameFi
   PlaneFacts facts{source};
   facts.nonfinite = file.nonfinite(source.plane, source.view);
   const View& view = frame.view(source.view);
-  const Plane* depth = view.find("depth");
+  const Plane *depth = view.find("depth"), *plane = view.find(source.plane);
+  if (!plane) return facts;  // found of no use while it was read; `assumed` says why
   double sum = 0;
-  for (const Channel& channel : view.find(source.plane)->channels) {
+  for (const Channel& channel : plane->channels) {
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
         const float value = channel.at(x, y);

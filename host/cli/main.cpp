@@ -107,7 +107,9 @@ int run_command(int argc, char** argv) {
 int main(int argc, char** argv) {
   gloam::remove_temporaries_on_signal();
   try {
-    return gloam::cli::run_command(argc, argv);
+    const int status = gloam::cli::run_command(argc, argv);
+    gloam::cli::print_notes();
+    return status;
   } catch (const gloam::Error& error) {
     fmt::print(stderr, "gloam: {}\n", error.what());
     return error.exit_status();

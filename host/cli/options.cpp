@@ -232,8 +232,14 @@ void print_table(const std::vector<std::vector<std::string>>& rows, size_t first
   }
 }
 
-void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+namespace {
+std::vector<std::string> kept_notes;
+}
+
+void note(const std::vector<std::string>& notes) { kept_notes.insert(kept_notes.end(), notes.begin(), notes.end()); }
+
+void print_notes() {
+  for (const std::string& note : kept_notes) fmt::print(stderr, "note: {}\n", note);
 }
 
 }  // namespace gloam::cli

@@ -73,8 +73,10 @@ Plan plan_for(const FrameFile& file, const PlanRequest& request);
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
 
-/// Notes (what was assumed) on standard error, one line each.
-void print_notes(const std::vector<std::string>& notes);
+/// Keeps notes (what was assumed) for the end of the command; a command that fails says why it failed and nothing else.
+void note(const std::vector<std::string>& notes);
+/// The notes on standard error, one line each.
+void print_notes();
 
 // One function per command: adds it to the app.
 void add_list(CLI::App& app);

@@ -77,7 +77,7 @@ void check_radius(const Plan& plan, const Frame& frame) {
     const double radius = planned.values.number("radius"), pixels = median_radius_pixels(frame, radius);
     if (pixels == 0 || radius == 0 || std::isinf(radius)) return;
     if (pixels < 2 || pixels > frame.width()) {
-      print_notes(
+      note(
           {fmt::format("radius {:g} scene units reaches {:.3g} pixels (median) in this frame; is it in the frame's "
                        "unit? --radius sets it",
                        radius, pixels)});
@@ -157,13 +157,15 @@ void run_command(const RunCommand& flags) {
   find_technique(flags.technique);
   PlanRequest request = flags.technique_flags.request({flags.technique});
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
+  const WriteOptions writing{flags.half, flags.compression};
+  check(writing);
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   Plan plan = plan_for(file, request);
   watch.lap("open");
   // The device starts up and compiles while the planes are decoded.
   std::future<Device> starting = std::async(std::launch::async, [&, plan] {
     Device device(flags.run_flags.device);
-    prepare(plan, device, options);
+    prepare(plan, Layout(file.window().width(), file.window().height()), device, options);
     return device;
   });
   std::vector<std::string> planes = plan.inputs;
@@ -171,7 +173,7 @@ void run_command(const RunCommand& flags) {
   if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");
   Frame frame = file.read(planes);
   watch.lap("decode");
-  print_notes(frame.assumed);
+  note(frame.assumed);
   const std::vector<std::string> left = planes_left(frame, plan.inputs);
   // A plane turned out to be of no use (normals in the space of an unknown camera): make it instead.
   if (left.size() < plan.inputs.size()) plan = make_plan(request, left, holdings(file));
@@ -182,7 +184,7 @@ void run_command(const RunCommand& flags) {
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
   carry_over(frame, result.frame, flags.bare);
-  write_frame(flags.out, result.frame, {flags.half, flags.compression});
+  write_frame(flags.out, result.frame, writing);
   watch.lap("write");
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
   if (flags.json.only_json()) return;

@@ -101,6 +101,9 @@ struct WriteOptions {
   std::string compression = "zip";
 };
 
+/// Throws UsageError when the options cannot be used, before anything is computed.
+void check(const WriteOptions& options);
+
 /// Writes all planes of all views as one scanline EXR: gloam's channel names (planes.h), further views in OpenEXR's
 /// multi-view form (`right.Z`, `N.right.X`, the `multiView` attribute), cameras as `worldToCamera`, `worldToNDC` and
 /// `gloamOrigin` (per further view

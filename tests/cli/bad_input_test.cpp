@@ -1,0 +1,159 @@
+// Bad input: one line that names the thing, the right exit status, nothing half written, no crash.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <thread>
+
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+void expect_refused(const Result& result, int status, const std::vector<std::string>& words) {
+  EXPECT_EQ(result.status, status) << result.err;
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_EQ(result.err.rfind("gloam: ", 0), 0u) << result.err;
+  EXPECT_TRUE(result.out.empty()) << result.out;
+  for (const std::string& word : words)
+    EXPECT_NE(result.err.find(word), std::string::npos) << "'" << word << "' is not in: " << result.err;
+}
+
+TEST_F(Cli, WrongUsage) {
+  const std::string out = path("ao.exr");
+  expect_refused(gloam({}), 2, {"--help"});
+  expect_refused(gloam({"rnu", "hbao+", loggia}), 2, {"'rnu'", "did you mean 'run'"});
+  expect_refused(gloam({"run", "hbao", loggia, "-o", out}), 2, {"'hbao'", "did you mean 'hbao+'"});
+  expect_refused(gloam({"run", "hbao+", loggia}), 2, {"run", "--output"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--radus", "1"}), 2, {"--radus", "did you mean '--radius'"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--radius", "-1"}), 2,
+                 {"radius", "-1", "0 to inf", "scene units"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--radius", "nan"}), 2, {"radius", "nan"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--directions", "2.5"}), 2,
+                 {"directions", "2.5", "1 to 32"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--falloff", "cubic"}), 2, {"cubic", "quadratic, none"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--set", "raduis=1"}), 2,
+                 {"raduis", "did you mean 'radius'"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--preset", "hihg"}), 2, {"hihg", "did you mean 'high'"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--lanes", "3"}), 2, {"--lanes", "1, 4, 8 and 16"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--fov", "180"}), 2, {"--fov", "180", "1 to 179"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--repeat", "0"}), 2, {"--repeat", "0"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--outputs", "oa"}), 2, {"'oa'", "did you mean 'ao'"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--plane", "depth"}), 2, {"--plane", "PLANE=CHANNELS"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--compression", "dwaa"}), 2, {"dwaa", "zip"});
+  expect_refused(gloam({"plan", "oa", loggia}), 2, {"'oa'", "did you mean 'ao'"});
+  expect_refused(gloam({"list", "device"}), 2, {"device", "did you mean 'devices'"});
+  expect_refused(gloam({"compare", loggia, loggia_truth, "-o", path("d.jpg")}), 2, {".png"});
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Cli, FilesThatCannotBeRead) {
+  const std::string out = path("ao.exr");
+  expect_refused(gloam({"info", path("none.exr")}), 1, {"none.exr"});
+  expect_refused(gloam({"info", folder.string()}), 1, {folder.string()});
+  std::ofstream(path("text.exr")) << "this is no EXR file";
+  expect_refused(gloam({"info", path("text.exr")}), 1, {"text.exr", "not an EXR"});
+  std::ofstream(path("empty.exr")).flush();
+  expect_refused(gloam({"info", path("empty.exr")}), 1, {"empty.exr", "not an EXR"});
+  const std::string whole = slurp(loggia);
+  std::ofstream(path("cut.exr"), std::ios::binary) << whole.substr(0, whole.size() / 2);
+  expect_refused(gloam({"run", "hbao+", path("cut.exr"), "-o", out}), 1, {"cut.exr", "truncated"});
+  std::string spoiled = whole;
+  for (size_t i = spoiled.size() / 2; i < spoiled.size() / 2 + 4000; ++i) spoiled[i] = char(i * 37);
+  std::ofstream(path("spoiled.exr"), std::ios::binary) << spoiled;
+  expect_refused(gloam({"run", "hbao+", path("spoiled.exr"), "-o", out}), 1, {"spoiled.exr", "corrupted"});
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(Cli, AHeaderThatClaimsTooMuch) {
+  std::string bytes = slurp(loggia);
+  const std::string key("dataWindow\0box2i\0", 17);
+  const size_t at = bytes.find(key);
+  ASSERT_NE(at, std::string::npos);
+  const int32_t window[4] = {0, 0, 99999, 99999};
+  bytes.replace(at + key.size() + 4, sizeof window, reinterpret_cast<const char*>(window), sizeof window);
+  std::ofstream(path("huge.exr"), std::ios::binary) << bytes;
+  expect_refused(gloam({"info", path("huge.exr")}), 1, {"huge.exr", "100000 x 100000", "2^28"});
+}
+
+TEST_F(Cli, MissingPlanesAreReportedAtOnce) {
+  write_frame(path("beauty.exr"), small_frame(32, 24, {"color"}));
+  expect_refused(gloam({"run", "hbao+", path("beauty.exr"), "-o", path("ao.exr")}), 1,
+                 {"hbao+: needs 'depth'", "has only B, G, R", "docs/gbuffer.md"});
+  write_frame(path("ao_only.exr"), small_frame(32, 24, {"ao"}));
+  expect_refused(gloam({"plan", "normals,hbao+", path("ao_only.exr")}), 1, {"'depth'"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--plane", "depth=Zdepth"}), 1,
+                 {"Zdepth", "it has"});
+}
+
+TEST_F(Cli, ViewsAndSizesThatDoNotMatch) {
+  write_frame(path("small.exr"), small_frame(16, 16, {"ao"}));
+  expect_refused(gloam({"compare", path("small.exr"), loggia_truth}), 1, {"16x16", "480x270"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--view", "left"}), 1,
+                 {"--view left", "names no views"});
+  write_frame(path("color.exr"), small_frame(16, 16, {"color"}));
+  expect_refused(gloam({"compare", path("small.exr"), path("color.exr")}), 1, {"no plane in common"});
+}
+
+TEST_F(Cli, DevicesThatAreNotThere) {
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--device", "voodoo"}), 1,
+                 {"voodoo", "there are", "gloam list devices"});
+  expect_refused(gloam({"list", "devices"}, {{"OCL_ICD_VENDORS", "/nonexistent"}}), 1,
+                 {"no OpenCL platform", "pocl-opencl-icd"});
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Cli, DoubleWhereTheDeviceHasNone) {
+  const std::map<std::string, std::string> with_rusticl = {{"RUSTICL_ENABLE", "llvmpipe"}};
+  if (gloam({"list", "devices"}, with_rusticl).out.find("llvmpipe") == std::string::npos)
+    GTEST_SKIP() << "no Rusticl device";
+  expect_refused(
+      gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--device", "llvmpipe", "--real", "double"}, with_rusticl),
+      1, {"no double precision"});
+}
+
+TEST_F(Cli, OutOfDeviceMemory) {
+  // PoCL takes its memory, in GiB, from the environment: 7000 x 7000 pixels in seven channels do not fit into one.
+  write_frame(path("large.exr"), small_frame(7000, 7000, {"depth"}));
+  expect_refused(gloam({"run", "hbao+", path("large.exr"), "-o", path("ao.exr"), "--device", "portable"},
+                       {{"POCL_MEMORY_LIMIT", "1"}}),
+                 1, {"7000x7000", "MiB", "--device"});
+  EXPECT_EQ(files(), Arguments{"large.exr"});
+}
+
+TEST_F(Cli, OutputsThatCannotBeWritten) {
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("no/such/folder/ao.exr")}), 1, {"no/such/folder"});
+  std::ofstream(path("file")) << "x";
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("file/ao.exr")}), 1, {"file/ao.exr"});
+  expect_refused(gloam({"compare", loggia_truth, loggia_truth, "-o", path("no/difference.png")}), 1,
+                 {"no/difference.png"});
+  EXPECT_EQ(files(), Arguments{"file"});
+}
+
+TEST_F(Cli, AFullDiskLeavesTheOldFile) {
+  // The first run fills the driver's own cache of kernels, so that the second writes nothing but its output.
+  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr")}).status, 0);
+  std::ofstream(path("ao.exr")) << "what was there";
+  // A limit on the size of files fails writes as a full disk does.
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit tight{100000, before.rlim_max};
+  signal(SIGXFSZ, SIG_IGN);  // inherited: the write fails instead
+  setrlimit(RLIMIT_FSIZE, &tight);
+  const Result result = gloam({"run", "hbao+", loggia, "-o", path("ao.exr")});
+  setrlimit(RLIMIT_FSIZE, &before);
+  expect_refused(result, 1, {"ao.exr"});
+  EXPECT_EQ(slurp(path("ao.exr")), "what was there");
+  EXPECT_EQ(files(), Arguments{"ao.exr"});
+}
+
+TEST_F(Cli, CtrlCLeavesNothing) {
+  const pid_t child = start({"run", "hbao+", loggia, "-o", path("ao.exr"), "--repeat", "10000"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  kill(child, SIGINT);
+  const Result result = finish(child);
+  expect_refused(result, 130, {"interrupted"});
+  EXPECT_TRUE(files().empty());
+}
+
+}  // namespace
+}  // namespace gloam::test

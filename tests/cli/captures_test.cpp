@@ -1,0 +1,93 @@
+// Real frames, written by a renderer: the main job with no flag but the radius.
+// The captures lie beside the project on machines that have them; elsewhere these tests are skipped.
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class CaptureCli : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    if (!fs::exists(captures)) GTEST_SKIP() << "no captures at " << captures;
+  }
+  Json compare(const fs::path& test, const fs::path& truth) const {
+    const Result result = gloam({"compare", test, truth, "-o", path("difference.png"), "--json", "-"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(slurp(path("difference.png")).substr(1, 3), "PNG");
+    return result.json();
+  }
+};
+
+TEST_F(CaptureCli, Kitchen) {
+  const fs::path frame = captures / "kitchen/kitchen_user.exr";
+  const Json info = gloam({"info", frame, "--json", "-"}).json();
+  EXPECT_EQ(info["size"], Json({960, 540}));
+  EXPECT_EQ(info["depth_convention"], "z");
+  EXPECT_EQ(info["normal_space"], "world");
+  EXPECT_NEAR(info["background_share"], 0.034, 0.002);  // 1e10
+  EXPECT_NEAR(info["camera"]["hfov_deg"], 80, 0.001);   // camera.json, found beside the frame
+  ASSERT_EQ(gloam({"run", "hbao+", frame, "-o", path("ao.exr"), "--radius", "0.3"}).status, 0);
+  const Json figures = compare(path("ao.exr"), captures / "kitchen/kitchen_ao_ref.exr");
+  RecordProperty("rmse", std::to_string(double(figures["rmse"])));
+  EXPECT_LT(figures["rmse"], 0.21);  // a white image reads 0.272
+}
+
+TEST_F(CaptureCli, BothEyesOfTheApartment) {
+  const fs::path folder = captures / "apartment_stereo";
+  const Result run = gloam(
+      {"run", "hbao+", folder / "apartment_stereo_user.exr", "-o", path("ao.exr"), "--radius", "0.4", "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["passes"].size(), 6u);
+  for (const char* eye : {"left", "right"}) {
+    const Json figures = compare(path("ao.exr"), folder / (std::string("apartment_stereo_ao_ref_") + eye + ".exr"));
+    RecordProperty(std::string("rmse_") + eye, std::to_string(double(figures["rmse"])));
+    EXPECT_LT(figures["rmse"], 0.17) << eye;  // a white image reads 0.206; the other eye's truth 0.181
+  }
+}
+
+TEST_F(CaptureCli, EveryVariantGoesThroughInfoAndRun) {
+  for (const auto& entry : fs::directory_iterator(captures / "variants")) {
+    if (entry.path().extension() != ".exr") continue;
+    const Result info = gloam({"info", entry.path(), "--json", "-"});
+    ASSERT_EQ(info.status, 0) << entry.path() << info.err;
+    const Json runs = info.json()["runs"];
+    EXPECT_NE(std::find(runs.begin(), runs.end(), "hbao+"), runs.end()) << entry.path();
+    EXPECT_EQ(gloam({"run", "hbao+", entry.path(), "-o", path("ao.exr"), "--radius", "0.4"}).status, 0) << entry.path();
+  }
+}
+
+TEST_F(CaptureCli, WorldNormalsOfAnUnknownCameraAreNotUsed) {
+  const Result run = gloam({"run", "hbao+", captures / "variants/apartment_individual_L.exr", "-o", path("ao.exr"),
+                            "--radius", "0.4", "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["passes"][0]["name"], "normals/differences");
+  EXPECT_NE(run.err.find("normals: not used"), std::string::npos) << run.err;
+}
+
+TEST_F(CaptureCli, TheOneEyeOfAOneElementMultiViewKeepsItsName) {
+  const Json info = gloam({"info", captures / "variants/apartment_individual_R.exr", "--json", "-"}).json();
+  EXPECT_EQ(info["views"], Json({"right"}));
+}
+
+TEST_F(CaptureCli, SamplesOfTheFormatAreReadRightOrRefusedInOneLine) {
+  for (const auto& entry : fs::recursive_directory_iterator(captures / "openexr-images")) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || name == "LICENSE" || entry.path().extension() == ".rst") continue;
+    const Result info = gloam({"info", entry.path(), "--json", "-"});
+    const bool damaged = entry.path().parent_path().filename() == "Damaged";
+    if (info.status == 0) {
+      EXPECT_TRUE(info.json().contains("size")) << name;
+    } else {
+      EXPECT_TRUE(damaged) << name << ": " << info.err;
+      EXPECT_EQ(info.status, 1) << name << ": " << info.err;
+      EXPECT_EQ(info.lines_of_error(), 1) << name << ": " << info.err;
+      EXPECT_NE(info.err.find(name), std::string::npos) << info.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test

@@ -1,0 +1,221 @@
+// Good use of every command: what it prints, what its JSON holds, what it writes.
+#include <cmath>
+
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+bool has(const Json& list, const std::string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
+
+TEST_F(Cli, HelpAndVersion) {
+  const Result help = gloam({"--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.out.find("gloam run hbao+ frame.exr"), std::string::npos) << help.out;
+  EXPECT_EQ(gloam({"--version"}).status, 0);
+  for (const char* command : {"info", "run", "compare", "plan", "list"}) {
+    const Result result = gloam({command, "--help"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_NE(result.out.find("Examples:"), std::string::npos) << command;
+  }
+}
+
+TEST_F(Cli, ListTechniquesTellsAllThatAProgramNeeds) {
+  const Result result = gloam({"list", "techniques", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  bool found = false;
+  for (const Json& technique : result.json()) {
+    for (const char* key : {"name", "summary", "paper", "reads", "optional", "writes", "parameters"})
+      EXPECT_TRUE(technique.contains(key)) << key;
+    if (technique["name"] != "hbao+") continue;
+    found = true;
+    EXPECT_EQ(technique["reads"], Json({"depth", "normal"}));
+    for (const Json& p : technique["parameters"]) {
+      for (const char* key : {"name", "type", "default", "min", "max", "choices", "unit", "help"})
+        EXPECT_TRUE(p.contains(key)) << key;
+      if (p["name"] == "directions") {
+        EXPECT_EQ(p["default"], 8);
+      }
+      if (p["name"] == "radius") {
+        EXPECT_EQ(p["unit"], "scene units");
+      }
+      if (p["name"] == "falloff") {
+        EXPECT_EQ(p["choices"], Json({"quadratic", "none"}));
+      }
+    }
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(Cli, ListDevicesAndMetrics) {
+  const Json devices = gloam({"list", "devices", "--json", "-"}).json();
+  ASSERT_FALSE(devices.empty());
+  for (const char* key : {"platform", "device", "type", "lanes", "double", "memory"})
+    EXPECT_TRUE(devices[0].contains(key)) << key;
+  const Json metrics = gloam({"list", "metrics", "--json", "-"}).json();
+  EXPECT_TRUE(std::any_of(metrics.begin(), metrics.end(), [](const Json& m) { return m["name"] == "rmse"; }));
+}
+
+TEST_F(Cli, InfoOfTheBundledFrame) {
+  const Result result = gloam({"info", loggia, "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json info = result.json();
+  EXPECT_EQ(info["size"], Json({480, 270}));
+  EXPECT_EQ(info["depth_convention"], "z");
+  EXPECT_NEAR(info["background_share"], 0.0913, 0.001);
+  EXPECT_NEAR(info["camera"]["hfov_deg"], 65, 0.01);
+  EXPECT_TRUE(has(info["runs"], "hbao+"));
+  for (const Json& plane : info["planes"]) {
+    if (plane["name"] != "depth") continue;
+    EXPECT_EQ(plane["channels"], Json({"Z"}));
+    EXPECT_GT(plane["min"], 2.0);
+    EXPECT_LT(plane["max"], 20.0);
+    EXPECT_GT(plane["nonfinite"], 0);  // the background
+  }
+  EXPECT_NE(gloam({"info", loggia}).out.find("runs"), std::string::npos);
+}
+
+TEST_F(Cli, InfoSaysWhatIsLacking) {
+  write_frame(path("beauty.exr"), small_frame(32, 24, {"color"}));
+  const Json info = gloam({"info", path("beauty.exr"), "--json", "-"}).json();
+  EXPECT_TRUE(info["runs"].empty());
+  EXPECT_EQ(info["lacks"]["hbao+"], Json({"depth"}));
+  EXPECT_TRUE(info["background_share"].is_null());
+}
+
+TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {
+  write_frame(path("frame.exr"), small_frame());
+  const Result result = gloam({"plan", "ao", path("frame.exr"), "--json", "-"}, {{"OCL_ICD_VENDORS", "/nonexistent"}});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json plan = result.json();
+  EXPECT_EQ(plan["outputs"], Json({"ao"}));
+  EXPECT_EQ(plan["decoded"], Json({"Z"}));
+  std::vector<std::string> names;
+  for (const Json& pass : plan["passes"]) names.push_back(pass["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"normals/differences", "hbao+/estimate", "bilateral/horizontal",
+                                             "bilateral/vertical"}));
+  const bool color_skipped =
+      std::any_of(plan["skipped"].begin(), plan["skipped"].end(), [](const Json& s) { return s["what"] == "color"; });
+  EXPECT_TRUE(color_skipped);
+}
+
+TEST_F(Cli, ADepthOnlyFrameWorks) {
+  write_frame(path("frame.exr"), small_frame(32, 24, {"depth"}));
+  const Result result = gloam({"run", "hbao+", path("frame.exr"), "-o", path("ao.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["plan"]["decoded"], Json({"Z"}));
+  FrameFile written(path("ao.exr"), {});
+  EXPECT_EQ(written.all_channels(), (std::vector<std::string>{"AO", "AO_raw", "Z"}));
+}
+
+TEST_F(Cli, RunWritesFilteredAndRawAo) {
+  const Result result = gloam(
+      {"run", "hbao+", loggia, "-o", path("ao.exr"), "--radius", "0.5", "--repeat", "3", "--json", path("run.json")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("hbao+/estimate"), std::string::npos);
+  const Json run = Json::parse(slurp(path("run.json")));
+  EXPECT_EQ(run["technique"], "hbao+");
+  EXPECT_EQ(run["passes"].size(), 3u);
+  for (const char* key : {"device", "lanes", "math", "total_ms", "plan", "skipped_share"})
+    EXPECT_TRUE(run.contains(key)) << key;
+  for (const Json& pass : run["passes"]) {
+    EXPECT_GT(pass["ms"]["median"], 0);
+    EXPECT_LE(pass["ms"]["min"], pass["ms"]["median"]);
+    EXPECT_LE(pass["ms"]["median"], pass["ms"]["max"]);
+  }
+  FrameFile written(path("ao.exr"), {});
+  EXPECT_EQ(written.common_planes(), (std::vector<std::string>{"depth", "ao", "ao_raw"}));
+  const Frame frame = written.read({"ao", "ao_raw", "depth"});
+  const View& view = frame.views[0];
+  ASSERT_TRUE(view.camera.has_value());
+  EXPECT_TRUE(view.camera->pose.has_value());
+  double filtered = 0, raw = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x + 1 < frame.width(); ++x) {
+      filtered += std::abs(view.find("ao")->channels[0].at(x, y) - view.find("ao")->channels[0].at(x + 1, y));
+      raw += std::abs(view.find("ao_raw")->channels[0].at(x, y) - view.find("ao_raw")->channels[0].at(x + 1, y));
+      if (is_background(view.find("depth")->channels[0].at(x, y))) {
+        EXPECT_EQ(view.find("ao")->channels[0].at(x, y), 1);
+      }
+    }
+  }
+  EXPECT_LT(filtered, 0.8 * raw);  // the filter took noise out
+}
+
+TEST_F(Cli, ParametersAreFlags) {
+  const auto ao = [&](const Arguments& extra) {
+    Arguments arguments = {"run", "hbao+", loggia, "-o", path("ao.exr").string(), "--bare", "--math", "precise"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    EXPECT_EQ(gloam(arguments).status, 0);
+    FrameFile file(path("ao.exr"), {});
+    const Frame frame = file.read({"ao"});
+    std::vector<float> values;
+    for (int y = 0; y < frame.height(); ++y)
+      values.insert(values.end(), frame.views[0].find("ao")->channels[0].row(y),
+                    frame.views[0].find("ao")->channels[0].row(y) + frame.width());
+    return values;
+  };
+  const std::vector<float> by_set = ao({"--set", "radius=0.25", "--set", "normal_tolerance=0.3"});
+  EXPECT_EQ(by_set, ao({"--radius", "0.25", "--normal-tolerance=0.3"}));
+  EXPECT_NE(by_set, ao({"--radius", "0.5"}));
+  EXPECT_NE(by_set, ao({"--radius", "0.25", "--normal-tolerance=0.3", "--seed", "1"}));
+  EXPECT_NE(by_set, ao({"--radius", "0.25", "--preset", "low"}));
+  // A follower inherits the radius of what it follows, unless it is named itself.
+  EXPECT_EQ(ao({"--set", "hbao+.radius=0.25"}), ao({"--radius", "0.25"}));
+  EXPECT_NE(ao({"--set", "hbao+.radius=0.25", "--set", "bilateral.radius=0.01"}), ao({"--radius", "0.25"}));
+}
+
+TEST_F(Cli, OnlyTheOutputsAskedForAreComputed) {
+  const Result result =
+      gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--outputs", "ao_raw", "--bare", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["passes"].size(), 1u);
+  EXPECT_EQ(FrameFile(path("ao.exr"), {}).all_channels(), Arguments{"AO_raw"});
+  const Result unfiltered =
+      gloam({"run", "hbao+", loggia, "-o", path("raw.exr"), "--filter", "none", "--bare", "--json", "-"});
+  EXPECT_EQ(unfiltered.json()["passes"].size(), 1u);
+}
+
+TEST_F(Cli, DoubleAndFloatAgree) {
+  for (const char* real : {"float", "double"}) {
+    ASSERT_EQ(
+        gloam({"run", "hbao+", loggia, "-o", path(std::string(real) + ".exr"), "--real", real, "--math", "precise"})
+            .status,
+        0);
+  }
+  const Json difference = gloam({"compare", path("float.exr"), path("double.exr"), "--json", "-"}).json();
+  EXPECT_LT(difference["mae"], 1e-4);
+  EXPECT_GT(difference["max"], 0);
+}
+
+TEST_F(Cli, CompareWithTheTruth) {
+  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--radius", "0.5"}).status, 0);
+  const Result result = gloam({"compare", path("ao.exr"), loggia_truth, "-o", path("difference.png"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json figures = result.json();
+  for (const char* key : {"pixels", "mae", "rmse", "bias", "psnr", "max", "over_1_255", "over_0_05", "ssim", "gmsd"})
+    EXPECT_TRUE(figures.contains(key)) << key;
+  EXPECT_NEAR(double(figures["pixels"]), 480 * 270 * (1 - 0.0913), 100);
+  EXPECT_LT(figures["rmse"], 0.2);  // a white image reads 0.27
+  EXPECT_EQ(slurp(path("difference.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(Cli, AnImageIsIdenticalToItself) {
+  const Json same = gloam({"compare", loggia_truth, loggia_truth, "--json", "-"}).json();
+  EXPECT_TRUE(same["psnr"].is_null());
+  EXPECT_EQ(same["rmse"], 0);
+  EXPECT_EQ(same["ssim"], 1);
+}
+
+TEST_F(Cli, WindowsOfOneSizeMayStartElsewhere) {
+  Frame moved = small_frame(32, 24, {"depth", "ao"});
+  write_frame(path("a.exr"), moved);
+  moved.display = moved.window = {100, 50, 132, 74};
+  write_frame(path("b.exr"), moved);
+  EXPECT_EQ(gloam({"compare", path("a.exr"), path("b.exr"), "--json", "-"}).json()["rmse"], 0);
+}
+
+}  // namespace
+}  // namespace gloam::test

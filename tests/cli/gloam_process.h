@@ -1,0 +1,124 @@
+// Runs the gloam binary as a user would, and looks at what it said, returned and left behind.
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "gloam/exr.h"
+
+namespace gloam::test {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+struct Result {
+  int status = -1;  ///< exit status; 128 + signal when a signal ended it
+  std::string out, err;
+  nlohmann::json json() const { return nlohmann::json::parse(out); }
+  long lines_of_error() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+inline std::string slurp(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// A folder of its own for each test, removed at its end.
+class Cli : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "gloam-cli-XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  fs::path path(const std::string& name) const { return folder / name; }
+
+  /// Starts gloam; `environment` is added to this process's own.
+  pid_t start(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    dup2(open(path("stdout").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
+    dup2(open(path("stderr").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+    std::vector<char*> argv = {const_cast<char*>(GLOAM_BINARY)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    alarm(120);
+    execv(GLOAM_BINARY, argv.data());
+    _exit(127);
+  }
+
+  Result finish(pid_t child) const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), slurp(path("stdout")),
+            slurp(path("stderr"))};
+  }
+
+  Result gloam(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
+    return finish(start(arguments, environment));
+  }
+
+  /// Everything in the folder but the captured output.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "stdout" && name != "stderr") names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  fs::path folder;
+};
+
+inline const fs::path data_folder = fs::path(GLOAM_SOURCE_DIR) / "data";
+inline const std::string loggia = (data_folder / "loggia.exr").string();
+inline const std::string loggia_truth = (data_folder / "loggia_ao_ref.exr").string();
+inline const fs::path captures = GLOAM_CAPTURES;
+
+/// A small frame of a floor before a wall.
+inline Frame small_frame(int width = 32, int height = 24, const std::vector<std::string>& planes = {"depth", "color"}) {
+  Frame frame;
+  frame.display = frame.window = {0, 0, width, height};
+  View view;
+  Camera camera;
+  camera.fx = camera.fy = width;
+  camera.cx = width / 2.0;
+  camera.cy = height / 2.0;
+  camera.source = "test";
+  view.camera = camera;
+  const Layout layout(width, height);
+  for (const std::string& name : planes) {
+    Plane plane{name, {}};
+    const int components = name == "color" || name == "normal" ? 3 : 1;
+    for (int i = 0; i < components; ++i) plane.channels.emplace_back(layout, name == "normal" ? float(i == 2) : 0.5f);
+    view.planes[name] = std::move(plane);
+  }
+  if (Plane* depth = view.planes.count("depth") ? &view.planes["depth"] : nullptr) {
+    for (int y = 0; y < height; ++y) {
+      const double below = (y + 0.5 - camera.cy) / camera.fy;
+      for (int x = 0; x < width; ++x) depth->channels[0].at(x, y) = float(below > 0 ? std::min(4.0, 1 / below) : 4.0);
+    }
+  }
+  frame.views.push_back(std::move(view));
+  return frame;
+}
+
+}  // namespace gloam::test
