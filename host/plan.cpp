@@ -1,7 +1,7 @@
 #include "gloam/plan.h"
 
 #include <algorithm>
-#include <set>
+
 
 #include "gloam/planes.h"
 
@@ -32,113 +32,110 @@ std::vector<std::string> plane_and_technique_names() {
   return names;
 }
 
-/// Walks back from outputs to planes at hand.
+/// What is asked for: planes, and the techniques that shall make them.
+struct Wanted {
+  std::vector<std::string> outputs;
+  std::vector<const Technique*> makers;  ///< in order of preference
+};
+
+/// The technique that makes a plane: one of the makers, else the first in the registry; never the one that asks.
+const Technique* maker_of(const std::string& plane, const Technique* asking,
+                          const std::vector<const Technique*>& makers) {
+  for (const Technique* t : makers) {
+    if (t != asking && contains(t->writes, plane)) return t;
+  }
+  for (const Technique& t : registry()) {
+    if (&t != asking && contains(t.writes, plane)) return &t;
+  }
+  return nullptr;
+}
+
+/// A technique asked for brings its follower: its own, or the one that the request names.
+void add_makers(Wanted& wanted, const Technique& technique, const std::string& then) {
+  wanted.makers.push_back(&technique);
+  const std::string follower = then.empty() ? technique.then : then;
+  if (!follower.empty() && follower != "none") wanted.makers.push_back(&find_technique(follower));
+}
+
+void add_new(std::vector<std::string>& list, const std::string& item) {
+  if (!contains(list, item)) list.push_back(item);
+}
+
+/// A technique's outputs, without those that only a follower would make where there shall be none.
+void want_technique(Wanted& wanted, const Technique& technique, const std::string& then) {
+  add_makers(wanted, technique, then);
+  for (const std::string& plane : outputs_of(technique)) {
+    if (then != "none" || contains(technique.writes, plane)) add_new(wanted.outputs, plane);
+  }
+}
+
+void want_plane(Wanted& wanted, const std::string& plane, const std::vector<std::string>& available,
+                const std::string& then) {
+  const Technique* maker = maker_of(plane, nullptr, wanted.makers);
+  if (!maker && !contains(available, plane)) {
+    throw UsageError("nothing makes '{}'{} (gloam list techniques shows what there is)", plane,
+                     suggestion(plane, plane_and_technique_names()));
+  }
+  if (maker) add_makers(wanted, *maker, then);
+  add_new(wanted.outputs, plane);
+}
+
+Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& available) {
+  Wanted wanted;
+  for (const std::string& output : request.outputs) {
+    if (const Technique* technique = technique_named(output))
+      want_technique(wanted, *technique, request.then);
+    else
+      want_plane(wanted, output, available, request.then);
+  }
+  for (const std::string& plane : request.only) {
+    if (contains(wanted.outputs, plane)) continue;
+    throw UsageError("{}: no output '{}'{}; there are {}", request.outputs.front(), plane,
+                     suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
+  }
+  if (!request.only.empty()) wanted.outputs = request.only;
+  return wanted;
+}
+
+/// Walks back from planes to what makes them, and to the planes at hand.
 class Walk {
  public:
-  Walk(const PlanRequest& request, const std::vector<std::string>& available)
-      : request_(request), available_(available) {}
-
-  void ask_for(const std::string& output) {
-    if (const Technique* technique = technique_named(output)) {
-      prefer(*technique);
-      for (const std::string& plane : outputs_of(*technique)) add_output(plane);
-      return;
-    }
-    const Technique* maker = maker_of(output, "");
-    if (!maker && !contains(available_, output)) {
-      throw UsageError("nothing makes '{}'{} (gloam list techniques shows what there is)", output,
-                       suggestion(output, plane_and_technique_names()));
-    }
-    if (maker && !contains(preferred_, maker->name)) prefer(*maker);
-    add_output(output);
+  Walk(const Wanted& wanted, const std::vector<std::string>& available) : wanted_(wanted), available_(available) {
+    for (const std::string& output : wanted.outputs) need(output, nullptr);
   }
 
-  void walk() {
-    for (const std::string& output : plan.outputs) need(output, "");
-  }
-
-  Plan plan;
-  std::vector<std::string> missing;
-  std::vector<const Technique*> order;
+  std::vector<const Technique*> order;  ///< techniques to run
+  std::vector<std::string> inputs, missing;
+  std::vector<std::pair<std::string, std::string>> skipped;
 
  private:
-  void add_output(const std::string& plane) {
-    if (!contains(plan.outputs, plane)) plan.outputs.push_back(plane);
-  }
-
-  void prefer(const Technique& technique) {
-    preferred_.push_back(technique.name);
-    const std::string next = request_.then.empty() ? technique.then : request_.then;
-    if (next == "none") {
-      // Without a follower only what the technique itself writes is left of its outputs.
-      dropped_ = outputs_of(technique);
-      return;
-    }
-    if (!next.empty()) preferred_.push_back(find_technique(next).name);
-  }
-
-  /// Preferred techniques first, then any that does not itself need the plane.
-  const Technique* maker_of(const std::string& plane, const std::string& asking) const {
-    for (const std::string& name : preferred_) {
-      const Technique* t = technique_named(name);
-      if (t->name != asking && contains(t->writes, plane)) return t;
-    }
-    for (const Technique& t : registry()) {
-      if (t.name != asking && contains(t.writes, plane)) return &t;
-    }
-    return nullptr;
-  }
-
-  void need(const std::string& plane, const std::string& asking) {
-    if (contains(made_, plane) || contains(plan.inputs, plane) || contains(missing, plane)) return;
-    const Technique* maker = maker_of(plane, asking);
-    const bool wanted = maker && contains(preferred_, maker->name);
-    if (contains(available_, plane) && !wanted) {
-      plan.inputs.push_back(plane);
-      if (maker && !contains(being_made_, maker->name)) {
-        plan.skipped.emplace_back(maker->name, fmt::format("the file has '{}'", plane));
-      }
-      return;
-    }
-    if (!maker || contains(being_made_, maker->name)) {
+  void need(const std::string& plane, const Technique* asking) {
+    if (contains(made_, plane) || contains(inputs, plane) || contains(missing, plane)) return;
+    const Technique* maker = maker_of(plane, asking, wanted_.makers);
+    const bool under_way = maker && std::find(begun_.begin(), begun_.end(), maker) != begun_.end();
+    const bool asked_for =
+        maker && std::find(wanted_.makers.begin(), wanted_.makers.end(), maker) != wanted_.makers.end();
+    if (contains(available_, plane) && (!asked_for || under_way)) {
+      inputs.push_back(plane);
+      if (maker && !under_way) skipped.emplace_back(maker->name, fmt::format("the file has '{}'", plane));
+    } else if (!maker || under_way) {
       missing.push_back(plane);
-      return;
+    } else {
+      schedule(*maker);
     }
-    schedule(*maker);
   }
 
   void schedule(const Technique& technique) {
-    being_made_.push_back(technique.name);
-    for (const std::string& plane : technique.reads) need(plane, technique.name);
+    begun_.push_back(&technique);
+    for (const std::string& plane : technique.reads) need(plane, &technique);
     order.push_back(&technique);
     for (const std::string& plane : technique.writes) made_.push_back(plane);
   }
 
-  const PlanRequest& request_;
+  const Wanted& wanted_;
   const std::vector<std::string>& available_;
-  std::vector<std::string> preferred_, being_made_, made_, dropped_;
-
- public:
-  void keep_only(const std::vector<std::string>& planes) {
-    for (const std::string& plane : planes) {
-      if (!contains(plan.outputs, plane)) {
-        throw UsageError("{}: no output '{}'{}; there are {}", request_.outputs.front(), plane,
-                         suggestion(plane, plan.outputs), enumerate(plan.outputs));
-      }
-    }
-    if (!planes.empty()) plan.outputs = planes;
-  }
-
-  /// Outputs that only the dropped follower would have made.
-  void drop_unmade_outputs() {
-    std::erase_if(plan.outputs, [&](const std::string& plane) {
-      if (!contains(dropped_, plane)) return false;
-      for (const std::string& name : preferred_) {
-        if (contains(technique_named(name)->writes, plane)) return false;
-      }
-      return true;
-    });
-  }
+  std::vector<const Technique*> begun_;
+  std::vector<std::string> made_;
 };
 
 /// Every setting reaches at least one planned technique, or is an error.
@@ -185,16 +182,18 @@ void apply(const PlanRequest& request, const std::vector<const Technique*>& orde
   }
 }
 
-/// A follower works on the same radius as the technique it follows, unless told otherwise.
+bool reads_from(const Technique& reader, const Technique& writer) {
+  return std::any_of(reader.reads.begin(), reader.reads.end(),
+                     [&](const std::string& plane) { return contains(writer.writes, plane); });
+}
+
+/// A follower works on the same radius as the technique it follows.
 void inherit(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
-  for (size_t i = 0; i < order.size(); ++i) {
-    for (size_t j = 0; j < order.size(); ++j) {
-      if (order[i]->then.empty() || i == j || order[j]->name == order[i]->name) continue;
-      if (order[j]->reads.end() == std::find_first_of(order[j]->reads.begin(), order[j]->reads.end(),
-                                                      order[i]->writes.begin(), order[i]->writes.end()))
-        continue;
-      for (const Parameter& p : order[i]->parameters) {
-        if (values[j].has(p.name)) values[j].set(p.name, values[i].text(p.name), order[j]->name);
+  for (size_t from = 0; from < order.size(); ++from) {
+    for (size_t to = from + 1; to < order.size(); ++to) {
+      if (order[from]->then.empty() || !reads_from(*order[to], *order[from])) continue;
+      for (const Parameter& p : order[from]->parameters) {
+        if (values[to].has(p.name)) values[to].set(p.name, values[from].text(p.name), order[to]->name);
       }
     }
   }
@@ -203,15 +202,10 @@ void inherit(const std::vector<const Technique*>& order, std::vector<ParameterVa
 }  // namespace
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
-  Walk walk(request, available);
-  for (const std::string& output : request.outputs) walk.ask_for(output);
-  walk.drop_unmade_outputs();
-  walk.keep_only(request.only);
-  walk.walk();
-  Plan plan = std::move(walk.plan);
-  plan.technique = technique_named(request.outputs.front()) ? request.outputs.front()
-                   : walk.order.empty()                     ? request.outputs.front()
-                                                            : walk.order.front()->name;
+  const Wanted wanted = wanted_by(request, available);
+  Walk walk(wanted, available);
+  Plan plan;
+  plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   if (!walk.missing.empty()) {
     std::vector<std::string> quoted;
     for (const std::string& plane : walk.missing) quoted.push_back("'" + plane + "'");
@@ -229,6 +223,9 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
     for (Pass& pass : walk.order[i]->passes(values[i]))
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
   }
+  plan.outputs = wanted.outputs;
+  plan.inputs = walk.inputs;
+  plan.skipped = walk.skipped;
   for (const std::string& plane : available) {
     if (!contains(plan.inputs, plane)) plan.skipped.emplace_back(plane, "no pass reads it; not decoded");
   }

@@ -180,17 +180,8 @@ void print_metrics(const std::string& view, const Metrics& m) {
               2);
 }
 
-/// difference.png, or difference.left.png for one of several views.
-std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several) {
-  if (!several) return path;
-  std::filesystem::path with_view = path;
-  return with_view.replace_extension(view + std::filesystem::path(path).extension().string());
-}
-
 void compare_command(const CompareCommand& flags) {
-  if (!flags.picture.empty() && std::filesystem::path(flags.picture).extension() != ".png") {
-    throw UsageError("-o {}: the picture is a PNG; name it with .png", flags.picture);
-  }
+  check_picture_name(flags.picture, "-o");
   const ReadOptions reading = flags.frame_flags.read_options();
   FrameFile test(flags.test, reading);
   ReadOptions reference_reading = reading;

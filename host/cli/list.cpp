@@ -74,13 +74,22 @@ void print_techniques() {
   }
 }
 
+/// How a heading's anchor is spelled: letters, digits and hyphens.
+std::string anchor(const std::string& heading) {
+  std::string text;
+  for (const char c : heading) {
+    if (std::isalnum((unsigned char)c) || c == '-' || c == '_') text += char(std::tolower((unsigned char)c));
+  }
+  return text;
+}
+
 /// docs/techniques.md: one section per technique.
 void print_techniques_markdown() {
   fmt::print(
       "# Techniques\n\nWritten by `gloam list techniques --markdown` from the folders of `kernels/`; do not edit.\n\n");
   fmt::print("| technique | what it does | reads | writes |\n|---|---|---|---|\n");
   for (const Technique& t : registry()) {
-    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, t.name, t.summary, fmt::join(t.reads, ", "),
+    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchor(t.name), t.summary, fmt::join(t.reads, ", "),
                fmt::join(t.writes, ", "));
   }
   for (const Technique& t : registry()) {

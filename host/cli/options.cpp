@@ -213,6 +213,17 @@ Plan plan_for(const FrameFile& file, const PlanRequest& request) {
   return make_plan(request, file.common_planes(), holdings(file));
 }
 
+void check_picture_name(const std::string& path, const std::string& flag) {
+  if (path.empty() || std::filesystem::path(path).extension() == ".png") return;
+  throw UsageError("{} {}: the picture is a PNG; name it with .png", flag, path);
+}
+
+std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several) {
+  if (!several) return path;
+  std::filesystem::path with_view = path;
+  return with_view.replace_extension(view + std::filesystem::path(path).extension().string());
+}
+
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number) {
   std::vector<size_t> widths;
   for (const auto& row : rows) {

@@ -70,6 +70,11 @@ std::string holdings(const FrameFile& file);
 /// A plan for a file; `MissingPlanes` names what it does hold.
 Plan plan_for(const FrameFile& file, const PlanRequest& request);
 
+/// Pictures are PNG; throws UsageError for another ending. Empty names no picture.
+void check_picture_name(const std::string& path, const std::string& flag);
+/// picture.png, or picture.left.png for one of several views.
+std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several);
+
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
 

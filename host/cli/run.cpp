@@ -7,13 +7,14 @@
 #include <memory>
 
 #include "gloam/error.h"
+#include "gloam/visualise.h"
 #include "options.h"
 
 namespace gloam::cli {
 namespace {
 
 struct RunCommand {
-  std::string technique, frame, out, outputs, compression = "zip";
+  std::string technique, frame, out, outputs, picture, compression = "zip";
   bool bare = false, half = false;
   FrameFlags frame_flags;
   TechniqueFlags technique_flags;
@@ -151,6 +152,17 @@ void carry_over(Frame& from, Frame& to, bool bare) {
   }
 }
 
+/// One picture for each view, of the first output.
+std::vector<std::string> write_pictures(const std::string& path, const Frame& frame, const std::string& plane) {
+  std::vector<std::string> paths;
+  if (path.empty()) return paths;
+  for (const View& view : frame.views) {
+    paths.push_back(picture_path(path, view.name, frame.views.size() > 1).string());
+    write_picture(paths.back(), *view.find(plane));
+  }
+  return paths;
+}
+
 void run_command(const RunCommand& flags) {
   Stopwatch watch;
   RunOptions options = flags.run_flags.run_options();
@@ -159,6 +171,7 @@ void run_command(const RunCommand& flags) {
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
   const WriteOptions writing{flags.half, flags.compression};
   check(writing);
+  check_picture_name(flags.picture, "--picture");
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   Plan plan = plan_for(file, request);
   watch.lap("open");
@@ -185,11 +198,13 @@ void run_command(const RunCommand& flags) {
   watch.lap("compute");
   carry_over(frame, result.frame, flags.bare);
   write_frame(flags.out, result.frame, writing);
+  const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, plan.outputs.front());
   watch.lap("write");
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
   fmt::print("wrote {} ({})\n", flags.out, fmt::join(plan.outputs, ", "));
+  for (const std::string& path : pictures) fmt::print("wrote {}\n", path);
 }
 
 }  // namespace
@@ -204,6 +219,7 @@ void add_run(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
   command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
       ->type_name("A,B");
+  command->add_option("--picture", flags->picture, "the first output as a picture for people")->type_name("OUT.png");
   command->add_flag("--bare", flags->bare, "leave depth and cameras out of OUT.exr");
   command->add_flag("--half", flags->half, "write AO as half instead of float");
   command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")

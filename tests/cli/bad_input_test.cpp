@@ -133,10 +133,10 @@ TEST_F(Cli, AFullDiskLeavesTheOldFile) {
   // The first run fills the driver's own cache of kernels, so that the second writes nothing but its output.
   ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr")}).status, 0);
   std::ofstream(path("ao.exr")) << "what was there";
-  // A limit on the size of files fails writes as a full disk does.
+  // A limit on the size of files fails writes as a full disk does; the kernels of a driver stay below it.
   rlimit before;
   getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit tight{100000, before.rlim_max};
+  const rlimit tight{600000, before.rlim_max};
   signal(SIGXFSZ, SIG_IGN);  // inherited: the write fails instead
   setrlimit(RLIMIT_FSIZE, &tight);
   const Result result = gloam({"run", "hbao+", loggia, "-o", path("ao.exr")});
