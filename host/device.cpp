@@ -37,6 +37,8 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
   info.shares_memory = info.type == "cpu";
+  // Rusticl gives its timer a resolution of 0, and timestamps that mean nothing.
+  info.has_timestamps = device.getInfo<CL_DEVICE_PROFILING_TIMER_RESOLUTION>() > 0;
   info.rounds_correctly = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
   info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.largest_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();

@@ -186,15 +186,17 @@ void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, const Frame& 
 }
 
 /// Milliseconds that a launch took, by its event; by the wall clock where the device has no timestamps.
-double launch(cl::CommandQueue& queue, cl::Kernel& kernel, const Layout& layout, int lanes) {
+double launch(Device::Impl& device, cl::Kernel& kernel, const Layout& layout, int lanes) {
   const auto start = std::chrono::steady_clock::now();
   cl::Event event;
-  queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(size_t(layout.pitch / lanes), size_t(layout.height)),
-                             cl::NullRange, nullptr, &event);
+  device.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
+                                    cl::NDRange(size_t(layout.pitch / lanes), size_t(layout.height)), cl::NullRange,
+                                    nullptr, &event);
   event.wait();
   const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
   if (status < 0) throw cl::Error(status, "kernel execution");
+  if (!device.info.has_timestamps) return wall;
   const cl_ulong from = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
   const cl_ulong to = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
   return to > from ? double(to - from) * 1e-6 : wall;
@@ -253,7 +255,7 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
   for (int i = -warm_ups; i < options.repeat; ++i) {
     for (size_t k = 0; k < kernels.size(); ++k) {
       try {
-        const double ms = launch(device.queue, kernels[k], layout, lanes);
+        const double ms = launch(device, kernels[k], layout, lanes);
         if (i >= 0) result.passes[first + k].ms.push_back(ms);
       } catch (const cl::Error& error) {
         throw Error("{} on {}: {} ({})", plan.passes[k].label(), device.info.name, error.what(),

@@ -1,4 +1,4 @@
-// Normals from depth: cross product of the differences to the nearer neighbour on each axis, so that a depth edge on
+// Normals from depth: the plane through the pixel and the nearer neighbour on each axis, so that a depth edge on
 // one side does not tilt them.
 //
 // in : depth   view-space z, scene units, +inf = background
@@ -6,17 +6,20 @@
 #include "shared/camera.h"
 #include "shared/math.h"
 
-// The smaller of two relative depths by size; a neighbour that is not there (or background) counts as infinitely far.
-static inline mask nearer(real a, real b) { return fabs(a) < fabs(b); }
+// A surface steeper than this is seen edge-on; squares stay far from overflow.
+#define STEEPEST ((scalar)1e12f)
 
-// Difference along one axis per pixel of that axis: to the neighbour ahead, or from the one behind; straight across
-// where neither is there.
-static inline real3 along(Frame f, Anchor p, real ahead, real behind, real dx, real dy) {
-  const mask forward = nearer(ahead, behind);
-  const real e = choose(forward, ahead, behind), sign = choose(forward, (real)(1), (real)(-1));
-  const mask lone = e >= FARTHEST;
-  const real3 v = towards(f, p, p.x + dx * sign, p.y + dy * sign, choose(lone, (real)(0), e));
-  return scale3(v, sign);
+// How steeply the surface recedes along one axis: relative depth gained per distance across, on the plane through the
+// pixel and the neighbour that is nearer in depth. `ahead`, `behind`: depths of the neighbours, +inf where there is none;
+// without either the slope is 0. `across`: from pixel to pixel at the pixel's depth.
+static inline real slope(Frame f, Anchor p, real own, real ahead, real behind, real across) {
+  const mask forward = fabs(relative_depth(p, own, ahead)) < fabs(relative_depth(p, own, behind));
+  const real nearer = choose(forward, ahead, behind), sign = choose(forward, (real)(1), (real)(-1));
+  const real depth = choose(is_background(nearer), own, nearer);
+  // A neighbour a times as deep lies a times as far across.
+  const real spread = max(f.perspective * depth * p.inverse_depth + f.parallel, (real)(1e-18f));
+  const real steep = sign * relative_depth(p, own, depth) / (across * spread);
+  return clamp(steep, (real)(-STEEPEST), (real)(STEEPEST));
 }
 
 kernel void normals(Frame frame, PLANE depth, PLANE_OUT normal_x, PLANE_OUT normal_y, PLANE_OUT normal_z) {
@@ -25,20 +28,19 @@ kernel void normals(Frame frame, PLANE depth, PLANE_OUT normal_x, PLANE_OUT norm
   const real z = load(depth, here);
   const Anchor p = anchor_at(frame, to_real(x), (real)(y), z);
 
-  const real none = FARTHEST;
-  const real right = choose(to_mask(x + 1 < frame.width), relative_depth(p, z, load(depth, here + 1)), none);
-  const real left = choose(to_mask(x > 0), relative_depth(p, z, load(depth, here - 1)), none);
-  // Rows are the same for all lanes; the clamped row is not used.
-  const int above_row = max(y - 1, 0), below_row = min(y + 1, frame.height - 1);
-  const real above = y > 0 ? relative_depth(p, z, load(depth, index_of(frame, x0, above_row))) : none;
-  const real below = y + 1 < frame.height ? relative_depth(p, z, load(depth, index_of(frame, x0, below_row))) : none;
+  const real right = choose(to_mask(x + 1 < frame.width), load(depth, here + 1), REAL_INFINITY);
+  const real left = choose(to_mask(x > 0), load(depth, here - 1), REAL_INFINITY);
+  // Rows are the same for all lanes.
+  const real above = y > 0 ? load(depth, here - frame.pitch) : REAL_INFINITY;
+  const real below = y + 1 < frame.height ? load(depth, here + frame.pitch) : REAL_INFINITY;
 
-  const real3 across = along(frame, p, right, left, (real)(1), (real)(0));
-  const real3 up = along(frame, p, above, below, (real)(0), (real)(-1));
-  // Scaled by the pixel's own extent, so that the product neither over- nor underflows.
-  const real3 n = normalise3(cross3(scale3(across, 1 / p.across_x), scale3(up, 1 / p.across_y)));
-  const mask away = dot3(n, view_ray(frame, p.x, p.y)) > 0;
-  const real sign = choose(p.background, (real)(0), choose(away, (real)(-1), (real)(1)));
+  // The neighbours lie along X + a r and Y + b r from the pixel, with X, Y the axes and r the ray from the eye. Their cross
+  // product, written out: the products that would cancel, a b (r x r), are not there, and it faces the eye, as n.r = -1.
+  const real a = slope(frame, p, z, right, left, p.across_x);
+  const real b = slope(frame, p, z, above, below, p.across_y);
+  const real3 r = view_ray(frame, p.x, p.y);
+  const real3 n = normalise3(make3(a, b, 1 + a * r.x + b * r.y));
+  const real sign = choose(p.background, (real)(0), (real)(1));
   store(n.x * sign, normal_x, here);
   store(n.y * sign, normal_y, here);
   store(n.z * sign, normal_z, here);

@@ -1,0 +1,141 @@
+// The cross-bilateral filter where its result is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "gloam/exr.h"
+#include "support/frames.h"
+#include "support/techniques.h"
+
+namespace gloam::test {
+namespace {
+
+Channel filtered(Frame& frame, const Settings& settings = {}) {
+  const Frame out = outputs_of(find_technique("bilateral"), frame, settings, {.math = Math::precise});
+  return out.views[0].find("ao")->channels[0].clone();
+}
+
+void set_raw(Frame& frame, const std::function<float(int, int)>& value) {
+  Channel& raw = plane_of(frame, "ao_raw").channels[0];
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) raw.at(x, y) = value(x, y);
+  }
+  normalise(frame);
+}
+
+std::function<float(int, int)> noise(uint32_t seed) {
+  return [random = std::mt19937(seed)](int, int) mutable { return float(random() >> 8) * 0x1p-24f; };
+}
+
+TEST(Bilateral, ConstantStaysConstant) {
+  Frame frame = shoot(perspective(90, 70), room());
+  set_raw(frame, [](int, int) { return 0.37f; });
+  const Channel out = filtered(frame);
+  double worst = 0;
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 90; ++x) {
+      if (!is_background(plane_of(frame, "depth").channels[0].at(x, y)))
+        worst = std::max(worst, std::abs(double(out.at(x, y)) - 0.37f));
+    }
+  }
+  std::printf("bilateral, constant image: largest change %.2g\n", worst);
+  EXPECT_LE(worst, 1e-6);
+}
+
+TEST(Bilateral, DoesNotBleedOverADepthEdge) {
+  for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 3)}) {
+    const Scene steps = [](const EyeRay& ray) -> std::optional<Surface> {
+      const bool near = ray.origin.x + ray.direction.x < 0.01;
+      return Surface{near ? 2.0 : 2.2, {0, 0, 1}};
+    };
+    Frame frame = shoot(shot, steps);
+    set_raw(frame, [&](int x, int y) { return plane_of(frame, "depth").channels[0].at(x, y) < 2.1f ? 0.2f : 0.9f; });
+    const Channel out = filtered(frame);
+    double worst = 0;
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 80; ++x)
+        worst = std::max(worst, std::abs(double(out.at(x, y)) - plane_of(frame, "ao_raw").channels[0].at(x, y)));
+    }
+    std::printf("bilateral, step of 0.7 on an edge of 2 depth tolerances, %s: largest change %.2g\n",
+                shot.camera.orthographic ? "orthographic" : "perspective", worst);
+    EXPECT_LE(worst, 1e-6);
+  }
+}
+
+double variance(const Channel& channel, int border) {
+  double sum = 0, squares = 0, count = 0;
+  for (int y = border; y < channel.layout().height - border; ++y) {
+    for (int x = border; x < channel.layout().width - border; ++x) {
+      sum += channel.at(x, y);
+      squares += double(channel.at(x, y)) * double(channel.at(x, y));
+      ++count;
+    }
+  }
+  return squares / count - sum / count * sum / count;
+}
+
+TEST(Bilateral, ReducesNoiseAsItsWindowSays) {
+  for (const int half_width : {2, 4, 8}) {
+    double sum = 0, squares = 0;
+    for (int k = -half_width; k <= half_width; ++k) {
+      const double t = double(k) / (half_width + 1), window = (1 - t * t) * (1 - t * t);
+      sum += window;
+      squares += window * window;
+    }
+    const double predicted = std::pow(squares / (sum * sum), 2);  // once across, once down
+    Frame frame = shoot(perspective(400, 400), tilted_plane(2, 0, 0));
+    double before = 0, after = 0;
+    constexpr int images = 5;
+    for (uint32_t seed = 1; seed <= images; ++seed) {
+      set_raw(frame, noise(seed));
+      const Channel out = filtered(frame, {{"half_width", fmt::format("{}", half_width)}});
+      before += variance(plane_of(frame, "ao_raw").channels[0], half_width);
+      after += variance(out, half_width);
+    }
+    std::printf("bilateral, half width %d: variance of noise times %.5f, the window says %.5f\n", half_width,
+                after / before, predicted);
+    // 160000 pixels an image, of which one in 1/predicted is independent: standard error of a variance sqrt(2/n).
+    EXPECT_NEAR(after / before / predicted, 1, 3 * std::sqrt(2 / (images * 160000 * predicted)));
+  }
+}
+
+Frame transposed(const Frame& frame) {
+  Frame other = blank(perspective(frame.height(), frame.width()));
+  Camera& camera = *other.views[0].camera;
+  camera.fx = camera.fy = frame.views[0].camera->fx;
+  for (const auto& [name, plane] : frame.views[0].planes) {
+    Plane& to = plane_of(other, name);
+    for (size_t i = 0; i < plane.channels.size(); ++i) {
+      // Rows become columns: x and -y of a normal change places.
+      const size_t from = name == "normal" && i < 2 ? 1 - i : i;
+      const float sign = name == "normal" && i < 2 ? -1.0f : 1.0f;
+      for (int y = 0; y < other.height(); ++y) {
+        for (int x = 0; x < other.width(); ++x) to.channels[i].at(x, y) = sign * plane.channels[from].at(y, x);
+      }
+    }
+  }
+  normalise(other);
+  return other;
+}
+
+double asymmetry(const Scene& scene) {
+  Frame frame = shoot(perspective(90, 70), scene);
+  set_raw(frame, noise(3));
+  Frame turned = transposed(frame);
+  const Channel a = filtered(frame), b = filtered(turned);
+  double worst = 0;
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 90; ++x) worst = std::max(worst, std::abs(double(a.at(x, y)) - b.at(y, x)));
+  }
+  return worst;
+}
+
+TEST(Bilateral, RowsAndColumnsAlike) {
+  const double plane = asymmetry(tilted_plane(2, 0.8, 0.5)), edges = asymmetry(room());
+  std::printf("bilateral, rows against columns: %.2g on a plane, %.2g where edges make it inseparable\n", plane, edges);
+  EXPECT_LE(plane, 1e-6);
+}
+
+}  // namespace
+}  // namespace gloam::test

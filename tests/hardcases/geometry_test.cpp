@@ -1,0 +1,174 @@
+// Hard cases 2, 3 and 8: planes at any tilt and depth, the unit of the scene, radii of any size.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gloam/exr.h"
+#include "gloam/planes.h"
+#include "hard_case.h"
+
+namespace gloam::test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+std::string camera_name(const Shot& shot) { return shot.camera.orthographic ? "orthographic" : "perspective"; }
+
+/// Of all of the plane in front of the eye, whatever its tilt: where a plane is cut off, its last pixel may have no
+/// neighbour left or right and none tells how it is tilted that way.
+Shot shot_of_plane(bool is_orthographic, double depth, double tilt) {
+  if (!is_orthographic) return perspective(112, 80);
+  return orthographic(112, 80, depth / std::max(1.0, std::tan(tilt)));
+}
+
+/// Worst distance from open over tilts, turns, depths and lane widths; `where` says at which.
+double worst_on_planes(const Technique& technique, bool is_orthographic, bool with_normals, std::string& where) {
+  double worst = -1;
+  for (const double depth : {1e-3, 1.0, 1e3, 1e6}) {
+    for (const double tilt : {0.0, 35.0, 60.0, 80.0, 89.0, 89.9}) {
+      for (const double turn : {0.0, 40.0, 90.0}) {
+        const Shot shot = shot_of_plane(is_orthographic, depth, tilt * degree);
+        Frame frame = shoot(shot, tilted_plane(depth, tilt * degree, turn * degree), with_normals);
+        const Plan plan =
+            plan_for(technique, frame, set_lengths(technique, frame, [&](double) { return 0.1 * depth; }));
+        for (const int lanes : usual_lanes(device())) {
+          const Frame out = run(plan, frame, device(), {.lanes = lanes}).frame;
+          const double here = worst_distance_from_open(plan, out);
+          if (here > worst) where = fmt::format("depth {}, tilt {}, turn {}, lanes {}", depth, tilt, turn, lanes);
+          worst = std::max(worst, here);
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+TEST_P(HardCase, Row02TiltedPlaneReadsOpen) {
+  SKIP_WHERE_OPTED_OUT(2);
+  Frame probe = shoot(perspective(8, 8), tilted_plane(1, 0, 0), false);
+  if (unit_interval_outputs(plan_for(technique(), probe)).empty()) GTEST_SKIP() << "makes no plane of 0..1";
+  for (const bool is_orthographic : {false, true}) {
+    for (const bool with_normals : {true, false}) {
+      std::string where;
+      const double worst = worst_on_planes(technique(), is_orthographic, with_normals, where);
+      report(2,
+             fmt::format("tilted plane, {}, {}; at {}", is_orthographic ? "orthographic" : "perspective",
+                         with_normals ? "exact normals" : "normals from depth", where),
+             worst, 1e-6);
+    }
+  }
+}
+
+/// The same view of the same scene with another unit of length.
+Frame scaled(const Frame& frame, int k) {
+  Frame copy = clone(frame);
+  Camera& camera = *copy.views[0].camera;
+  if (camera.orthographic) {
+    camera.fx = std::ldexp(camera.fx, -k);
+    camera.fy = std::ldexp(camera.fy, -k);
+  }
+  for (auto& [name, plane] : copy.views[0].planes) {
+    if (plane_kind(name).meaning != PlaneKind::view_depth && name != "position") continue;
+    for (Channel& channel : plane.channels) {
+      for (int y = 0; y < copy.height(); ++y) {
+        for (int x = 0; x < copy.width(); ++x) channel.at(x, y) = std::ldexp(channel.at(x, y), k);
+      }
+    }
+  }
+  return copy;
+}
+
+/// Depths and positions among the outputs grow with the scene; everything else stays.
+Frame unscaled(const Frame& frame, int k) { return scaled(frame, -k); }
+
+TEST_P(HardCase, Row03UnitOfTheScene) {
+  SKIP_WHERE_OPTED_OUT(3);
+  int changed = 0, tried = 0;
+  for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 4)}) {
+    for (const bool with_normals : {true, false}) {
+      Frame frame = shoot(shot, room(), with_normals);
+      plan_for(technique(), frame);  // adds what nothing makes, before it is scaled
+      for (const Math math : {Math::precise, Math::fast}) {
+        for (const int lanes : usual_lanes(device())) {
+          const RunOptions options{.math = math, .lanes = lanes};
+          const Frame expected = outputs_of(technique(), frame, {}, options);
+          for (int k = -20; k <= 20; k += 4) {
+            Frame bigger = scaled(frame, k);
+            const Settings lengths =
+                set_lengths(technique(), bigger, [&](double length) { return std::ldexp(length, k); });
+            const Frame out = unscaled(outputs_of(technique(), bigger, lengths, options), k);
+            ++tried;
+            if (same_bits(out, expected)) continue;
+            if (++changed <= 5) {
+              ADD_FAILURE() << "2^" << k << ", " << camera_name(shot) << ", lanes " << lanes
+                            << (math == Math::fast ? ", fast" : ", precise") << ": differs by up to "
+                            << difference(out, expected).max;
+            }
+          }
+        }
+      }
+    }
+  }
+  report(3, fmt::format("share of {} scaled images with other bits", tried), double(changed) / tried, 0);
+}
+
+TEST_P(HardCase, Row08RadiusZeroIsOpen) {
+  SKIP_WHERE_OPTED_OUT(8);
+  double worst = 0;
+  for (const Shot& shot : {perspective(64, 48), orthographic(64, 48, 4)}) {
+    for (const bool with_normals : {true, false}) {
+      Frame frame = shoot(shot, room(), with_normals);
+      const Settings zero = set_lengths(technique(), frame, [](double) { return 0.0; });
+      for (const Settings& variant : variants(technique(), frame)) {
+        const Plan plan = plan_for(technique(), frame, variant + zero);
+        for (const int lanes : usual_lanes(device())) {
+          const Frame out = run(plan, frame, device(), {.lanes = lanes}).frame;
+          EXPECT_EQ(violation(out), "") << text_of(variant);
+          if (zero.empty()) continue;  // no parameter is a length
+          worst = std::max(worst, worst_distance_from_open(plan, out));
+        }
+      }
+    }
+  }
+  report(8, "distance from open at radius 0", worst, 0);
+}
+
+/// A hand's breadth before the eye beside a mountain, pixel by pixel and in halves.
+Scene near_and_far() {
+  return [](const EyeRay& ray) -> std::optional<Surface> {
+    const glm::dvec3 side = ray.origin + ray.direction;
+    const bool near = side.y > 0 ? side.x > 0 : (long(std::floor(side.x * 40)) & 1) != 0;
+    return Surface{near ? 1e-6 : 1e6, {0, 0, 1}};
+  };
+}
+
+TEST_P(HardCase, Row08RadiusOfAnySizeIsDefined) {
+  SKIP_WHERE_OPTED_OUT(8);
+  int tried = 0, wrong = 0;
+  for (const Shot& shot : {perspective(64, 48), orthographic(64, 48, 4), orthographic(64, 48, 1e-5)}) {
+    for (const Scene& scene : {room(), near_and_far()}) {
+      for (const bool with_normals : {true, false}) {
+        Frame frame = shoot(shot, scene, with_normals);
+        for (const double length : {1e-30, 1e-6, 0.01, 100.0, 1e8, 1e30, std::numeric_limits<double>::infinity()}) {
+          const Settings lengths = set_lengths(technique(), frame, [&](double) { return length; });
+          for (const int lanes : usual_lanes(device())) {
+            for (const Math math : {Math::precise, Math::fast}) {
+              ++tried;
+              const std::string found =
+                  violation(outputs_of(technique(), frame, lengths, {.math = math, .lanes = lanes}));
+              wrong += !found.empty();
+              EXPECT_EQ(found, "") << camera_name(shot) << ", length " << length << ", lanes " << lanes;
+            }
+          }
+        }
+      }
+    }
+  }
+  report(8,
+         fmt::format("share of {} images with a value out of its range: radius under a pixel to infinite, near eye",
+                     tried),
+         double(wrong) / tried, 0);
+}
+
+}  // namespace
+}  // namespace gloam::test

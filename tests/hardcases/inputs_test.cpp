@@ -1,0 +1,175 @@
+// Hard cases 1 and 7: whatever stands in the planes.
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "gloam/exr.h"
+#include "gloam/planes.h"
+#include "hard_case.h"
+
+namespace gloam::test {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+
+/// What files are known to hold where they should not, and floats of any size.
+float any_value(std::mt19937& random) {
+  static const float specials[] = {nan,    inf,    -inf,  0,     -0.0f,  -1,    -1e38f, 1e-45f, 1e-39f,
+                                   1e-30f, 1e-20f, 1e-6f, 65504, 9.9e9f, 1e38f, 1,      0.5f,   3.4e38f};
+  const uint32_t draw = random();
+  if (draw % 4 == 0) return specials[draw / 4 % std::size(specials)];
+  if (draw % 4 == 1) return std::bit_cast<float>(uint32_t(random()));
+  if (draw % 4 == 2) return std::pow(10.0f, float(draw / 4 % 400) / 10 - 30);
+  return 1 + float(draw / 4 % 1000) * 1e-3f;  // a surface, so that neighbours are near each other somewhere
+}
+
+void fuzz(Frame& frame, uint32_t seed) {
+  std::mt19937 random(seed);
+  for (auto& [name, plane] : frame.views[0].planes) {
+    for (Channel& channel : plane.channels) {
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) channel.at(x, y) = any_value(random);
+      }
+    }
+  }
+  normalise(frame);
+}
+
+/// All planes that the technique could ever take, all of them fuzzed.
+Frame fuzzed_frame(const Technique& technique, const Shot& shot, uint32_t seed, bool with_normals) {
+  Frame frame = blank(shot);
+  plane_of(frame, "depth");
+  for (const std::string& name : technique.reads) {
+    if (with_normals || name == "depth") plane_of(frame, name);
+  }
+  plan_for(technique, frame);  // adds what nothing makes
+  fuzz(frame, seed);
+  return frame;
+}
+
+/// One setting each: every float parameter of the technique at both ends of its range.
+std::vector<Settings> extremes(const Technique& technique) {
+  std::vector<Settings> all = {{}};
+  for (const Parameter& p : technique.parameters) {
+    if (p.type != Parameter::Type::floating) continue;
+    for (const double value : {p.min, p.max})
+      all.push_back({{technique.name + "." + p.name, std::isinf(value) ? "inf" : fmt::format("{}", value)}});
+  }
+  return all;
+}
+
+class Fuzz {
+ public:
+  explicit Fuzz(const Technique& technique) : technique_(technique) {}
+
+  /// `settings`: which, for a frame.
+  void run(const Shot& shot, bool with_normals, const std::function<std::vector<Settings>(Frame&)>& settings) {
+    Frame frame = fuzzed_frame(technique_, shot, ++seed_, with_normals);
+    for (const Settings& setting : settings(frame)) {
+      for (const int lanes : usual_lanes(device())) {
+        for (const Math math : {Math::precise, Math::fast}) check(frame, setting, {.math = math, .lanes = lanes});
+      }
+    }
+  }
+  int images = 0, violations = 0;
+
+ private:
+  void check(Frame& frame, const Settings& setting, const RunOptions& options) {
+    ++images;
+    const std::string wrong = violation(outputs_of(technique_, frame, setting, options));
+    if (wrong.empty()) return;
+    if (++violations > 5) return;
+    const Camera& camera = *frame.views[0].camera;
+    ADD_FAILURE() << wrong << "; seed " << seed_ << ", " << frame.width() << "x" << frame.height() << ", "
+                  << (camera.orthographic ? "orthographic" : "perspective") << " fx " << camera.fx << ", "
+                  << text_of(setting) << ", lanes " << options.lanes
+                  << (options.math == Math::fast ? ", fast" : ", precise");
+  }
+  const Technique& technique_;
+  uint32_t seed_ = 0;
+};
+
+TEST_P(HardCase, Row01AnyInput) {
+  SKIP_WHERE_OPTED_OUT(1);
+  Fuzz fuzz(technique());
+  const auto defaults = [](Frame&) -> std::vector<Settings> { return {{}}; };
+  const auto ends_of_ranges = [&](Frame&) { return extremes(technique()); };
+  const auto choices = [&](Frame& frame) { return variants(technique(), frame); };
+  for (const auto& [width, height] : {std::pair(1, 1), {1, 9}, {40, 1}, {17, 13}, {96, 48}}) {
+    for (const bool with_normals : {true, false}) {
+      for (const Shot& shot :
+           {perspective(width, height), perspective(width, height, 179), perspective(width, height, 1),
+            orthographic(width, height, 8), orthographic(width, height, 1e-6), orthographic(width, height, 1e8)}) {
+        fuzz.run(shot, with_normals, defaults);
+      }
+    }
+  }
+  for (const bool with_normals : {true, false}) {
+    for (const Shot& shot : {perspective(64, 32), orthographic(64, 32, 8)}) {
+      fuzz.run(shot, with_normals, ends_of_ranges);
+      fuzz.run(shot, with_normals, choices);
+    }
+  }
+  report(1, fmt::format("share of {} fuzzed images with a value out of its range", fuzz.images),
+         double(fuzz.violations) / fuzz.images, 0);
+}
+
+void set_normals(Frame& frame, const std::function<float(float, int, int)>& change) {
+  for (Channel& channel : plane_of(frame, "normal").channels) {
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) channel.at(x, y) = change(channel.at(x, y), x, y);
+    }
+  }
+  normalise(frame);
+}
+
+TEST_P(HardCase, Row07Normals) {
+  SKIP_WHERE_OPTED_OUT(7);
+  const std::vector<std::pair<const char*, std::function<float(float, int, int)>>> changes = {
+      {"zero", [](float, int, int) { return 0.0f; }},
+      {"NaN", [](float, int, int) { return nan; }},
+      {"NaN and zero here and there",
+       [](float n, int x, int y) { return (x + y) % 3 == 0   ? nan
+                                          : (x * y) % 5 == 0 ? 0
+                                                             : n; }},
+      {"facing away", [](float n, int, int) { return -n; }},
+      {"infinite", [](float n, int, int) { return n * inf; }}};
+  for (const int lanes : usual_lanes(device())) {
+    const RunOptions options{.lanes = lanes};
+    for (const auto& [what, change] : changes) {
+      Frame frame = shoot(perspective(80, 60), room());
+      set_normals(frame, change);
+      EXPECT_EQ(violation(outputs_of(technique(), frame, {}, options)), "") << what;
+    }
+    Frame unit = shoot(perspective(80, 60), room());
+    const Frame expected = outputs_of(technique(), unit, {}, options);
+    double worst = 0;
+    for (const float length : {1000.0f, 1e-20f, 0.5f, 1e18f}) {
+      Frame frame = shoot(perspective(80, 60), room());
+      set_normals(frame, [&](float n, int, int) { return n * length; });
+      worst = std::max(worst, difference(outputs_of(technique(), frame, {}, options), expected).max);
+    }
+    // A normal that went through another length comes back to within two roundings of each component.
+    report(7, fmt::format("normals of any length against unit ones, lanes {}", lanes), worst, 1e-5);
+  }
+}
+
+/// In an image of one pixel every sample is the point itself.
+TEST_P(HardCase, Row07SampleOnThePointItself) {
+  SKIP_WHERE_OPTED_OUT(7);
+  double worst = 0;
+  for (const Shot& shot : {perspective(1, 1), orthographic(1, 1, 1)}) {
+    for (const int lanes : usual_lanes(device())) {
+      Frame frame = shoot(shot, tilted_plane(2, 0.5, 1));
+      const Plan plan = plan_for(technique(), frame);
+      const Frame out = run(plan, frame, device(), {.lanes = lanes}).frame;
+      EXPECT_EQ(violation(out), "");
+      worst = std::max(worst, worst_distance_from_open(plan, out));
+    }
+  }
+  report(7, "distance from open with nothing but the point itself", worst, 0);
+}
+
+}  // namespace
+}  // namespace gloam::test

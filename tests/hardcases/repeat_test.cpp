@@ -1,0 +1,105 @@
+// Hard cases 13 and 14: the same image from every lane width and every device; what float and fast mathematics cost.
+#include <cmath>
+
+#include "hard_case.h"
+
+namespace gloam::test {
+namespace {
+
+std::vector<Shot> shots() { return {perspective(93, 61), orthographic(93, 61, 4)}; }
+
+/// Whether the result of a plan has any reason to change with the seed.
+bool uses_seed(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (kernel_text(*planned.technique).find(".seed") != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST_P(HardCase, Row13Seed) {
+  SKIP_WHERE_OPTED_OUT(13);
+  int changed = 0;
+  for (const Shot& shot : shots()) {
+    for (const Math math : {Math::precise, Math::fast}) {
+      Frame frame = shoot(shot, room(), false);
+      const Frame first = outputs_of(technique(), frame, {}, {.math = math, .seed = 5});
+      const Frame again = outputs_of(technique(), frame, {}, {.math = math, .seed = 5});
+      const Frame other = outputs_of(technique(), frame, {}, {.math = math, .seed = 6});
+      changed += !same_bits(first, again);
+      EXPECT_EQ(!same_bits(first, other), uses_seed(plan_for(technique(), frame)));
+    }
+  }
+  report(13, "images of 4 that change from run to run with one seed", changed, 0);
+}
+
+TEST_P(HardCase, Row13LaneWidths) {
+  SKIP_WHERE_OPTED_OUT(13);
+  int changed = 0;
+  double worst = 0;
+  for (const Shot& shot : shots()) {
+    for (const bool with_normals : {true, false}) {
+      Frame frame = shoot(shot, room(), with_normals);
+      const Frame precise = outputs_of(technique(), frame, {}, {.math = Math::precise, .lanes = 1});
+      const Frame fast = outputs_of(technique(), frame, {}, {.math = Math::fast, .lanes = 1});
+      for (const int lanes : {4, 8, 16}) {
+        const bool same =
+            same_bits(outputs_of(technique(), frame, {}, {.math = Math::precise, .lanes = lanes}), precise);
+        EXPECT_TRUE(same) << "lanes " << lanes;
+        changed += !same;
+        worst = std::max(
+            worst, difference(outputs_of(technique(), frame, {}, {.math = Math::fast, .lanes = lanes}), fast).max);
+      }
+    }
+  }
+  report(13, "precise: images of 12 with other bits than with one lane", changed, 0);
+  report(13, "fast: difference to one lane", worst, 1e-5);
+}
+
+TEST_P(HardCase, Row13SecondDevice) {
+  SKIP_WHERE_OPTED_OUT(13);
+  const char* second = "llvmpipe";
+  if (!has_device(second)) {
+    std::printf("hard case 13  %s  not run: no %s (Debian: mesa-opencl-icd)\n", technique().name.c_str(), second);
+    GTEST_SKIP() << "no OpenCL device " << second << "; Debian's mesa-opencl-icd brings one";
+  }
+  int changed = 0;
+  double worst = 0;
+  for (const Shot& shot : shots()) {
+    for (const bool with_normals : {true, false}) {
+      Frame frame = shoot(shot, room(), with_normals);
+      const RunOptions precise{.math = Math::precise}, fast{.math = Math::fast};
+      const bool same =
+          same_bits(outputs_of(technique(), frame, {}, precise), outputs_of(technique(), frame, {}, precise, second));
+      EXPECT_TRUE(same) << difference(outputs_of(technique(), frame, {}, precise),
+                                      outputs_of(technique(), frame, {}, precise, second))
+                               .max;
+      changed += !same;
+      worst = std::max(
+          worst,
+          difference(outputs_of(technique(), frame, {}, fast), outputs_of(technique(), frame, {}, fast, second)).max);
+    }
+  }
+  report(13, "precise: images of 4 with other bits on Rusticl", changed, 0);
+  report(13, "fast: difference between PoCL and Rusticl", worst, 1e-5);
+}
+
+/// Stated rather than bounded by an argument: a sample that falls on the border of a pixel may be another pixel's in
+/// double, and one sample of many is then another one.
+TEST_P(HardCase, Row14FloatAgainstDouble) {
+  SKIP_WHERE_OPTED_OUT(14);
+  if (!device().info().has_double) GTEST_SKIP() << device().info().name << " has no double";
+  for (const bool with_normals : {true, false}) {
+    Frame frame = shoot(perspective(160, 120), room(), with_normals);
+    const Frame exact = outputs_of(technique(), frame, {}, {.math = Math::precise, .real = Real::float64});
+    for (const Math math : {Math::precise, Math::fast}) {
+      const Difference d = difference(outputs_of(technique(), frame, {}, {.math = math}), exact);
+      report(14,
+             fmt::format("{}, {}: mean difference to double, largest {:.2g}", math == Math::fast ? "fast" : "precise",
+                         with_normals ? "exact normals" : "normals from depth", d.max),
+             d.mean, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test

@@ -1,0 +1,189 @@
+#include "support/frames.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "analytic_scene.h"
+#include "gloam/exr.h"
+#include "gloam/planes.h"
+
+namespace gloam::test {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Number at the end of "peel.03"; 0 for other names.
+int layer_of(const std::string& name) {
+  const size_t dot = name.find('.');
+  return dot == std::string::npos ? 0 : std::atoi(name.c_str() + dot + 1);
+}
+
+/// 0..1, without order but the same every time.
+float pattern(int x, int y, int component) {
+  const uint32_t mixed = analytic::hash(uint32_t(x) + 4099u * uint32_t(y) + 65599u * uint32_t(component));
+  return float(mixed >> 8) * 0x1p-24f;
+}
+
+/// The camera of the only view, as a shot of the whole window.
+Shot shot_of(const Frame& frame) { return {*frame.views[0].camera, frame.width(), frame.height()}; }
+
+float invented_value(const PlaneKind& kind, const Frame& frame, int component, int x, int y) {
+  const View& view = frame.views[0];
+  const float depth = view.find("depth")->channels[0].at(x, y);
+  if (kind.meaning == PlaneKind::view_depth) return depth * (1 + 0.1f * float(layer_of(kind.name)));
+  if (kind.meaning == PlaneKind::unit_vector) {
+    const Plane* normal = view.find("normal");
+    return normal ? normal->channels[size_t(component)].at(x, y) : component == 2 ? 1.0f : 0.0f;
+  }
+  if (kind.name == "position") {
+    const EyeRay ray = ray_through(shot_of(frame), x + 0.5, y + 0.5);
+    return is_background(depth) ? 0 : float((ray.origin + double(depth) * ray.direction)[component]);
+  }
+  return pattern(x, y, component);
+}
+
+}  // namespace
+
+Shot perspective(int width, int height, double fov) {
+  Shot shot{{}, width, height};
+  shot.camera.fx = shot.camera.fy = 0.5 * width / std::tan(0.5 * fov * std::numbers::pi / 180);
+  shot.camera.cx = 0.5 * width;
+  shot.camera.cy = 0.5 * height;
+  return shot;
+}
+
+Shot orthographic(int width, int height, double units_across) {
+  Shot shot{{}, width, height};
+  shot.camera.orthographic = true;
+  shot.camera.fx = shot.camera.fy = width / units_across;
+  shot.camera.cx = 0.5 * width;
+  shot.camera.cy = 0.5 * height;
+  return shot;
+}
+
+EyeRay ray_through(const Shot& shot, double x, double y) {
+  const glm::dvec3 aside((x - shot.camera.cx) / shot.camera.fx, (shot.camera.cy - y) / shot.camera.fy, 0);
+  const glm::dvec3 ahead(0, 0, -1);
+  return shot.camera.orthographic ? EyeRay{aside, ahead} : EyeRay{glm::dvec3(0), aside + ahead};
+}
+
+Scene tilted_plane(double depth, double tilt, double turn) {
+  const glm::dvec3 normal(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt));
+  const glm::dvec3 point(0, 0, -depth);
+  return [=](const EyeRay& ray) -> std::optional<Surface> {
+    const double facing = glm::dot(normal, ray.direction);
+    const double t = glm::dot(normal, point - ray.origin) / facing;
+    if (!(facing < 0) || !(t > 0)) return {};
+    return Surface{t, normal};
+  };
+}
+
+Scene within(Scene scene, double half_x, double half_y) {
+  return [=](const EyeRay& ray) -> std::optional<Surface> {
+    const std::optional<Surface> seen = scene(ray);
+    if (!seen) return {};
+    const glm::dvec3 point = ray.origin + seen->depth * ray.direction;
+    return std::abs(point.x) <= half_x && std::abs(point.y) <= half_y ? seen : std::nullopt;
+  };
+}
+
+Scene solids(const analytic::Scene& scene) {
+  return [scene](const EyeRay& ray) -> std::optional<Surface> {
+    const double length = glm::length(ray.direction);
+    const auto hit = analytic::first_hit(scene, {ray.origin, ray.direction / length});
+    if (!hit) return {};
+    return Surface{hit->distance / length, hit->normal};
+  };
+}
+
+Scene looking_down(Scene scene, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto turned = [](const glm::dvec3& v, double c, double s) {
+    return glm::dvec3(v.x, c * v.y + s * v.z, c * v.z - s * v.y);
+  };
+  return [=](const EyeRay& ray) -> std::optional<Surface> {
+    std::optional<Surface> seen = scene({turned(ray.origin, c, s), turned(ray.direction, c, s)});
+    if (seen) seen->normal = turned(seen->normal, c, -s);
+    return seen;
+  };
+}
+
+Scene room() {
+  analytic::Scene scene;
+  const glm::vec3 grey(0.5f);
+  scene.add(analytic::make_box({-9, -2, -9}, {1.1, -0.6, 9}), grey);
+  scene.add(analytic::make_box({-9, -2, -9}, {0.9, 0.5, -3.2}), grey);
+  scene.add(analytic::make_box({-9, -2, -9}, {-1.2, 9, 9}), grey);
+  scene.add(analytic::make_box({0.3, -2, -3.0}, {0.9, -0.4, -2.0}), grey);
+  scene.add(analytic::make_sphere({-0.3, -0.3, -2.5}, 0.3), grey);
+  return looking_down(solids(scene), 0.35);
+}
+
+Frame blank(const Shot& shot) {
+  Frame frame;
+  frame.display = frame.window = {0, 0, shot.width, shot.height};
+  frame.views.resize(1);
+  frame.views[0].camera = shot.camera;
+  return frame;
+}
+
+Frame shoot(const Shot& shot, const Scene& scene, bool with_normals) {
+  Frame frame = blank(shot);
+  plane_of(frame, "depth");
+  if (with_normals) plane_of(frame, "normal");
+  for (int y = 0; y < shot.height; ++y) {
+    for (int x = 0; x < shot.width; ++x) {
+      const std::optional<Surface> seen = scene(ray_through(shot, x + 0.5, y + 0.5));
+      plane_of(frame, "depth").channels[0].at(x, y) = seen ? float(seen->depth) : infinity;
+      if (!with_normals) continue;
+      for (int i = 0; i < 3; ++i)
+        plane_of(frame, "normal").channels[size_t(i)].at(x, y) = seen ? float(seen->normal[i]) : 0;
+    }
+  }
+  normalise(frame);
+  return frame;
+}
+
+Plane& plane_of(Frame& frame, const std::string& name) {
+  Plane& plane = frame.views[0].planes[name];
+  if (!plane.channels.empty()) return plane;
+  plane.name = name;
+  const PlaneKind kind = plane_kind(name);
+  for (size_t i = 0; i < kind.components.size(); ++i)
+    plane.channels.emplace_back(Layout(frame.width(), frame.height()), kind.outside);
+  return plane;
+}
+
+std::vector<std::string> plane_names(const Frame& frame) {
+  std::vector<std::string> names;
+  for (const auto& [name, plane] : frame.views[0].planes) names.push_back(name);
+  return names;
+}
+
+Frame clone(const Frame& frame) {
+  Frame copy;
+  copy.display = frame.display;
+  copy.window = frame.window;
+  copy.assumed = frame.assumed;
+  for (const View& view : frame.views) {
+    copy.views.push_back({view.name, view.camera, view.origin, {}});
+    for (const auto& [name, plane] : view.planes) copy.views.back().planes.emplace(name, plane.clone());
+  }
+  return copy;
+}
+
+void invent_plane(Frame& frame, const std::string& name) {
+  const PlaneKind kind = plane_kind(name);
+  Plane& plane = plane_of(frame, name);
+  for (size_t i = 0; i < plane.channels.size(); ++i) {
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) plane.channels[i].at(x, y) = invented_value(kind, frame, int(i), x, y);
+    }
+  }
+  normalise(frame);
+}
+
+}  // namespace gloam::test
