@@ -8,15 +8,16 @@
 // with the squared distance to 0 at the radius. `inverse_square` is 1 / radius^2 in the units of v. A sample on the
 // point itself contributes nothing.
 static inline real obscurance(real3 v, real3 n, scalar bias, real inverse_square) {
-  const real vv = dot3(v, v);
-  // Below 1e-30 (1e-15 depths) the point itself is meant; the guard keeps 0/0 away.
-  const real cosine = dot3(n, v) * inverse_sqrt(max(vv, (real)(1e-30f)));
+  // The point itself is 0 away: what is far below its square (1e-15 depths) keeps 0/0 away.
+  const real vv = multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
+  // The cosine less the bias.
+  const real above = multiply_add(fused_dot3(scale3(n, (scalar)0.5), v), twice_inverse_sqrt(vv), (real)(-bias));
 #ifdef NO_FALLOFF
   const real weight = choose(vv * inverse_square < 1, (real)(1), (real)(0));
 #else
-  const real weight = max(1 - vv * inverse_square, (real)(0));
+  const real weight = max(multiply_add(-vv, inverse_square, (real)(1)), (real)(0));
 #endif
-  return max(cosine - bias, (real)(0)) * weight;
+  return max(above, (real)(0)) * weight;
 }
 
 #endif

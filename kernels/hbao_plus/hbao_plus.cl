@@ -10,37 +10,71 @@
 #include "hbao_plus/params.h"
 #include "shared/sample.h"
 
+// Where a pixel looks.
+typedef struct {
+  real cosine, sine;        // of the first direction
+  real stride_x, stride_y;  // from step to step, pixels
+  real shift;               // of the steps, 0 to 1
+} Fan;
+
+// Inlined by order: called, it is 8 % slower. `depth` has no `restrict` because oclgrind knows no inlined one.
+static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, HbaoPlusParams params,
+                                                                    global const float* depth, int here, Anchor point,
+                                                                    real z, real3 n, Fan fan, real inverse_square,
+                                                                    int within) {
+  real cosine = fan.cosine, sine = fan.sine, turn_cosine, turn_sine, sum = 0;
+  cosine_sine_of_turns((real)((scalar)1 / DIRECTIONS), &turn_cosine, &turn_sine);
+  for (int d = 0; d < DIRECTIONS; ++d) {
+#pragma unroll
+    for (int k = 0; k < STEPS; ++k) {
+      // From one pixel away to the radius.
+      integer dx = nearest(cosine * (1 + (fan.shift + k) * fan.stride_x));
+      integer dy = nearest(sine * (1 + (fan.shift + k) * fan.stride_y));
+      const real e = relative_depth(point, z, sample_near(depth, frame, point, here, within, &dx, &dy));
+      sum += obscurance(towards_near(frame, point, to_real(dx), to_real(dy), e), n, params.bias, inverse_square);
+    }
+    const real next = cosine * turn_cosine - sine * turn_sine;
+    sine = sine * turn_cosine + cosine * turn_sine;
+    cosine = next;
+  }
+  return sum;
+}
+
 kernel void hbao_plus_estimate(Frame frame, HbaoPlusParams params, PLANE depth, PLANE normal_x, PLANE normal_y,
                                PLANE normal_z, PLANE_OUT ao_raw) {
   const int x0 = FIRST_X, y = ROW_Y, here = index_of(frame, x0, y);
   const integer x = x0 + IOTA;
   const real z = load(depth, here);
+  if (!ANY(!is_background(z))) {
+    store((real)(1), ao_raw, here);
+    return;
+  }
   const real3 n = load3(normal_x, normal_y, normal_z, here);
   const Anchor point = anchor_at(frame, to_real(x), (real)(y), z);
   const Reach reach = reach_of(point, params.radius, params.max_pixels);
 
+  Fan fan;
 #if JITTER
   const natural h = pixel_hash(x, y, frame.seed);
-  const real turn = unit_random(h) * (scalar)(1.0f / DIRECTIONS), shift = unit_random(hash(h + 1));
+  const real turn = unit_random(h) * (scalar)(1.0f / DIRECTIONS);
+  fan.shift = unit_random(hash(h + 1));
 #else
-  const real turn = 0, shift = (scalar)0.5;
+  const real turn = 0;
+  fan.shift = (scalar)0.5;
 #endif
-  // From one pixel away to the radius.
-  const real stride_x = max(reach.pixels_x - 1, (real)(0)) * (scalar)(1.0f / STEPS);
-  const real stride_y = max(reach.pixels_y - 1, (real)(0)) * (scalar)(1.0f / STEPS);
+  cosine_sine_of_turns(turn, &fan.cosine, &fan.sine);
+  fan.stride_x = max(reach.pixels_x - 1, (real)(0)) * (scalar)(1.0f / STEPS);
+  fan.stride_y = max(reach.pixels_y - 1, (real)(0)) * (scalar)(1.0f / STEPS);
 
-  real sum = 0;
-  for (int d = 0; d < DIRECTIONS; ++d) {
-    real cosine, sine;
-    cosine_sine_of_turns(turn + d * (scalar)(1.0f / DIRECTIONS), &cosine, &sine);
-    for (int k = 0; k < STEPS; ++k) {
-      const real sx = point.x + (scalar)0.5 + cosine * (1 + (shift + k) * stride_x);
-      const real sy = point.y + (scalar)0.5 + sine * (1 + (shift + k) * stride_y);
-      const integer ix = clamp(to_integer(sx), 0, frame.width - 1);
-      const integer iy = clamp(to_integer(sy), 0, frame.height - 1);
-      const real e = relative_depth(point, z, gather(depth, index_of_lanes(frame, ix, iy)));
-      sum += obscurance(towards(frame, point, to_real(ix), to_real(iy), e), n, params.bias, reach.inverse_square);
-    }
+  real sum;
+#define SUM_OF_OBSCURANCE(within) \
+  sum_of_obscurance(frame, params, depth, here, point, z, n, fan, reach.inverse_square, within)
+  if (frame.pitch >= SHORT_PITCH) {
+    sum = SUM_OF_OBSCURANCE(SAMPLES_IN_WIDE_FRAME);
+  } else if (reaches_only_inside(frame, point, reach)) {
+    sum = SUM_OF_OBSCURANCE(SAMPLES_INSIDE);
+  } else {
+    sum = SUM_OF_OBSCURANCE(SAMPLES_CLAMPED);
   }
   const real open = clamp(1 - sum * (params.strength * 2 / (DIRECTIONS * STEPS)), (real)(0), (real)(1));
   real ao = open;

@@ -4,6 +4,7 @@
 #define GLOAM_CAMERA_H
 
 #include "shared/load.h"
+#include "shared/math.h"
 
 // Depths further away than this, in depths of the pixel at hand, count as this: background has a finite position.
 #define FARTHEST ((scalar)1e16)
@@ -14,7 +15,9 @@ static inline mask is_background(real depth) { return isinf(depth); }
 typedef struct {
   real x, y;                // column and row
   real inverse_depth;       // 1 / z; 1 on background
+  real lateral;             // distances on the screen grow by this, in units of its depth: 1 (perspective) or 1 / z
   real across_x, across_y;  // distance between neighbouring pixels at its depth, in units of its depth
+  real ray_x, ray_y;        // how far a point moves sideways per unit of depth that it moves away; 0 if orthographic
   mask background;
 } Anchor;
 
@@ -24,9 +27,11 @@ static inline Anchor anchor_at(Frame f, real x, real y, real depth) {
   a.y = y;
   a.background = is_background(depth);
   a.inverse_depth = (scalar)1 / choose(a.background, (real)(1), depth);
-  const real lateral = f.perspective + f.parallel * a.inverse_depth;
-  a.across_x = f.scale_x * lateral;
-  a.across_y = f.scale_y * lateral;
+  a.lateral = f.perspective + f.parallel * a.inverse_depth;
+  a.across_x = f.scale_x * a.lateral;
+  a.across_y = f.scale_y * a.lateral;
+  a.ray_x = (x + (scalar)0.5 - f.centre_x) * (f.scale_x * f.perspective);
+  a.ray_y = (f.centre_y - y - (scalar)0.5) * (f.scale_y * f.perspective);
   return a;
 }
 
@@ -35,12 +40,17 @@ static inline real relative_depth(Anchor a, real own, real depth) {
   return min((depth - own) * a.inverse_depth, (real)(FARTHEST));
 }
 
-// From the anchor's point to the point seen at pixel (x, y), whose relative depth is e; in units of the anchor's depth.
-// View space: y up, camera looks along -z.
+// From the anchor's point to the point seen dx pixels to the right and dy pixels down, whose relative depth is e; in units
+// of the anchor's depth. View space: y up, camera looks along -z.
+static inline real3 towards_near(Frame f, Anchor a, real dx, real dy, real e) {
+  const real ray_x = multiply_add(dx, (real)(f.scale_x * f.perspective), a.ray_x);
+  const real ray_y = multiply_add(dy, (real)(-f.scale_y * f.perspective), a.ray_y);
+  return make3(multiply_add(e, ray_x, dx * a.across_x), multiply_add(e, ray_y, dy * -a.across_y), -e);
+}
+
+// The same for the point seen at pixel (x, y).
 static inline real3 towards(Frame f, Anchor a, real x, real y, real e) {
-  const real spread = e * f.perspective;
-  return make3((x - a.x) * a.across_x + (x + (scalar)0.5 - f.centre_x) * f.scale_x * spread,
-               (a.y - y) * a.across_y + (f.centre_y - y - (scalar)0.5) * f.scale_y * spread, -e);
+  return towards_near(f, a, x - a.x, y - a.y, e);
 }
 
 // Direction from the eye through a pixel, not normalised.

@@ -43,4 +43,23 @@ static inline real gather(PLANE plane, integer i) {
 #endif
 }
 
+// Values of a plane dx pixels to the right of and dy pixels below each lane's own pixel; `here` is the first lane's index.
+static inline real gather_near(PLANE plane, Frame f, int here, integer dx, integer dy) {
+  return gather(plane + here, dy * f.pitch + (dx + IOTA));
+}
+
+// The same for |dy| and pitch below SHORT_PITCH: on AVX-512 a multiplication of 16 bits takes half the time of one of 32.
+#define SHORT_PITCH 32768
+static inline real gather_near_short(PLANE plane, Frame f, int here, integer dx, integer dy) {
+#if LANES == 16 && defined(__AVX512BW__)
+  typedef short Pairs __attribute__((vector_size(64)));
+  // Products of the lower and of the upper half of each lane, added; the upper half of the pitch is 0.
+  const integer rows =
+      as_int16(__builtin_ia32_pmaddwd512(__builtin_astype(dy, Pairs), __builtin_astype((integer)(f.pitch), Pairs)));
+  return gather(plane + here, rows + (dx + IOTA));
+#else
+  return gather_near(plane, f, here, dx, dy);
+#endif
+}
+
 #endif

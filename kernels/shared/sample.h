@@ -40,4 +40,28 @@ static inline Reach reach_of(Anchor a, scalar radius, scalar most_pixels) {
   return r;
 }
 
+// How samples around a pixel are read: the same for all samples of a work-item, so that a loop over them is written once
+// for a constant and chosen once. (One loop for all is a sixth slower on AVX-512.)
+#define SAMPLES_INSIDE 0         // every sample of every lane lies in the frame
+#define SAMPLES_CLAMPED 1        // some are moved onto its border
+#define SAMPLES_IN_WIDE_FRAME 2  // the same, and the pitch has more than 15 bits (load.h)
+
+// Whether no lane's pixel reaches out of the frame.
+static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
+  // One pixel for rounding, and one because samples may start one pixel away even where the radius is less.
+  const real x = r.pixels_x + 2, y = r.pixels_y + 2;
+  return !ANY((a.x < x) | (a.x + x >= (scalar)f.width) | (a.y < y) | (a.y + y >= (scalar)f.height));
+}
+
+// A plane's value at an offset in pixels from each lane's own; an offset out of the frame is changed to its border.
+// `within`: a constant, one of the above. |dy| is below SHORT_PITCH.
+static inline real sample_near(PLANE plane, Frame f, Anchor a, int here, int within, integer* dx, integer* dy) {
+  if (within == SAMPLES_INSIDE) return gather_near_short(plane, f, here, *dx, *dy);
+  const integer x = to_integer(a.x), y = to_integer(a.y);
+  *dx = min(max(*dx, -x), f.width - 1 - x);
+  *dy = min(max(*dy, -y), f.height - 1 - y);
+  if (within == SAMPLES_CLAMPED) return gather_near_short(plane, f, here, *dx, *dy);
+  return gather_near(plane, f, here, *dx, *dy);
+}
+
 #endif

@@ -1,0 +1,141 @@
+#include "bench_frame.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "loggia.h"
+
+namespace gloam::bench {
+namespace {
+
+Plane& emplace(View& view, const std::string& name, const Layout& layout) {
+  const PlaneKind kind = plane_kind(name);
+  Plane plane{name, {}};
+  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
+  return view.planes.emplace(name, std::move(plane)).first->second;
+}
+
+void set3(Plane& plane, int x, int y, const glm::vec3& value) {
+  for (int i = 0; i < 3; ++i) plane.channels[size_t(i)].at(x, y) = value[i];
+}
+
+void fill_with_noise(Plane& plane) {
+  for (size_t c = 0; c < plane.channels.size(); ++c) {
+    Channel& channel = plane.channels[c];
+    const Layout& layout = channel.layout();
+    for (int y = 0; y < layout.height; ++y) {
+      for (int x = 0; x < layout.width; ++x) {
+        channel.at(x, y) = float(analytic::hash(uint32_t(layout.index(x, y) * 4 + c)) >> 8) * 0x1p-24f;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Frame loggia_frame(int width, int height) {
+  using namespace analytic;
+  const Scene scene = loggia_scene();
+  Frame frame;
+  frame.display = frame.window = {0, 0, width, height};
+  frame.views.resize(1);
+  View& view = frame.views[0];
+  view.camera = loggia_camera(width, height);
+  const Layout layout(width, height);
+  Plane& depth = emplace(view, "depth", layout);
+  Plane& normal = emplace(view, "normal", layout);
+  Plane& albedo = emplace(view, "albedo", layout);
+#pragma omp parallel for schedule(dynamic)
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Ray ray = camera_ray(*view.camera, x + 0.5, y + 0.5);
+      const std::optional<Hit> hit = first_hit(scene, ray);
+      if (!hit) continue;
+      depth.channels[0].at(x, y) = float(view_depth(*view.camera, ray.origin + hit->distance * ray.direction));
+      set3(normal, x, y, glm::vec3(view.camera->pose->world_to_view * hit->normal));
+      set3(albedo, x, y, hit->object->albedo);
+    }
+  }
+  return frame;
+}
+
+void add_plane(Frame& frame, const std::string& name) {
+  View& view = frame.views[0];
+  if (view.find(name)) return;
+  const PlaneKind kind = plane_kind(name);
+  Plane plane;
+  if (kind.meaning == PlaneKind::view_depth) {
+    plane = view.planes.at("depth").clone();
+  } else if (kind.meaning == PlaneKind::unit_vector) {
+    plane = view.planes.at("normal").clone();
+  } else {
+    fill_with_noise(emplace(view, name, view.planes.at("depth").channels[0].layout()));
+    return;
+  }
+  plane.name = name;
+  view.planes.emplace(name, std::move(plane));
+}
+
+float radius_reaching(const Frame& frame, double pixels) {
+  const Channel& depth = frame.views[0].planes.at("depth").channels[0];
+  std::vector<double> depths;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (!is_background(depth.at(x, y))) depths.push_back(depth.at(x, y));
+    }
+  }
+  return float(pixels * median(std::move(depths)) / frame.views[0].camera->fx);
+}
+
+std::string size_name(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
+
+std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv) {
+  std::vector<std::pair<int, int>> sizes;
+  const std::string prefix = "--size=";
+  const auto taken = [&](const char* argument) {
+    if (std::strncmp(argument, prefix.c_str(), prefix.size()) != 0) return false;
+    int width = 0, height = 0;
+    const char* value = argument + prefix.size();
+    if (std::sscanf(value, "%dx%d", &width, &height) != 2 || width < 1 || height < 1 || width > 16384 ||
+        height > 16384) {
+      throw UsageError("--size={}: WIDTHxHEIGHT, 1x1 to 16384x16384", value);
+    }
+    sizes.emplace_back(width, height);
+    return true;
+  };
+  argc = int(std::remove_if(argv + 1, argv + argc, taken) - argv);
+  if (sizes.empty()) sizes.emplace_back(1920, 1080);
+  return sizes;
+}
+
+bool take_flag(int& argc, char** argv, const std::string& name) {
+  const auto is_flag = [&](const char* argument) { return argument == "--" + name; };
+  char** end = std::remove_if(argv + 1, argv + argc, is_flag);
+  const bool found = end != argv + argc;
+  argc = int(end - argv);
+  return found;
+}
+
+void make_openmp_wait_passively(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY")) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);
+  std::fprintf(stderr, "OMP_WAIT_POLICY=passive could not be set: threads of the native loop may spin\n");
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + long(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace gloam::bench

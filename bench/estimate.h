@@ -1,0 +1,25 @@
+// HBAO+ as the baselines compute it: what is fixed, and what they all take.
+#pragma once
+
+#include "gloam/frame.h"
+#include "hbao_plus/params.h"
+
+namespace gloam::bench {
+
+inline constexpr int directions = 8, steps = 4;
+
+/// Camera and layout of a frame in float, as kernels take them; the layout of `Camera` in naive.cl.
+struct PixelCamera {
+  int width, height, pitch, seed;
+  float scale_x, scale_y;    ///< scene units per pixel at depth 1
+  float centre_x, centre_y;  ///< principal point, pixels
+};
+
+inline PixelCamera pixel_camera(const Frame& frame) {
+  const Camera& camera = *frame.views[0].camera;
+  const Layout layout(frame.width(), frame.height());
+  return {layout.width,         layout.height,        layout.pitch,     0,
+          float(1 / camera.fx), float(1 / camera.fy), float(camera.cx), float(camera.cy)};
+}
+
+}  // namespace gloam::bench

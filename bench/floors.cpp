@@ -1,0 +1,51 @@
+#include "floors.h"
+
+#include <fmt/format.h>
+
+#include "kernel_sources.h"
+
+namespace gloam::bench {
+namespace {
+
+#define FRAME_SCALAR float
+#define FRAME_NAME KernelFrame
+#include "shared/frame.h"
+#undef FRAME_SCALAR
+#undef FRAME_NAME
+
+KernelFrame kernel_frame(const Frame& frame) {
+  const PixelCamera c = pixel_camera(frame);
+  return {c.width, c.height, c.pitch, c.seed, c.scale_x, c.scale_y, c.centre_x, c.centre_y, 1, 0};
+}
+
+std::string options(const Device& device) {
+  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={}", device.info().lanes,
+                     directions, steps);
+}
+
+}  // namespace
+
+Floor::Floor(Device& device, const Frame& frame, const char* header, const char* text, const char* kernel)
+    : kernel_(build(device, flatten(header) + text, options(device), kernel)), device_(device) {
+  const KernelFrame argument = kernel_frame(frame);
+  kernel_.setArg(0, argument);
+  global_ = cl::NDRange(size_t(argument.pitch / device.info().lanes), size_t(argument.height));
+}
+
+double Floor::run() { return launch(device_, kernel_, global_); }
+
+GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params)
+    : Floor(device, frame, "shared/sample.h", gather_floor_cl, "gather_floor") {
+  kernel_.setArg(1, params.radius);
+  kernel_.setArg(2, params.max_pixels);
+  kernel_.setArg(3, planes.depth);
+  kernel_.setArg(4, planes.result);
+}
+
+CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)
+    : Floor(device, frame, "shared/load.h", copy_floor_cl, "copy_floor") {
+  kernel_.setArg(1, planes.depth);
+  kernel_.setArg(2, planes.result);
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,35 @@
+// Floors: what no implementation of the same sampling can go below on this device.
+#pragma once
+
+#include "estimate.h"
+#include "opencl_bench.h"
+
+namespace gloam::bench {
+
+/// A kernel of bench/ on gloam's lanes.
+class Floor {
+ public:
+  double run();  ///< milliseconds
+
+ protected:
+  Floor(Device& device, const Frame& frame, const char* header, const char* text, const char* kernel);
+  cl::Kernel kernel_;
+
+ private:
+  Device& device_;
+  cl::NDRange global_;
+};
+
+/// Addresses, gathers and additions of HBAO+ 8 x 4.
+class GatherFloor : public Floor {
+ public:
+  GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params);
+};
+
+/// One plane read, one written.
+class CopyFloor : public Floor {
+ public:
+  CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes);
+};
+
+}  // namespace gloam::bench

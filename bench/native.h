@@ -1,0 +1,32 @@
+// The native baseline: HBAO+ 8 x 4 as a C++/OpenMP loop written by hand for the CPU's vectors.
+#pragma once
+
+#include "estimate.h"
+
+namespace gloam::bench {
+
+enum class Instructions { scalar, avx2, avx512 };
+
+/// The widest that this CPU has.
+Instructions widest_instructions();
+const char* name_of(Instructions instructions);
+
+struct Job;
+using Row = void (*)(const Job&, int y);
+
+/// Plain, or tuned: without clamping where all samples of a block of pixels lie in the frame, as gloam's kernel does.
+class Native {
+ public:
+  Native(const Frame& frame, const HbaoPlusParams& params, Instructions instructions, bool tuned = false);
+  double run();  ///< milliseconds of wall clock
+  const Channel& result() const { return result_; }
+
+ private:
+  const View& view_;
+  PixelCamera camera_;
+  HbaoPlusParams params_;
+  Row row_;
+  Channel result_;
+};
+
+}  // namespace gloam::bench
