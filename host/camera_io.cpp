@@ -73,21 +73,59 @@ bool holds_camera(const json& value) {
   return std::any_of(fields.begin(), fields.end(), [&](const char* field) { return value.contains(field); });
 }
 
-/// Whether a JSON without a camera's name holds one all the same. Other JSON files lie beside frames too, gloam's own
-/// reports among them (whose "views" are names), so anything that is not clearly a camera is passed over in silence.
-bool looks_like_camera(const fs::path& file) {
+/// NaN and Infinity, which Python writes and JSON does not know, as texts of these names: `number` says what is wrong.
+std::string with_quoted_literals(const std::string& text) {
+  const auto literal_at = [&](size_t i) -> std::string_view {
+    for (std::string_view literal : {"NaN", "-Infinity", "Infinity"})
+      if (text.compare(i, literal.size(), literal) == 0) return literal;
+    return "";
+  };
+  std::string result;
+  bool quoted = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (const std::string_view literal = quoted ? "" : literal_at(i); !literal.empty()) {
+      result += fmt::format("\"{}\"", literal);
+      i += literal.size() - 1;
+      continue;
+    }
+    if (text[i] == '"') quoted = !quoted;
+    result += text[i];
+    if (quoted && text[i] == '\\' && i + 1 < text.size()) result += text[++i];
+  }
+  return result;
+}
+
+bool is_nonfinite_literal(const json& value) { return value == "NaN" || value == "Infinity" || value == "-Infinity"; }
+
+/// Throws Error naming the file.
+json parse_json(const fs::path& file) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
-  if (failed || size > largest_camera_file) return false;
+  if (!failed && size > largest_camera_file) throw Error("{}: {} bytes, too large for a camera", file.string(), size);
   try {
-    const json document = json::parse(read_text(file), nullptr, false);
+    return json::parse(with_quoted_literals(read_text(file)));
+  } catch (const json::exception& e) {
+    const std::string_view what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
+    throw Error("{}: not readable as JSON: {}", file.string(), what.substr(what.find("] ") + 2));
+  }
+}
+
+/// Whether a JSON without a camera's name holds one all the same. Other JSON files lie beside frames too, gloam's own
+/// reports among them, so anything that does not mean to be a camera is passed over in silence; `why_not` is filled
+/// where it may have meant to.
+bool looks_like_camera(const fs::path& file, std::string& why_not) {
+  try {
+    const json document = parse_json(file);
     if (!document.is_object()) return false;
     const auto views = document.find("views");
     if (views == document.end()) return holds_camera(document);
-    return views->is_array() && !views->empty() && holds_camera(views->front());
-  } catch (const Error&) {
-    return false;
+    if (views->is_array() && !views->empty() && holds_camera(views->front())) return true;
+    if (!document.contains("planes")) why_not = "its \"views\" is no list of cameras";  // `gloam info` writes planes
+  } catch (const Error& error) {
+    const std::string message = error.what(), name = printable(file.string()) + ": ";
+    why_not = message.starts_with(name) ? message.substr(name.size()) : message;
   }
+  return false;
 }
 
 std::vector<fs::path> json_files(const fs::path& folder) {
@@ -139,6 +177,7 @@ std::string type_of(const json& value) { return fmt::format("is of type {}", val
 std::optional<double> number(const Fields& fields, const char* name) {
   const json* field = find(fields, name);
   if (!field) return {};
+  if (is_nonfinite_literal(*field)) refuse(fields, name, "is not finite", "a number");
   if (!field->is_number()) refuse(fields, name, type_of(*field), "a number");
   const double value = field->get<double>();
   if (!std::isfinite(value)) refuse(fields, name, "is not finite", "a number");
@@ -170,7 +209,9 @@ std::optional<glm::dmat4> matrix(const Fields& fields, const char* name) {
     for (int column = 0; column < 4; ++column) {
       const json& element = (*field)[row][column];
       const bool usable = element.is_number() && std::isfinite(element.get<double>());
-      if (!usable) refuse(fields, fmt::format("{}[{}][{}]", name, row, column), type_of(element), "a finite number");
+      if (!usable)
+        refuse(fields, fmt::format("{}[{}][{}]", name, row, column),
+               is_nonfinite_literal(element) ? "is not finite" : type_of(element), "a finite number");
       m[column][row] = element.get<double>();
     }
   return m;
@@ -243,6 +284,19 @@ Camera camera_from_projection(const Fields& fields, glm::dmat4 m, bool orthograp
   return camera;
 }
 
+/// Beyond these no picture was taken, and the pixel coordinates of kernels lose their digits.
+void check_range(const Fields& fields, const Camera& camera) {
+  constexpr double longest = 1e7, farthest = 1e6;
+  if (!camera.orthographic && !(camera.fx <= longest))
+    refuse(fields, "fx", fmt::format("is {:g}", camera.fx), "at most 1e7 pixels");
+  if (!camera.orthographic && !(camera.fy <= longest))
+    refuse(fields, "fy", fmt::format("is {:g}", camera.fy), "at most 1e7 pixels");
+  if (!(std::abs(camera.cx) <= farthest))
+    refuse(fields, "cx", fmt::format("is {:g}", camera.cx), "at most 1e6 pixels to either side");
+  if (!(std::abs(camera.cy) <= farthest))
+    refuse(fields, "cy", fmt::format("is {:g}", camera.cy), "at most 1e6 pixels up or down");
+}
+
 /// Intrinsics in pixels of `size`: the fields in pixels where they are there, the rest from the projection.
 Camera intrinsics_from(const Fields& fields, const Size& size) {
   const std::optional<glm::dmat4> projection = matrix(fields, "projection_gl");
@@ -269,6 +323,7 @@ Camera intrinsics_from(const Fields& fields, const Size& size) {
   if (!projection && !cy) refuse(fields, "cy", "is missing", "it or projection_gl");
   camera.cx = cx.value_or(camera.cx);
   camera.cy = cy.value_or(camera.cy);
+  check_range(fields, camera);
   return camera;
 }
 
@@ -317,16 +372,7 @@ Camera camera_from(const Fields& fields, const Window& display, std::vector<std:
 }
 
 json parse_camera_file(const fs::path& file) {
-  std::error_code failed;
-  const std::uintmax_t size = fs::file_size(file, failed);
-  if (!failed && size > largest_camera_file) throw Error("{}: {} bytes, too large for a camera", file.string(), size);
-  json document;
-  try {
-    document = json::parse(read_text(file));
-  } catch (const json::exception& e) {
-    const std::string_view what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
-    throw Error("{}: not readable as JSON: {}", file.string(), what.substr(what.find("] ") + 2));
-  }
+  json document = parse_json(file);
   if (!document.is_object())
     throw Error("{}: holds {}, expected an object with \"views\"", file.string(), document.type_name());
   return document;
@@ -426,22 +472,30 @@ glm::dvec2 ndc_z(const Camera& camera) {
 
 }  // namespace
 
-std::optional<fs::path> find_camera_file(const fs::path& frame) {
+std::optional<fs::path> find_camera_file(const fs::path& frame, std::vector<std::string>* notes) {
   const std::string frame_name = frame.filename().string();
   const fs::path folder = frame.has_parent_path() ? frame.parent_path() : fs::path(".");
   std::vector<fs::path> by_prefix, by_name;
+  std::vector<std::string> no_cameras;
   size_t longest = 0;
   for (const fs::path& file : json_files(folder)) {
     const std::string stem = camera_stem(file);
     const bool named_camera = has_camera_name(file);
     if (file.filename().string().starts_with("camera")) by_name.push_back(file);
     if (stem.empty() || stem.size() < longest || !frame_name.starts_with(stem)) continue;
-    if (!named_camera && !looks_like_camera(file)) continue;
+    std::string why_not;
+    if (!named_camera && !looks_like_camera(file, why_not)) {
+      if (!why_not.empty())
+        no_cameras.push_back(
+            fmt::format("camera: {} is there but is no camera ({})", file.filename().string(), why_not));
+      continue;
+    }
     if (stem.size() > longest) by_prefix.clear();
     longest = stem.size();
     by_prefix.push_back(file);
   }
   if (const auto found = only_one(by_prefix, frame)) return found;
+  if (notes) notes->insert(notes->end(), no_cameras.begin(), no_cameras.end());
   return only_one(by_name, frame);
 }
 
@@ -469,6 +523,15 @@ std::map<std::string, Camera> read_camera_file(const fs::path& file, const Windo
              "a name that no other view has");
   }
   return cameras;
+}
+
+Pose pose_from_matrix(const Imath::M44d& world_to_camera, const glm::dvec3& origin) {
+  require_finite(world_to_camera, "worldToCamera");
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(origin[i])) throw Error("gloamOrigin: component {} is not finite", i);
+  Pose pose = pose_from_header(world_to_camera);
+  pose.position += origin;
+  return pose;
 }
 
 Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44d& world_to_ndc, const Window& display,

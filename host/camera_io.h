@@ -16,16 +16,19 @@ namespace gloam {
 
 /// The camera JSON that belongs to a frame (docs/gbuffer.md): the file whose stem (before `.camera`) is the longest
 /// prefix of the frame's name, else `camera*.json` in the folder. A JSON that is named neither `*.camera.json` nor
-/// `camera*.json` counts only when it holds a camera. None when there is none; throws Error naming both when two fit
-/// equally.
-std::optional<std::filesystem::path> find_camera_file(const std::filesystem::path& frame);
+/// `camera*.json` counts only when it holds a camera; where it cannot be read or has "views" that are none, and no
+/// other file fits the frame's name, a sentence goes to `notes`. None when there is none; throws Error naming both when
+/// two fit equally.
+std::optional<std::filesystem::path> find_camera_file(const std::filesystem::path& frame,
+                                                      std::vector<std::string>* notes = nullptr);
 
 /// Cameras by view name, in pixels of `display` (scaled when the JSON was made for another size of the same aspect; a
 /// note goes to `assumed`). A JSON of one view is returned under "", whatever the view's name; so is a view "mono".
 /// Fields are looked up in the view, then at the top. camera_to_world wins over world_to_camera, fields in pixels over
 /// projection_gl. Rotations may be off by float rounding (1e-4) and are made orthonormal.
-/// Throws Error naming the file, the field that is missing, of the wrong type, not finite, not rigid or out of range,
-/// and what is expected there.
+/// Throws Error naming the file, the field that is missing, of the wrong type, not finite (NaN and Infinity as Python
+/// writes them included), not rigid or out of range (a focal length over 1e7 pixels, a centre beyond 1e6), and what is
+/// expected there.
 std::map<std::string, Camera> read_camera_file(const std::filesystem::path& file, const Window& display,
                                                std::vector<std::string>& assumed);
 
@@ -41,6 +44,9 @@ std::map<std::string, Camera> read_camera_file(const std::filesystem::path& file
 /// image, looks along -z, or is an oblique projection.
 Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44d& world_to_ndc, const Window& display,
                             const glm::dvec3& origin);
+
+/// The pose alone, for a header without `world_to_ndc`. Throws Error as `camera_from_matrices` does.
+Pose pose_from_matrix(const Imath::M44d& world_to_camera, const glm::dvec3& origin);
 
 /// The inverse: matrices relative to the camera's own position, which goes into `origin`. A camera without a pose is
 /// written as one at the origin that looks along -z, y up.

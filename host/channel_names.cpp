@@ -408,6 +408,11 @@ std::string shown(const Candidate& candidate) {
   return dot == std::string::npos ? name : name.substr(0, dot);
 }
 
+std::string part_of(const Candidate& candidate) {
+  const FileChannel& channel = *candidate.channels.front();
+  return channel.part_name.empty() ? fmt::format("part {}", channel.part) : fmt::format("part '{}'", channel.part_name);
+}
+
 PlaneSource source_of(const std::string& plane, const std::string& view, const Candidate& candidate) {
   PlaneSource source{plane, view, {}, candidate.said};
   for (const FileChannel* channel : candidate.channels)
@@ -434,9 +439,15 @@ void note_tie(NamedPlanes& named, const std::string& plane, const std::vector<Ca
               const Candidate& best) {
   for (const Candidate& other : candidates)
     if (other.rank == best.rank && other.layer != best.layer && other.channels != best.channels) {
-      note(named, plane,
-           fmt::format("{}: '{}' taken, not '{}' (--plane {}={} chooses)", plane, shown(best), shown(other), plane,
-                       shown(other)));
+      std::string taken = fmt::format("'{}'", shown(best)), left = fmt::format("'{}'", shown(other));
+      std::string name = shown(other);  // what --plane knows the other by
+      if (taken == left) {
+        name = other.channels.front()->part_name;
+        taken += " of " + part_of(best);
+        left += " of " + part_of(other);
+      }
+      const std::string chooses = name.empty() ? "" : fmt::format(" (--plane {}={} chooses)", plane, name);
+      note(named, plane, fmt::format("{}: {} taken, not {}{}", plane, taken, left, chooses));
       return;
     }
 }
@@ -570,7 +581,7 @@ std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
   for (const std::string& view : asked)
     if (std::find(in_file.begin(), in_file.end(), view) == in_file.end()) {
       if (in_file == std::vector<std::string>{""}) throw Error("--view {}: the file names no views", view);
-      throw Error("--view {}: no such view; the file has {}{}", view, enumerate(quoted), suggestion(view, in_file));
+      throw Error("--view {}: no such view{}; the file has {}", view, suggestion(view, in_file), enumerate(quoted));
     }
   if (asked.empty()) return in_file;
   std::vector<std::string> views;
@@ -580,12 +591,17 @@ std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
 }
 
 /// A file that lists views and names none of them in its channels means one picture; which view it shows, the user
-/// says.
-void apply_unnamed_view(std::vector<Entry>& entries, NamedPlanes& named, const std::vector<std::string>& asked) {
+/// says, else it is the first.
+void apply_unnamed_view(std::vector<Entry>& entries, NamedPlanes& named, const std::vector<std::string>& multi_view,
+                        const std::vector<std::string>& asked) {
   const bool unnamed = std::none_of(entries.begin(), entries.end(), [](const Entry& e) { return e.named; });
-  if (!unnamed || asked.size() != 1 || entries.empty() || entries.front().view == asked.front()) return;
-  for (Entry& entry : entries) entry.view = asked.front();
-  note(named, "", fmt::format("no channel names a view: all are taken for '{}'", asked.front()));
+  if (!unnamed || multi_view.size() < 2 || entries.empty()) return;
+  const std::string view = asked.size() == 1 ? asked.front() : multi_view.front();
+  for (Entry& entry : entries) entry.view = view;
+  named.view_is_assumed = asked.size() != 1;
+  note(named, "",
+       fmt::format("no channel names a view: all are taken for '{}'{}", view,
+                   named.view_is_assumed ? ", the first that the file lists (--view says otherwise)" : ""));
 }
 
 void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std::string& view,
@@ -627,7 +643,7 @@ NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vec
   NamedPlanes named;
   std::vector<Entry> entries = entries_of(channels, multi_view);
   const std::vector<std::string> views = selected_views(views_of(entries, multi_view), options.views);
-  apply_unnamed_view(entries, named, options.views);
+  apply_unnamed_view(entries, named, multi_view, options.views);
   std::set<std::string> overridden;
   for (const std::string& view : views) {
     const size_t before = named.planes.size();

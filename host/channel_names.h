@@ -23,6 +23,7 @@ struct NamedPlanes {
   std::vector<std::string> views;   ///< that hold channels or are asked for; one empty name where the file names none
   std::vector<PlaneSource> planes;  ///< by view, then in the order of plane_kinds()
   std::map<std::string, std::vector<std::string>> assumed;  ///< by plane: a sentence for each choice among equals
+  bool view_is_assumed = false;  ///< several views are listed, no channel names one, and the user says none either
 };
 
 /// What the user says (see ReadOptions).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <tuple>
 
 namespace gloam {
 namespace {
@@ -25,19 +26,66 @@ size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+std::string_view without_dashes(std::string_view name) {
+  return name.substr(std::min(name.find_first_not_of('-'), name.size()));
+}
+
+bool abbreviates(std::string_view name, std::string_view candidate) {
+  const std::string_view start = without_dashes(name), whole = without_dashes(candidate);
+  return start.size() >= 2 && start.size() < whole.size() &&
+         std::equal(start.begin(), start.end(), whole.begin(), [](char a, char b) { return lower(a) == lower(b); });
+}
+
+/// Bytes of the UTF-8 character that `text` begins with; 0 where it begins with none, or with a control character.
+size_t printable_length(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? unsigned(static_cast<unsigned char>(text[i])) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f;
+  const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  unsigned code = first & (0x7fu >> length);
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr unsigned smallest[] = {0, 0, 0xa0, 0x800, 0x10000};  // U+0080 to U+009F are control characters too
+  const bool known = first >= 0xc2 && first < 0xf5 && code >= smallest[length] && code <= 0x10ffff;
+  const bool surrogate = code >= 0xd800 && code < 0xe000, line_end = code == 0x2028 || code == 0x2029;
+  const bool turns_text = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+  return known && !surrogate && !line_end && !turns_text ? length : 0;
+}
+
 }  // namespace
 
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const size_t length = printable_length(text);
+    if (length == 0)
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    else
+      result += text.substr(0, length);
+    text.remove_prefix(std::max<size_t>(length, 1));
+  }
+  return result;
+}
+
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
-  // A third of the letters wrong, or two swapped, is still a slip of the fingers; more is another word.
-  size_t best = (name.size() <= 3 ? 1 : std::max<size_t>(2, name.size() / 3)) + 1;
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
+  if (std::none_of(name.begin(), name.end(), is_letter)) return "";
+  // A third of the letters wrong, or two swapped, is still a slip of the fingers; more is another word. What is only
+  // cut short is as near as one slip.
+  const size_t farthest = name.size() <= 3 ? 1 : std::max<size_t>(2, name.size() / 3);
+  std::tuple<size_t, bool, size_t> best = {farthest + 1, false, 0};
   const std::string* nearest = nullptr;
   for (const std::string& candidate : candidates) {
     const size_t distance = edit_distance(name, candidate);
-    if (distance >= best) continue;
-    best = distance;
+    const bool cut_short = abbreviates(name, candidate);
+    const std::tuple key(cut_short ? std::min<size_t>(distance, 1) : distance, !cut_short, distance);
+    if (key >= best) continue;
+    best = key;
     nearest = &candidate;
   }
-  return nearest ? fmt::format(": did you mean '{}'?", *nearest) : "";
+  return nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : "";
 }
 
 std::string enumerate(const std::vector<std::string>& items) {

@@ -191,20 +191,46 @@ glm::dvec3 origin_in(const Imf::Header& header, const std::string& prefix) {
 }
 
 /// Near and far planes are trusted only where they can be planes.
-void read_clipping(const Imf::Header& header, const std::string& prefix, Camera& camera) {
-  if (const auto near = number(header, prefix + "near"); near && *near > 0) camera.near = near;
-  if (const auto far = number(header, prefix + "far"); far && *far > 0) camera.far = far;
+void read_clipping(const Imf::Header& header, const std::string& prefix, Camera& camera,
+                   std::vector<std::string>& notes) {
+  const auto note = [&](const std::string& what) {
+    const std::string sentence = fmt::format("camera: {} in the header cannot be and is not used", what);
+    if (std::find(notes.begin(), notes.end(), sentence) == notes.end()) notes.push_back(sentence);
+  };
+  const auto usable = [&](const char* name) -> std::optional<double> {
+    const std::optional<double> value = number(header, prefix + name);
+    if (!value || *value > 0) return value;
+    note(fmt::format("{}{} {:g}", prefix, name, *value));
+    return {};
+  };
+  camera.near = usable("near");
+  camera.far = usable("far");
+  if (!camera.near || !camera.far || *camera.near < *camera.far) return;
+  note(fmt::format("{}near {:g} with far {:g}", prefix, *camera.near, *camera.far));
+  camera.near.reset();
+  camera.far.reset();
 }
 
-std::optional<Camera> camera_in(const Imf::Header& header, const std::string& prefix, const Window& display) {
+bool says_unknown_pose(const Imf::Header& header, const std::string& prefix) {
+  return text(header, prefix + "gloamPose") == "unknown";
+}
+
+std::optional<Pose> pose_in(const Imf::Header& header, const std::string& prefix) {
+  const auto to_camera = matrix(header, prefix + "worldToCamera");
+  if (!to_camera || says_unknown_pose(header, prefix)) return {};
+  return pose_from_matrix(*to_camera, origin_in(header, prefix));
+}
+
+std::optional<Camera> camera_in(const Imf::Header& header, const std::string& prefix, const Window& display,
+                                std::vector<std::string>& notes) {
   const auto to_camera = matrix(header, prefix + "worldToCamera"), to_ndc = matrix(header, prefix + "worldToNDC");
   if (!to_camera || !to_ndc) return {};
   Camera camera = camera_from_matrices(*to_camera, *to_ndc, display, origin_in(header, prefix));
-  camera.source = text(header, prefix + "gloamCamera");
+  camera.source = printable(text(header, prefix + "gloamCamera"));
   if (camera.source.empty()) camera.source = "header";
   // gloam writes matrices for a camera whose place is unknown too; they must not come back as knowledge.
-  if (text(header, prefix + "gloamPose") == "unknown") camera.pose.reset();
-  read_clipping(header, prefix, camera);
+  if (says_unknown_pose(header, prefix)) camera.pose.reset();
+  read_clipping(header, prefix, camera, notes);
   return camera;
 }
 
@@ -257,13 +283,27 @@ void fill_outside(Channel& channel, const Box& data, const Window& window, float
 
 void copy_image(const Channel& from, Channel& to) { std::memcpy(to.data(), from.data(), from.layout().bytes()); }
 
-long long count_nonfinite(const Plane& plane) {
+/// Inside the data window: the rest is not in the file.
+long long count_nonfinite(const Channel& channel, const Box& data, const Window& window) {
   long long count = 0;
-  for (const Channel& channel : plane.channels)
-    for (int y = 0; y < channel.layout().height; ++y)
-      for (const float* p = channel.row(y); p != channel.row(y) + channel.layout().width; ++p)
-        count += !std::isfinite(*p);
+  for (int64_t y = data.y0 - window.y0; y < data.y1 - window.y0; ++y)
+    for (int64_t x = data.x0 - window.x0; x < data.x1 - window.x0; ++x)
+      count += !std::isfinite(channel.at(int(x), int(y)));
   return count;
+}
+
+bool holds(const Channel& channel, float value) {
+  for (int y = 0; y < channel.layout().height; ++y)
+    if (const float* row = channel.row(y);
+        std::find(row, row + channel.layout().width, value) != row + channel.layout().width)
+      return true;
+  return false;
+}
+
+bool all_background(const Channel& depth) {
+  for (int y = 0; y < depth.layout().height; ++y)
+    if (const float* row = depth.row(y); !std::all_of(row, row + depth.layout().width, is_background)) return false;
+  return true;
 }
 
 void scale_image(Channel& channel, float scale) {
@@ -303,6 +343,37 @@ void append_new(std::vector<std::string>& list, const std::vector<std::string>& 
     if (!contains(list, item)) list.push_back(item);
 }
 
+/// "the view left", "the views left and right"
+std::string views_in_words(const std::vector<std::string>& views) {
+  return (views.size() == 1 ? "the view " : "the views ") + enumerate(views);
+}
+
+/// What the cameras of a JSON are for, and what the frame has instead.
+std::string misfit(const std::string& json, const std::map<std::string, Camera>& cameras, const std::string& frame,
+                   const std::vector<std::string>& views) {
+  std::vector<std::string> named;
+  for (const auto& [view, camera] : cameras)
+    if (!view.empty()) named.push_back(view);
+  return fmt::format("{} has {}, and {} {}", json,
+                     named.empty() ? "one camera, for no view by name" : views_in_words(named), frame,
+                     views == std::vector<std::string>{""} ? "names none" : "has " + views_in_words(views));
+}
+
+void check_flags(const ReadOptions& options) {
+  if (options.near && options.far && !(*options.near < *options.far))
+    throw UsageError("--near {:g} --far {:g}: near must be less than far", *options.near, *options.far);
+}
+
+/// One of the two is from a flag, the other from the camera.
+void check_clipping(const ReadOptions& options, const Camera& camera) {
+  if (!camera.near || !camera.far || *camera.near < *camera.far || (!options.near && !options.far)) return;
+  if (options.near)
+    throw Error("--near {:g}: must be less than far, {:g} ({}); give --far as well", *camera.near, *camera.far,
+                camera.source);
+  throw Error("--far {:g}: must be more than near, {:g} ({}); give --near as well", *camera.far, *camera.near,
+              camera.source);
+}
+
 }  // namespace
 
 // --- FrameFile
@@ -317,8 +388,12 @@ struct FrameFile::Impl {
   NamedPlanes names;
   std::vector<std::string> channel_names;
   std::map<std::string, Camera> cameras;
+  std::map<std::string, Pose> poses;  // of views whose header tells the pose and nothing else
+  std::string json_name;              // of the camera JSON that was read
+  bool json_misfits = false;          // it was found, not asked for, and has no camera for some view
   std::vector<std::string> camera_notes;
   std::string convention, space;
+  bool background_seen = false;  // some pixel has the depth that --background names
   std::map<std::pair<std::string, std::string>, long long> nonfinite;  // by plane and view
 
   void open();
@@ -329,8 +404,12 @@ struct FrameFile::Impl {
   std::vector<FileChannel> list_channels() const;
   std::vector<std::string> multi_view() const;
   const Imf::Header& header_of(const std::string& view) const;
-  std::optional<Camera> header_camera(const std::string& view) const;
+  template <typename Found>
+  auto in_headers(const std::string& view, const Found& found) const;
+  std::optional<Camera> header_camera(const std::string& view);
+  std::optional<Pose> header_pose(const std::string& view);
   std::map<std::string, Camera> json_cameras();
+  std::optional<Camera> json_camera(const std::map<std::string, Camera>& from_json, const std::string& view);
   const PlaneSource* source(const std::string& plane, const std::string& view) const;
   std::string any_text(const std::string& name) const;
   bool any_attribute(const std::string& name) const;
@@ -412,24 +491,65 @@ const Imf::Header& FrameFile::Impl::header_of(const std::string& view) const {
   return file->header(0);
 }
 
-std::optional<Camera> FrameFile::Impl::header_camera(const std::string& view) const {
+/// The first thing that `found(header, prefix)` returns for the headers and attribute prefixes that speak for a view.
+template <typename Found>
+auto FrameFile::Impl::in_headers(const std::string& view, const Found& found) const {
+  using Result = decltype(found(file->header(0), ""));
   for (int part = 0; part < file->parts(); ++part) {
     const Imf::Header& header = file->header(part);
     if (!view.empty())
-      if (auto camera = camera_in(header, view + ".", display)) return camera;
+      if (Result result = found(header, view + ".")) return result;
     if (header.hasView() && header.view() != view) continue;
     // Matrices without a view's name are those of the part's view, or of the default view.
     const std::vector<std::string> views = multi_view();
     if (!header.hasView() && !views.empty() && views.front() != view) continue;
-    if (auto camera = camera_in(header, "", display)) return camera;
+    if (Result result = found(header, "")) return result;
   }
-  return {};
+  return Result{};
+}
+
+std::optional<Camera> FrameFile::Impl::header_camera(const std::string& view) {
+  return in_headers(view, [&](const Imf::Header& header, const std::string& prefix) {
+    return camera_in(header, prefix, display, camera_notes);
+  });
+}
+
+/// For a header without a whole camera.
+std::optional<Pose> FrameFile::Impl::header_pose(const std::string& view) {
+  const std::optional<Pose> pose =
+      in_headers(view, [&](const Imf::Header& header, const std::string& prefix) { return pose_in(header, prefix); });
+  const bool projects = in_headers(view, [&](const Imf::Header& header, const std::string& prefix) {
+    return matrix(header, prefix + "worldToNDC").has_value();
+  });
+  if (pose)
+    append_new(camera_notes, {"camera: the header has worldToCamera and no worldToNDC: it tells the pose only"});
+  else if (projects)
+    append_new(camera_notes, {"camera: the header has worldToNDC and no worldToCamera: it is not used"});
+  return pose;
 }
 
 std::map<std::string, Camera> FrameFile::Impl::json_cameras() {
   std::optional<fs::path> json = options.camera_file;
-  if (json->empty()) json = find_camera_file(path);
-  return json ? read_camera_file(*json, display, camera_notes) : std::map<std::string, Camera>{};
+  if (json->empty()) json = find_camera_file(path, &camera_notes);
+  if (!json) return {};
+  json_name = json->filename().string();
+  return read_camera_file(*json, display, camera_notes);
+}
+
+/// Where the JSON has none for the view: Error if the user named the JSON, else a note.
+std::optional<Camera> FrameFile::Impl::json_camera(const std::map<std::string, Camera>& from_json,
+                                                   const std::string& view) {
+  if (from_json.empty()) return {};
+  if (const auto exact = from_json.find(view); exact != from_json.end()) return exact->second;
+  // A single camera serves a single view, under any name; two eyes do not share one.
+  if (const auto single = from_json.find(""); single != from_json.end() && names.views.size() == 1)
+    return single->second;
+  const std::string why = misfit(json_name, from_json, path.filename().string(), names.views);
+  if (!options.camera_file.empty())
+    throw Error("{}; give a JSON with {}", why, view.empty() ? "one camera" : "a camera for each of the frame's views");
+  json_misfits = true;
+  append_new(camera_notes, {fmt::format("camera: {}: it is not used", why)});
+  return {};
 }
 
 void FrameFile::Impl::find_cameras() {
@@ -437,24 +557,30 @@ void FrameFile::Impl::find_cameras() {
   bool json_read = false;
   for (const std::string& view : names.views) {
     std::optional<Camera> camera;
+    std::optional<Pose> pose;
     if (options.camera_file.empty())
-      camera = named(path, [&] { return guarded(path, [&] { return header_camera(view); }); });
+      named(path, [&] {
+        guarded(path, [&] {
+          camera = header_camera(view);
+          if (!camera) pose = header_pose(view);
+        });
+      });
     if (!camera) {
       if (!std::exchange(json_read, true)) from_json = json_cameras();
-      const auto exact = from_json.find(view), single = from_json.find("");
-      if (exact != from_json.end()) camera = exact->second;
-      // A single camera serves a single view, under any name; two eyes do not share one.
-      else if (single != from_json.end() && names.views.size() == 1)
-        camera = single->second;
+      camera = json_camera(from_json, view);
     }
+    if (camera && pose) camera->pose = pose;
     if (options.fov_degrees) {
       Camera flagged = camera_from_fov(*options.fov_degrees, display, "--fov");
+      flagged.pose = pose;
       if (camera) flagged.pose = camera->pose, flagged.near = camera->near, flagged.far = camera->far;
       camera = flagged;
     }
+    if (!camera && pose) poses.emplace(view, *pose);
     if (!camera) continue;
     if (options.near) camera->near = options.near;
     if (options.far) camera->far = options.far;
+    named(path, [&] { check_clipping(options, *camera); });
     cameras.emplace(view, *camera);
   }
 }
@@ -510,6 +636,7 @@ Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes) const {
 }
 
 void FrameFile::Impl::decode(Frame& frame) {
+  nonfinite.clear();
   std::map<int, PartDecoding> parts;
   for (View& view : frame.views)
     for (auto& [name, plane] : view.planes) {
@@ -530,7 +657,9 @@ void FrameFile::Impl::decode(Frame& frame) {
       const PlaneSource& from = *source(name, view.name);
       for (size_t i = 0; i < from.channels.size(); ++i)
         if (from.channels[i].scale != 1) scale_image(plane.channels[i], from.channels[i].scale);
-      if (options.count_nonfinite) nonfinite[{name, view.name}] = count_nonfinite(plane);
+      for (size_t i = 0; options.count_nonfinite && i < from.channels.size(); ++i)
+        nonfinite[{name, view.name}] +=
+            count_nonfinite(plane.channels[i], box_of(file->header(from.channels[i].part).dataWindow()), window);
     }
 }
 
@@ -540,10 +669,14 @@ void FrameFile::Impl::settle_camera(View& view, Frame& frame) const {
   view.camera = camera_from_fov(assumed_fov, display, "assumed 60 degrees");
   view.camera->near = options.near;
   view.camera->far = options.far;
+  const auto pose = poses.find(view.name);
+  if (pose != poses.end()) view.camera->pose = pose->second;
+  // Why a JSON or half a header was of no use is said by its own sentence.
+  const char* none = json_misfits || pose != poses.end() ? "" : "none by flag, header or a JSON beside the file; ";
   if (view.find("depth") || view.find("normal"))
-    append_new(frame.assumed, {fmt::format("camera: none by flag, header or a JSON beside the file; a horizontal field "
-                                           "of view of {:g} degrees is assumed (--fov, --camera)",
-                                           assumed_fov)});
+    append_new(frame.assumed,
+               {fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed (--fov, --camera)", none,
+                            assumed_fov)});
 }
 
 void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
@@ -562,10 +695,14 @@ void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
   }
   const Plane* alpha = view.find("alpha");
   std::vector<std::string> notes;
+  if (options.background && holds(depth->second.channels.front(), *options.background)) background_seen = true;
   convention = named(path, [&] {
     return to_view_depth(depth->second.channels.front(), alpha ? &alpha->channels.front() : nullptr, window,
                          *view.camera, as_named, notes);
   });
+  if (all_background(depth->second.channels.front()))
+    notes.push_back(fmt::format("depth: no pixel{} has a usable depth; all of it is background",
+                                view.name.empty() ? "" : " of view '" + view.name + "'"));
   append_new(frame.assumed, notes);
 }
 
@@ -602,12 +739,18 @@ void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
   }
   if (said == NormalSpace::world) to_view_space(normal, *view.camera->pose);
   space = said == NormalSpace::world ? "world" : "view";
+  const long long missing = depth ? count_missing_normals(normal, depth->channels.front()) : 0;
+  if (missing > 0)
+    notes.push_back(fmt::format("normals: {} pixel{} of the foreground {} none (zero or not finite) and read{} open",
+                                missing, missing == 1 ? "" : "s", missing == 1 ? "has" : "have",
+                                missing == 1 ? "s" : ""));
   append_new(frame.assumed, notes);
 }
 
 FrameFile::FrameFile(const fs::path& path, const ReadOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
   impl_->options = options;
+  check_flags(options);
   impl_->open();
   guarded(path, [&] {
     impl_->find_planes();
@@ -625,6 +768,12 @@ Window FrameFile::window() const { return impl_->window; }
 const std::vector<std::string>& FrameFile::views() const { return impl_->names.views; }
 const std::vector<PlaneSource>& FrameFile::planes() const { return impl_->names.planes; }
 std::vector<std::string> FrameFile::all_channels() const { return impl_->channel_names; }
+std::optional<double> FrameFile::number_attribute(const std::string& name) const {
+  for (int part = 0; part < impl_->file->parts(); ++part) {
+    if (const auto value = number(impl_->file->header(part), name)) return value;
+  }
+  return {};
+}
 std::string FrameFile::text_attribute(const std::string& name) const { return impl_->any_text(name); }
 std::string FrameFile::normal_space() const { return impl_->space; }
 
@@ -643,6 +792,17 @@ std::vector<std::string> FrameFile::common_planes() const {
   }
   return common;
 }
+
+std::string FrameFile::why_missing(const std::string& plane) const {
+  std::vector<std::string> lacking;
+  for (const std::string& view : views())
+    if (!impl_->source(plane, view)) lacking.push_back("'" + view + "'");
+  if (lacking.empty() || lacking.size() == views().size()) return "";
+  return printable(fmt::format("view{} {} {} no {}", lacking.size() == 1 ? "" : "s", enumerate(lacking),
+                               lacking.size() == 1 ? "has" : "have", plane));
+}
+
+bool FrameFile::view_is_assumed() const { return impl_->names.view_is_assumed; }
 
 std::optional<Camera> FrameFile::camera(const std::string& view) const {
   const auto found = impl_->cameras.find(view);
@@ -677,15 +837,25 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
   for (const std::string& plane : needed)
     if (const auto notes = impl_->names.assumed.find(plane); notes != impl_->names.assumed.end())
       append_new(frame.assumed, notes->second);
+  std::vector<std::string> expected = {"depth", "normal"};
+  append_new(expected, planes);
+  for (const std::string& plane : expected)
+    if (const std::string why = why_missing(plane); !why.empty())
+      append_new(frame.assumed, {why + ", so that no view is used with it (--view chooses one)"});
   append_new(frame.assumed, impl_->camera_notes);
+  impl_->background_seen = false;
   for (View& view : frame.views) {
     impl_->settle_camera(view, frame);
     impl_->convert_depth(view, frame);
     impl_->convert_normals(view, frame);
   }
-  tidy(frame, impl_->options.background);
+  const bool has_depth = std::any_of(frame.views.begin(), frame.views.end(), [](View& v) { return v.find("depth"); });
+  if (const auto value = impl_->options.background; value && has_depth && !impl_->background_seen)
+    append_new(frame.assumed, {fmt::format("depth: no pixel is {:.9g} (--background)", *value)});
+  tidy(frame, impl_->options.background, impl_->options.as_stored);
   for (View& view : frame.views)
     std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
+  for (std::string& sentence : frame.assumed) sentence = printable(sentence);
   return frame;
 }
 

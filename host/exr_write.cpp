@@ -161,6 +161,7 @@ Imf::Header header_of(const Frame& frame, const std::vector<Output>& outputs, co
   for (const Output& output : outputs) header.channels().insert(output.name, Imf::Channel(output.type));
   insert_views(header, frame);
   if (has_directions(frame)) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));
+  for (const auto& [name, text] : frame.attributes) header.insert(name, Imf::StringAttribute(text));
   return header;
 }
 

@@ -23,10 +23,13 @@ namespace fs = std::filesystem;
 struct Temporary {
   std::atomic<bool> taken{false};   ///< a writer owns this slot
   std::atomic<bool> exists{false};  ///< `path` is complete and may be unlinked
+  std::atomic<bool> moving{false};  ///< being renamed: the file is either still there or already under its own name
   char path[PATH_MAX];
 };
 static_assert(std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<unsigned>::is_always_lock_free);
 std::array<Temporary, 16> temporaries;
+std::atomic<unsigned> files_written{0};
 
 /// Holds a slot of the registry and removes the file unless it was renamed.
 class Registered {
@@ -45,11 +48,18 @@ class Registered {
     if (!renamed_) ::unlink(path_.c_str());
     if (!slot_) return;
     slot_->exists.store(false);
+    slot_->moving.store(false);
     slot_->taken.store(false);
   }
   Registered(const Registered&) = delete;
   Registered& operator=(const Registered&) = delete;
-  void renamed() { renamed_ = true; }
+  /// To `target`; false where it fails, with the cause in errno.
+  bool rename(const fs::path& target) {
+    if (slot_) slot_->moving.store(true);
+    renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
+    if (renamed_) files_written.fetch_add(1);
+    return renamed_;
+  }
 
  private:
   std::string path_;
@@ -58,10 +68,18 @@ class Registered {
 };
 
 extern "C" void remove_and_leave(int signal) {
+  unsigned written = files_written.load();
   for (Temporary& slot : temporaries)
-    if (slot.exists.load()) ::unlink(slot.path);
-  static const char interrupted[] = "gloam: interrupted; no output was written\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, interrupted, sizeof interrupted - 1);
+    if (slot.exists.load() && ::unlink(slot.path) != 0 && slot.moving.load()) ++written;
+  static const char nothing[] = "gloam: interrupted; no output was written\n";
+  static const char something[] = "gloam: interrupted; already written: ";
+  char count[32] = {};
+  char* digit = count + sizeof count - 9;
+  std::memcpy(digit, " file(s)\n", 9);
+  for (unsigned rest = written; rest > 0; rest /= 10) *--digit = char('0' + rest % 10);
+  [[maybe_unused]] ssize_t put = written ? ::write(STDERR_FILENO, something, sizeof something - 1)
+                                         : ::write(STDERR_FILENO, nothing, sizeof nothing - 1);
+  if (written) put = ::write(STDERR_FILENO, digit, size_t(count + sizeof count - digit));
   ::_exit(128 + signal);
 }
 
@@ -73,16 +91,19 @@ fs::path resolved(const fs::path& path) {
   return code ? path : target;
 }
 
-/// Beside the target, since only within one file system is a rename one step.
+/// Beside the target, since only within one file system is a rename one step. Short, since the target's own name may be
+/// as long as a name can be; with the extension, by which codecs choose the format.
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
+  const std::string extension = target.extension().string();
   return target.parent_path() /
-         fmt::format(".{}.{}-{}.part{}", target.stem().string(), ::getpid(), counter++, target.extension().string());
+         fmt::format(".gloam-{}-{}{}", ::getpid(), counter++, extension.size() <= 16 ? extension : "");
 }
 
 void check_target(const fs::path& path, const fs::path& target) {
   std::error_code code;
   const fs::file_status status = fs::status(target, code);
+  if (code == std::errc::filename_too_long) throw Error("{}: cannot write: {}", path.string(), code.message());
   if (fs::is_directory(status)) throw Error("{}: cannot write: it is a directory; name a file in it", path.string());
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw Error("{}: cannot write: it is a device or a pipe; name a regular file", path.string());
@@ -101,6 +122,7 @@ void create(const fs::path& path, const fs::path& temporary) {
 }  // namespace
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  if (path.empty()) throw Error("an empty path cannot be written");
   const fs::path target = resolved(path);
   check_target(path, target);
   const fs::path temporary = temporary_name(target);
@@ -111,23 +133,29 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   } catch (const std::exception& error) {
     // A codec names the file it was given, which is of no use to the reader and soon gone.
     std::string cause = error.what();
-    for (size_t at; (at = cause.find(temporary.string())) != std::string::npos;)
-      cause.replace(at, temporary.string().size(), path.string());
     for (char& c : cause)
       if (c == '\n' || c == '\r') c = ' ';
-    if (cause.starts_with(path.string())) throw Error("{}", cause);
+    cause = printable(cause);
+    const std::string given = printable(temporary.string()), meant = printable(path.string());
+    for (size_t at = 0; (at = cause.find(given, at)) != std::string::npos; at += meant.size())
+      cause.replace(at, given.size(), meant);
+    if (cause.starts_with(meant)) throw Error("{}", cause);
     throw Error("{}: cannot write: {}", path.string(), cause);
   }
-  if (::rename(temporary.c_str(), target.c_str()) != 0)
-    throw Error("{}: cannot write: {}", path.string(), std::strerror(errno));
-  registered.renamed();
+  if (!registered.rename(target)) throw Error("{}: cannot write: {}", path.string(), std::strerror(errno));
 }
 
 void remove_temporaries_on_signal() {
   struct sigaction action {};
   action.sa_handler = remove_and_leave;
   sigemptyset(&action.sa_mask);
-  for (int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+  for (int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+  ::signal(SIGXFSZ, SIG_IGN);
+  files_written.store(0);
 }
 
 std::string read_text(const fs::path& path) {

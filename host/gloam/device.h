@@ -13,7 +13,7 @@ struct DeviceInfo {
   int lanes = 1;  ///< pixels per work-item that suit the device: its float vector width on PoCL's CPUs
   bool has_double = false;
   bool shares_memory = false;                         ///< host memory can be used in place
-  bool has_timestamps = false;       ///< events tell how long a launch took
+  bool has_timestamps = false;                        ///< events tell how long a launch took
   bool rounds_correctly = false;                      ///< offers -cl-fp32-correctly-rounded-divide-sqrt
   unsigned long long memory = 0, largest_buffer = 0;  ///< bytes
 };

@@ -25,8 +25,11 @@ struct ReadOptions {
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: the value that means background, instead of 1e10 and more
   NormalSpace normal_space = NormalSpace::automatic;
-  std::vector<std::string> views;               ///< --view, --views: empty = all
-  bool count_nonfinite = false;                 ///< have `read` count NaN and infinite values as they stand in the file
+  std::vector<std::string> views;  ///< --view, --views: empty = all
+  bool count_nonfinite = false;    ///< have `read` count NaN and infinite values as they stand in the file
+  /// Values as they stand in the file: only depth is converted, and the space of normals; nothing is clamped, replaced
+  /// or made unit. For measuring, which must see what a technique wrote.
+  bool as_stored = false;
   std::map<std::string, std::string> channels;  ///< --plane depth=Layer.Z: plane -> channel, channels (a,b,c) or layer
 };
 
@@ -51,8 +54,9 @@ struct PlaneSource {
 
 /// An open EXR file: what it holds, as far as headers and the camera file beside it tell.
 ///
-/// Throws Error (one line, naming the file) for: missing, not an EXR, truncated, deep, more than `max_pixels`, unknown
-/// view, planes or views of different size that cannot be brought together, unreadable or ambiguous camera file.
+/// Throws UsageError for --near that is not less than --far, and Error (one line, naming the file) for: missing, not an EXR, truncated, deep, more than `max_pixels`, unknown
+/// view, planes or views of different size that cannot be brought together, unreadable or ambiguous camera file, a `camera_file`
+/// that has no camera for the file's views, near that is not less than far.
 class FrameFile {
  public:
   FrameFile(const std::filesystem::path& path, const ReadOptions& options);
@@ -69,10 +73,16 @@ class FrameFile {
   const std::vector<PlaneSource>& planes() const;
   /// Names of the planes that every selected view has.
   std::vector<std::string> common_planes() const;
+  /// Why a plane is not among these although some view has it: "view 'right' has no depth"; else empty.
+  std::string why_missing(const std::string& plane) const;
+  /// The file lists several views, names none in its channels, and is read as the first as --view does not say which.
+  bool view_is_assumed() const;
   /// Every channel of the file, for messages about what it does hold.
   std::vector<std::string> all_channels() const;
   /// The camera of a view; none when neither flags, header nor a JSON give one.
   std::optional<Camera> camera(const std::string& view) const;
+  /// A float or double attribute of the header ("aoRadius"); none when absent.
+  std::optional<double> number_attribute(const std::string& name) const;
   /// A text attribute of the header ("aoDefinition"); empty when absent.
   std::string text_attribute(const std::string& name) const;
 
@@ -82,7 +92,7 @@ class FrameFile {
   /// Where no camera is known, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.
   Frame read(const std::vector<std::string>& planes);
 
-  /// NaN and infinite values that `read` found in a plane, before anything was mended; 0 unless `count_nonfinite`.
+  /// NaN and infinite values that `read` found in a plane, inside the data window, before anything was mended; 0 unless `count_nonfinite`.
   long long nonfinite(const std::string& plane, const std::string& view) const;
 
   /// How the depth will be or was understood: "z", "ray", "ndc", "reversed", "negative z"; empty without depth.

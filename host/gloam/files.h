@@ -8,12 +8,13 @@
 namespace gloam {
 
 /// Calls `write(temporary)` with a path in the folder of `path`, then renames it to `path`. On any error, and on
-/// SIGINT or SIGTERM, the temporary file is removed and `path` is left as it was. Throws Error naming `path`.
+/// SIGHUP, SIGINT or SIGTERM, the temporary file is removed and `path` is left as it was. Throws Error naming `path`.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 
-/// Installs handlers for SIGINT and SIGTERM that remove a temporary file in the making, say in one line that the
-/// command was interrupted, and leave with status 128 + signal.
+/// Installs handlers for SIGHUP, SIGINT and SIGTERM that remove a temporary file in the making, say in one line that
+/// the command was interrupted and how many files were written since this call, and leave with status 128 + signal. A signal
+/// that is ignored (nohup) stays so. SIGXFSZ is ignored: a file over the limit becomes an ordinary error.
 void remove_temporaries_on_signal();
 
 /// A whole text file. Throws Error naming it.

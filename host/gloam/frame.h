@@ -85,7 +85,8 @@ struct Frame {
   Window display;  ///< what the camera frames
   Window window;   ///< what the planes cover: the display window and whatever data lies outside it
   std::vector<View> views;
-  std::vector<std::string> assumed;  ///< one sentence for each thing that was not said by file or flag
+  std::map<std::string, std::string> attributes;  ///< text that goes into the header: what made the planes
+  std::vector<std::string> assumed;               ///< one sentence for each thing that was not said by file or flag
 
   int width() const { return window.width(); }
   int height() const { return window.height(); }

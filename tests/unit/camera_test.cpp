@@ -316,10 +316,67 @@ TEST_F(CameraFile, UnreadableJson) {
   };
   refused("{\"views\": [", {"camera.json", "JSON", "parse error"});
   refused("", {"camera.json", "JSON"});
-  refused("{\"near\": NaN}", {"camera.json", "JSON"});
+  refused("{\"near\": Nan}", {"camera.json", "JSON"});
+  refused("{", {"camera.json", "JSON"});
+  refused("{\"view\": \"\xff\"}", {"camera.json", "JSON", "UTF-8"});
   refused("{\"near\":\n\n1e999}", {"camera.json", "JSON"});
   refused("[1]", {"camera.json", "array", "views"});
   expect_error([&] { read_camera_file(folder / "absent.json", hd, assumed); }, {"absent.json"});
+}
+
+/// Python writes NaN and Infinity, which JSON does not know.
+TEST_F(CameraFile, LiteralsOfPythonAreNotFinite) {
+  const auto refused = [&](const char* field, const std::string& literal) {
+    json document = looking_along_x();
+    document["note"] = "a \\\" quoted NaN";
+    document[field] = "HERE";
+    std::string text = document.dump();
+    text.replace(text.find("\"HERE\""), 6, literal);
+    expect_error([&] { read_camera_file(write("camera.json", text), hd, assumed); },
+                 {"camera.json", std::string(field) + " is not finite"});
+  };
+  refused("near", "NaN");
+  refused("far", "Infinity");
+  refused("near", "-Infinity");
+  json document = looking_along_x();
+  document["note"] = "NaN, \\\" Infinity";
+  EXPECT_EQ(read(document).size(), 1u);
+}
+
+TEST_F(CameraFile, ValuesThatNoCameraHas) {
+  const auto refused = [&](const char* field, double value, const std::string& part) {
+    json document = looking_along_x();
+    (std::string(field) == "near" ? document : document["views"][0])[field] = value;
+    expect_refused(document, {field, part});
+  };
+  refused("fx", 1.1e7, "1e7");
+  refused("fy", 1.1e7, "1e7");
+  refused("cx", -1.1e6, "1e6");
+  refused("cy", 1.1e6, "1e6");
+  refused("near", 50, "more than near");
+}
+
+TEST_F(CameraFile, JsonThatMayHaveMeantToBeACameraIsNoted) {
+  const auto notes_for = [&](const std::string& name, const std::string& text) {
+    for (const auto& entry : fs::directory_iterator(folder)) fs::remove(entry);
+    write(name, text);
+    std::vector<std::string> notes;
+    EXPECT_FALSE(find_camera_file(folder / "frame.exr", &notes));
+    std::string all;
+    for (const std::string& note : notes) all += note + "\n";
+    return all;
+  };
+  for (const char* text : {"", "{", "{\"fx\": \"\xff\"}", "{\"views\": {\"left\": 3}}", "{\"views\": [{\"name\": 3}]}"})
+    EXPECT_NE(notes_for("frame.json", text).find("frame.json is there but is no camera ("), std::string::npos) << text;
+  EXPECT_EQ(notes_for("frame.json", "{\"planes\": [], \"views\": [\"left\"]}"), "") << "gloam info writes this";
+  EXPECT_EQ(notes_for("frame.json", "{\"fps\": 24}"), "");
+  EXPECT_EQ(notes_for("other.json", "{"), "");
+  // With NaN in it, it is a camera still, and reading it says what is wrong.
+  for (const char* name : {"frame.json", "frame.camera.json", "camera_b.json"}) {
+    for (const auto& entry : fs::directory_iterator(folder)) fs::remove(entry);
+    write(name, "{\"fx\": NaN}");
+    EXPECT_EQ(found("frame.exr"), name);
+  }
 }
 
 // --- Header matrices, written by hand

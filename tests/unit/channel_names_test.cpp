@@ -232,7 +232,34 @@ TEST(ChannelNames, WrongNamesAreErrorsWithSuggestions) {
   EXPECT_NE(error_of({"Layer.Z"}, {{}, {{"depth", "Layr.Z"}}}).find("did you mean 'Layer.Z'"), std::string::npos);
   EXPECT_NE(error_of({"a.X", "a.Y"}, {{}, {{"normal", "a.X,a.Y"}}}).find("3 component"), std::string::npos);
   EXPECT_NE(error_of({"Z"}, {{"left"}, {}}).find("names no views"), std::string::npos);
-  EXPECT_NE(error_of({"Z"}, {{"rihgt"}, {}}, {"left", "right"}).find("did you mean 'right'"), std::string::npos);
+  EXPECT_NE(error_of({"Z"}, {{"rihgt"}, {}}, {"left", "right"}).find("no such view (did you mean 'right'?); the"),
+            std::string::npos);
+}
+
+TEST(ChannelNames, TiesBetweenPartsNameTheParts) {
+  const auto sentence = [](const char* first, const char* second) {
+    const auto named = name_planes({{0, "", first, "Z", "float"}, {1, "", second, "Z", "float"}}, {});
+    return named.assumed.contains("depth") ? named.assumed.at("depth").front() : "";
+  };
+  EXPECT_EQ(sentence("a", "b"), "depth: 'Z' of part 'a' taken, not 'Z' of part 'b' (--plane depth=b chooses)");
+  EXPECT_EQ(sentence("", ""), "depth: 'Z' of part 0 taken, not 'Z' of part 1");
+  const auto chosen = name_planes({{0, "", "a", "Z", "float"}, {1, "", "b", "Z", "float"}}, {}, {{}, {{"depth", "b"}}});
+  EXPECT_EQ(chosen.planes.at(0).channels.at(0).part, 1) << "as the sentence says";
+}
+
+TEST(ChannelNames, AViewThatNoChannelNamesIsSaid) {
+  const auto named = name_planes(single_part({"Z"}), {"left", "right"});
+  EXPECT_TRUE(named.view_is_assumed);
+  EXPECT_EQ(named.views, Names{"left"});
+  ASSERT_TRUE(named.assumed.contains(""));
+  EXPECT_NE(named.assumed.at("").front().find("all are taken for 'left'"), std::string::npos);
+  for (const char* view : {"left", "right"}) {
+    const auto told = name_planes(single_part({"Z"}), {"left", "right"}, {{view}, {}});
+    EXPECT_FALSE(told.view_is_assumed);
+    EXPECT_EQ(told.assumed.at("").front(), fmt::format("no channel names a view: all are taken for '{}'", view));
+  }
+  EXPECT_FALSE(name_planes(single_part({"Z"}), {"left"}).view_is_assumed) << "one view leaves no choice";
+  EXPECT_FALSE(name_planes(single_part({"Z", "right.Z"}), {"left", "right"}).view_is_assumed);
 }
 
 TEST(ChannelNames, NothingKnownIsNoError) {

@@ -84,8 +84,9 @@ TEST(Depth, BackgroundIsRecognisedAndNothingElse) {
   EXPECT_EQ(c.depth,
             (std::vector<float>{1, inf, inf, inf, inf, inf, inf, inf, inf, inf, 9.9e9f, 65504, 1e-6f, 60, 1e-29f}));
   EXPECT_EQ(c.convention, "z");
-  ASSERT_EQ(c.assumed.size(), 1u);
-  EXPECT_NE(c.assumed[0].find("--depth"), std::string::npos);
+  ASSERT_EQ(c.assumed.size(), 2u);
+  EXPECT_EQ(c.assumed[0], "depth: 1 negative value among positive ones taken as background");
+  EXPECT_NE(c.assumed[1].find("--depth"), std::string::npos);
 }
 
 TEST(Depth, FarPlaneWhereKnown) {
@@ -421,6 +422,32 @@ TEST(Normals, WithoutAPoseOthersAreWorldSpace) {
   std::string sentence;
   EXPECT_EQ(scene.detect(sentence), NormalSpace::world);
   EXPECT_NE(sentence.find("world space"), std::string::npos) << sentence;
+}
+
+/// A camera that looks along the world's -z but for 30 degrees: its world normals agree with depth to 0.87.
+TEST(Normals, WithoutAPoseAWorldTurnedLittleIsNotTheView) {
+  Scene scene;
+  const double angle = 0.52;
+  scene.camera.pose->world_to_view =
+      glm::dmat3(1, 0, 0, 0, std::cos(angle), std::sin(angle), 0, -std::sin(angle), std::cos(angle));
+  scene.to_world();
+  scene.camera.pose.reset();
+  std::string sentence;
+  EXPECT_EQ(scene.detect(sentence), NormalSpace::world);
+  const double agreement = std::stod(sentence.substr(sentence.find("only to ") + 8));
+  EXPECT_GT(agreement, 0.8) << sentence;
+  EXPECT_LT(agreement, 0.9) << sentence;
+}
+
+TEST(Normals, MissingOnesAreCountedOnTheForeground) {
+  Scene scene;
+  EXPECT_EQ(count_missing_normals(scene.normal, scene.depth), 0);
+  for (int x = 100; x < 103; ++x) scene.set(x, 150, {0, 0, 0});
+  scene.set(103, 150, {0, nan, 1});
+  scene.set(104, 150, {inf, 0, 1});
+  EXPECT_EQ(count_missing_normals(scene.normal, scene.depth), 5);
+  scene.depth.at(104, 150) = inf;
+  EXPECT_EQ(count_missing_normals(scene.normal, scene.depth), 4);
 }
 
 TEST(Normals, ViewWhereNothingCanTell) {

@@ -4,9 +4,11 @@
 
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -26,6 +28,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "gloam/error.h"
@@ -229,6 +232,265 @@ TEST(ReadExr, AssumesACameraAndSaysSo) {
   FrameFile flagged(folder / "f.exr", options);
   EXPECT_NEAR(flagged.camera("")->fx, 100, 1e-9);
   EXPECT_EQ(flagged.camera("")->far, 40);
+}
+
+/// All of the frame's sentences, one per line.
+std::string assumed_in(const fs::path& path, const std::vector<std::string>& planes = {"depth"},
+                       const ReadOptions& options = {}) {
+  std::string all;
+  for (const std::string& sentence : FrameFile(path, options).read(planes).assumed) all += sentence + "\n";
+  return all;
+}
+
+void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+}
+
+void expect_not_in(const std::string& text, const std::string& part) {
+  EXPECT_EQ(text.find(part), std::string::npos) << "'" << part << "' is in: " << text;
+}
+
+TEST(ReadExr, AsStoredMeasuresWhatTheFileHolds) {
+  Folder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  write_exr(folder / "f.exr", Imf::Header(4, 1),
+            {{"AO", Imf::FLOAT,
+              [&](int x, int) {
+                return std::vector<float>{1.5f, -0.5f, nan, inf}[size_t(x)];
+              }},
+             {"R", Imf::FLOAT, [&](int x, int) { return x == 2 ? nan : 7.f; }},
+             {"G", Imf::FLOAT, ramp},
+             {"B", Imf::FLOAT, ramp},
+             {"N.X", Imf::FLOAT, [&](int x, int) { return x == 1 ? nan : 0.f; }},
+             {"N.Y", Imf::FLOAT, [](int, int) { return 0.f; }},
+             {"N.Z", Imf::FLOAT, [](int, int) { return 2.f; }},
+             {"Z", Imf::FLOAT, [](int x, int) { return x == 3 ? 1e11f : 2.f; }}});
+  ReadOptions options;
+  options.normal_space = NormalSpace::view;
+  const std::vector<std::string> planes = {"depth", "ao", "color", "normal"};
+  const Frame mended = FrameFile(folder / "f.exr", options).read(planes);
+  options.as_stored = true;
+  const Frame stored = FrameFile(folder / "f.exr", options).read(planes);
+  const Channel &ao = stored.views[0].find("ao")->channels[0], &mended_ao = mended.views[0].find("ao")->channels[0];
+  EXPECT_EQ(ao.at(0, 0), 1.5f);
+  EXPECT_EQ(ao.at(1, 0), -0.5f);
+  EXPECT_TRUE(std::isnan(ao.at(2, 0)));
+  EXPECT_EQ(ao.at(3, 0), inf);
+  EXPECT_EQ(mended_ao.at(0, 0), 1);
+  EXPECT_EQ(mended_ao.at(2, 0), 1);
+  for (const Frame* frame : {&mended, &stored}) {
+    EXPECT_EQ(frame->views[0].find("depth")->channels[0].at(3, 0), inf) << "depth is converted all the same";
+    EXPECT_EQ(frame->views[0].find("ao")->channels[0].row(0)[4], 1) << "padding";
+  }
+  EXPECT_TRUE(std::isnan(stored.views[0].find("color")->channels[0].at(2, 0)));
+  EXPECT_TRUE(std::isnan(stored.views[0].find("normal")->channels[0].at(1, 0)));
+  EXPECT_EQ(stored.views[0].find("normal")->channels[2].at(0, 0), 2);
+}
+
+TEST(ReadExr, NonfiniteIsCountedInsideTheDataWindow) {
+  Folder folder;
+  write_exr(folder / "f.exr", Imf::Header(box(0, 0, 9, 9), box(2, 3, 6, 5)),
+            {{"Z", Imf::FLOAT, [](int x, int y) { return x == 4 && y == 4 ? inf : 1.f; }}});
+  ReadOptions options;
+  options.count_nonfinite = true;
+  FrameFile file(folder / "f.exr", options);
+  for (int pass = 0; pass < 2; ++pass) {
+    file.read({"depth"});
+    EXPECT_EQ(file.nonfinite("depth", ""), 1);
+  }
+}
+
+TEST(ReadExr, NotesOnDepthAndNormals) {
+  Folder folder;
+  const auto write = [&](const char* name, const Value& depth) {
+    write_exr(folder / name, Imf::Header(8, 8), {{"Z", Imf::FLOAT, depth}});
+    return folder / name;
+  };
+  ReadOptions options;
+  options.background = 65504.0f;
+  const fs::path ordinary = write("a.exr", [](int x, int y) { return x + y == 0 ? 65504.f : 2.f; });
+  expect_not_in(assumed_in(ordinary, {"depth"}, options), "--background");
+  expect_not_in(assumed_in(ordinary), "background");
+  options.background = 1000.0f;
+  expect_in(assumed_in(ordinary, {"depth"}, options), "no pixel is 1000 (--background)");
+  expect_in(assumed_in(write("b.exr", [](int, int) { return 1e10f; })), "no pixel has a usable depth");
+  expect_in(assumed_in(write("c.exr", [](int x, int) { return x == 3 ? -2.f : 2.f; })), "8 negative values");
+  write_exr(folder / "n.exr", Imf::Header(8, 8),
+            {{"Z", Imf::FLOAT, [](int, int y) { return y == 7 ? inf : 2.f; }},
+             {"N.X", Imf::FLOAT, [](int, int) { return 0.f; }},
+             {"N.Y", Imf::FLOAT, [](int, int) { return 0.f; }},
+             {"N.Z", Imf::FLOAT, [](int x, int) { return x == 3 ? 0.f : 1.f; }}});
+  expect_in(assumed_in(folder / "n.exr", {"normal"}), "normals: 7 pixels of the foreground have none");
+}
+
+TEST(ReadExr, PlanesThatOneViewLacksAreNamed) {
+  Folder folder;
+  Imf::Header header(8, 8);
+  Imf::addMultiView(header, {"left", "right"});
+  const auto one = [](int, int) { return 1.f; };
+  write_exr(folder / "f.exr", header,
+            {{"Z", Imf::FLOAT, one},
+             {"right.Z", Imf::FLOAT, one},
+             {"N.X", Imf::FLOAT, one},
+             {"N.Y", Imf::FLOAT, one},
+             {"N.Z", Imf::FLOAT, one}});
+  FrameFile file(folder / "f.exr", {});
+  EXPECT_EQ(file.common_planes(), std::vector<std::string>{"depth"});
+  EXPECT_EQ(file.why_missing("normal"), "view 'right' has no normal");
+  EXPECT_EQ(file.why_missing("depth"), "");
+  EXPECT_EQ(file.why_missing("albedo"), "") << "no view has it";
+  EXPECT_FALSE(file.view_is_assumed());
+  expect_in(assumed_in(folder / "f.exr"), "view 'right' has no normal");
+  ReadOptions options;
+  options.views = {"left"};
+  expect_not_in(assumed_in(folder / "f.exr", {"depth"}, options), "no normal");
+}
+
+TEST(ReadExr, AViewThatNoChannelNamesIsAssumed) {
+  Folder folder;
+  Imf::Header header(8, 8);
+  Imf::addMultiView(header, {"left", "right"});
+  write_exr(folder / "f.exr", header, {{"Z", Imf::FLOAT, ramp}});
+  EXPECT_TRUE(FrameFile(folder / "f.exr", {}).view_is_assumed());
+  expect_in(assumed_in(folder / "f.exr"), "taken for 'left'");
+  ReadOptions options;
+  options.views = {"right"};
+  EXPECT_FALSE(FrameFile(folder / "f.exr", options).view_is_assumed());
+}
+
+// --- Cameras of a file
+// ------------------------------------------------------------------------------------------------
+
+constexpr const char* two_cameras =
+    R"({"views": [{"view": "left", "fx": 9, "fy": 9, "cx": 4, "cy": 4,
+                   "camera_to_world": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]},
+                  {"view": "right", "fx": 9, "fy": 9, "cx": 4, "cy": 4,
+                   "camera_to_world": [[1,0,0,2],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]})";
+constexpr const char* one_camera =
+    R"({"near": 0.5, "far": 20, "fx": 9, "fy": 9, "cx": 4, "cy": 4,
+        "camera_to_world": [[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]})";
+
+TEST(CameraOfFile, JsonWhoseViewsDoNotFit) {
+  Folder folder;
+  fs::create_directory(folder / "other");
+  std::ofstream(folder / "other/stereo.json") << two_cameras;
+  std::ofstream(folder / "other/mono.json") << one_camera;
+  write_exr(folder / "f.exr", Imf::Header(8, 8), {{"Z", Imf::FLOAT, ramp}});
+  Imf::Header header(8, 8);
+  Imf::addMultiView(header, {"left", "right"});
+  write_exr(folder / "pair.exr", header, {{"Z", Imf::FLOAT, ramp}, {"right.Z", Imf::FLOAT, ramp}});
+  ReadOptions options;
+  options.camera_file = folder / "other/stereo.json";
+  EXPECT_TRUE(FrameFile(folder / "pair.exr", options).camera("right").has_value());
+  expect_in(read_error(folder / "f.exr", {"depth"}, options),
+            "stereo.json has the views left and right, and f.exr names none; ");
+  options.camera_file = folder / "other/mono.json";
+  EXPECT_TRUE(FrameFile(folder / "f.exr", options).camera("").has_value());
+  expect_in(read_error(folder / "pair.exr", {"depth"}, options),
+            "mono.json has one camera, for no view by name, and pair.exr has the views left and right; ");
+  // Found, not asked for: a note, and no claim that there is none.
+  std::ofstream(folder / "camera_stereo.json") << two_cameras;
+  const std::string assumed = assumed_in(folder / "f.exr");
+  expect_in(assumed, "camera_stereo.json has the views left and right, and f.exr names none: it is not used");
+  expect_in(assumed, "60 degrees");
+  expect_not_in(assumed, "none by flag");
+}
+
+TEST(CameraOfFile, JsonBesideItThatCannotBeRead) {
+  Folder folder;
+  write_exr(folder / "f.exr", Imf::Header(8, 8), {{"Z", Imf::FLOAT, ramp}});
+  std::ofstream(folder / "f.json") << "{";
+  expect_in(assumed_in(folder / "f.exr"), "f.json is there but is no camera (not readable as JSON");
+  for (const char* name : {"f.camera.json", "camera.json"})
+    for (const char* text : {"", "{", "\"\xff\"", "{\"near\": NaN, "}) {
+      std::ofstream(folder / name) << text;
+      expect_one_line(read_error(folder / "f.exr"), name, "JSON");
+      fs::remove(folder / name);
+    }
+}
+
+TEST(CameraOfFile, NearAndFar) {
+  Folder folder;
+  const fs::path path = folder / "f.exr";
+  Imf::Header header(8, 8);
+  write_exr(path, header, {{"Z", Imf::FLOAT, ramp}});
+  ReadOptions options;
+  options.near = options.far = 5;
+  EXPECT_EQ(read_error(path, {"depth"}, options), "--near 5 --far 5: near must be less than far");
+  EXPECT_THROW(FrameFile(path, options), UsageError);
+  std::ofstream(folder / "camera.json") << one_camera;
+  options.near = 50;
+  options.far.reset();
+  expect_in(read_error(path, {"depth"}, options), "--near 50: must be less than far, 20 (camera.json)");
+  options.far = 0.25;
+  options.near.reset();
+  expect_in(read_error(path, {"depth"}, options), "--far 0.25: must be more than near, 0.5 (camera.json)");
+}
+
+/// A camera at (1, 2, 3), as OpenEXR writes it.
+Imath::M44f world_to_camera() { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, -1, -2, 3, 1}; }
+/// Of 90 degrees across.
+Imath::M44f world_to_ndc() { return {0.5f, 0, 0, 0, 0, -0.5f, 0, 0, -0.5f, -0.5f, -1, -1, 1, 2.5f, 2, 3}; }
+
+TEST(CameraOfFile, PoseOfAHeaderWithoutProjection) {
+  Folder folder;
+  const fs::path path = folder / "f.exr";
+  Imf::Header header(8, 8);
+  header.insert("worldToCamera", Imf::M44fAttribute(world_to_camera()));
+  write_exr(path, header, {{"Z", Imf::FLOAT, ramp}});
+  const auto is_posed = [](const std::optional<Camera>& camera) {
+    return camera && camera->pose && glm::length(camera->pose->position - glm::dvec3(1, 2, 3)) < 1e-6;
+  };
+  const Frame frame = FrameFile(path, {}).read({"depth"});
+  EXPECT_TRUE(is_posed(frame.views[0].camera));
+  const std::string assumed = assumed_in(path);
+  expect_in(assumed, "worldToCamera and no worldToNDC");
+  expect_in(assumed, "60 degrees");
+  expect_not_in(assumed, "none by flag");
+  ReadOptions options;
+  options.fov_degrees = 90;
+  EXPECT_TRUE(is_posed(FrameFile(path, options).camera("")));
+  EXPECT_NEAR(FrameFile(path, options).camera("")->fx, 4, 1e-9);
+  std::string moved = one_camera;
+  moved.replace(moved.find("[1,0,0,1]"), 9, "[1,0,0,7]");
+  std::ofstream(folder / "camera.json") << moved;
+  EXPECT_TRUE(is_posed(FrameFile(path, {}).camera(""))) << "the header wins over the JSON";
+  EXPECT_EQ(FrameFile(path, {}).camera("")->fx, 9);
+}
+
+TEST(CameraOfFile, HeaderOfWhichNothingCanBeUsed) {
+  Folder folder;
+  Imf::Header half(8, 8);
+  half.insert("worldToNDC", Imf::M44fAttribute(world_to_ndc()));
+  write_exr(folder / "f.exr", half, {{"Z", Imf::FLOAT, ramp}});
+  EXPECT_FALSE(FrameFile(folder / "f.exr", {}).camera("").has_value());
+  expect_in(assumed_in(folder / "f.exr"), "worldToNDC and no worldToCamera");
+  for (const auto& [near, far] : {std::pair(0.f, 10.f), std::pair(1.f, -1.f), std::pair(5.f, 5.f)}) {
+    Imf::Header header(8, 8);
+    header.insert("worldToCamera", Imf::M44fAttribute(world_to_camera()));
+    header.insert("worldToNDC", Imf::M44fAttribute(world_to_ndc()));
+    header.insert("near", Imf::FloatAttribute(near));
+    header.insert("far", Imf::FloatAttribute(far));
+    write_exr(folder / "g.exr", header, {{"Z", Imf::FLOAT, ramp}});
+    const std::optional<Camera> camera = FrameFile(folder / "g.exr", {}).camera("");
+    ASSERT_TRUE(camera.has_value());
+    EXPECT_NEAR(camera->fx, 4, 1e-5);
+    EXPECT_FALSE(camera->near && camera->far);
+    expect_in(assumed_in(folder / "g.exr"), "in the header cannot be and is not used");
+  }
+}
+
+TEST(RefuseExr, StrangeNamesAreShownInASafeWay) {
+  Folder folder;
+  const fs::path path = folder / "f\x1b[2J\n.exr";
+  write_exr(path, Imf::Header(8, 8), {{"a\x1b[31m.Z", Imf::FLOAT, ramp}, {"b\n.Z", Imf::FLOAT, ramp}});
+  ReadOptions options;
+  options.channels = {{"depth", "nothing_like_it"}};
+  const std::string message = read_error(path, {"depth"}, options);
+  expect_in(message, "f\\x1b[2J\\x0a.exr");
+  expect_in(message, "a\\x1b[31m.Z");
+  expect_not_in(message, "\n");
+  expect_not_in(message, "\x1b");
 }
 
 TEST(ReadExr, DistanceByNameIsBroughtToPlanarDepth) {

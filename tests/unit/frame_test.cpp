@@ -102,10 +102,35 @@ TEST(Planes, DepthLayersAndUnknownNames) {
 }
 
 TEST(Messages, SuggestionIsNearOrAbsent) {
-  EXPECT_EQ(suggestion("depht", {"normal", "depth"}), ": did you mean 'depth'?");
-  EXPECT_EQ(suggestion("HBAO", {"hbao", "ssao"}), ": did you mean 'hbao'?");
+  EXPECT_EQ(suggestion("depht", {"normal", "depth"}), " (did you mean 'depth'?)");
+  EXPECT_EQ(suggestion("HBAO", {"hbao", "ssao"}), " (did you mean 'hbao'?)");
   EXPECT_EQ(suggestion("zebra", {"normal", "depth"}), "");
   EXPECT_EQ(suggestion("x", {}), "");
+}
+
+TEST(Messages, SuggestionCompletesWhatIsCutShort) {
+  EXPECT_EQ(suggestion("--rad", {"--ray", "--radius"}), " (did you mean '--radius'?)");
+  EXPECT_EQ(suggestion("--out", {"--outputs", "--output"}), " (did you mean '--output'?)");
+  EXPECT_EQ(suggestion("back", {"depth", "back_depth"}), " (did you mean 'back_depth'?)");
+  EXPECT_EQ(suggestion("--r", {"--radius"}), "") << "one letter is no start";
+  EXPECT_EQ(suggestion("--", {"--radius"}), "");
+}
+
+TEST(Messages, NoSuggestionForNumbers) {
+  EXPECT_EQ(suggestion("1", {"2", "a"}), "");
+  EXPECT_EQ(suggestion("-12", {"-1", "-123"}), "");
+  EXPECT_EQ(suggestion("", {"a"}), "");
+}
+
+TEST(Messages, NothingReachesTheTerminalRaw) {
+  EXPECT_EQ(printable("a\x1b[31mb\n\t\x7f"), "a\\x1b[31mb\\x0a\\x09\\x7f");
+  EXPECT_EQ(printable("Größe 深度 \U0001f600"), "Größe 深度 \U0001f600");
+  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");                             // no UTF-8, and cut short
+  EXPECT_EQ(printable("\xc0\x8a\xed\xa0\x80"), "\\xc0\\x8a\\xed\\xa0\\x80");  // overlong newline, surrogate
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");                             // CSI in one character
+  EXPECT_EQ(printable(printable("a\n")), printable("a\n"));
+  EXPECT_STREQ(Error("no view '{}'", "a\x1b\n").what(), "no view 'a\\x1b\\x0a'");
+  EXPECT_STREQ(UsageError(std::string("a\nb")).what(), "a\\x0ab");
 }
 
 TEST(Messages, Enumerate) {
@@ -141,7 +166,7 @@ TEST(WriteAtomically, FailureLeavesTheOldFileAndNothingElse) {
     const std::string message = error.what();
     EXPECT_TRUE(message.starts_with(path.string())) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
-    EXPECT_EQ(message.find(".part"), std::string::npos) << "the temporary name means nothing to the user";
+    EXPECT_EQ(message.find(".gloam-"), std::string::npos) << "the temporary name means nothing to the user";
   }
   EXPECT_EQ(read_text(path), "old");
   EXPECT_EQ(folder.count(), 1u);
@@ -158,6 +183,36 @@ TEST(WriteAtomically, RefusesWhatCannotBeWritten) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
+TEST(WriteAtomically, LongNamesAndEmptyOnes) {
+  Folder folder;
+  const auto write = [](const fs::path& temporary) {
+    EXPECT_EQ(temporary.extension(), ".png") << "codecs choose by it";
+    put(temporary, "new");
+  };
+  const fs::path longest = folder.path / (std::string(251, 'n') + ".png");
+  write_atomically(longest, write);
+  EXPECT_EQ(read_text(longest), "new");
+  EXPECT_EQ(folder.count(), 1u);
+  EXPECT_THROW(write_atomically(folder.path / (std::string(252, 'n') + ".png"), write), Error);
+  try {
+    write_atomically("", write);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "an empty path cannot be written");
+  }
+}
+
+TEST(WriteAtomically, StrangeNamesStayOutOfMessages) {
+  Folder folder;
+  try {
+    write_atomically(folder.path / "a\x1b\n.txt",
+                     [](const fs::path& temporary) { throw Error("{}: no space", temporary.string()); });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), (folder.path / "a\\x1b\\x0a.txt").string() + ": no space");
+  }
+}
+
 TEST(WriteAtomically, SymbolicLinkStaysOne) {
   Folder folder;
   put(folder.path / "real", "old");
@@ -168,7 +223,7 @@ TEST(WriteAtomically, SymbolicLinkStaysOne) {
 }
 
 TEST(WriteAtomically, SignalRemovesTheTemporary) {
-  for (int signal : {SIGINT, SIGTERM}) {
+  for (int signal : {SIGHUP, SIGINT, SIGTERM}) {
     Folder folder;
     put(folder.path / "out.txt", "old");
     const pid_t child = ::fork();
@@ -188,6 +243,59 @@ TEST(WriteAtomically, SignalRemovesTheTemporary) {
     EXPECT_EQ(folder.count(), 1u);
     EXPECT_EQ(read_text(folder.path / "out.txt"), "old");
   }
+}
+
+/// What a process says on standard error that writes `before` files, then is told to end while it writes one more.
+std::string said_on_signal(int signal, int before) {
+  Folder folder;
+  int ends[2];
+  EXPECT_EQ(::pipe(ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(ends[1], STDERR_FILENO);
+    ::signal(signal, SIG_DFL);
+    remove_temporaries_on_signal();
+    for (int i = 0; i < before; ++i)
+      write_atomically(folder.path / std::to_string(i), [](const fs::path& temporary) { put(temporary, "whole"); });
+    write_atomically(folder.path / "out.txt", [&](const fs::path& temporary) {
+      put(temporary, "half");
+      ::raise(signal);
+    });
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  std::string said;
+  char bytes[256];
+  for (ssize_t got; (got = ::read(ends[0], bytes, sizeof bytes)) > 0;) said.append(bytes, size_t(got));
+  ::close(ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
+  EXPECT_EQ(folder.count(), size_t(before));
+  return said;
+}
+
+TEST(WriteAtomically, TheMessageOnASignalIsTrue) {
+  EXPECT_EQ(said_on_signal(SIGTERM, 0), "gloam: interrupted; no output was written\n");
+  EXPECT_EQ(said_on_signal(SIGHUP, 1), "gloam: interrupted; already written: 1 file(s)\n");
+  EXPECT_EQ(said_on_signal(SIGINT, 12), "gloam: interrupted; already written: 12 file(s)\n");
+}
+
+TEST(WriteAtomically, IgnoredSignalsStayIgnoredAndAFileTooLargeIsAnError) {
+  Folder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGHUP, SIG_IGN);  // as under nohup
+    ::signal(SIGXFSZ, SIG_DFL);
+    remove_temporaries_on_signal();
+    ::raise(SIGHUP);
+    ::raise(SIGXFSZ);
+    ::_exit(7);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
 TEST(ReadText, NamesWhatItCannotRead) {
