@@ -1,5 +1,9 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <filesystem>
 
 #include "device_impl.h"
 #include "gloam/error.h"
@@ -50,8 +54,24 @@ struct Found {
   DeviceInfo info;
 };
 
+/// PoCL needs a folder for its compiled kernels and finds no device where it has none (a service, a container without a
+/// home): it gets one among the temporary files.
+void give_pocl_a_folder() {
+  for (const char* name : {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "HOME"}) {
+    const char* folder = std::getenv(name);
+    if (folder && access(folder, W_OK) == 0) return;
+    if (folder && *folder == '\0') unsetenv(name);  // PoCL aborts on an empty one
+  }
+  std::error_code unknown;
+  const auto folder = std::filesystem::temp_directory_path(unknown) / fmt::format("gloam-kernels-{}", getuid());
+  std::filesystem::create_directories(folder, unknown);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_all, unknown);
+  setenv("POCL_CACHE_DIR", folder.c_str(), 1);
+}
+
 /// Platforms are enumerated one by one: one without devices (a driver without its hardware) is passed over.
 std::vector<Found> find_devices() {
+  give_pocl_a_folder();
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
@@ -100,10 +120,11 @@ const Found& choose_device(const std::vector<Found>& found, const std::string& t
   return *widest;
 }
 
-/// The compiler's log without its blank lines, cut to what a person reads.
+/// The compiler's log on one line, cut to what a person reads.
 std::string short_log(std::string log) {
   log = trimmed(log);
-  return log.size() > 4000 ? log.substr(0, 4000) + "\n..." : log;
+  for (size_t at = 0; (at = log.find('\n', at)) != std::string::npos;) log.replace(at, 1, "; ");
+  return log.size() > 4000 ? log.substr(0, 4000) + " ..." : log;
 }
 
 }  // namespace
@@ -172,7 +193,7 @@ cl::Program& Device::Impl::program(const std::string& source, const std::string&
   try {
     built.build({device}, options.c_str());
   } catch (const cl::Error& error) {
-    throw Error("kernels/{} does not build on {} with {} ({}):\n{}", source, label(info), options,
+    throw Error("kernels/{} does not build on {} with {} ({}): {}", source, label(info), options,
                 cl_error_name(error.err()), short_log(built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device)));
   }
   return programs.emplace(key, std::move(built)).first->second;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -50,11 +49,39 @@ const Technique* maker_of(const std::string& plane, const Technique* asking,
   return nullptr;
 }
 
+bool reads_from(const Technique& reader, const Technique& writer) {
+  return std::any_of(reader.reads.begin(), reader.reads.end(),
+                     [&](const std::string& plane) { return contains(writer.writes, plane); });
+}
+
+/// Whether a technique makes of what another writes one of the outputs that the other leaves to a follower.
+bool follows(const Technique& follower, const Technique& technique) {
+  return std::any_of(follower.writes.begin(), follower.writes.end(),
+                     [&](const std::string& plane) {
+                       return contains(outputs_of(technique), plane) && !contains(technique.writes, plane);
+                     }) &&
+         reads_from(follower, technique);
+}
+
+void check_follower(const Technique& technique, const Technique& follower) {
+  if (follows(follower, technique)) return;
+  std::vector<std::string> fitting;
+  for (const Technique& t : registry()) {
+    if (follows(t, technique)) fitting.push_back(t.name);
+  }
+  if (fitting.empty())
+    throw UsageError("--filter {}: {} leaves nothing to a filter; only none fits", follower.name, technique.name);
+  throw UsageError("--filter {}: is no filter for {}; there are {} and none", follower.name, technique.name,
+                   enumerate(fitting));
+}
+
 /// A technique asked for brings its follower: its own, or the one that the request names.
 void add_makers(Wanted& wanted, const Technique& technique, const std::string& then) {
   wanted.makers.push_back(&technique);
   const std::string follower = then.empty() ? technique.then : then;
-  if (!follower.empty() && follower != "none") wanted.makers.push_back(&find_technique(follower));
+  if (follower.empty() || follower == "none") return;
+  if (!then.empty()) check_follower(technique, find_technique(follower));
+  wanted.makers.push_back(&find_technique(follower));
 }
 
 void add_new(std::vector<std::string>& list, const std::string& item) {
@@ -182,11 +209,6 @@ void apply(const PlanRequest& request, const std::vector<const Technique*>& orde
   }
 }
 
-bool reads_from(const Technique& reader, const Technique& writer) {
-  return std::any_of(reader.reads.begin(), reader.reads.end(),
-                     [&](const std::string& plane) { return contains(writer.writes, plane); });
-}
-
 /// A follower works on the same radius as the technique it follows.
 void inherit(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
@@ -227,7 +249,9 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   plan.inputs = walk.inputs;
   plan.skipped = walk.skipped;
   for (const std::string& plane : available) {
-    if (!contains(plan.inputs, plane)) plan.skipped.emplace_back(plane, "no pass reads it; not decoded");
+    if (contains(plan.inputs, plane)) continue;
+    plan.skipped.emplace_back(
+        plane, contains(wanted.outputs, plane) ? "asked for, so it is computed" : "no pass reads it; not decoded");
   }
   if (contains(plan.inputs, "depth"))
     plan.depends_on_pixels.push_back("background: recognised when the depth is decoded");

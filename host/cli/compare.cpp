@@ -5,6 +5,7 @@
 
 #include "gloam/error.h"
 #include "gloam/metrics.h"
+#include "gloam/planes.h"
 #include "gloam/visualise.h"
 #include "options.h"
 
@@ -17,8 +18,9 @@ struct CompareCommand {
   JsonFlag json;
 };
 
-/// The plane to compare: the one asked for, else the first that both files have, results before inputs.
-std::string choose_plane(const FrameFile& test, const FrameFile& reference, const std::string& asked) {
+/// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
+std::vector<std::string> comparable_planes(const FrameFile& test, const FrameFile& reference,
+                                           const std::string& asked) {
   const std::vector<std::string> a = test.common_planes(), b = reference.common_planes();
   const auto lacks = [&](const FrameFile& file, const std::vector<std::string>& planes) {
     if (!contains(planes, asked))
@@ -27,16 +29,43 @@ std::string choose_plane(const FrameFile& test, const FrameFile& reference, cons
   if (!asked.empty()) {
     lacks(test, a);
     lacks(reference, b);
-    return asked;
+    return {asked};
   }
-  for (const char* plane : {"ao", "reflection", "color", "normal", "depth"}) {
-    if (contains(a, plane) && contains(b, plane)) return plane;
+  std::vector<std::string> order = {"ao", "reflection", "color", "normal", "depth"}, both;
+  order.insert(order.end(), a.begin(), a.end());
+  for (const std::string& plane : order) {
+    if (contains(a, plane) && contains(b, plane) && !contains(both, plane)) both.push_back(plane);
   }
-  for (const std::string& plane : a) {
-    if (contains(b, plane)) return plane;
-  }
+  if (!both.empty()) return both;
   throw Error("{} and {} have no plane in common: {}; {}", test.path().string(), reference.path().string(),
               holdings(test), holdings(reference));
+}
+
+/// A frame with the plane to compare, and depth to know the background by; values as they stand in the file.
+struct Side {
+  FrameFile file;
+  Frame frame;
+
+  bool has(const std::string& plane) const {
+    return std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
+  }
+  void read(const std::string& plane) {
+    std::vector<std::string> planes = {plane};
+    if (plane != "depth" && contains(file.common_planes(), "depth")) planes.push_back("depth");
+    frame = file.read(planes);
+  }
+};
+
+/// Reads both sides and returns the plane to compare: the first that is of use in both.
+std::string read_sides(Side& test, Side& reference, const std::string& asked) {
+  for (const std::string& plane : comparable_planes(test.file, reference.file, asked)) {
+    test.read(plane);
+    reference.read(plane);
+    if (test.has(plane) && reference.has(plane)) return plane;
+  }
+  const Side& unusable = test.frame.assumed.empty() ? reference : test;
+  throw Error("{}: nothing that both files have can be compared: {}", unusable.file.path().string(),
+              fmt::join(unusable.frame.assumed, "; "));
 }
 
 bool ends_with_word(const std::string& stem, const std::string& word) {
@@ -59,7 +88,12 @@ std::optional<std::string> view_by_name(const FrameFile& several, const FrameFil
 /// the same name. A file's name wins over its view's: a file that lists both eyes and holds one is read as the first.
 ViewPairs pair_views(const FrameFile& test, const FrameFile& reference) {
   const std::vector<std::string>&a = test.views(), &b = reference.views();
-  if (a.size() == 1 && b.size() == 1) return {{a[0], b[0]}};
+  if (a.size() == 1 && b.size() == 1) {
+    if (a[0] != b[0] && !a[0].empty() && !b[0].empty()) {
+      note({fmt::format("view '{}' is compared with view '{}'; is that meant?", a[0], b[0])});
+    }
+    return {{a[0], b[0]}};
+  }
   const FrameFile& one = b.size() == 1 ? reference : test;
   const std::optional<std::string> named =
       a.size() == 1 || b.size() == 1 ? view_by_name(&one == &reference ? test : reference, one) : std::nullopt;
@@ -67,6 +101,11 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference) {
     note({fmt::format("{} goes with view '{}', which its name ends in; --view chooses another",
                       one.path().filename().string(), *named)});
     return {b.size() == 1 ? std::pair(*named, b[0]) : std::pair(a[0], *named)};
+  }
+  for (const FrameFile* file : {&test, &reference}) {
+    if (!file->view_is_assumed()) continue;
+    note({fmt::format("{} lists several views and holds one, taken as '{}'; --view says which it is",
+                      file->path().filename().string(), file->views()[0])});
   }
   ViewPairs pairs;
   for (const std::string& name : a) {
@@ -91,12 +130,13 @@ Channel crop(const Channel& channel, const Window& from, const Window& to) {
 }
 
 /// Both frames over the same pixels: their windows, or the display window where they share one and the windows differ.
-Window common_window(const FrameFile& test, const Frame& a, const FrameFile& reference, const Frame& b) {
+Window common_window(const Side& test, const Side& reference) {
+  const Frame &a = test.frame, &b = reference.frame;
   if (a.window == b.window) return a.window;
   if (a.display == b.display) return a.display;
   if (a.width() == b.width() && a.height() == b.height()) return {};  // same size, other origin
-  throw Error("{} is {}x{} and {} is {}x{}; only images of one size can be compared", test.path().string(), a.width(),
-              a.height(), reference.path().string(), b.width(), b.height());
+  throw Error("{} is {}x{} and {} is {}x{}; only images of one size can be compared", test.file.path().string(),
+              a.width(), a.height(), reference.file.path().string(), b.width(), b.height());
 }
 
 Plane cropped(const Plane& plane, const Window& from, const Window& to) {
@@ -106,26 +146,37 @@ Plane cropped(const Plane& plane, const Window& from, const Window& to) {
   return out;
 }
 
-/// Foreground by the first frame that has depth for the view; everything where none has.
-Mask foreground(const std::vector<std::pair<const Frame*, std::string>>& frames, const Window& window, int width,
-                int height, bool& known) {
-  for (const auto& [frame, name] : frames) {
-    const auto view =
-        std::find_if(frame->views.begin(), frame->views.end(), [&, n = name](const View& v) { return v.name == n; });
-    const Plane* depth = view == frame->views.end() ? nullptr : view->find("depth");
-    if (!depth) continue;
-    const Plane z = cropped(*depth, frame->window, window);
-    if (z.channels[0].layout() != Layout(width, height)) continue;
-    Mask mask(size_t(width) * size_t(height));
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x)
-        mask[size_t(y) * size_t(width) + size_t(x)] = !is_background(z.channels[0].at(x, y));
-    }
-    known = true;
-    return mask;
+/// Whether a frame covers a window, or has its size where the window is empty.
+bool covers(const Frame& frame, const Window& window, const Layout& layout) {
+  if (window == Window{}) return frame.width() == layout.width && frame.height() == layout.height;
+  const Window& w = frame.window;
+  return w.x0 <= window.x0 && w.y0 <= window.y0 && w.x1 >= window.x1 && w.y1 >= window.y1;
+}
+
+/// Foreground of a view of one frame; none where it has no depth for that view.
+std::optional<Mask> foreground(const Frame& frame, const std::string& name, const Window& window,
+                               const Layout& layout) {
+  const auto view = std::find_if(frame.views.begin(), frame.views.end(), [&](const View& v) { return v.name == name; });
+  const Plane* depth = view == frame.views.end() ? nullptr : view->find("depth");
+  if (!depth || !covers(frame, window, layout)) return {};
+  const Plane z = cropped(*depth, frame.window, window);
+  Mask mask(size_t(layout.width) * size_t(layout.height));
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x)
+      mask[size_t(y) * size_t(layout.width) + size_t(x)] = !is_background(z.channels[0].at(x, y));
   }
-  known = false;
-  return Mask(size_t(width) * size_t(height), 1);
+  return mask;
+}
+
+/// The view of a --frame that goes with a view of the test: of the same name, or the only one.
+std::string view_of(const Frame& frame, const std::string& name) {
+  if (frame.views.size() == 1) return frame.views[0].name;
+  for (const View& view : frame.views) {
+    if (view.name == name) return name;
+  }
+  std::vector<std::string> names;
+  for (const View& view : frame.views) names.push_back(view.name);
+  throw Error("--frame has the views {}, and '{}' is compared; --view NAME says which", enumerate(names), name);
 }
 
 Json metrics_document(const Metrics& m) {
@@ -162,15 +213,20 @@ Metrics pooled(const std::vector<Metrics>& views) {
   return all;
 }
 
-void print_metrics(const std::string& view, const Metrics& m) {
+/// What a positive and a negative bias mean for a reader.
+std::string bias_words(double bias, const std::string& plane) {
+  if (std::abs(bias) < 5e-6) return "";
+  const PlaneKind::Meaning meaning = plane_kind(plane).meaning;
+  const bool light = meaning == PlaneKind::unit_interval || plane == "color";
+  return bias > 0 ? (light ? "  (too bright)" : "  (too high)") : (light ? "  (too dark)" : "  (too low)");
+}
+
+void print_metrics(const std::string& view, const std::string& plane, const Metrics& m) {
   if (!view.empty()) fmt::print("view {}\n", view);
   print_table({{"pixels", std::to_string(m.pixels)},
                {"RMSE", fmt::format("{:.5f}", m.rmse)},
                {"MAE", fmt::format("{:.5f}", m.mae)},
-               {"bias", fmt::format("{:+.5f}  ({})", m.bias,
-                                    m.bias > 0   ? "too bright"
-                                    : m.bias < 0 ? "too dark"
-                                                 : "none")},
+               {"bias", fmt::format("{:+.5f}{}", m.bias, bias_words(m.bias, plane))},
                {"PSNR", m.psnr ? fmt::format("{:.2f} dB", *m.psnr) : "identical"},
                {"max", fmt::format("{:.5f}", m.max)},
                {"over 1/255", fmt::format("{:.2f} %", 100 * m.over_1_255)},
@@ -180,54 +236,87 @@ void print_metrics(const std::string& view, const Metrics& m) {
               2);
 }
 
+/// "0.5" of "hbao+: radius=0.5 bias=0.1"; none where there is no radius.
+std::optional<double> radius_in(const std::string& parameters) {
+  const std::string key = " radius=";
+  const size_t at = parameters.find(key);
+  if (at == std::string::npos) return {};
+  return std::strtod(parameters.c_str() + at + key.size(), nullptr);
+}
+
+/// An AO made with another radius than its truth is worth a word.
+void note_other_radius(const FrameFile& test, const FrameFile& reference) {
+  const std::optional<double> truth = reference.number_attribute("aoRadius");
+  const std::optional<double> used = radius_in(test.text_attribute("gloamParameters"));
+  if (!truth || !used || std::abs(*truth - *used) <= 1e-3 * *truth) return;
+  note({fmt::format("the radius of the test is {:g}, and that of the truth {:g}", *used, *truth)});
+}
+
+/// The reference's options: its channels are not those of the test, and one unnamed view leaves nothing to choose.
+ReadOptions reference_options(const ReadOptions& options, const std::string& path) {
+  ReadOptions own = options;
+  own.channels.clear();
+  if (own.views.empty()) return own;
+  ReadOptions any = own;
+  any.views.clear();
+  if (FrameFile(path, any).views().size() == 1) own.views.clear();
+  return own;
+}
+
+Frame background_frame(const CompareCommand& flags, const ReadOptions& options) {
+  if (flags.frame.empty()) return {};
+  FrameFile file(flags.frame, options);
+  if (!contains(file.common_planes(), "depth"))
+    throw Error("{}: no depth to tell the background by; {}", flags.frame, holdings(file));
+  return file.read({"depth"});
+}
+
+/// --frame first, since the user named it; then what the files themselves know.
+std::optional<Mask> mask_of(const CompareCommand& flags, const Frame& extra, const Side& test, const Side& reference,
+                            const std::pair<std::string, std::string>& views, const Window& window,
+                            const Layout& layout) {
+  if (!flags.frame.empty()) {
+    const std::optional<Mask> mask = foreground(extra, view_of(extra, views.first), window, layout);
+    if (!mask) {
+      throw Error("--frame {} is {}x{}, and the images are {}x{}", flags.frame, extra.width(), extra.height(),
+                  layout.width, layout.height);
+    }
+    return mask;
+  }
+  if (const auto mask = foreground(test.frame, views.first, window, layout)) return mask;
+  return foreground(reference.frame, views.second, window, layout);
+}
+
 void compare_command(const CompareCommand& flags) {
   check_picture_name(flags.picture, "-o");
-  const ReadOptions reading = flags.frame_flags.read_options();
-  FrameFile test(flags.test, reading);
-  ReadOptions reference_reading = reading;
-  reference_reading.channels.clear();
-  if (!reading.views.empty()) {
-    // A reference of one unnamed view has no view to choose from.
-    ReadOptions any = reference_reading;
-    any.views.clear();
-    const FrameFile look(flags.reference, any);
-    if (look.views().size() == 1) reference_reading.views.clear();
-  }
-  FrameFile reference(flags.reference, reference_reading);
-  const std::string plane = choose_plane(test, reference, flags.plane);
-  const auto pairs = pair_views(test, reference);
-  const auto with_depth = [&](const FrameFile& file, std::vector<std::string> planes) {
-    if (contains(file.common_planes(), "depth") && !contains(planes, "depth")) planes.push_back("depth");
-    return planes;
-  };
-  const Frame a = test.read(with_depth(test, {plane})), b = reference.read(with_depth(reference, {plane}));
-  Frame extra;
-  if (!flags.frame.empty()) {
-    FrameFile file(flags.frame, reading);
-    if (!contains(file.common_planes(), "depth"))
-      throw Error("{}: no depth to tell the background by; {}", flags.frame, holdings(file));
-    extra = file.read({"depth"});
-  }
-  const Window window = common_window(test, a, reference, b);
+  check_paths({{"the test", flags.test}, {"the reference", flags.reference}, {"--frame", flags.frame}},
+              {{"-o", flags.picture}, {"--json", flags.json.file()}});
+  ReadOptions options = flags.frame_flags.read_options();
+  options.as_stored = true;
+  Side test{FrameFile(flags.test, options), {}};
+  Side reference{FrameFile(flags.reference, reference_options(options, flags.reference)), {}};
+  const auto pairs = pair_views(test.file, reference.file);
+  const std::string plane = read_sides(test, reference, flags.plane);
+  if (plane == "ao") note_other_radius(test.file, reference.file);
+  const Frame extra = background_frame(flags, options);
+  const Window window = common_window(test, reference);
   std::vector<Metrics> all;
   Json views = Json::object();
   bool background_known = false;
   std::vector<std::string> pictures;
-  for (const auto& [name, reference_name] : pairs) {
-    const Plane left = cropped(*a.view(name).find(plane), a.window, window);
-    const Plane right = cropped(*b.view(reference_name).find(plane), b.window, window);
+  for (const auto& pair : pairs) {
+    const Plane left = cropped(*test.frame.view(pair.first).find(plane), test.frame.window, window);
+    const Plane right = cropped(*reference.frame.view(pair.second).find(plane), reference.frame.window, window);
     const Layout layout = left.channels[0].layout();
-    // --frame first, since the user named it.
-    const Mask mask = foreground({{&extra, name}, {&a, name}, {&b, reference_name}}, window, layout.width,
-                                 layout.height, background_known);
+    const std::optional<Mask> known = mask_of(flags, extra, test, reference, pair, window, layout);
+    background_known = background_known || known;
+    const Mask mask = known ? *known : Mask(size_t(layout.width) * size_t(layout.height), 1);
     all.push_back(compare(left, right, mask));
-    views[name] = metrics_document(all.back());
-    if (!flags.picture.empty()) {
-      const std::filesystem::path path = picture_path(flags.picture, name, pairs.size() > 1);
-      write_difference_picture(path, left, right, mask, all.back(),
-                               {test.path().filename().string(), reference.path().filename().string(), 0});
-      pictures.push_back(path.string());
-    }
+    views[pair.first] = metrics_document(all.back());
+    if (flags.picture.empty()) continue;
+    pictures.push_back(picture_path(flags.picture, pair.first, pairs.size() > 1).string());
+    write_difference_picture(pictures.back(), left, right, mask, all.back(),
+                             {test.file.path().filename().string(), reference.file.path().filename().string(), 0});
   }
   if (!background_known) note({"no depth in either file: every pixel counts; --frame FRAME.exr tells the background"});
   Json document = metrics_document(pooled(all));
@@ -235,9 +324,9 @@ void compare_command(const CompareCommand& flags) {
   if (pairs.size() > 1) document["views"] = views;
   flags.json.write(document);
   if (flags.json.only_json()) return;
-  fmt::print("{}: {} against {} (test - truth)\n", plane, flags.test, flags.reference);
-  for (size_t i = 0; i < all.size(); ++i) print_metrics(pairs.size() > 1 ? pairs[i].first : "", all[i]);
-  for (const std::string& path : pictures) fmt::print("wrote {}\n", path);
+  fmt::print("{}: {} against {} (test - truth)\n", plane, printable(flags.test), printable(flags.reference));
+  for (size_t i = 0; i < all.size(); ++i) print_metrics(pairs.size() > 1 ? pairs[i].first : "", plane, all[i]);
+  for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 
 }  // namespace

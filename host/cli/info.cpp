@@ -95,14 +95,30 @@ std::string types_of(const PlaneSource& source) {
 std::string camera_line(const Json& camera) {
   std::string line = fmt::format("{}, {}", camera["type"].get<std::string>(), camera["source"].get<std::string>());
   if (camera.contains("hfov_deg")) line += fmt::format(", hfov {:.2f} deg", camera["hfov_deg"].get<double>());
-  return line + fmt::format(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}", camera["fx"].get<double>(),
-                            camera["fy"].get<double>(), camera["cx"].get<double>(), camera["cy"].get<double>());
+  line += fmt::format(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}", camera["fx"].get<double>(),
+                      camera["fy"].get<double>(), camera["cx"].get<double>(), camera["cy"].get<double>());
+  for (const char* plane : {"near", "far"}) {
+    if (!camera[plane].is_null()) line += fmt::format(", {} {:g}", plane, camera[plane].get<double>());
+  }
+  return line;
+}
+
+/// Channels that serve as no plane.
+std::vector<std::string> unread_channels(const FrameFile& file) {
+  std::vector<std::string> read, unread;
+  for (const PlaneSource& source : file.planes()) {
+    for (const ChannelSource& channel : source.channels) read.push_back(channel.name);
+  }
+  for (const std::string& channel : file.all_channels()) {
+    if (!contains(read, channel)) unread.push_back(channel);
+  }
+  return unread;
 }
 
 void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, const Json& document,
                 const std::vector<std::string>& assumed) {
   const Window display = file.display(), window = file.window();
-  fmt::print("{}: {} x {}", file.path().string(), display.width(), display.height());
+  fmt::print("{}: {} x {}", printable(file.path().string()), display.width(), display.height());
   if (window != display)
     fmt::print(", data to {} x {} at ({}, {})", window.width(), window.height(), window.x0, window.y0);
   if (file.views().size() > 1 || !file.views()[0].empty()) fmt::print(", views {}", fmt::join(file.views(), ", "));
@@ -117,18 +133,18 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
                     figure(f.min), figure(f.max), figure(f.mean), std::to_string(f.nonfinite)});
   }
   print_table(rows, 4);
-  if (facts.empty()) fmt::print("no plane that gloam knows; the file has {}\n", fmt::join(file.all_channels(), ", "));
+  const std::vector<std::string> unread = unread_channels(file);
+  if (facts.empty()) fmt::print("no plane that gloam knows\n");
+  if (!unread.empty()) fmt::print("not read: {}\n", printable(fmt::format("{}", fmt::join(unread, ", "))));
   fmt::print("\n");
   for (const auto& [view, camera] : document["cameras"].items())
     fmt::print("camera {}{}\n", view.empty() ? "" : "of " + view + ": ", camera_line(camera));
-  if (document["camera"].is_null())
-    fmt::print("camera none: by no flag, no header, no JSON beside the file (--camera, --fov)\n");
   if (!document["depth_convention"].is_null()) {
     fmt::print("depth  {}, background {:.2f} %\n", document["depth_convention"].get<std::string>(),
                100 * document["background_share"].get<double>());
   }
   if (!document["normal_space"].is_null()) fmt::print("normal {} space\n", document["normal_space"].get<std::string>());
-  for (const std::string& note : assumed) fmt::print("assumed: {}\n", note);
+  for (const std::string& note : assumed) fmt::print("assumed: {}\n", printable(note));
   const std::vector<std::string> runs = document["runs"];
   fmt::print("\nruns   {}\n", runs.empty() ? "nothing" : fmt::format("{}", fmt::join(runs, ", ")));
   for (const auto& [technique, planes] : document["lacks"].items()) {
@@ -155,8 +171,10 @@ Json planes_document(const std::vector<PlaneFacts>& facts) {
 }
 
 void info_command(const std::string& path, const FrameFlags& flags, const JsonFlag& json) {
+  check_paths({{"the frame", path}}, {{"--json", json.file()}});
   ReadOptions options = flags.read_options();
   options.count_nonfinite = true;
+  options.as_stored = true;
   FrameFile file(path, options);
   std::vector<std::string> all;
   for (const PlaneSource& source : file.planes()) {
@@ -191,7 +209,8 @@ void info_command(const std::string& path, const FrameFlags& flags, const JsonFl
                          {"background_share", share ? Json(*share) : Json()},
                          {"assumed", frame.assumed},
                          {"runs", runs},
-                         {"lacks", lacks}};
+                         {"lacks", lacks},
+                         {"unread", unread_channels(file)}};
   json.write(document);
   if (!json.only_json()) print_info(file, facts, document, frame.assumed);
 }

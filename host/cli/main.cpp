@@ -20,6 +20,10 @@ std::vector<std::string> with_parameter_flags(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
+    // Most likely a shell variable that is not set.
+    if (argument.empty())
+      throw UsageError("argument {} is empty{}; give it a value or leave it out", i,
+                       i > 1 ? fmt::format(" (after '{}')", argv[i - 1]) : "");
     const size_t equals = argument.find('=');
     std::string name =
         argument.rfind("--", 0) == 0 ? argument.substr(2, equals == std::string::npos ? equals : equals - 2) : "";
@@ -75,6 +79,22 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{}{} {}", command, command.empty() ? "" : ": ", message, help);
 }
 
+/// `gloam run hbao+ --help` also shows what can be set.
+void print_parameters_of(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::vector<std::string> names = technique_names();
+    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) continue;
+    const Technique& technique = find_technique(argv[i]);
+    const ParameterValues initial(technique.parameters);
+    std::vector<std::vector<std::string>> rows;
+    for (const Parameter& p : technique.parameters) {
+      rows.push_back({"  --" + p.name, initial.text(p.name), "(" + allowed_values(p) + ")", p.help});
+    }
+    fmt::print("\nParameters of {}:\n", technique.name);
+    print_table(rows, 4);
+  }
+}
+
 int run_command(int argc, char** argv) {
   CLI::App app{
       "gloam: ambient occlusion and other image-space effects on captured G-buffers, and how near to truth they are."};
@@ -86,6 +106,7 @@ int run_command(int argc, char** argv) {
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("--version", "gloam " GLOAM_VERSION);
   app.require_subcommand(1);
+  app.name("gloam");
   add_info(app);
   add_run(app);
   add_compare(app);
@@ -94,7 +115,9 @@ int run_command(int argc, char** argv) {
   try {
     app.parse(with_parameter_flags(argc, argv));
   } catch (const CLI::Success& success) {
-    return app.exit(success);  // --help, --version
+    const int status = app.exit(success);  // --help, --version
+    print_parameters_of(argc, argv);
+    return status;
   } catch (const CLI::ParseError& error) {
     throw UsageError("{}", usage_message(app, error));
   }
@@ -104,19 +127,24 @@ int run_command(int argc, char** argv) {
 }  // namespace
 }  // namespace gloam::cli
 
+/// One line on standard error, whatever the message holds; a closed standard error is not worth more words.
+static int failed(const char* message, int status) {
+  std::fputs(("gloam: " + gloam::printable(message) + "\n").c_str(), stderr);
+  return status;
+}
+
 int main(int argc, char** argv) {
   gloam::remove_temporaries_on_signal();
   try {
     const int status = gloam::cli::run_command(argc, argv);
     gloam::cli::print_notes();
+    if (std::fflush(stdout) != 0) return failed("standard output: cannot be written", 1);
     return status;
   } catch (const gloam::Error& error) {
-    fmt::print(stderr, "gloam: {}\n", error.what());
-    return error.exit_status();
+    return failed(error.what(), error.exit_status());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "gloam: out of memory; use a smaller frame\n");
+    return failed("out of memory; use a smaller frame", 1);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "gloam: {}\n", error.what());
+    return failed(error.what(), 1);
   }
-  return 1;
 }

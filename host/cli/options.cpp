@@ -25,6 +25,32 @@ double number(const std::string& text, const std::string& flag, double min, doub
   return value;
 }
 
+int whole_number(const std::string& text, const std::string& flag, int min, int max) {
+  int value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size() || value < min || value > max) {
+    throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, min, max);
+  }
+  return value;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code unknown;
+  if (std::filesystem::equivalent(a, b, unknown)) return true;
+  return std::filesystem::weakly_canonical(a, unknown) == std::filesystem::weakly_canonical(b, unknown);
+}
+
+void check_folder(const NamedPath& output) {
+  const std::filesystem::path parent = std::filesystem::path(output.second).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown)) {
+    throw Error("{} {}: cannot be written, '{}' is not a folder", output.first, output.second, folder);
+  }
+  if (access(folder.c_str(), W_OK) != 0)
+    throw Error("{} {}: cannot be written, the folder '{}' is not writable", output.first, output.second, folder);
+}
+
 template <typename Value>
 Value one_of(const std::string& text, const std::string& flag,
              const std::vector<std::pair<std::string, Value>>& table) {
@@ -33,13 +59,26 @@ Value one_of(const std::string& text, const std::string& flag,
     if (name == text) return value;
     names.push_back(name);
   }
-  throw UsageError("{} {} is not allowed; {} are{}", flag, text, enumerate(names), suggestion(text, names));
+  throw UsageError("{} {} is not allowed{}; {} are", flag, text, suggestion(text, names), enumerate(names));
 }
 
 }  // namespace
 
 bool contains(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i].second.empty()) continue;
+    std::vector<NamedPath> others = inputs;
+    others.insert(others.end(), outputs.begin(), outputs.begin() + long(i));
+    for (const auto& [what, path] : others) {
+      if (path.empty() || !same_file(path, outputs[i].second)) continue;
+      throw UsageError("{} {}: is also {}; name another file", outputs[i].first, outputs[i].second, what);
+    }
+    check_folder(outputs[i]);
+  }
 }
 
 std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
@@ -53,19 +92,38 @@ std::vector<std::string> split_list(const std::string& text, const std::string& 
 }
 
 void FrameFlags::add_to(CLI::App& app) {
-  app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")->type_name("FILE");
-  app.add_option("--fov", fov, "horizontal field of view in degrees, over every other camera")->type_name("DEG");
-  app.add_option("--depth", depth, "what depth values mean: auto, z, ray, ndc or reversed")->type_name("CONVENTION");
-  app.add_option("--near", near, "near plane, scene units (for ndc and reversed)")->type_name("Z");
-  app.add_option("--far", far, "far plane, scene units; depth there is background")->type_name("Z");
-  app.add_option("--background", background, "the depth value that means background")->type_name("VALUE");
-  app.add_option("--normal-space", normal_space, "space of the normals: auto, view or world")->type_name("SPACE");
+  app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")
+      ->type_name("FILE")
+      ->group("Reading the frame");
+  app.add_option("--fov", fov, "horizontal field of view in degrees, over every other camera")
+      ->type_name("DEG")
+      ->group("Reading the frame");
+  app.add_option("--depth", depth, "what depth values mean: auto, z, ray, ndc or reversed")
+      ->type_name("CONVENTION")
+      ->group("Reading the frame");
+  app.add_option("--near", near, "near plane, scene units (for ndc and reversed)")
+      ->type_name("Z")
+      ->group("Reading the frame");
+  app.add_option("--far", far, "far plane, scene units; depth there is background")
+      ->type_name("Z")
+      ->group("Reading the frame");
+  app.add_option("--background", background, "the depth value that means background")
+      ->type_name("VALUE")
+      ->group("Reading the frame");
+  app.add_option("--normal-space", normal_space, "space of the normals: auto, view or world")
+      ->type_name("SPACE")
+      ->group("Reading the frame");
   app.add_option("--plane", planes, "take a plane from these channels or layer: depth=Layer.Z (repeatable)")
       ->type_name("PLANE=CHANNELS")
+      ->group("Reading the frame")
       ->expected(1)
       ->take_all();
-  CLI::Option* one = app.add_option("--view", view, "use this view only")->type_name("NAME");
-  app.add_option("--views", views, "use these views, in this order")->type_name("A,B")->excludes(one);
+  CLI::Option* one =
+      app.add_option("--view", view, "use this view only")->type_name("NAME")->group("Reading the frame");
+  app.add_option("--views", views, "use these views, in this order")
+      ->type_name("A,B")
+      ->group("Reading the frame")
+      ->excludes(one);
 }
 
 ReadOptions FrameFlags::read_options() const {
@@ -100,11 +158,15 @@ ReadOptions FrameFlags::read_options() const {
 void TechniqueFlags::add_to(CLI::App& app) {
   app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
       ->type_name("NAME=VALUE")
+      ->group("Technique")
       ->expected(1)
       ->take_all();
-  app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")->type_name("NAME");
+  app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")
+      ->type_name("NAME")
+      ->group("Technique");
   app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group("Technique");
 }
 
 PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
@@ -120,12 +182,14 @@ PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) con
 }
 
 void RunFlags::add_to(CLI::App& app) {
-  app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")->type_name("TEXT");
-  app.add_option("--lanes", lanes, "pixels per work-item: auto, 1, 4, 8 or 16")->type_name("N");
-  app.add_option("--math", math, "precise (same bits at every lane width) or fast")->type_name("MODE");
-  app.add_option("--real", real, "float or double")->type_name("TYPE");
-  app.add_option("--seed", seed, "of the random numbers")->type_name("N");
-  app.add_option("--repeat", repeat, "timed runs; more than one: after a warm-up")->type_name("N");
+  app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")
+      ->type_name("TEXT")
+      ->group("Device");
+  app.add_option("--lanes", lanes, "pixels per work-item: auto, 1, 4, 8 or 16")->type_name("N")->group("Device");
+  app.add_option("--math", math, "precise (same bits at every lane width) or fast")->type_name("MODE")->group("Device");
+  app.add_option("--real", real, "float or double")->type_name("TYPE")->group("Device");
+  app.add_option("--seed", seed, "of the random numbers")->type_name("N")->group("Device");
+  app.add_option("--repeat", repeat, "timed runs; more than one: after a warm-up")->type_name("N")->group("Device");
 }
 
 RunOptions RunFlags::run_options() const {
@@ -133,16 +197,16 @@ RunOptions RunFlags::run_options() const {
   options.lanes = one_of<int>(lanes, "--lanes", {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}});
   options.math = one_of<Math>(math, "--math", {{"precise", Math::precise}, {"fast", Math::fast}});
   options.real = one_of<Real>(real, "--real", {{"float", Real::float32}, {"double", Real::float64}});
-  if (repeat < 1 || repeat > 10000) throw UsageError("--repeat {} is not allowed; a number from 1 to 10000 is", repeat);
-  options.seed = seed;
-  options.repeat = repeat;
+  options.seed = whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
+  options.repeat = whole_number(repeat, "--repeat", 1, 10000);
   return options;
 }
 
 void JsonFlag::add_to(CLI::App& app) {
   app.add_option("--json", path,
                  "write the figures as JSON to this file; - is standard output, and nothing else goes there")
-      ->type_name("FILE|-");
+      ->type_name("FILE|-")
+      ->group("Writing");
 }
 
 void JsonFlag::write(const Json& document) const {
@@ -210,7 +274,19 @@ std::string holdings(const FrameFile& file) {
 }
 
 Plan plan_for(const FrameFile& file, const PlanRequest& request) {
-  return make_plan(request, file.common_planes(), holdings(file));
+  try {
+    return make_plan(request, file.common_planes(), holdings(file));
+  } catch (const MissingPlanes& missing) {
+    // Where one view has what another lacks, the list of channels would only confuse.
+    for (const std::string& plane : missing.planes) {
+      const std::string why = file.why_missing(plane);
+      if (!why.empty()) {
+        throw Error("{}: needs '{}', and in {} {}; --view NAME chooses another view", request.outputs.front(), plane,
+                    file.path().filename().string(), why);
+      }
+    }
+    throw;
+  }
 }
 
 void check_picture_name(const std::string& path, const std::string& flag) {
@@ -228,15 +304,16 @@ void print_table(const std::vector<std::vector<std::string>>& rows, size_t first
   std::vector<size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], printable(row[i]).size());
   }
   for (const auto& row : rows) {
     std::string line;
     for (size_t i = 0; i < row.size(); ++i) {
       const bool last = i + 1 == row.size();
-      line += i >= first_number ? fmt::format("{:>{}}", row[i], widths[i])
-              : last            ? row[i]
-                                : fmt::format("{:<{}}", row[i], widths[i]);
+      const std::string cell = printable(row[i]);
+      line += i >= first_number ? fmt::format("{:>{}}", cell, widths[i])
+              : last            ? cell
+                                : fmt::format("{:<{}}", cell, widths[i]);
       if (!last) line += "  ";
     }
     fmt::print("{}\n", line);
@@ -250,7 +327,12 @@ std::vector<std::string> kept_notes;
 void note(const std::vector<std::string>& notes) { kept_notes.insert(kept_notes.end(), notes.begin(), notes.end()); }
 
 void print_notes() {
-  for (const std::string& note : kept_notes) fmt::print(stderr, "note: {}\n", note);
+  std::vector<std::string> seen;
+  for (const std::string& note : kept_notes) {
+    if (contains(seen, note)) continue;
+    seen.push_back(note);
+    std::fputs(("note: " + printable(note) + "\n").c_str(), stderr);  // a closed standard error is no failure
+  }
 }
 
 }  // namespace gloam::cli

@@ -34,8 +34,7 @@ struct TechniqueFlags {
 
 /// Where and how to compute.
 struct RunFlags {
-  std::string device, lanes = "auto", math = "fast", real = "float";
-  int seed = 0, repeat = 1;
+  std::string device, lanes = "auto", math = "fast", real = "float", seed = "0", repeat = "1";
   void add_to(CLI::App& app);
   RunOptions run_options() const;
 };
@@ -46,8 +45,16 @@ struct JsonFlag {
   void add_to(CLI::App& app);
   /// Nothing but the document goes to standard output.
   bool only_json() const { return path == "-"; }
+  /// The file, if any.
+  std::string file() const { return only_json() ? "" : path; }
   void write(const Json& document) const;
 };
+
+/// A path with what it is on the command line: {"-o", "out.exr"}.
+using NamedPath = std::pair<std::string, std::string>;
+/// Throws before anything is computed when an output is also an input or another output, or when its folder cannot be
+/// written to. Empty paths are passed over.
+void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
 /// "a,b" -> a b; throws UsageError for an empty item.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);

@@ -39,6 +39,7 @@ void add_plan(CLI::App& app) {
   flags->json.add_to(*command);
   command->footer("Examples:\n  gloam plan ao frame.exr\n  gloam plan normals,hbao+ frame.exr --json -");
   command->callback([flags] {
+    check_paths({{"the frame", flags->frame}}, {{"--json", flags->json.file()}});
     const PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
     const FrameFile file(flags->frame, flags->frame_flags.read_options());
     const Plan plan = plan_for(file, request);

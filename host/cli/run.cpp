@@ -163,6 +163,21 @@ std::vector<std::string> write_pictures(const std::string& path, const Frame& fr
   return paths;
 }
 
+/// What made the planes, for the header: "hbao+", "hbao+: radius=0.5 bias=0.1 ...; bilateral: ...".
+std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& flags) {
+  std::string parameters;
+  const Technique* last = nullptr;
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.technique == last) continue;
+    last = planned.technique;
+    parameters += (parameters.empty() ? "" : "; ") + last->name + ":";
+    for (const Parameter& p : last->parameters) parameters += " " + p.name + "=" + planned.values.text(p.name);
+  }
+  return {{"gloamTechnique", plan.technique},
+          {"gloamParameters", parameters},
+          {"gloamRun", fmt::format("math={} real={} seed={}", flags.math, flags.real, flags.seed)}};
+}
+
 void run_command(const RunCommand& flags) {
   Stopwatch watch;
   RunOptions options = flags.run_flags.run_options();
@@ -172,6 +187,8 @@ void run_command(const RunCommand& flags) {
   const WriteOptions writing{flags.half, flags.compression};
   check(writing);
   check_picture_name(flags.picture, "--picture");
+  check_paths({{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}},
+              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   Plan plan = plan_for(file, request);
   watch.lap("open");
@@ -197,14 +214,15 @@ void run_command(const RunCommand& flags) {
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
   carry_over(frame, result.frame, flags.bare);
+  result.frame.attributes = provenance(plan, flags.run_flags);
   write_frame(flags.out, result.frame, writing);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, plan.outputs.front());
   watch.lap("write");
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
-  fmt::print("wrote {} ({})\n", flags.out, fmt::join(plan.outputs, ", "));
-  for (const std::string& path : pictures) fmt::print("wrote {}\n", path);
+  fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
+  for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 
 }  // namespace

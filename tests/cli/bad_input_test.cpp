@@ -46,6 +46,66 @@ TEST_F(Cli, WrongUsage) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(Cli, EmptyArgumentsAndNumbersThatAreNone) {
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", ""}), 2, {"empty", "'-o'"});
+  expect_refused(gloam({"info", loggia, "--json", ""}), 2, {"empty", "'--json'"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--seed", "abc"}), 2, {"--seed abc", "0 to"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--seed", "-1"}), 2, {"--seed -1", "0 to"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--repeat", "1.5"}), 2, {"--repeat 1.5", "1 to"});
+}
+
+TEST_F(Cli, FiltersThatDoNotFit) {
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "normals"}), 2,
+                 {"normals", "bilateral and none"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "hbao+"}), 2,
+                 {"hbao+", "bilateral and none"});
+  expect_refused(gloam({"run", "normals", loggia, "-o", path("n.exr"), "--filter", "bilateral"}), 2,
+                 {"bilateral", "only none"});
+}
+
+TEST_F(Cli, OutputsThatAreInputsOrEachOther) {
+  fs::copy_file(loggia, path("frame.exr"));
+  fs::create_symlink(path("frame.exr"), path("link.exr"));
+  const std::string frame = path("frame.exr"), before = slurp(frame);
+  expect_refused(gloam({"run", "hbao+", frame, "-o", frame}), 2, {"-o", "also the frame"});
+  expect_refused(gloam({"run", "hbao+", frame, "-o", path("link.exr")}), 2, {"also the frame"});
+  expect_refused(gloam({"run", "hbao+", frame, "-o", path("a.exr"), "--json", frame}), 2, {"--json", "also the frame"});
+  expect_refused(gloam({"run", "hbao+", frame, "-o", path("a.exr"), "--json", path("a.exr")}), 2,
+                 {"--json", "also -o"});
+  expect_refused(gloam({"info", frame, "--json", frame}), 2, {"also the frame"});
+  expect_refused(gloam({"compare", frame, frame, "-o", path("d.png"), "--json", path("./d.png")}), 2, {"also -o"});
+  EXPECT_EQ(slurp(frame), before);
+  EXPECT_EQ(files(), (Arguments{"frame.exr", "link.exr"}));
+}
+
+TEST_F(Cli, NothingIsWrittenWhereOneOutputCannotBe) {
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--json", path("no/run.json")}), 1,
+                 {"--json", "no/run.json"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--picture", path("no/ao.png")}), 1,
+                 {"--picture", "no/ao.png"});
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Cli, ControlBytesNeverReachTheTerminal) {
+  const Result result = gloam({"info", path("no\nsuch\x1b[31m.exr")});
+  expect_refused(result, 1, {"\\x1b"});
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+}
+
+TEST_F(Cli, ClosedStreams) {
+  const std::string command = std::string(GLOAM_BINARY) + " ";
+  EXPECT_EQ(WEXITSTATUS(std::system((command + "info /none.exr 2>&-").c_str())), 1);
+  EXPECT_EQ(WEXITSTATUS(std::system((command + "info /none.exr 2>/dev/full").c_str())), 1);
+  EXPECT_EQ(WEXITSTATUS(std::system((command + "info " + loggia + " >/dev/full 2>/dev/null").c_str())), 1);
+  EXPECT_EQ(WEXITSTATUS(std::system((command + "info " + loggia + " --json - >/dev/full 2>/dev/null").c_str())), 1);
+}
+
+TEST_F(Cli, WithoutAHomeADeviceIsStillFound) {
+  const Result result = gloam({"run", "hbao+", loggia, "-o", path("ao.exr")},
+                              {{"HOME", loggia + "/none"}, {"XDG_CACHE_HOME", ""}, {"POCL_CACHE_DIR", ""}});
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
 TEST_F(Cli, FilesThatCannotBeRead) {
   const std::string out = path("ao.exr");
   expect_refused(gloam({"info", path("none.exr")}), 1, {"none.exr"});

@@ -35,6 +35,16 @@ TEST_F(CaptureCli, Kitchen) {
   EXPECT_LT(figures["rmse"], 0.21);  // a white image reads 0.272
 }
 
+TEST_F(CaptureCli, ARadiusOtherThanTheTruthsIsSaid) {
+  const fs::path truth = captures / "kitchen/kitchen_ao_ref.exr";
+  ASSERT_EQ(
+      gloam({"run", "hbao+", captures / "kitchen/kitchen_user.exr", "-o", path("ao.exr"), "--radius", "0.5"}).status,
+      0);
+  EXPECT_NE(
+      gloam({"compare", path("ao.exr"), truth}).err.find("the radius of the test is 0.5, and that of the truth 0.3"),
+      std::string::npos);
+}
+
 TEST_F(CaptureCli, BothEyesOfTheApartment) {
   const fs::path folder = captures / "apartment_stereo";
   const Result run = gloam(
@@ -46,6 +56,16 @@ TEST_F(CaptureCli, BothEyesOfTheApartment) {
     RecordProperty(std::string("rmse_") + eye, std::to_string(double(figures["rmse"])));
     EXPECT_LT(figures["rmse"], 0.17) << eye;  // a white image reads 0.206; the other eye's truth 0.181
   }
+}
+
+TEST_F(CaptureCli, AnEyeThatIsOnlyAssumedIsSaid) {
+  const fs::path folder = captures / "apartment_stereo";
+  fs::copy_file(folder / "apartment_stereo_ao_ref_right.exr", path("truth.exr"));
+  ASSERT_EQ(
+      gloam({"run", "hbao+", folder / "apartment_stereo_user.exr", "-o", path("ao.exr"), "--radius", "0.4"}).status, 0);
+  const Result result = gloam({"compare", path("ao.exr"), path("truth.exr")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("taken as 'left'"), std::string::npos) << result.err;
 }
 
 TEST_F(CaptureCli, EveryVariantGoesThroughInfoAndRun) {
@@ -65,6 +85,14 @@ TEST_F(CaptureCli, WorldNormalsOfAnUnknownCameraAreNotUsed) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json()["passes"][0]["name"], "normals/differences");
   EXPECT_NE(run.err.find("normals: not used"), std::string::npos) << run.err;
+}
+
+TEST_F(CaptureCli, NormalsOfNoUseAreNotCompared) {
+  const fs::path frame = captures / "variants/apartment_individual_L.exr";
+  EXPECT_EQ(gloam({"compare", frame, frame, "--json", "-"}).json()["plane"], "color");
+  const Result normals = gloam({"compare", frame, frame, "--what", "normal"});
+  EXPECT_EQ(normals.status, 1) << normals.err;
+  EXPECT_NE(normals.err.find("not used"), std::string::npos) << normals.err;
 }
 
 TEST_F(CaptureCli, TheOneEyeOfAOneElementMultiViewKeepsItsName) {
