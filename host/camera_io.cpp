@@ -284,13 +284,23 @@ Camera camera_from_projection(const Fields& fields, glm::dmat4 m, bool orthograp
   return camera;
 }
 
-/// Beyond these no picture was taken, and the pixel coordinates of kernels lose their digits.
+/// Beyond these no picture was taken, and what kernels compute from it leaves the range or the digits of a float.
+bool is_sensible_scale(double pixels, bool orthographic) {
+  return orthographic ? pixels >= 1e-12 && pixels <= 1e12 : pixels >= 1e-6 && pixels <= 1e7;
+}
+
+const char* sensible_scale(bool orthographic) {
+  return orthographic ? "1e-12 to 1e12 pixels per unit" : "1e-6 to 1e7 pixels";
+}
+
 void check_range(const Fields& fields, const Camera& camera) {
-  constexpr double longest = 1e7, farthest = 1e6;
-  if (!camera.orthographic && !(camera.fx <= longest))
-    refuse(fields, "fx", fmt::format("is {:g}", camera.fx), "at most 1e7 pixels");
-  if (!camera.orthographic && !(camera.fy <= longest))
-    refuse(fields, "fy", fmt::format("is {:g}", camera.fy), "at most 1e7 pixels");
+  constexpr double farthest = 1e6;
+  if (!is_sensible_scale(camera.fx, camera.orthographic))
+    refuse(fields, camera.orthographic ? "pixels_per_unit" : "fx", fmt::format("is {:g}", camera.fx),
+           sensible_scale(camera.orthographic));
+  if (!is_sensible_scale(camera.fy, camera.orthographic))
+    refuse(fields, camera.orthographic ? "pixels_per_unit" : "fy", fmt::format("is {:g}", camera.fy),
+           sensible_scale(camera.orthographic));
   if (!(std::abs(camera.cx) <= farthest))
     refuse(fields, "cx", fmt::format("is {:g}", camera.cx), "at most 1e6 pixels to either side");
   if (!(std::abs(camera.cy) <= farthest))
@@ -544,6 +554,10 @@ Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(origin[i])) throw Error("gloamOrigin: component {} is not finite", i);
   pose.position += origin;
+  for (const double scale : {camera.fx, camera.fy})
+    if (!is_sensible_scale(scale, camera.orthographic))
+      throw Error("worldToNDC: gives {:g} pixels to the unit; {} make sense", scale,
+                  sensible_scale(camera.orthographic));
   camera.pose = pose;
   camera.source = "header";
   return camera;

@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -54,24 +55,30 @@ struct Found {
   DeviceInfo info;
 };
 
-/// PoCL needs a folder for its compiled kernels and finds no device where it has none (a service, a container without a
-/// home): it gets one among the temporary files.
-void give_pocl_a_folder() {
-  for (const char* name : {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "HOME"}) {
-    const char* folder = std::getenv(name);
-    if (folder && access(folder, W_OK) == 0) return;
-    if (folder && *folder == '\0') unsetenv(name);  // PoCL aborts on an empty one
-  }
+/// Whether PoCL can keep its kernels below this folder, making it where it is not there.
+bool usable(const std::filesystem::path& folder) {
   std::error_code unknown;
-  const auto folder = std::filesystem::temp_directory_path(unknown) / fmt::format("gloam-kernels-{}", getuid());
   std::filesystem::create_directories(folder, unknown);
-  std::filesystem::permissions(folder, std::filesystem::perms::owner_all, unknown);
-  setenv("POCL_CACHE_DIR", folder.c_str(), 1);
+  std::string probe = (folder / ".gloam-XXXXXX").string();  // root may write anywhere, by the permissions
+  return mkdtemp(probe.data()) && rmdir(probe.c_str()) == 0;
+}
+
+/// A folder that nobody else can have put kernels into.
+std::filesystem::path own_temporary_folder() {
+  std::error_code unknown;
+  const std::filesystem::path base = std::filesystem::temp_directory_path(unknown);
+  const std::filesystem::path folder = base / fmt::format("gloam-kernels-{}", getuid());
+  mkdir(folder.c_str(), 0700);
+  struct stat facts;
+  const bool ours = lstat(folder.c_str(), &facts) == 0 && S_ISDIR(facts.st_mode) && facts.st_uid == getuid() &&
+                    (facts.st_mode & 077) == 0;
+  if (ours) return folder;
+  std::string pattern = (base / "gloam-kernels-XXXXXX").string();
+  return mkdtemp(pattern.data()) ? pattern : base.string();
 }
 
 /// Platforms are enumerated one by one: one without devices (a driver without its hardware) is passed over.
 std::vector<Found> find_devices() {
-  give_pocl_a_folder();
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
@@ -89,7 +96,13 @@ std::vector<Found> find_devices() {
     } catch (const cl::Error&) {
       continue;
     }
-    for (const cl::Device& device : devices) found.push_back({device, describe(platform, device)});
+    for (const cl::Device& device : devices) {
+      try {
+        found.push_back({device, describe(platform, device)});
+      } catch (const cl::Error&) {
+        continue;  // one broken driver is no reason to do without the others
+      }
+    }
   }
   if (found.empty()) {
     throw Error(
@@ -128,6 +141,21 @@ std::string short_log(std::string log) {
 }
 
 }  // namespace
+
+void give_pocl_a_folder() {
+  // The first of these that is set is the one that PoCL takes; it aborts on an empty one.
+  for (const auto& [name, below] :
+       {std::pair("POCL_CACHE_DIR", ""), std::pair("XDG_CACHE_HOME", ""), std::pair("HOME", ".cache")}) {
+    const char* folder = std::getenv(name);
+    if (folder && *folder == '\0')
+      unsetenv(name);
+    else if (folder && usable(std::filesystem::path(folder) / below))
+      return;
+    else if (folder)
+      break;
+  }
+  setenv("POCL_CACHE_DIR", own_temporary_folder().c_str(), 1);
+}
 
 std::vector<DeviceInfo> list_devices() {
   std::vector<DeviceInfo> infos;

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -27,6 +28,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
+#include "lists.h"
 
 namespace gloam {
 namespace {
@@ -334,10 +336,6 @@ std::string type_name(Imf::PixelType type) {
   return type == Imf::HALF ? "half" : type == Imf::FLOAT ? "float" : "uint";
 }
 
-bool contains(const std::vector<std::string>& list, const std::string& item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
-}
-
 void append_new(std::vector<std::string>& list, const std::vector<std::string>& items) {
   for (const std::string& item : items)
     if (!contains(list, item)) list.push_back(item);
@@ -481,6 +479,11 @@ void FrameFile::Impl::find_window() {
     for (const ChannelSource& channel : plane.channels)
       box = united(box, box_of(file->header(channel.part).dataWindow()));
   check_size(path, box, "display and data");
+  // Rows are padded: a frame of one column takes sixteen.
+  const Layout layout(int(box.x1 - box.x0), int(box.y1 - box.y0));
+  if (layout.count() > size_t(std::numeric_limits<int>::max()))
+    throw Error("{}: {} x {} pixels take {} x {} with their padding, more than 2^31", path.string(), layout.width,
+                layout.height, layout.pitch, layout.height);
   window = window_of(box);
 }
 

@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "gloam/planes.h"
+#include "lists.h"
 
 namespace gloam {
 namespace {
-
-bool contains(const std::vector<std::string>& list, const std::string& item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
-}
 
 const std::vector<std::string>& outputs_of(const Technique& t) { return t.outputs.empty() ? t.writes : t.outputs; }
 
@@ -82,10 +79,6 @@ void add_makers(Wanted& wanted, const Technique& technique, const std::string& t
   if (follower.empty() || follower == "none") return;
   if (!then.empty()) check_follower(technique, find_technique(follower));
   wanted.makers.push_back(&find_technique(follower));
-}
-
-void add_new(std::vector<std::string>& list, const std::string& item) {
-  if (!contains(list, item)) list.push_back(item);
 }
 
 /// A technique's outputs, without those that only a follower would make where there shall be none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <set>
 
 #include "device_impl.h"
@@ -38,14 +39,12 @@ KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout&
           Scalar(camera.orthographic ? 1 : 0)};
 }
 
-/// Planes of a plan with their number of components.
-std::map<std::string, int> planes_of(const Plan& plan) {
-  std::map<std::string, int> planes;
-  const auto add = [&](const std::string& name) { planes[name] = int(plane_kind(name).components.size()); };
-  for (const std::string& plane : plan.inputs) add(plane);
+/// Every plane that a plan touches.
+std::set<std::string> planes_of(const Plan& plan) {
+  std::set<std::string> planes(plan.inputs.begin(), plan.inputs.end());
   for (const PlannedPass& p : plan.passes) {
-    for (const Binding& b : p.pass.reads) add(b.plane);
-    for (const Binding& b : p.pass.writes) add(b.plane);
+    for (const Binding& b : p.pass.reads) planes.insert(b.plane);
+    for (const Binding& b : p.pass.writes) planes.insert(b.plane);
   }
   return planes;
 }
@@ -85,32 +84,34 @@ class Buffers {
   bool has(const std::string& name) const { return buffers_.count(name) != 0; }
   std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
 
-  /// Takes a computed plane back to the host.
+  /// Takes a computed plane back to the host; it is no longer on the device then.
   Plane download(const std::string& name) {
     const PlaneKind kind = plane_kind(name);
     Plane plane{name, {}};
     for (size_t i = 0; i < kind.components.size(); ++i) {
       cl::Buffer& buffer = buffers_.at(name)[i];
       if (device_.info.shares_memory) {
+        // Mapped, the device's result is what the host sees.
         void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout_.bytes());
         device_.queue.enqueueUnmapMemObject(buffer, mapped);
-        device_.queue.finish();
         plane.channels.push_back(std::move(host_.at(name)[i]));
       } else {
         Channel channel(layout_);
         device_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, layout_.bytes(), channel.data());
         plane.channels.push_back(std::move(channel));
       }
-      plane.channels.back().fill_padding(kind.outside);
     }
+    device_.queue.finish();
+    buffers_.erase(name);  // before the host touches the pages that it used
+    for (Channel& channel : plane.channels) channel.fill_padding(kind.outside);
     return plane;
   }
 
  private:
   Device::Impl& device_;
   Layout layout_;
+  std::map<std::string, std::vector<Channel>> host_;  // outlives the buffers that use its pages
   std::map<std::string, std::vector<cl::Buffer>> buffers_;
-  std::map<std::string, std::vector<Channel>> host_;
 };
 
 std::string build_options(const PlannedPass& planned, const Device::Impl& device, const RunOptions& options,
@@ -215,6 +216,10 @@ void check_memory(const Plan& plan, const Layout& layout, const DeviceInfo& info
     throw Error("{}: {}x{} pixels need {} of device memory, and {} has {}; use a smaller frame or another --device",
                 plan.technique, layout.width, layout.height, mebibytes(needed), info.name, mebibytes(info.memory));
   }
+  if (layout.count() > size_t(std::numeric_limits<int>::max())) {
+    throw Error("{}: {}x{} pixels with rows padded to {} are more than 2^31; use a smaller frame", plan.technique,
+                layout.width, layout.height, layout.pitch);
+  }
   if (layout.bytes() > info.largest_buffer) {
     throw Error(
         "{}: one plane of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another "
@@ -241,7 +246,7 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
       throw Error("{}: plane '{}' is not the size of the frame", plan.technique, name);
     buffers.upload(*plane);
   }
-  for (const auto& [name, components] : planes_of(plan)) {
+  for (const std::string& name : planes_of(plan)) {
     if (!buffers.has(name)) buffers.allocate(name);
   }
   std::vector<cl::Kernel> kernels;
@@ -277,22 +282,24 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
 
 unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
   unsigned long long channels = 0;
-  for (const auto& [name, components] : planes_of(plan)) channels += components;
+  for (const std::string& name : planes_of(plan)) channels += plane_kind(name).components.size();
   return channels * layout.bytes();
 }
 
-void prepare(const Plan& plan, const Layout& layout, Device& device, const RunOptions& options) {
+void check(const Plan& plan, const Layout& layout, const Device& device, const RunOptions& options) {
+  check_real(plan, device.info(), options);
+  check_memory(plan, layout, device.info());
+}
+
+void prepare(const Plan& plan, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
-  check_real(plan, impl.info, options);
-  check_memory(plan, layout, impl.info);
   for (const PlannedPass& planned : plan.passes) build_kernel(planned, impl, options, lanes_for(impl.info, options));
 }
 
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
-  check_real(plan, impl.info, options);
   const Layout layout(frame.width(), frame.height());
-  check_memory(plan, layout, impl.info);
+  check(plan, layout, device, options);
   RunResult result;
   result.lanes = lanes_for(impl.info, options);
   result.device_bytes = device_bytes(plan, layout);
@@ -301,7 +308,7 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   result.frame.assumed = frame.assumed;
   for (const View& view : frame.views) {
     if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);
-    View out{view.name, view.camera, {}};
+    View out{.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}};
     try {
       run_view(plan, frame, view, impl, options, result.lanes, out, result);
     } catch (const cl::Error& error) {

@@ -1,4 +1,6 @@
 // The command `gloam`: parses, runs one subcommand, turns every error into one line and an exit status.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <new>
@@ -17,6 +19,8 @@ std::vector<std::string> with_parameter_flags(int argc, char** argv) {
   for (const Technique& t : registry()) {
     for (const Parameter& p : t.parameters) names.insert(p.name);
   }
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command != "run" && command != "plan") names.clear();  // the commands that have --set
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -50,8 +54,11 @@ std::vector<std::string> flag_names(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
+  const bool sets = std::find(names.begin(), names.end(), "--set") != names.end();
   for (const Technique& t : registry()) {
-    for (const Parameter& p : t.parameters) names.push_back("--" + p.name);
+    for (const Parameter& p : t.parameters) {
+      if (sets) names.push_back("--" + p.name);
+    }
   }
   return names;
 }
@@ -129,12 +136,14 @@ int run_command(int argc, char** argv) {
 
 /// One line on standard error, whatever the message holds; a closed standard error is not worth more words.
 static int failed(const char* message, int status) {
+  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);  // what a progress bar left
   std::fputs(("gloam: " + gloam::printable(message) + "\n").c_str(), stderr);
   return status;
 }
 
 int main(int argc, char** argv) {
   gloam::remove_temporaries_on_signal();
+  gloam::give_pocl_a_folder();
   try {
     const int status = gloam::cli::run_command(argc, argv);
     gloam::cli::print_notes();

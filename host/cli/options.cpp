@@ -12,6 +12,7 @@
 
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "lists.h"
 
 namespace gloam::cli {
 namespace {
@@ -63,10 +64,6 @@ Value one_of(const std::string& text, const std::string& flag,
 }
 
 }  // namespace
-
-bool contains(const std::vector<std::string>& list, const std::string& item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
-}
 
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
   for (size_t i = 0; i < outputs.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "gloam/exr.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "lists.h"
 
 namespace gloam::cli {
 
@@ -58,8 +59,6 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
 
 /// "a,b" -> a b; throws UsageError for an empty item.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);
-
-bool contains(const std::vector<std::string>& list, const std::string& item);
 
 /// median, min, max
 Json milliseconds(std::vector<double> ms);

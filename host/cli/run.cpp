@@ -163,6 +163,14 @@ std::vector<std::string> write_pictures(const std::string& path, const Frame& fr
   return paths;
 }
 
+/// Passes an error on to who waits for the promise, unless it has been kept.
+void tell(std::promise<void>& promise, std::exception_ptr error) {
+  try {
+    promise.set_exception(error);
+  } catch (const std::future_error&) {
+  }
+}
+
 /// What made the planes, for the header: "hbao+", "hbao+: radius=0.5 bias=0.1 ...; bilateral: ...".
 std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& flags) {
   std::string parameters;
@@ -192,12 +200,23 @@ void run_command(const RunCommand& flags) {
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   Plan plan = plan_for(file, request);
   watch.lap("open");
-  // The device starts up and compiles while the planes are decoded.
+  // The device starts up and compiles while the planes are decoded. A large frame waits to hear that the device has the
+  // memory for it.
+  const Layout layout(file.window().width(), file.window().height());
+  std::promise<void> checked;
   std::future<Device> starting = std::async(std::launch::async, [&, plan] {
-    Device device(flags.run_flags.device);
-    prepare(plan, Layout(file.window().width(), file.window().height()), device, options);
-    return device;
+    try {
+      Device device(flags.run_flags.device);
+      check(plan, layout, device, options);
+      checked.set_value();
+      prepare(plan, device, options);
+      return device;
+    } catch (...) {
+      tell(checked, std::current_exception());
+      throw;
+    }
   });
+  if (device_bytes(plan, layout) > (1ull << 30)) checked.get_future().get();
   std::vector<std::string> planes = plan.inputs;
   const std::vector<std::string> available = file.common_planes();
   if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");

@@ -18,13 +18,18 @@ struct DeviceInfo {
   unsigned long long memory = 0, largest_buffer = 0;  ///< bytes
 };
 
+/// PoCL needs a folder for its compiled kernels, and finds no device where it has none (a service, a container without a
+/// home): it then gets one among the temporary files. Sets the environment: call it before any thread is started.
+void give_pocl_a_folder();
+
 /// All devices of all platforms. Throws Error when there is no platform (and says how to install one).
 std::vector<DeviceInfo> list_devices();
 
 /// An open device with its queue and its compiled programs. Move-only.
 class Device {
  public:
-  /// `text` is part of the platform's or the device's name, any case; empty: the first GPU, else the first CPU.
+  /// `text` is part of the platform's or the device's name, any case; empty: the first GPU, else the device with
+  /// the most lanes.
   /// Throws Error listing the devices there are when none fits.
   explicit Device(const std::string& text = "");
   ~Device();

@@ -30,7 +30,7 @@ Parameter choice_parameter(const char* name, const char* initial, const char* ch
 
 /// "float", "int", "bool" or "choice".
 std::string type_name(const Parameter& parameter);
-/// "0 to 32", "on or off", "a, b or c".
+/// "0 to 32", "on or off", "a, b, c".
 std::string allowed_values(const Parameter& parameter);
 
 /// Values for a table of parameters, in the layout of the kernel's struct.
@@ -41,7 +41,7 @@ class ParameterValues {
 
   const std::vector<Parameter>& table() const { return table_; }
   bool has(const std::string& name) const;
-  /// Sets from text; throws UsageError with the range ("hbao+: radius = -1 ...: 0 to inf scene units allowed").
+  /// Sets from text; throws UsageError with the range ("hbao+: radius = '-1' is not allowed; 0 to inf scene units is").
   void set(const std::string& name, const std::string& value, const std::string& technique);
   double number(const std::string& name) const;
   /// As a user would write it: "0.5", "on", "quadratic".

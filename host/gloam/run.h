@@ -39,9 +39,11 @@ struct RunResult {
 /// Bytes of device memory that one view of a plan takes.
 unsigned long long device_bytes(const Plan& plan, const Layout& layout);
 
-/// Checks that the device can do it and compiles a plan's kernels ahead of `run`, so that this goes on while a frame is
-/// decoded. Throws what `run` would.
-void prepare(const Plan& plan, const Layout& layout, Device& device, const RunOptions& options = {});
+/// Whether a device can run a plan: its memory, double precision. Throws what `run` would.
+void check(const Plan& plan, const Layout& layout, const Device& device, const RunOptions& options = {});
+
+/// Compiles a plan's kernels ahead of `run`, so that this goes on while a frame is decoded. Throws what `run` would.
+void prepare(const Plan& plan, Device& device, const RunOptions& options = {});
 
 /// Runs a plan on every view of a frame that has passed the door (`normalise`).
 /// Throws Error: out of device memory (needed and available), double where the device has none, build errors with the

@@ -18,10 +18,10 @@ kernel void bilateral(Frame frame, BilateralParams params, PLANE source, PLANE d
   const Anchor p = anchor_at(frame, to_real(x), (real)(y), z);
   // One over the tolerances, in units of the pixel's depth and as 1 - cosine.
   const scalar tolerance = (scalar)params.depth_tolerance * params.radius;
-  const real per_distance = (scalar)1 / max(tolerance * p.inverse_depth, (real)(1e-18f));
+  const real per_distance = (scalar)1 / larger(tolerance * p.inverse_depth, (real)(1e-18f));
   real widest, unused;
   cosine_sine_of_turns((real)(params.normal_tolerance * (scalar)0.15915494309189535), &widest, &unused);
-  const real per_cosine = (scalar)1 / max(1 - widest, (real)(1e-7f));
+  const real per_cosine = (scalar)1 / larger(1 - widest, (real)(1e-7f));
 
 #if VERTICAL
   const int from = -min(HALF_WIDTH, y), to = min(HALF_WIDTH, frame.height - 1 - y);
@@ -38,9 +38,9 @@ kernel void bilateral(Frame frame, BilateralParams params, PLANE source, PLANE d
     const int there = here + k;
     const real3 v = towards(frame, p, p.x + k, p.y, relative_depth(p, z, load(depth, there)));
 #endif
-    const real by_distance = max(1 - fabs(dot3(n, v)) * per_distance, (real)(0));
+    const real by_distance = larger(1 - fabs(dot3(n, v)) * per_distance, (real)(0));
     const real cosine = dot3(n, load3(normal_x, normal_y, normal_z, there));
-    const real by_angle = max(1 - (1 - cosine) * per_cosine, (real)(0));
+    const real by_angle = larger(1 - (1 - cosine) * per_cosine, (real)(0));
     real weight = k == 0 ? (real)(0) : window * by_distance * by_angle;
 #if !VERTICAL
     weight = choose(to_mask((x + k >= 0) & (x + k < frame.width)), weight, (real)(0));

@@ -15,9 +15,9 @@ static inline real obscurance(real3 v, real3 n, scalar bias, real inverse_square
 #ifdef NO_FALLOFF
   const real weight = choose(vv * inverse_square < 1, (real)(1), (real)(0));
 #else
-  const real weight = max(multiply_add(-vv, inverse_square, (real)(1)), (real)(0));
+  const real weight = larger(multiply_add(-vv, inverse_square, (real)(1)), (real)(0));
 #endif
-  return max(above, (real)(0)) * weight;
+  return larger(above, (real)(0)) * weight;
 }
 
 #endif

@@ -19,9 +19,9 @@ typedef struct {
 
 // Inlined by order: called, it is 8 % slower. `depth` has no `restrict` because oclgrind knows no inlined one.
 static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, HbaoPlusParams params,
-                                                                    global const float* depth, int here, Anchor point,
-                                                                    real z, real3 n, Fan fan, real inverse_square,
-                                                                    int within) {
+                                                                    global const float* depth, integer x, int y,
+                                                                    int here, Anchor point, real z, real3 n, Fan fan,
+                                                                    real inverse_square, int within) {
   real cosine = fan.cosine, sine = fan.sine, turn_cosine, turn_sine, sum = 0;
   cosine_sine_of_turns((real)((scalar)1 / DIRECTIONS), &turn_cosine, &turn_sine);
   for (int d = 0; d < DIRECTIONS; ++d) {
@@ -30,7 +30,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
       // From one pixel away to the radius.
       integer dx = nearest(cosine * (1 + (fan.shift + k) * fan.stride_x));
       integer dy = nearest(sine * (1 + (fan.shift + k) * fan.stride_y));
-      const real e = relative_depth(point, z, sample_near(depth, frame, point, here, within, &dx, &dy));
+      const real e = relative_depth(point, z, sample_near(depth, frame, x, y, here, within, &dx, &dy));
       sum += obscurance(towards_near(frame, point, to_real(dx), to_real(dy), e), n, params.bias, inverse_square);
     }
     const real next = cosine * turn_cosine - sine * turn_sine;
@@ -63,12 +63,12 @@ kernel void hbao_plus_estimate(Frame frame, HbaoPlusParams params, PLANE depth, 
   fan.shift = (scalar)0.5;
 #endif
   cosine_sine_of_turns(turn, &fan.cosine, &fan.sine);
-  fan.stride_x = max(reach.pixels_x - 1, (real)(0)) * (scalar)(1.0f / STEPS);
-  fan.stride_y = max(reach.pixels_y - 1, (real)(0)) * (scalar)(1.0f / STEPS);
+  fan.stride_x = larger(reach.pixels_x - 1, (real)(0)) * (scalar)(1.0f / STEPS);
+  fan.stride_y = larger(reach.pixels_y - 1, (real)(0)) * (scalar)(1.0f / STEPS);
 
   real sum;
 #define SUM_OF_OBSCURANCE(within) \
-  sum_of_obscurance(frame, params, depth, here, point, z, n, fan, reach.inverse_square, within)
+  sum_of_obscurance(frame, params, depth, x, y, here, point, z, n, fan, reach.inverse_square, within)
   if (frame.pitch >= SHORT_PITCH) {
     sum = SUM_OF_OBSCURANCE(SAMPLES_IN_WIDE_FRAME);
   } else if (reaches_only_inside(frame, point, reach)) {
@@ -76,7 +76,7 @@ kernel void hbao_plus_estimate(Frame frame, HbaoPlusParams params, PLANE depth, 
   } else {
     sum = SUM_OF_OBSCURANCE(SAMPLES_CLAMPED);
   }
-  const real open = clamp(1 - sum * (params.strength * 2 / (DIRECTIONS * STEPS)), (real)(0), (real)(1));
+  const real open = smaller(larger(1 - sum * (params.strength * 2 / (DIRECTIONS * STEPS)), (real)(0)), (real)(1));
   real ao = open;
   for (int k = 1; k < POWER; ++k) ao *= open;
   store(choose(point.background, (real)(1), ao), ao_raw, here);

@@ -17,9 +17,9 @@ static inline real slope(Frame f, Anchor p, real own, real ahead, real behind, r
   const real nearer = choose(forward, ahead, behind), sign = choose(forward, (real)(1), (real)(-1));
   const real depth = choose(is_background(nearer), own, nearer);
   // A neighbour a times as deep lies a times as far across.
-  const real spread = max(f.perspective * depth * p.inverse_depth + f.parallel, (real)(1e-18f));
+  const real spread = larger(f.perspective * depth * p.inverse_depth + f.parallel, (real)(1e-18f));
   const real steep = sign * relative_depth(p, own, depth) / (across * spread);
-  return clamp(steep, (real)(-STEEPEST), (real)(STEEPEST));
+  return smaller(larger(steep, (real)(-STEEPEST)), (real)(STEEPEST));
 }
 
 kernel void normals(Frame frame, PLANE depth, PLANE_OUT normal_x, PLANE_OUT normal_y, PLANE_OUT normal_z) {

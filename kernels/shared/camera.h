@@ -37,7 +37,7 @@ static inline Anchor anchor_at(Frame f, real x, real y, real depth) {
 
 // (depth - own depth) / own depth, for `towards`. `own` is the depth that the anchor was made with.
 static inline real relative_depth(Anchor a, real own, real depth) {
-  return min((depth - own) * a.inverse_depth, (real)(FARTHEST));
+  return smaller((depth - own) * a.inverse_depth, (real)(FARTHEST));
 }
 
 // From the anchor's point to the point seen dx pixels to the right and dy pixels down, whose relative depth is e; in units

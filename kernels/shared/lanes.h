@@ -63,6 +63,11 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 // Per lane: m ? a : b.
 static inline real choose(mask m, real a, real b) { return m ? a : b; }
 
+// The smaller and the larger of two, also where one is infinite (OpenCL 1.2 leaves min and max undefined there). NaN in
+// the first gives the second.
+static inline real smaller(real a, real b) { return a < b ? a : b; }
+static inline real larger(real a, real b) { return a > b ? a : b; }
+
 typedef struct {
   real x, y, z;
 } real3;

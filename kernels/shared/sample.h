@@ -33,9 +33,9 @@ typedef struct {
 static inline Reach reach_of(Anchor a, scalar radius, scalar most_pixels) {
   Reach r;
   const real relative = (scalar)radius * a.inverse_depth;
-  r.pixels_x = min(relative / a.across_x, (real)(most_pixels));
-  r.pixels_y = min(relative / a.across_y, (real)(most_pixels));
-  const real inverse = max((scalar)1 / max(relative, (real)(1e-18f)), (real)(1e-15f));
+  r.pixels_x = smaller(relative / a.across_x, (real)(most_pixels));
+  r.pixels_y = smaller(relative / a.across_y, (real)(most_pixels));
+  const real inverse = larger((scalar)1 / larger(relative, (real)(1e-18f)), (real)(1e-15f));
   r.inverse_square = inverse * inverse;
   return r;
 }
@@ -50,14 +50,14 @@ static inline Reach reach_of(Anchor a, scalar radius, scalar most_pixels) {
 static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
   // One pixel for rounding, and one because samples may start one pixel away even where the radius is less.
   const real x = r.pixels_x + 2, y = r.pixels_y + 2;
-  return !ANY((a.x < x) | (a.x + x >= (scalar)f.width) | (a.y < y) | (a.y + y >= (scalar)f.height));
+  // Asked so that what cannot be compared is not inside.
+  return !ANY(!((a.x >= x) & (a.x + x < (scalar)f.width) & (a.y >= y) & (a.y + y < (scalar)f.height)));
 }
 
-// A plane's value at an offset in pixels from each lane's own; an offset out of the frame is changed to its border.
+// A plane's value at an offset in pixels from each lane's own (x, y); an offset out of the frame is changed to its border.
 // `within`: a constant, one of the above. |dy| is below SHORT_PITCH.
-static inline real sample_near(PLANE plane, Frame f, Anchor a, int here, int within, integer* dx, integer* dy) {
+static inline real sample_near(PLANE plane, Frame f, integer x, int y, int here, int within, integer* dx, integer* dy) {
   if (within == SAMPLES_INSIDE) return gather_near_short(plane, f, here, *dx, *dy);
-  const integer x = to_integer(a.x), y = to_integer(a.y);
   *dx = min(max(*dx, -x), f.width - 1 - x);
   *dy = min(max(*dy, -y), f.height - 1 - y);
   if (within == SAMPLES_CLAMPED) return gather_near_short(plane, f, here, *dx, *dy);

@@ -244,6 +244,17 @@ TEST_F(Cli, TheFrameThatTellsTheBackgroundHasToFit) {
   EXPECT_NE(result.err.find("1x1"), std::string::npos) << result.err;
 }
 
+TEST_F(Cli, NoParameterHidesAFlag) {
+  const std::string help = gloam({"run", "--help"}).out;
+  for (const Json& technique : gloam({"list", "techniques", "--json", "-"}).json()) {
+    for (const Json& p : technique["parameters"]) {
+      const std::string flag = "--" + p["name"].get<std::string>();
+      EXPECT_EQ(help.find("\n  " + flag + " "), std::string::npos)
+          << technique["name"] << ": " << flag << " is a flag of run";
+    }
+  }
+}
+
 TEST_F(Cli, HelpOfARunShowsTheTechniquesParameters) {
   const std::string help = gloam({"run", "hbao+", "--help"}).out;
   EXPECT_NE(help.find("Usage: gloam run"), std::string::npos) << help;

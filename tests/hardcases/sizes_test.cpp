@@ -21,8 +21,17 @@ void spoil_padding(Frame& frame, float value) {
 TEST_P(HardCase, Row11SizesAndPadding) {
   SKIP_WHERE_OPTED_OUT(11);
   int changed = 0, tried = 0;
-  for (const auto& [width, height] :
-       {std::pair(1, 1), {1, 33}, {33, 1}, {2, 2}, {15, 3}, {16, 3}, {17, 13}, {16384, 1}, {1, 16384}}) {
+  for (const auto& [width, height] : {std::pair(1, 1),
+                                      {1, 33},
+                                      {33, 1},
+                                      {2, 2},
+                                      {15, 3},
+                                      {16, 3},
+                                      {17, 13},
+                                      {16384, 1},
+                                      {1, 16384},
+                                      {32769, 2},
+                                      {40000, 3}}) {
     const double fov = width > 1000 ? 150 : 60;
     for (const Shot& shot : {perspective(width, height, fov), orthographic(width, height, width * 0.05)}) {
       Frame frame = shoot(shot, room());

@@ -1,5 +1,6 @@
 // Runs every technique once on small frames, one pixel per work-item: to be watched by oclgrind, which finds accesses
 // out of bounds.
+#include <algorithm>
 #include <cstdio>
 
 #include "gloam/error.h"
@@ -8,6 +9,37 @@
 
 namespace gloam::test {
 namespace {
+
+/// The defaults, and each choice, switch and count at both its ends by itself.
+std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
+  std::vector<Settings> all = {{}};
+  for (const PlannedPass& planned : plan_for(technique, frame).passes) {
+    for (const Parameter& p : planned.technique->parameters) {
+      if (p.type == Parameter::Type::floating || planned.technique != &technique) continue;
+      for (const double end : {p.min, p.max}) {
+        const std::string text = p.type == Parameter::Type::choice    ? p.choices[size_t(end)]
+                                 : p.type == Parameter::Type::boolean ? (end != 0 ? "on" : "off")
+                                                                      : fmt::format("{}", int(end));
+        const Settings one = {{technique.name + "." + p.name, text}};
+        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+      }
+    }
+  }
+  return all;
+}
+
+int run_variants(const Technique& technique) {
+  int passes = 0;
+  for (const Shot& shot : {perspective(33, 17), orthographic(33, 17, 2)}) {
+    Frame frame = shoot(shot, room());
+    for (const Settings& settings : settings_of(technique, frame)) {
+      const Plan plan = plan_for(technique, frame, settings);
+      run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+      passes += int(plan.passes.size());
+    }
+  }
+  return passes;
+}
 
 int run_all() {
   int passes = 0;
@@ -20,6 +52,7 @@ int run_all() {
         passes += int(plan.passes.size());
       }
     }
+    passes += run_variants(technique);
     std::printf("%s\n", technique.name.c_str());
   }
   std::printf("ran %d passes on %s\n", passes, device().info().platform.c_str());

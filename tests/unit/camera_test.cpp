@@ -350,6 +350,7 @@ TEST_F(CameraFile, ValuesThatNoCameraHas) {
     expect_refused(document, {field, part});
   };
   refused("fx", 1.1e7, "1e7");
+  refused("fx", 1e-50, "1e-6");
   refused("fy", 1.1e7, "1e7");
   refused("cx", -1.1e6, "1e6");
   refused("cy", 1.1e6, "1e6");
