@@ -24,7 +24,9 @@
 #include "camera_io.h"
 #include "channel_names.h"
 #include "conventions.h"
+#include "exr_claims.h"
 #include "exr_stream.h"
+#include "exr_verify.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
@@ -77,89 +79,6 @@ auto named(const fs::path& path, Work&& work) {
   } catch (const Error& error) {
     throw Error("{}: {}", path.string(), error.what());
   }
-}
-
-// --- What a header claims
-// ---------------------------------------------------------------------------------------------
-
-/// Ends exclusive and in 64 bits, so that a fuzzed window cannot overflow.
-struct Box {
-  int64_t x0, y0, x1, y1;
-  bool empty() const { return x1 <= x0 || y1 <= y0; }
-  bool too_large() const { return x1 - x0 > max_pixels || y1 - y0 > max_pixels || (x1 - x0) * (y1 - y0) > max_pixels; }
-};
-
-Box box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, int64_t(box.max.x) + 1, int64_t(box.max.y) + 1}; }
-
-Box united(const Box& a, const Box& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
-Window window_of(const Box& box) { return {int(box.x0), int(box.y0), int(box.x1), int(box.y1)}; }
-
-void check_size(const fs::path& path, const Box& box, const char* what) {
-  constexpr int64_t end = 1LL << 30;  // coordinates beyond it overflow in OpenEXR
-  if (box.empty()) throw Error("{}: corrupted EXR: its {} window is empty", path.string(), what);
-  if (!box.too_large() && box.x0 > -end && box.y0 > -end && box.x1 < end && box.y1 < end) return;
-  throw Error("{}: claims a {} window of {} x {} pixels; at most 2^28 pixels in all are read", path.string(), what,
-              box.x1 - box.x0, box.y1 - box.y0);
-}
-
-/// Looks at the windows of all headers before OpenEXR builds its tables for them. A header that cannot be parsed is
-/// left to OpenEXR to refuse.
-void check_claims(const fs::path& path, ExrInput& stream) {
-  char start[8];
-  stream.read(start, 8);
-  const unsigned flags = unsigned(uint8_t(start[5])) << 8;
-  int version = int(uint8_t(start[4]) | flags);
-  try {
-    do {
-      Imf::Header header;
-      header.readFrom(stream, version);
-      if (header.readsNothing()) break;
-      check_size(path, box_of(header.displayWindow()), "display");
-      check_size(path, box_of(header.dataWindow()), "data");
-    } while (flags & Imf::MULTI_PART_FILE_FLAG);
-  } catch (const IEX_NAMESPACE::BaseExc&) {
-  }
-  stream.seekg(0);
-}
-
-int bytes_of(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
-
-int64_t bytes_per_pixel(const Imf::Header& header) {
-  int64_t bytes = 0;
-  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) bytes += bytes_of(c.channel().type);
-  return bytes;
-}
-
-int64_t lines_per_chunk(const Imf::Header& header) {
-  switch (header.compression()) {
-    case Imf::NO_COMPRESSION:
-    case Imf::RLE_COMPRESSION:
-    case Imf::ZIPS_COMPRESSION:
-      return 1;
-    case Imf::ZIP_COMPRESSION:
-    case Imf::PXR24_COMPRESSION:
-      return 16;
-    case Imf::DWAB_COMPRESSION:
-      return 256;
-    default:
-      return 32;
-  }
-}
-
-/// Refuses a part whose buffers could not be honest for a file of this size. No codec packs a million to one.
-void check_plausible(const fs::path& path, const Imf::Header& header, uint64_t file_size) {
-  const Box data = box_of(header.dataWindow());
-  const int64_t width = data.x1 - data.x0, height = data.y1 - data.y0, per_pixel = bytes_per_pixel(header);
-  int64_t chunk = width * std::min(height, lines_per_chunk(header));
-  if (header.hasTileDescription()) chunk = int64_t(header.tileDescription().xSize) * header.tileDescription().ySize;
-  const bool honest = chunk <= INT32_MAX / std::max<int64_t>(per_pixel, 1) &&
-                      uint64_t(width * height) / (1 << 20) * uint64_t(per_pixel) <= file_size;
-  if (!honest)
-    throw Error("{}: truncated or corrupted EXR (claims {} x {} pixels in {} bytes); render or copy it again",
-                path.string(), width, height, file_size);
 }
 
 // --- Attributes
@@ -779,6 +698,15 @@ std::optional<double> FrameFile::number_attribute(const std::string& name) const
 }
 std::string FrameFile::text_attribute(const std::string& name) const { return impl_->any_text(name); }
 std::string FrameFile::normal_space() const { return impl_->space; }
+
+void FrameFile::verify() {
+  std::set<std::pair<int, std::string>> decoded;
+  for (const PlaneSource& plane : planes())
+    for (const ChannelSource& channel : plane.channels) decoded.emplace(channel.part, channel.name);
+  for (int part = 0; part < impl_->file->parts(); ++part)
+    check_plausible(impl_->path, impl_->file->header(part), impl_->stream->size());
+  guarded(impl_->path, [&] { decode_the_rest(*impl_->file, decoded); });
+}
 
 long long FrameFile::nonfinite(const std::string& plane, const std::string& view) const {
   const auto found = impl_->nonfinite.find({plane, view});

@@ -135,7 +135,7 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   print_table(rows, 4);
   const std::vector<std::string> unread = unread_channels(file);
   if (facts.empty()) fmt::print("no plane that gloam knows\n");
-  if (!unread.empty()) fmt::print("not read: {}\n", printable(fmt::format("{}", fmt::join(unread, ", "))));
+  if (!unread.empty()) fmt::print("not read: {}\n", printable(first_names(unread)));
   fmt::print("\n");
   for (const auto& [view, camera] : document["cameras"].items())
     fmt::print("camera {}{}\n", view.empty() ? "" : "of " + view + ": ", camera_line(camera));
@@ -181,6 +181,7 @@ void info_command(const std::string& path, const FrameFlags& flags, const JsonFl
     if (std::find(all.begin(), all.end(), source.plane) == all.end()) all.push_back(source.plane);
   }
   const Frame frame = file.read(all);
+  file.verify();
   std::vector<PlaneFacts> facts;
   for (const PlaneSource& source : file.planes()) facts.push_back(facts_of(source, frame, file));
 

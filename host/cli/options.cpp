@@ -260,14 +260,17 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
   return names;
 }
 
-std::string holdings(const FrameFile& file) {
-  std::vector<std::string> names = file.all_channels();
-  const std::string name = file.path().filename().string();
-  if (names.empty()) return name + " has no channels";
+std::string first_names(std::vector<std::string> names) {
   const size_t most = 16;
   const std::string rest = names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
   names.resize(std::min(names.size(), most));
-  return fmt::format("{} has only {}{}", name, fmt::join(names, ", "), rest);
+  return fmt::format("{}{}", fmt::join(names, ", "), rest);
+}
+
+std::string holdings(const FrameFile& file) {
+  const std::vector<std::string> names = file.all_channels();
+  const std::string name = file.path().filename().string();
+  return names.empty() ? name + " has no channels" : fmt::format("{} has only {}", name, first_names(names));
 }
 
 Plan plan_for(const FrameFile& file, const PlanRequest& request) {

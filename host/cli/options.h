@@ -70,6 +70,9 @@ Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);
 /// Full channel names of the planes that a plan decodes.
 std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFile& file);
 
+/// "R, G, B and 7 more": no more names than a person reads.
+std::string first_names(std::vector<std::string> names);
+
 /// "beauty.exr has only R, G, B": what a file holds, for error messages.
 std::string holdings(const FrameFile& file);
 

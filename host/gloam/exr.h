@@ -92,6 +92,10 @@ class FrameFile {
   /// Where no camera is known, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.
   Frame read(const std::vector<std::string>& planes);
 
+  /// Decodes the channels that serve as no plane too, and drops them, so that damage anywhere in the file is found. For
+  /// looking at a file (`gloam info`), not for work on it. Throws as `read` does.
+  void verify();
+
   /// NaN and infinite values that `read` found in a plane, inside the data window, before anything was mended; 0 unless `count_nonfinite`.
   long long nonfinite(const std::string& plane, const std::string& view) const;
 

@@ -124,6 +124,21 @@ TEST_F(Cli, FilesThatCannotBeRead) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST_F(Cli, DamageInChannelsThatServeAsNoPlaneIsFound) {
+  // Values that compress: what does not is stored as it is, and any bits are a float.
+  Frame frame = small_frame(256, 256, {"mystery"});
+  Channel& channel = frame.views[0].planes["mystery"].channels[0];
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x) channel.at(x, y) = float(x + y);
+  }
+  write_frame(path("whole.exr"), frame);
+  EXPECT_EQ(gloam({"info", path("whole.exr")}).status, 0);
+  std::string spoiled = slurp(path("whole.exr"));
+  for (size_t i = spoiled.size() / 2; i < spoiled.size() / 2 + 400; ++i) spoiled[i] = char(i * 37);
+  std::ofstream(path("spoiled.exr"), std::ios::binary) << spoiled;
+  expect_refused(gloam({"info", path("spoiled.exr")}), 1, {"spoiled.exr", "corrupted"});
+}
+
 TEST_F(Cli, AHeaderThatClaimsTooMuch) {
   std::string bytes = slurp(loggia);
   const std::string key("dataWindow\0box2i\0", 17);

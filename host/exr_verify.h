@@ -1,0 +1,16 @@
+// Whether the pixels of a file can be decoded at all.
+#pragma once
+
+#include <OpenEXR/ImfMultiPartInputFile.h>
+
+#include <set>
+#include <string>
+#include <utility>
+
+namespace gloam {
+
+/// Decodes the channels (part, name) that are not in `decoded` and drops them, a band of rows at a time: damage shows only
+/// when pixels are read. Throws what OpenEXR throws.
+void decode_the_rest(Imf::MultiPartInputFile& file, const std::set<std::pair<int, std::string>>& decoded);
+
+}  // namespace gloam
