@@ -78,13 +78,7 @@ static inline real3 make3(real x, real y, real z) {
   v.z = z;
   return v;
 }
-static inline real3 choose3(mask m, real3 a, real3 b) {
-  return make3(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z));
-}
 static inline real3 scale3(real3 a, real s) { return make3(a.x * s, a.y * s, a.z * s); }
 static inline real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline real3 cross3(real3 a, real3 b) {
-  return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
 
 #endif

@@ -15,7 +15,6 @@
 // Where pixel (x, y) lies. Up to FRAME_GUARD pixels left and right of a row may be loaded: they belong to other rows or
 // to the guard, and the caller leaves them out by their x.
 static inline int index_of(Frame f, int x, int y) { return FRAME_GUARD + y * f.pitch + x; }
-static inline integer index_of_lanes(Frame f, integer x, integer y) { return FRAME_GUARD + y * f.pitch + x; }
 
 #if LANES == 1
 static inline real load(PLANE plane, int i) { return to_real(plane[i]); }
