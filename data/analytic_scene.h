@@ -70,13 +70,6 @@ std::optional<Hit> first_hit(const Scene& scene, const Ray& ray);
 /// Whether anything lies on the ray nearer than `reach`.
 bool blocked(const Scene& scene, const Ray& ray, double reach);
 
-/// Point `index` of a two-dimensional Sobol sequence under hashed Owen scrambling; each `seed` is one independent
-/// randomisation. In [0,1).
-glm::dvec2 scrambled_sobol(uint32_t index, uint32_t seed);
-
-/// A well-mixed 32-bit hash (lowbias32, Wellons 2018).
-uint32_t hash(uint32_t value);
-
 /// What a point sees of its surroundings.
 struct Visibility {
   double ao = 1;               ///< 1 open, 0 closed: mean of the two halves

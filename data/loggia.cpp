@@ -7,6 +7,8 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "low_discrepancy.h"
+
 namespace gloam::analytic {
 namespace {
 

@@ -203,6 +203,7 @@ const std::vector<Spelling>& spellings() {
       {"ao", "ambientocclusion", "r|v|x|y|z", generic},
       {"ao", "*", "occlusion|ambientocclusion|ambient_occlusion", generic},
       {"ao_raw", "*", "ao_raw", own},
+      {"ao_noise", "*", "ao_noise", own},
       {"bent_normal", "bent", "x,y,z", own},
       {"bent_normal", "bentnormal", xyz, generic},
       {"cone", "*", "cone", own},
@@ -456,11 +457,10 @@ void note_tie(NamedPlanes& named, const std::string& plane, const std::vector<Ca
 void add_depth_layers(NamedPlanes& named, const std::vector<Layer>& layers, const std::string& view) {
   std::set<std::string> seen;
   for (const Layer& layer : layers) {
-    const PlaneKind kind = plane_kind(lower(layer.path));
+    const std::string name = lower(layer.path);
     const auto z = layer.components.find("z");
-    if (kind.meaning != PlaneKind::view_depth || kind.name == "depth" || kind.name == "back_depth") continue;
-    if (z == layer.components.end() || !seen.insert(kind.name).second) continue;
-    named.planes.push_back(source_of(kind.name, view, {&layer, {z->second}, own, Said::nothing, 1}));
+    if (!stack_layer(name) || z == layer.components.end() || !seen.insert(name).second) continue;
+    named.planes.push_back(source_of(name, view, {&layer, {z->second}, own, Said::nothing, 1}));
   }
 }
 

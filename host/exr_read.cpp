@@ -328,6 +328,8 @@ struct FrameFile::Impl {
   std::map<std::string, Camera> json_cameras();
   std::optional<Camera> json_camera(const std::map<std::string, Camera>& from_json, const std::string& view);
   const PlaneSource* source(const std::string& plane, const std::string& view) const;
+  bool is_empty_layer(const std::string& plane, const std::string& view) const;
+  bool has(const std::string& plane, const std::string& view) const;
   std::string any_text(const std::string& name) const;
   bool any_attribute(const std::string& name) const;
 
@@ -513,6 +515,25 @@ const PlaneSource* FrameFile::Impl::source(const std::string& plane, const std::
   return nullptr;
 }
 
+/// Whether a view's stack ends before this layer, and another view's does not: nothing is seen in it then.
+bool FrameFile::Impl::is_empty_layer(const std::string& plane, const std::string& view) const {
+  const std::optional<StackLayer> layer = stack_layer(plane);
+  if (!layer) return false;
+  int here = -1;
+  bool elsewhere = false;
+  for (const PlaneSource& candidate : names.planes) {
+    const std::optional<StackLayer> other = stack_layer(candidate.plane);
+    if (!other || other->stack != layer->stack) continue;
+    if (candidate.view == view) here = std::max(here, other->number);
+    elsewhere |= candidate.plane == plane;
+  }
+  return elsewhere && here >= 0 && here < layer->number;
+}
+
+bool FrameFile::Impl::has(const std::string& plane, const std::string& view) const {
+  return source(plane, view) || is_empty_layer(plane, view);
+}
+
 std::string FrameFile::Impl::any_text(const std::string& name) const {
   for (int part = 0; part < file->parts(); ++part)
     if (std::string value = text(file->header(part), name); !value.empty()) return value;
@@ -547,11 +568,13 @@ Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes) const {
     const bool prefixed = !name.empty() && attribute<Imf::V3dAttribute>(header, name + ".gloamOrigin");
     view.origin = origin_in(header, prefixed ? name + "." : "");
     for (const std::string& plane : planes) {
-      const PlaneSource* from = source(plane, name);
-      if (!from) continue;
+      if (!has(plane, name)) continue;
       Plane& to = view.planes[plane];
       to.name = plane;
-      for (size_t i = 0; i < from->channels.size(); ++i) to.channels.emplace_back(layout);
+      if (const PlaneSource* from = source(plane, name))
+        for (size_t i = 0; i < from->channels.size(); ++i) to.channels.emplace_back(layout);
+      else
+        to.channels.emplace_back(layout, plane_kind(plane).outside);
     }
   }
   return frame;
@@ -562,9 +585,9 @@ void FrameFile::Impl::decode(Frame& frame) {
   std::map<int, PartDecoding> parts;
   for (View& view : frame.views)
     for (auto& [name, plane] : view.planes) {
-      const PlaneSource& from = *source(name, view.name);
-      for (size_t i = 0; i < from.channels.size(); ++i) {
-        Decoding& decoding = parts[from.channels[i].part][from.channels[i].name];
+      const PlaneSource* from = source(name, view.name);
+      for (size_t i = 0; from && i < from->channels.size(); ++i) {
+        Decoding& decoding = parts[from->channels[i].part][from->channels[i].name];
         decoding.targets.push_back(&plane.channels[i]);
         if (decoding.targets.size() == 1) decoding.outside = plane_kind(name).outside;
       }
@@ -576,12 +599,12 @@ void FrameFile::Impl::decode(Frame& frame) {
   }
   for (View& view : frame.views)
     for (auto& [name, plane] : view.planes) {
-      const PlaneSource& from = *source(name, view.name);
-      for (size_t i = 0; i < from.channels.size(); ++i)
-        if (from.channels[i].scale != 1) scale_image(plane.channels[i], from.channels[i].scale);
-      for (size_t i = 0; options.count_nonfinite && i < from.channels.size(); ++i)
+      const PlaneSource* from = source(name, view.name);
+      for (size_t i = 0; from && i < from->channels.size(); ++i)
+        if (from->channels[i].scale != 1) scale_image(plane.channels[i], from->channels[i].scale);
+      for (size_t i = 0; from && options.count_nonfinite && i < from->channels.size(); ++i)
         nonfinite[{name, view.name}] +=
-            count_nonfinite(plane.channels[i], box_of(file->header(from.channels[i].part).dataWindow()), window);
+            count_nonfinite(plane.channels[i], box_of(file->header(from->channels[i].part).dataWindow()), window);
     }
 }
 
@@ -716,18 +739,18 @@ long long FrameFile::nonfinite(const std::string& plane, const std::string& view
 std::vector<std::string> FrameFile::common_planes() const {
   std::vector<std::string> common;
   for (const PlaneSource& plane : planes()) {
-    const bool everywhere = std::all_of(views().begin(), views().end(), [&](const std::string& view) {
-      return impl_->source(plane.plane, view) != nullptr;
-    });
+    const bool everywhere = std::all_of(views().begin(), views().end(),
+                                        [&](const std::string& view) { return impl_->has(plane.plane, view); });
     if (everywhere) append_new(common, {plane.plane});
   }
   return common;
 }
 
 std::string FrameFile::why_missing(const std::string& plane) const {
+  const std::string needed = is_stack(plane) ? layer_name(plane, 0) : plane;
   std::vector<std::string> lacking;
   for (const std::string& view : views())
-    if (!impl_->source(plane, view)) lacking.push_back("'" + view + "'");
+    if (!impl_->has(needed, view)) lacking.push_back("'" + view + "'");
   if (lacking.empty() || lacking.size() == views().size()) return "";
   return printable(fmt::format("view{} {} {} no {}", lacking.size() == 1 ? "" : "s", enumerate(lacking),
                                lacking.size() == 1 ? "has" : "have", plane));

@@ -1,6 +1,8 @@
 #include "gloam/plan.h"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
 
 #include "gloam/planes.h"
 #include "lists.h"
@@ -34,16 +36,19 @@ struct Wanted {
   std::vector<const Technique*> makers;  ///< in order of preference
 };
 
-/// The technique that makes a plane: one of the makers, else the first in the registry; never the one that asks.
+/// The technique that makes a plane: one of the makers, else the one of the registry that reads the fewest planes (the
+/// first by name of these), so that the simplest is the default; never the one that asks.
 const Technique* maker_of(const std::string& plane, const Technique* asking,
                           const std::vector<const Technique*>& makers) {
   for (const Technique* t : makers) {
     if (t != asking && contains(t->writes, plane)) return t;
   }
+  const Technique* simplest = nullptr;
   for (const Technique& t : registry()) {
-    if (&t != asking && contains(t.writes, plane)) return &t;
+    if (&t == asking || !contains(t.writes, plane)) continue;
+    if (!simplest || t.reads.size() < simplest->reads.size()) simplest = &t;
   }
-  return nullptr;
+  return simplest;
 }
 
 bool reads_from(const Technique& reader, const Technique& writer) {
@@ -120,7 +125,7 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
 /// Walks back from planes to what makes them, and to the planes at hand.
 class Walk {
  public:
-  Walk(const Wanted& wanted, const std::vector<std::string>& available) : wanted_(wanted), available_(available) {
+  Walk(const Wanted& wanted, std::vector<std::string> available) : wanted_(wanted), available_(std::move(available)) {
     for (const std::string& output : wanted.outputs) need(output, nullptr);
   }
 
@@ -153,10 +158,85 @@ class Walk {
   }
 
   const Wanted& wanted_;
-  const std::vector<std::string>& available_;
+  const std::vector<std::string> available_;
   std::vector<const Technique*> begun_;
   std::vector<std::string> made_;
 };
+
+/// Planes, and the stacks whose first layer is among them.
+std::vector<std::string> with_stacks(std::vector<std::string> planes) {
+  for (const StackKind& stack : stack_kinds()) {
+    if (contains(planes, layer_name(stack.name, 0))) add_new(planes, stack.name);
+  }
+  return planes;
+}
+
+/// All layers up to the last one at hand, front to back.
+std::vector<std::string> layers_of(const std::string& stack, const std::vector<std::string>& available) {
+  int last = 0;
+  for (const std::string& plane : available) {
+    const std::optional<StackLayer> layer = stack_layer(plane);
+    if (layer && layer->stack == stack) last = std::max(last, layer->number);
+  }
+  std::vector<std::string> layers;
+  for (int number = 0; number <= last; ++number) layers.push_back(layer_name(stack, number));
+  return layers;
+}
+
+/// Planes that are not at hand, in words; and what makes them where that is no technique.
+[[noreturn]] void throw_missing(const std::string& technique, const std::vector<std::string>& missing,
+                                const std::string& holds) {
+  std::vector<std::string> quoted;
+  std::string sources;
+  for (const std::string& plane : missing) quoted.push_back("'" + plane + "'");
+  for (const StackKind& stack : stack_kinds()) {
+    if (contains(missing, stack.name) && !stack.source.empty())
+      sources += fmt::format("{} makes '{}'; ", stack.source, stack.name);
+  }
+  throw MissingPlanes(
+      fmt::format("{}: needs {}, and {} ({}see docs/gbuffer.md)", technique, enumerate(quoted), holds, sources),
+      missing);
+}
+
+/// Planes to take from the frame: a stack is taken layer by layer.
+void take_inputs(Plan& plan, const std::vector<std::string>& inputs, const std::vector<std::string>& available,
+                 std::vector<std::string>& missing) {
+  for (const std::string& input : inputs) {
+    if (is_stack(input)) plan.stacks[input] = layers_of(input, available);
+    for (const std::string& plane : is_stack(input) ? plan.stacks[input] : std::vector<std::string>{input}) {
+      add_new(plan.inputs, plane);
+      if (!contains(available, plane)) add_new(missing, plane);
+    }
+  }
+}
+
+std::string layer_count_define(const Binding& binding) {
+  std::string name = binding.argument;
+  for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
+  return name + "_LAYERS";
+}
+
+/// What the pass's kernel has to know of the stacks that it reads.
+void define_layers(Pass& pass, const Plan& plan) {
+  for (const Binding& binding : pass.reads) {
+    if (is_stack(binding.plane))
+      pass.defines.emplace_back(layer_count_define(binding), int(plan.stacks.at(binding.plane).size()));
+  }
+}
+
+/// What of the frame is not taken, and why. Layers are told as one, by the name of their stack.
+void skip_the_rest(Plan& plan, const std::vector<std::string>& available) {
+  std::vector<std::string> told;
+  for (const std::string& plane : available) {
+    if (contains(plan.inputs, plane)) continue;
+    const std::optional<StackLayer> layer = stack_layer(plane);
+    const bool computed = contains(plan.outputs, plane);
+    const std::string name = layer && !computed ? layer->stack : plane;
+    if (contains(told, name)) continue;
+    told.push_back(name);
+    plan.skipped.emplace_back(name, computed ? "asked for, so it is computed" : "no pass reads it; not decoded");
+  }
+}
 
 /// Every setting reaches at least one planned technique, or is an error.
 void apply(const PlanRequest& request, const std::vector<const Technique*>& order, const std::string& main,
@@ -218,16 +298,11 @@ void inherit(const std::vector<const Technique*>& order, std::vector<ParameterVa
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
   const Wanted wanted = wanted_by(request, available);
-  Walk walk(wanted, available);
+  Walk walk(wanted, with_stacks(available));
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
-  if (!walk.missing.empty()) {
-    std::vector<std::string> quoted;
-    for (const std::string& plane : walk.missing) quoted.push_back("'" + plane + "'");
-    throw MissingPlanes(
-        fmt::format("{}: needs {}, and {} (see docs/gbuffer.md)", plan.technique, enumerate(quoted), holds),
-        walk.missing);
-  }
+  take_inputs(plan, walk.inputs, available, walk.missing);
+  if (!walk.missing.empty()) throw_missing(plan.technique, walk.missing, holds);
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);
   // Twice: what a follower inherits is already set, and what is said of the follower itself wins.
@@ -235,17 +310,14 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   inherit(walk.order, values);
   apply(request, walk.order, plan.technique, values);
   for (size_t i = 0; i < walk.order.size(); ++i) {
-    for (Pass& pass : walk.order[i]->passes(values[i]))
+    for (Pass& pass : walk.order[i]->passes(values[i])) {
+      define_layers(pass, plan);
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
+    }
   }
   plan.outputs = wanted.outputs;
-  plan.inputs = walk.inputs;
   plan.skipped = walk.skipped;
-  for (const std::string& plane : available) {
-    if (contains(plan.inputs, plane)) continue;
-    plan.skipped.emplace_back(
-        plane, contains(wanted.outputs, plane) ? "asked for, so it is computed" : "no pass reads it; not decoded");
-  }
+  skip_the_rest(plan, available);
   if (contains(plan.inputs, "depth"))
     plan.depends_on_pixels.push_back("background: recognised when the depth is decoded");
   if (contains(plan.inputs, "normal")) {

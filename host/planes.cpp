@@ -1,7 +1,10 @@
 #include "gloam/planes.h"
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
+
+#include "gloam/error.h"
 
 namespace gloam {
 namespace {
@@ -13,14 +16,7 @@ PlaneKind kind(std::string name, std::vector<std::string> components, std::vecto
   return {std::move(name), std::move(components), std::move(channels), outside, meaning, std::move(help)};
 }
 
-/// "peel.00", "stochastic.12": one depth layer of many, written as "<name>.Z".
-bool is_depth_layer(std::string_view name) {
-  const size_t dot = name.find('.');
-  if (dot == std::string_view::npos) return false;
-  const std::string_view stem = name.substr(0, dot), number = name.substr(dot + 1);
-  return (stem == "peel" || stem == "stochastic") && number.size() == 2 &&
-         std::isdigit(static_cast<unsigned char>(number[0])) && std::isdigit(static_cast<unsigned char>(number[1]));
-}
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
 
 }  // namespace
 
@@ -46,6 +42,7 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("motion", {"x", "y"}, {"motion.X", "motion.Y"}, 0, K::value, "pixels, current to previous frame, y down"),
       kind("ao", {""}, {"AO"}, 1, K::unit_interval, "ambient occlusion; 1 is open"),
       kind("ao_raw", {""}, {"AO_raw"}, 1, K::unit_interval, "ambient occlusion before filtering"),
+      kind("ao_noise", {""}, {"AO_noise"}, 0, K::value, "estimated error of a ray-traced AO"),
       kind("bent_normal", {"x", "y", "z"}, {"bent.X", "bent.Y", "bent.Z"}, 0, K::unit_vector,
            "mean unoccluded direction, view space"),
       kind("cone", {""}, {"cone"}, 0, K::unit_interval, "cosine of the half angle of the visible cone"),
@@ -60,8 +57,32 @@ PlaneKind plane_kind(std::string_view name) {
   for (const PlaneKind& known : plane_kinds())
     if (known.name == name) return known;
   const std::string own(name);
-  if (is_depth_layer(name)) return kind(own, {""}, {own + ".Z"}, inf, PlaneKind::view_depth, "one depth layer");
+  if (stack_layer(name)) return kind(own, {""}, {own + ".Z"}, inf, PlaneKind::view_depth, "one depth layer");
+  if (is_stack(name)) return kind(own, {""}, {}, inf, PlaneKind::view_depth, "all depth layers of a kind");
   return kind(own, {""}, {own}, 0, PlaneKind::value, "");
 }
+
+const std::vector<StackKind>& stack_kinds() {
+  static const std::vector<StackKind> kinds = {
+      {"peel", "all surfaces under the pixel centre, front to back", "gloam capture --peel N"},
+      {"stochastic", "stochastic depth: each layer is the nearest of a random choice of surfaces", ""},
+  };
+  return kinds;
+}
+
+bool is_stack(std::string_view name) {
+  return std::any_of(stack_kinds().begin(), stack_kinds().end(),
+                     [&](const StackKind& stack) { return stack.name == name; });
+}
+
+std::optional<StackLayer> stack_layer(std::string_view plane) {
+  const size_t dot = plane.find('.');
+  if (dot == std::string_view::npos || !is_stack(plane.substr(0, dot))) return {};
+  const std::string_view number = plane.substr(dot + 1);
+  if (number.size() != 2 || !is_digit(number[0]) || !is_digit(number[1])) return {};
+  return StackLayer{std::string(plane.substr(0, dot)), 10 * (number[0] - '0') + (number[1] - '0')};
+}
+
+std::string layer_name(const std::string& stack, int number) { return fmt::format("{}.{:02}", stack, number); }
 
 }  // namespace gloam

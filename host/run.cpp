@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "device_impl.h"
@@ -39,14 +40,20 @@ KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout&
           Scalar(camera.orthographic ? 1 : 0)};
 }
 
-/// Every plane that a plan touches.
+/// Every plane and stack that a plan's passes touch.
 std::set<std::string> planes_of(const Plan& plan) {
-  std::set<std::string> planes(plan.inputs.begin(), plan.inputs.end());
+  std::set<std::string> planes;
   for (const PlannedPass& p : plan.passes) {
     for (const Binding& b : p.pass.reads) planes.insert(b.plane);
     for (const Binding& b : p.pass.writes) planes.insert(b.plane);
   }
   return planes;
+}
+
+/// Planes of one channel each that lie in one buffer: the layers of a stack; 1 for all else.
+size_t layers_in_buffer(const Plan& plan, const std::string& name) {
+  const auto stack = plan.stacks.find(name);
+  return stack == plan.stacks.end() ? 1 : stack->second.size();
 }
 
 /// One view's planes on the device. On a device that shares memory the host's own pages are used.
@@ -60,6 +67,16 @@ class Buffers {
           CL_MEM_READ_ONLY | (device_.info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
       buffers_[plane.name].emplace_back(device_.context, flags, layout_.bytes(), const_cast<float*>(channel.data()));
     }
+  }
+
+  /// One buffer with the layers one after another, each in the layout of any plane.
+  void upload_stack(const std::string& name, const std::vector<const Plane*>& layers) {
+    cl::Buffer buffer(device_.context, CL_MEM_READ_ONLY, layers.size() * layout_.bytes());
+    for (size_t i = 0; i < layers.size(); ++i) {
+      device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, i * layout_.bytes(), layout_.bytes(),
+                                       layers[i]->channels.front().data());
+    }
+    buffers_[name].push_back(std::move(buffer));
   }
 
   void allocate(const std::string& name) {
@@ -81,7 +98,6 @@ class Buffers {
     }
   }
 
-  bool has(const std::string& name) const { return buffers_.count(name) != 0; }
   std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
 
   /// Takes a computed plane back to the host; it is no longer on the device then.
@@ -220,12 +236,14 @@ void check_memory(const Plan& plan, const Layout& layout, const DeviceInfo& info
     throw Error("{}: {}x{} pixels with rows padded to {} are more than 2^31; use a smaller frame", plan.technique,
                 layout.width, layout.height, layout.pitch);
   }
-  if (layout.bytes() > info.largest_buffer) {
+  for (const std::string& name : planes_of(plan)) {
+    const size_t layers = layers_in_buffer(plan, name);
+    const unsigned long long bytes = layers * layout.bytes();
+    if (bytes <= info.largest_buffer) continue;
+    const std::string what = layers == 1 ? "one plane" : fmt::format("'{}', {} layers", name, layers);
     throw Error(
-        "{}: one plane of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another "
-        "--device",
-        plan.technique, layout.width, layout.height, mebibytes(layout.bytes()), info.name,
-        mebibytes(info.largest_buffer));
+        "{}: {} of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another --device",
+        plan.technique, what, layout.width, layout.height, mebibytes(bytes), info.name, mebibytes(info.largest_buffer));
   }
 }
 
@@ -235,20 +253,36 @@ void check_real(const Plan& plan, const DeviceInfo& info, const RunOptions& opti
   }
 }
 
+const Plane& input_plane(const Plan& plan, const View& view, const std::string& name, const Layout& layout) {
+  const Plane* plane = view.find(name);
+  if (!plane) throw Error("{}: view '{}' has no plane '{}'", plan.technique, view.name, name);
+  if (plane->channels.front().layout() != layout)
+    throw Error("{}: plane '{}' is not the size of the frame", plan.technique, name);
+  return *plane;
+}
+
+/// Brings the inputs to the device, and makes room for what is computed.
+void fill(Buffers& buffers, const Plan& plan, const View& view, const Layout& layout) {
+  std::map<std::string, const Plane*> inputs;
+  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, view, name, layout);
+  for (const std::string& name : planes_of(plan)) {
+    if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) {
+      std::vector<const Plane*> layers;
+      for (const std::string& layer : stack->second) layers.push_back(inputs.at(layer));
+      buffers.upload_stack(name, layers);
+    } else if (const auto input = inputs.find(name); input != inputs.end()) {
+      buffers.upload(*input->second);
+    } else {
+      buffers.allocate(name);
+    }
+  }
+}
+
 void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device, const RunOptions& options,
               int lanes, View& out, RunResult& result) {
   const Layout layout(frame.width(), frame.height());
   Buffers buffers(device, layout);
-  for (const std::string& name : plan.inputs) {
-    const Plane* plane = view.find(name);
-    if (!plane) throw Error("{}: view '{}' has no plane '{}'", plan.technique, view.name, name);
-    if (plane->channels.front().layout() != layout)
-      throw Error("{}: plane '{}' is not the size of the frame", plan.technique, name);
-    buffers.upload(*plane);
-  }
-  for (const std::string& name : planes_of(plan)) {
-    if (!buffers.has(name)) buffers.allocate(name);
-  }
+  fill(buffers, plan, view, layout);
   std::vector<cl::Kernel> kernels;
   for (const PlannedPass& planned : plan.passes) {
     kernels.push_back(build_kernel(planned, device, options, lanes));
@@ -282,7 +316,8 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
 
 unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
   unsigned long long channels = 0;
-  for (const std::string& name : planes_of(plan)) channels += plane_kind(name).components.size();
+  for (const std::string& name : planes_of(plan))
+    channels += plane_kind(name).components.size() * layers_in_buffer(plan, name);
   return channels * layout.bytes();
 }
 

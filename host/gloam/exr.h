@@ -71,7 +71,8 @@ class FrameFile {
   const std::vector<std::string>& views() const;
   /// Known planes of the selected views.
   const std::vector<PlaneSource>& planes() const;
-  /// Names of the planes that every selected view has.
+  /// Names of the planes that every selected view has. Where one view's stack (planes.h) has fewer layers than
+  /// another's, the layers that it lacks at the end count as there: nothing is seen in them.
   std::vector<std::string> common_planes() const;
   /// Why a plane is not among these although some view has it: "view 'right' has no depth"; else empty.
   std::string why_missing(const std::string& plane) const;
@@ -86,7 +87,8 @@ class FrameFile {
   /// A text attribute of the header ("aoDefinition"); empty when absent.
   std::string text_attribute(const std::string& name) const;
 
-  /// Decodes the named planes of all selected views (a plane that a view lacks is skipped) and brings them to gloam's
+  /// Decodes the named planes of all selected views (a plane that a view lacks is skipped; a layer beyond the end of a
+  /// view's stack is +inf everywhere) and brings them to gloam's
   /// conventions: depth to planar view-space z with +inf background, normals to unit view space. `depth` is decoded
   /// too where a named plane needs it (background of the normals is found by depth), never anything else.
   /// Where no camera is known, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.

@@ -1,6 +1,7 @@
 // The planes that gloam knows: their components, the channels written for them, their bounds.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,5 +24,29 @@ const std::vector<PlaneKind>& plane_kinds();
 /// The kind of a plane; a name not in the table is one component, channel = name, any value (a new technique needs no
 /// entry here).
 PlaneKind plane_kind(std::string_view name);
+
+/// Depth layers of one meaning that a kernel reads as one argument. A frame holds the layers, each a plane of its own:
+/// "peel.00", "peel.01", ... A technique reads the stack: "peel".
+struct StackKind {
+  std::string name;    ///< "peel"
+  std::string help;    ///< what its layers are
+  std::string source;  ///< what makes one, for messages: "gloam capture --peel N"
+};
+
+const std::vector<StackKind>& stack_kinds();
+
+bool is_stack(std::string_view name);
+
+/// A plane that is one layer of a stack.
+struct StackLayer {
+  std::string stack;
+  int number;  ///< 0 to 99
+};
+
+/// None for planes that are no layer.
+std::optional<StackLayer> stack_layer(std::string_view plane);
+
+/// ("peel", 7): "peel.07".
+std::string layer_name(const std::string& stack, int number);
 
 }  // namespace gloam

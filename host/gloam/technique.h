@@ -46,13 +46,31 @@ struct Technique {
                                      ///< the same name
   std::vector<Parameter> parameters;
   std::vector<Preset> presets;
+  /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant
+  /// to be fast. Empty where there is no such thing.
+  std::vector<std::pair<std::string, std::string>> converged;
   std::function<std::vector<Pass>(const ParameterValues&)> passes;
+  /// What an occluder at `distance` (in radii, 0 to 1) and at an angle with the given `cosine` (above 0) to the normal
+  /// takes away, in relation to the cosine-weighted integral: AO = 1 - mean over cosine-weighted directions of
+  /// `contribution`. What is done to the mean afterwards, such as an exponent for contrast, is no part of it. Empty
+  /// where the technique has no falloff of its own.
+  std::function<double(const ParameterValues&, double cosine, double distance)> contribution;
 };
 
 /// Lets a technique write its passes as a function of its own parameter struct.
 template <typename Params>
 std::function<std::vector<Pass>(const ParameterValues&)> passes_of(std::vector<Pass> (*passes)(const Params&)) {
   return [passes](const ParameterValues& values) { return passes(values.as<Params>()); };
+}
+
+/// The same for its contribution.
+template <typename Params>
+std::function<double(const ParameterValues&, double, double)> contribution_of(double (*contribution)(const Params&,
+                                                                                                     double cosine,
+                                                                                                     double distance)) {
+  return [contribution](const ParameterValues& values, double cosine, double distance) {
+    return contribution(values.as<Params>(), cosine, distance);
+  };
 }
 
 /// All techniques, sorted by name.

@@ -1,14 +1,21 @@
 // HBAO+: mean obscurance over directions x steps on the screen (Bavoil, Sainz 2008; NVIDIA 2016; written out in
-// Vermeer, Scandolo, Eisemann 2021, Algorithm 3 with one layer). AO = 1 - 2 / samples * sum of W(|v|) max(0, n.v/|v| -
-// bias).
+// Vermeer, Scandolo, Eisemann 2021, Algorithm 3). AO = 1 - 2 / samples * sum of W(|v|) max(0, n.v/|v| - bias), of all
+// layers at a sample the largest.
 //
-// in : depth   view-space z, scene units, +inf = background
-//      normal  unit, view space
-// out: ao_raw  1 = open .. 0 = closed, unfiltered; 1 on background
-// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF
+// in : depth      view-space z, scene units, +inf = background
+//      normal     unit, view space
+//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+// out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
+// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OCCLUDERS_LAYERS
 #include "estimators/obscurance.h"
 #include "hbao_plus/params.h"
 #include "shared/sample.h"
+
+#ifdef OCCLUDERS_LAYERS
+#define LAYERS OCCLUDERS_LAYERS
+#else
+#define LAYERS 1
+#endif
 
 // Where a pixel looks.
 typedef struct {
@@ -17,9 +24,23 @@ typedef struct {
   real shift;               // of the steps, 0 to 1
 } Fan;
 
-// Inlined by order: called, it is 8 % slower. `depth` has no `restrict` because oclgrind knows no inlined one.
+// The largest contribution of all layers at an offset in pixels.
+static inline real obscurance_near(Frame frame, HbaoPlusParams params, global const float* occluders, int here,
+                                   Anchor point, real z, real3 n, integer dx, integer dy, real inverse_square,
+                                   int within) {
+  real largest = 0;
+  for (int k = 0; k < LAYERS; ++k) {
+    const real depth = sample_near(layer_of(occluders, frame, k), frame, here, within, dx, dy);
+    const real3 v = towards_near(frame, point, to_real(dx), to_real(dy), relative_depth(point, z, depth));
+    const real found = obscurance(v, n, params.bias, inverse_square);
+    largest = k == 0 ? found : larger(found, largest);
+  }
+  return largest;
+}
+
+// Inlined by order: called, it is 8 % slower. `occluders` has no `restrict` because oclgrind knows no inlined one.
 static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, HbaoPlusParams params,
-                                                                    global const float* depth, integer x, int y,
+                                                                    global const float* occluders, integer x, int y,
                                                                     int here, Anchor point, real z, real3 n, Fan fan,
                                                                     real inverse_square, int within) {
   real cosine = fan.cosine, sine = fan.sine, turn_cosine, turn_sine, sum = 0;
@@ -30,8 +51,8 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
       // From one pixel away to the radius.
       integer dx = nearest(cosine * (1 + (fan.shift + k) * fan.stride_x));
       integer dy = nearest(sine * (1 + (fan.shift + k) * fan.stride_y));
-      const real e = relative_depth(point, z, sample_near(depth, frame, x, y, here, within, &dx, &dy));
-      sum += obscurance(towards_near(frame, point, to_real(dx), to_real(dy), e), n, params.bias, inverse_square);
+      keep_in_frame(frame, x, y, within, &dx, &dy);
+      sum += obscurance_near(frame, params, occluders, here, point, z, n, dx, dy, inverse_square, within);
     }
     const real next = cosine * turn_cosine - sine * turn_sine;
     sine = sine * turn_cosine + cosine * turn_sine;
@@ -41,7 +62,14 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
 }
 
 kernel void hbao_plus_estimate(Frame frame, HbaoPlusParams params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                               PLANE normal_z, PLANE_OUT ao_raw) {
+                               PLANE normal_z,
+#ifdef OCCLUDERS_LAYERS
+                               PLANE occluders,
+#endif
+                               PLANE_OUT ao_raw) {
+#ifndef OCCLUDERS_LAYERS
+  PLANE occluders = depth;
+#endif
   const int x0 = FIRST_X, y = ROW_Y, here = index_of(frame, x0, y);
   const integer x = x0 + IOTA;
   const real z = load(depth, here);
@@ -68,7 +96,7 @@ kernel void hbao_plus_estimate(Frame frame, HbaoPlusParams params, PLANE depth, 
 
   real sum;
 #define SUM_OF_OBSCURANCE(within) \
-  sum_of_obscurance(frame, params, depth, x, y, here, point, z, n, fan, reach.inverse_square, within)
+  sum_of_obscurance(frame, params, occluders, x, y, here, point, z, n, fan, reach.inverse_square, within)
   if (frame.pitch >= SHORT_PITCH) {
     sum = SUM_OF_OBSCURANCE(SAMPLES_IN_WIDE_FRAME);
   } else if (reaches_only_inside(frame, point, reach)) {

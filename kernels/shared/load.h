@@ -16,6 +16,12 @@
 // to the guard, and the caller leaves them out by their x.
 static inline int index_of(Frame f, int x, int y) { return FRAME_GUARD + y * f.pitch + x; }
 
+// A stack is one buffer with its layers one after another: this is one of them, a plane like any other. How many there
+// are is a constant of the program (plan.h).
+static inline global const float* layer_of(global const float* stack, Frame f, int layer) {
+  return stack + (size_t)layer * (2 * FRAME_GUARD + (size_t)f.pitch * f.height);
+}
+
 #if LANES == 1
 static inline real load(PLANE plane, int i) { return to_real(plane[i]); }
 static inline void store(real value, PLANE_OUT plane, int i) { plane[i] = to_stored(value); }

@@ -54,14 +54,18 @@ static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
   return !ANY(!((a.x >= x) & (a.x + x < (scalar)f.width) & (a.y >= y) & (a.y + y < (scalar)f.height)));
 }
 
-// A plane's value at an offset in pixels from each lane's own (x, y); an offset out of the frame is changed to its border.
-// `within`: a constant, one of the above. |dy| is below SHORT_PITCH.
-static inline real sample_near(PLANE plane, Frame f, integer x, int y, int here, int within, integer* dx, integer* dy) {
-  if (within == SAMPLES_INSIDE) return gather_near_short(plane, f, here, *dx, *dy);
+// Changes an offset in pixels from each lane's own (x, y) that leads out of the frame to the frame's border.
+// `within`: a constant, one of the above.
+static inline void keep_in_frame(Frame f, integer x, int y, int within, integer* dx, integer* dy) {
+  if (within == SAMPLES_INSIDE) return;
   *dx = min(max(*dx, -x), f.width - 1 - x);
   *dy = min(max(*dy, -y), f.height - 1 - y);
-  if (within == SAMPLES_CLAMPED) return gather_near_short(plane, f, here, *dx, *dy);
-  return gather_near(plane, f, here, *dx, *dy);
+}
+
+// A plane's value at an offset that stays in the frame; `here` is the first lane's index. |dy| is below SHORT_PITCH.
+static inline real sample_near(PLANE plane, Frame f, int here, int within, integer dx, integer dy) {
+  return within == SAMPLES_IN_WIDE_FRAME ? gather_near(plane, f, here, dx, dy)
+                                         : gather_near_short(plane, f, here, dx, dy);
 }
 
 #endif

@@ -9,6 +9,7 @@
 
 #include "analytic_scene.h"
 #include "loggia.h"
+#include "low_discrepancy.h"
 
 namespace gloam::analytic {
 namespace {

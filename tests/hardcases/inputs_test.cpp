@@ -41,6 +41,7 @@ Frame fuzzed_frame(const Technique& technique, const Shot& shot, uint32_t seed, 
   Frame frame = blank(shot);
   plane_of(frame, "depth");
   for (const std::string& name : technique.reads) {
+    if (is_stack(name)) continue;  // its layers are added below
     if (with_normals || name == "depth") plane_of(frame, name);
   }
   plan_for(technique, frame);  // adds what nothing makes

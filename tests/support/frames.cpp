@@ -1,7 +1,6 @@
 #include "support/frames.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
@@ -9,21 +8,24 @@
 #include "analytic_scene.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
+#include "low_discrepancy.h"
 
 namespace gloam::test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+constexpr int invented_layers = 3;
+
 /// Number at the end of "peel.03"; 0 for other names.
-int layer_of(const std::string& name) {
-  const size_t dot = name.find('.');
-  return dot == std::string::npos ? 0 : std::atoi(name.c_str() + dot + 1);
+int number_of(const std::string& name) {
+  const std::optional<StackLayer> layer = stack_layer(name);
+  return layer ? layer->number : 0;
 }
 
 /// 0..1, without order but the same every time.
 float pattern(int x, int y, int component) {
-  const uint32_t mixed = analytic::hash(uint32_t(x) + 4099u * uint32_t(y) + 65599u * uint32_t(component));
+  const uint32_t mixed = hash(uint32_t(x) + 4099u * uint32_t(y) + 65599u * uint32_t(component));
   return float(mixed >> 8) * 0x1p-24f;
 }
 
@@ -33,7 +35,7 @@ Shot shot_of(const Frame& frame) { return {*frame.views[0].camera, frame.width()
 float invented_value(const PlaneKind& kind, const Frame& frame, int component, int x, int y) {
   const View& view = frame.views[0];
   const float depth = view.find("depth")->channels[0].at(x, y);
-  if (kind.meaning == PlaneKind::view_depth) return depth * (1 + 0.1f * float(layer_of(kind.name)));
+  if (kind.meaning == PlaneKind::view_depth) return depth * (1 + 0.1f * float(number_of(kind.name)));
   if (kind.meaning == PlaneKind::unit_vector) {
     const Plane* normal = view.find("normal");
     return normal ? normal->channels[size_t(component)].at(x, y) : component == 2 ? 1.0f : 0.0f;
@@ -176,6 +178,10 @@ Frame clone(const Frame& frame) {
 }
 
 void invent_plane(Frame& frame, const std::string& name) {
+  if (is_stack(name)) {
+    for (int number = 0; number < invented_layers; ++number) invent_plane(frame, layer_name(name, number));
+    return;
+  }
   const PlaneKind kind = plane_kind(name);
   Plane& plane = plane_of(frame, name);
   for (size_t i = 0; i < plane.channels.size(); ++i) {

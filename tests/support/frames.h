@@ -62,7 +62,8 @@ std::vector<std::string> plane_names(const Frame& frame);
 Frame clone(const Frame& frame);
 
 /// Gives the frame a plane of that name with values that its kind allows and that show some variety: further depth
-/// layers lie behind the visible surface, positions fit the depth, colours are a pattern. The frame has depth.
+/// layers lie behind the visible surface, positions fit the depth, colours are a pattern. A stack is three layers, the
+/// first of them the depth. The frame has depth.
 void invent_plane(Frame& frame, const std::string& name);
 
 }  // namespace gloam::test
