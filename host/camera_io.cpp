@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
@@ -531,6 +532,48 @@ std::map<std::string, Camera> read_camera_file(const fs::path& file, const Windo
     if (!cameras.emplace(name, camera_from(fields, display, assumed)).second)
       refuse(fields, "view", name.empty() ? "is missing or \"mono\"" : fmt::format("is {} again", name),
              "a name that no other view has");
+  }
+  return cameras;
+}
+
+namespace {
+
+/// Between two cameras, at 0 to 1.
+Camera between(const Camera& a, const Camera& b, double t) {
+  Camera camera = a;
+  const auto mixed = [t](double from, double to) { return from + t * (to - from); };
+  camera.fx = mixed(a.fx, b.fx), camera.fy = mixed(a.fy, b.fy);
+  camera.cx = mixed(a.cx, b.cx), camera.cy = mixed(a.cy, b.cy);
+  camera.pose->position = a.pose->position + t * (b.pose->position - a.pose->position);
+  const glm::dquat from = glm::quat_cast(a.pose->world_to_view), to = glm::quat_cast(b.pose->world_to_view);
+  camera.pose->world_to_view = glm::mat3_cast(glm::slerp(from, to, t));
+  return camera;
+}
+
+}  // namespace
+
+std::vector<Camera> read_camera_path(const fs::path& file, const Window& display, std::vector<std::string>& assumed) {
+  const json document = parse_camera_file(file);
+  const auto path = document.find("path");
+  if (path == document.end() || !path->is_array() || path->size() < 2)
+    throw Error("{}: has no path; expected \"path\", a list of two cameras or more", file.string());
+  std::vector<Camera> keys;
+  for (size_t i = 0; i < path->size(); ++i) {
+    const json& entry = (*path)[i];
+    if (!entry.is_object()) throw Error("{}: path[{}] {}; expected an object", file.string(), i, type_of(entry));
+    keys.push_back(camera_from({file.string(), fmt::format("path[{}].", i), entry, document}, display, assumed));
+    if (!keys.back().pose)
+      throw Error("{}: path[{}] has no pose; expected camera_to_world or world_to_camera", file.string(), i);
+  }
+  const std::optional<double> frames = number({file.string(), "", document, document}, "frames");
+  if (!frames) return keys;
+  if (!(*frames >= 2 && *frames <= 100000) || *frames != std::floor(*frames))
+    throw Error("{}: frames {:g} is not allowed; a whole number from 2 to 100000 is", file.string(), *frames);
+  std::vector<Camera> cameras;
+  for (int i = 0; i < int(*frames); ++i) {
+    const double at = double(keys.size() - 1) * i / (*frames - 1);
+    const size_t key = std::min(size_t(at), keys.size() - 2);
+    cameras.push_back(between(keys[key], keys[key + 1], at - double(key)));
   }
   return cameras;
 }

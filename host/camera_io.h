@@ -32,6 +32,12 @@ std::optional<std::filesystem::path> find_camera_file(const std::filesystem::pat
 std::map<std::string, Camera> read_camera_file(const std::filesystem::path& file, const Window& display,
                                                std::vector<std::string>& assumed);
 
+/// The cameras of a path: the list "path" of a camera JSON, one view per camera, fields looked up in the entry, then at
+/// the top. "frames" (2 to 100000) asks for that many cameras instead, evenly along the list: places and intrinsics in
+/// straight lines, rotations by the shortest turn. Throws Error as `read_camera_file` does.
+std::vector<Camera> read_camera_path(const std::filesystem::path& file, const Window& display,
+                                     std::vector<std::string>& assumed);
+
 /// The camera that OpenEXR's standard attributes describe: `world_to_camera` left-handed looking along +z,
 /// `world_to_ndc` to [0,1] over the display window, y down, both for row vectors (Imath); `origin` (gloamOrigin) is
 /// what they are relative to.

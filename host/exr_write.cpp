@@ -162,6 +162,7 @@ Imf::Header header_of(const Frame& frame, const std::vector<Output>& outputs, co
   insert_views(header, frame);
   if (has_directions(frame)) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));
   for (const auto& [name, text] : frame.attributes) header.insert(name, Imf::StringAttribute(text));
+  for (const auto& [name, number] : frame.numbers) header.insert(name, Imf::FloatAttribute(float(number)));
   return header;
 }
 

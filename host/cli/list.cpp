@@ -1,8 +1,9 @@
-// gloam list techniques|devices|metrics
+// gloam list techniques|devices|metrics|scenes
 #include <memory>
 
 #include "gloam/device.h"
 #include "gloam/error.h"
+#include "gloam/scene.h"
 #include "options.h"
 
 namespace gloam::cli {
@@ -135,6 +136,26 @@ void list_devices_command(const JsonFlag& json) {
   if (!json.only_json()) print_table(rows, 4);
 }
 
+void list_scenes(const JsonFlag& json) {
+  Json document = Json::array();
+  for (const SceneRecipe& recipe : builtin_scenes()) {
+    Json parameters = Json::array();
+    for (const Parameter& p : recipe.parameters) parameters.push_back(parameter_document(p));
+    document.push_back({{"name", recipe.name}, {"summary", recipe.summary}, {"parameters", parameters}});
+  }
+  json.write(document);
+  if (json.only_json()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const SceneRecipe& recipe : builtin_scenes()) {
+    rows.push_back({recipe.name, recipe.summary});
+    const ParameterValues initial(recipe.parameters);
+    for (const Parameter& p : recipe.parameters) {
+      rows.push_back({"", fmt::format("--{} {}  ({}) {}", p.name, initial.text(p.name), allowed_values(p), p.help)});
+    }
+  }
+  print_table(rows, 2);
+}
+
 void list_metrics(const JsonFlag& json) {
   const std::vector<std::pair<std::string, std::string>> metrics = {
       {"pixels", "pixels that count: foreground in both"},
@@ -167,8 +188,8 @@ void add_list(CLI::App& app) {
     JsonFlag json;
   };
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices or metrics");
-  command->add_option("what", flags->what, "techniques, devices or metrics")->required();
+  CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices, metrics or scenes");
+  command->add_option("what", flags->what, "techniques, devices, metrics or scenes")->required();
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
   flags->json.add_to(*command);
   command->footer("Examples:\n  gloam list techniques\n  gloam list devices --json -");
@@ -176,8 +197,9 @@ void add_list(CLI::App& app) {
     if (flags->what == "techniques") return list_techniques(flags->json, flags->markdown);
     if (flags->what == "devices") return list_devices_command(flags->json);
     if (flags->what == "metrics") return list_metrics(flags->json);
-    const std::vector<std::string> known = {"techniques", "devices", "metrics"};
-    throw UsageError("list: no '{}'{}; techniques, devices and metrics can be listed", flags->what,
+    if (flags->what == "scenes") return list_scenes(flags->json);
+    const std::vector<std::string> known = {"techniques", "devices", "metrics", "scenes"};
+    throw UsageError("list: no '{}'{}; techniques, devices, metrics and scenes can be listed", flags->what,
                      suggestion(flags->what, known));
   });
 }

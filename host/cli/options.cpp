@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -16,24 +17,6 @@
 
 namespace gloam::cli {
 namespace {
-
-double number(const std::string& text, const std::string& flag, double min, double max) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || !(value >= min && value <= max)) {
-    throw UsageError("{} {} is not allowed; a number from {:g} to {:g} is", flag, text, min, max);
-  }
-  return value;
-}
-
-int whole_number(const std::string& text, const std::string& flag, int min, int max) {
-  int value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || value < min || value > max) {
-    throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, min, max);
-  }
-  return value;
-}
 
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code unknown;
@@ -65,6 +48,24 @@ Value one_of(const std::string& text, const std::string& flag,
 
 }  // namespace
 
+double parse_number(const std::string& text, const std::string& flag, double min, double max) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size() || !(value >= min && value <= max)) {
+    throw UsageError("{} {} is not allowed; a number from {:g} to {:g} is", flag, text, min, max);
+  }
+  return value;
+}
+
+int parse_whole_number(const std::string& text, const std::string& flag, int min, int max) {
+  int value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size() || value < min || value > max) {
+    throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, min, max);
+  }
+  return value;
+}
+
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
   for (size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].second.empty()) continue;
@@ -76,6 +77,37 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
     }
     check_folder(outputs[i]);
   }
+}
+
+std::pair<int, int> parse_size(const std::string& text, const std::string& flag) {
+  const size_t cross = text.find('x');
+  if (cross == std::string::npos) throw UsageError("{} {} is not WIDTHxHEIGHT; write 1920x1080", flag, text);
+  return {parse_whole_number(text.substr(0, cross), flag + " " + text + ": width", 1, 65536),
+          parse_whole_number(text.substr(cross + 1), flag + " " + text + ": height", 1, 65536)};
+}
+
+std::vector<std::pair<std::string, std::string>> parse_settings(const std::vector<std::string>& items,
+                                                                const std::string& flag) {
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const std::string& item : items) {
+    const size_t equals = item.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
+      throw UsageError("{} '{}' is not NAME=VALUE; write {} radius=0.3", flag, item, flag);
+    settings.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+  }
+  return settings;
+}
+
+std::function<void(int, int)> progress_bar() {
+  if (!isatty(STDERR_FILENO)) return {};
+  const auto start = std::chrono::steady_clock::now();
+  return [start](int done, int of) {
+    if (std::chrono::steady_clock::now() - start < std::chrono::seconds(1)) return;
+    const int width = 40, filled = int(double(width) * done / of);
+    fmt::print(stderr, "\r[{:=<{}}{:<{}}] {}/{}{}", "", filled, "", width - filled, done, of,
+               done == of ? "\r\033[K" : "");
+    std::fflush(stderr);
+  };
 }
 
 std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
@@ -126,11 +158,11 @@ void FrameFlags::add_to(CLI::App& app) {
 ReadOptions FrameFlags::read_options() const {
   ReadOptions options;
   options.camera_file = camera;
-  if (!fov.empty()) options.fov_degrees = number(fov, "--fov", 1, 179);
+  if (!fov.empty()) options.fov_degrees = parse_number(fov, "--fov", 1, 179);
   const double most = std::numeric_limits<double>::infinity();
-  if (!near.empty()) options.near = number(near, "--near", 0, most);
-  if (!far.empty()) options.far = number(far, "--far", 0, most);
-  if (!background.empty()) options.background = float(number(background, "--background", -most, most));
+  if (!near.empty()) options.near = parse_number(near, "--near", 0, most);
+  if (!far.empty()) options.far = parse_number(far, "--far", 0, most);
+  if (!background.empty()) options.background = float(parse_number(background, "--background", -most, most));
   options.depth = one_of<DepthConvention>(depth, "--depth",
                                           {{"auto", DepthConvention::automatic},
                                            {"z", DepthConvention::z},
@@ -168,13 +200,7 @@ void TechniqueFlags::add_to(CLI::App& app) {
 
 PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
   PlanRequest request{outputs, {}, then, preset, {}};
-  for (const std::string& setting : settings) {
-    const size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size()) {
-      throw UsageError("--set '{}' is not NAME=VALUE; write --set radius=0.3", setting);
-    }
-    request.settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-  }
+  request.settings = parse_settings(settings, "--set");
   return request;
 }
 
@@ -194,8 +220,8 @@ RunOptions RunFlags::run_options() const {
   options.lanes = one_of<int>(lanes, "--lanes", {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}});
   options.math = one_of<Math>(math, "--math", {{"precise", Math::precise}, {"fast", Math::fast}});
   options.real = one_of<Real>(real, "--real", {{"float", Real::float32}, {"double", Real::float64}});
-  options.seed = whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
-  options.repeat = whole_number(repeat, "--repeat", 1, 10000);
+  options.seed = parse_whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
+  options.repeat = parse_whole_number(repeat, "--repeat", 1, 10000);
   return options;
 }
 

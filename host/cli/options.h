@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -87,6 +88,20 @@ std::filesystem::path picture_path(const std::string& path, const std::string& v
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
 
+/// Draws a bar on standard error once the work has taken a second; empty unless that is a terminal.
+std::function<void(int done, int of)> progress_bar();
+
+/// "1920x1080"; throws UsageError. 1 to 65536 each way.
+std::pair<int, int> parse_size(const std::string& text, const std::string& flag);
+
+/// A number within bounds; throws UsageError that names the flag.
+double parse_number(const std::string& text, const std::string& flag, double min, double max);
+int parse_whole_number(const std::string& text, const std::string& flag, int min, int max);
+
+/// name=value items as pairs; throws UsageError for what is not of that form.
+std::vector<std::pair<std::string, std::string>> parse_settings(const std::vector<std::string>& items,
+                                                                const std::string& flag);
+
 /// Keeps notes (what was assumed) for the end of the command; a command that fails says why it failed and nothing else.
 void note(const std::vector<std::string>& notes);
 /// The notes on standard error, one line each.
@@ -98,5 +113,8 @@ void add_info(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_run(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_capture(CLI::App& app);
+void add_reference(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace gloam::cli

@@ -1,6 +1,4 @@
 // gloam run TECHNIQUE FRAME.exr -o OUT.exr
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <future>
@@ -40,19 +38,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// A bar on standard error once the work has taken a second; terminals only.
-std::function<void(int, int)> progress_bar() {
-  if (!isatty(STDERR_FILENO)) return {};
-  const auto start = std::chrono::steady_clock::now();
-  return [start](int done, int of) {
-    if (std::chrono::steady_clock::now() - start < std::chrono::seconds(1)) return;
-    const int width = 40, filled = width * done / of;
-    fmt::print(stderr, "\r[{:=<{}}{:<{}}] {}/{}{}", "", filled, "", width - filled, done, of,
-               done == of ? "\r\033[K" : "");
-    std::fflush(stderr);
-  };
-}
 
 /// How far the radius reaches on the screen, median over some foreground pixels; 0 where there is none.
 double median_radius_pixels(const Frame& frame, double radius) {

@@ -86,6 +86,7 @@ struct Frame {
   Window window;   ///< what the planes cover: the display window and whatever data lies outside it
   std::vector<View> views;
   std::map<std::string, std::string> attributes;  ///< text that goes into the header: what made the planes
+  std::map<std::string, double> numbers;          ///< floats that go into the header: aoRadius ...
   std::vector<std::string> assumed;               ///< one sentence for each thing that was not said by file or flag
 
   int width() const { return window.width(); }

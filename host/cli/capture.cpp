@@ -1,0 +1,224 @@
+// gloam capture SCENE -o FRAME.exr
+#include "gloam/capture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "camera_io.h"
+#include "gloam/error.h"
+#include "gloam/visualise.h"
+#include "scene_flags.h"
+
+namespace gloam::cli {
+namespace {
+
+struct CaptureCommand {
+  std::string out, size = "1920x1080", planes, peel = "0", path, picture, compression = "zip";
+  bool half = false;
+  SceneFlags scene;
+  SceneCameraFlags camera;
+  JsonFlag json;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// All planes but motion, which needs a path.
+std::vector<std::string> planes_of(const CaptureCommand& flags) {
+  std::vector<std::string> planes;
+  if (!flags.planes.empty()) planes = split_list(flags.planes, "--planes");
+  for (const std::string& plane : capture_planes()) {
+    if (flags.planes.empty() && plane != "motion") planes.push_back(plane);
+  }
+  if (contains(planes, "motion") && flags.path.empty())
+    throw UsageError("--planes motion needs cameras of two moments; give --camera-path FILE.json");
+  if (!flags.path.empty()) add_new(planes, "motion");
+  return planes;
+}
+
+/// "frame.exr" and 7 make "frame.0007.exr".
+std::string numbered(const std::string& path, int number) {
+  const std::filesystem::path p(path);
+  return (p.parent_path() / fmt::format("{}.{:04}{}", p.stem().string(), number, p.extension().string())).string();
+}
+
+/// One moment: what is captured, and the file it goes to.
+struct Shot {
+  std::string file, picture;
+  std::vector<CaptureView> views;
+};
+
+std::vector<Shot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height) {
+  std::vector<Shot> shots;
+  if (flags.path.empty()) {
+    Shot shot{flags.out, flags.picture, {}};
+    for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
+      shot.views.push_back({name, camera, {}});
+    return {shot};
+  }
+  std::vector<std::string> assumed;
+  const std::vector<Camera> cameras = read_camera_path(flags.path, {0, 0, width, height}, assumed);
+  note(assumed);
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const int number = int(i) + 1;
+    shots.push_back({numbered(flags.out, number),
+                     flags.picture.empty() ? "" : numbered(flags.picture, number),
+                     {{"", cameras[i], cameras[i == 0 ? 0 : i - 1]}}});
+  }
+  return shots;
+}
+
+/// How many surfaces lie under a pixel that shows any.
+struct Layers {
+  long long pixels = 0, surfaces = 0;
+  int most = 0;
+  void add(const Frame& frame) {
+    for (const View& view : frame.views) {
+      const Plane* count = view.find("peel_count");
+      if (!count) continue;
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+          const int n = int(count->channels[0].at(x, y));
+          pixels += n > 0;
+          surfaces += n;
+          most = std::max(most, n);
+        }
+      }
+    }
+  }
+  double mean() const { return pixels == 0 ? 0 : double(surfaces) / double(pixels); }
+};
+
+struct Figures {
+  size_t faces = 0, meshes = 0;
+  double load = 0, build = 0, trace = 0, write = 0;
+  long long rays = 0;
+  Layers layers;
+  std::vector<std::string> files;
+};
+
+/// The scene's lit colour as a picture.
+void write_colour(const Shot& shot, const Frame& frame) {
+  if (shot.picture.empty()) return;
+  for (const View& view : frame.views) {
+    const Plane* color = view.find("color");
+    write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1),
+                  color ? *color : view.planes.begin()->second);
+  }
+}
+
+void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const WriteOptions& write, Figures& figures) {
+  options.views = shot.views;
+  const CaptureResult result = capture(tracer, options);
+  figures.trace += result.seconds;
+  figures.rays += result.rays;
+  figures.layers.add(result.frame);
+  const auto start = std::chrono::steady_clock::now();
+  write_frame(shot.file, result.frame, write);
+  write_colour(shot, result.frame);
+  figures.write += seconds_since(start);
+  figures.files.push_back(shot.file);
+}
+
+Json document(const Scene& scene, const CaptureOptions& options, const Figures& f) {
+  Json layers = nullptr;
+  if (options.peel > 0) layers = {{"stored", options.peel}, {"mean", f.layers.mean()}, {"max", f.layers.most}};
+  return {{"scene", scene.name},
+          {"faces", f.faces},
+          {"meshes", f.meshes},
+          {"size", {options.width, options.height}},
+          {"files", f.files},
+          {"layers", layers},
+          {"ao_radius", scene.ao_radius},
+          {"rays", f.rays},
+          {"rays_per_second", f.trace > 0 ? double(f.rays) / f.trace : 0},
+          {"seconds", {{"load", f.load}, {"build", f.build}, {"trace", f.trace}, {"write", f.write}}}};
+}
+
+void print(const Scene& scene, const CaptureOptions& options, const Figures& f) {
+  fmt::print("{}: {} faces in {} meshes, {}x{}\n", printable(scene.name), f.faces, f.meshes, options.width,
+             options.height);
+  if (options.peel > 0)
+    fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
+  fmt::print("load {:.2f} s, build {:.2f} s, trace {:.2f} s ({:.1f} million rays per second), write {:.2f} s\n", f.load,
+             f.build, f.trace, f.trace > 0 ? double(f.rays) / f.trace * 1e-6 : 0.0, f.write);
+  if (f.files.size() == 1)
+    fmt::print("wrote {}\n", printable(f.files.front()));
+  else
+    fmt::print("wrote {} files, {} to {}\n", f.files.size(), printable(f.files.front()), printable(f.files.back()));
+}
+
+void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
+  check(write);
+  check_picture_name(flags.picture, "--picture");
+  if (!flags.path.empty() && !flags.camera.camera.empty())
+    throw UsageError("--camera-path and --camera both place the camera; give one of them");
+  check_paths({{"the scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+               {"--camera", flags.camera.camera},
+               {"--camera-path", flags.path}},
+              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+}
+
+void capture_command(const CaptureCommand& flags) {
+  const WriteOptions write{flags.half, flags.compression};
+  check_flags(flags, write);
+  CaptureOptions options;
+  std::tie(options.width, options.height) = parse_size(flags.size, "--size");
+  if ((long long)options.width * options.height > max_pixels)
+    throw UsageError("--size {} has more than {} pixels; take a smaller one", flags.size, max_pixels);
+  options.planes = planes_of(flags);
+  options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
+  Figures figures;
+  const auto start = std::chrono::steady_clock::now();
+  const Scene scene = flags.scene.load();
+  figures.load = seconds_since(start);
+  const std::vector<Shot> shots = shots_of(flags, scene, options.width, options.height);
+  const Tracer tracer(scene);
+  figures.build = tracer.build_seconds();
+  figures.faces = scene.faces();
+  figures.meshes = scene.meshes.size();
+  const auto bar = progress_bar();
+  int taken = 0;
+  if (bar) {
+    options.progress = [&](int done, int of) { bar(taken * 1000 + int(1000LL * done / of), int(shots.size()) * 1000); };
+  }
+  for (const Shot& shot : shots) {
+    take(shot, tracer, options, write, figures);
+    ++taken;
+  }
+  flags.json.write(document(scene, options, figures));
+  if (!flags.json.only_json()) print(scene, options, figures);
+}
+
+}  // namespace
+
+void add_capture(CLI::App& app) {
+  auto flags = std::make_shared<CaptureCommand>();
+  CLI::App* command = app.add_subcommand("capture", "a G-buffer of a scene: an OBJ or glTF file, or a built-in one");
+  command->add_option("scene", flags->scene.scene, "OBJ or glTF file, or a name of gloam list scenes")
+      ->required()
+      ->type_name("SCENE");
+  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("FRAME.exr");
+  command->add_option("--size", flags->size, "of the image; default 1920x1080")->type_name("WxH");
+  command->add_option("--planes", flags->planes, "these planes only: " + enumerate(capture_planes()))->type_name("A,B");
+  command->add_option("--peel", flags->peel, "depth layers to store per pixel, 0 to 64")->type_name("N");
+  command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
+      ->type_name("FILE");
+  command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
+  command->add_flag("--half", flags->half, "store bounded planes as half");
+  command->add_option("--compression", flags->compression, "zip, zips, piz, rle or none")->type_name("NAME");
+  flags->camera.add_to(*command);
+  flags->scene.add_settings_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Planes are sampled at pixel centres. Examples:\n"
+      "  gloam capture colonnade -o colonnade.exr --size 960x540 --picture colonnade.png\n"
+      "  gloam capture statue --faces 500000 -o statue.exr --peel 8\n"
+      "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
+      "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");
+  command->callback([flags] { capture_command(*flags); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,176 @@
+// gloam reference ao FRAME.exr --scene SCENE -o REF.exr
+#include "gloam/reference.h"
+
+#include <cmath>
+#include <memory>
+
+#include "gloam/error.h"
+#include "gloam/visualise.h"
+#include "scene_flags.h"
+
+namespace gloam::cli {
+namespace {
+
+struct ReferenceCommand {
+  std::string what, frame, out, samples = "256", radius, falloff = "none", seed = "0", picture, compression = "zip";
+  bool half = false;
+  SceneFlags scene;
+  FrameFlags frame_flags;
+  JsonFlag json;
+};
+
+/// The scene that the user names, else the one that the frame says it shows.
+Scene load_scene_of(const ReferenceCommand& flags, const FrameFile& file) {
+  if (!flags.scene.scene.empty()) return flags.scene.load();
+  SceneFlags named = scene_named_by(file.text_attribute("gloamScene"));
+  if (named.scene.empty()) throw UsageError("{}: does not say which scene it shows; give --scene SCENE", flags.frame);
+  if (!find_builtin_scene(named.scene))
+    throw UsageError("{}: shows '{}', which is not built in; give --scene and the file", flags.frame, named.scene);
+  named.settings.insert(named.settings.end(), flags.scene.settings.begin(), flags.scene.settings.end());
+  return named.load();
+}
+
+/// Settings of the falloff's technique: --set hbao+.bias=0.2.
+ParameterValues falloff_values(const Technique& technique, const std::vector<std::string>& settings) {
+  ParameterValues values(technique.parameters);
+  for (const auto& [name, value] : parse_settings(settings, "--set")) {
+    const size_t dot = name.rfind('.');
+    if (dot == std::string::npos) continue;
+    if (name.substr(0, dot) != technique.name)
+      throw UsageError("--set {}: the falloff is {}'s; write --set {}.{}={}", name, technique.name, technique.name,
+                       name.substr(dot + 1), value);
+    values.set(name.substr(dot + 1), value, technique.name);
+  }
+  return values;
+}
+
+void set_falloff(AoReferenceOptions& options, const ReferenceCommand& flags) {
+  options.falloff = flags.falloff;
+  if (flags.falloff == "none") return;
+  std::vector<std::string> names = {"none"};
+  for (const Technique& t : registry()) {
+    if (t.contribution) names.push_back(t.name);
+  }
+  for (const Technique& t : registry()) {
+    if (t.name != flags.falloff || !t.contribution) continue;
+    const ParameterValues values = falloff_values(t, flags.scene.settings);
+    options.contribution = [contribution = t.contribution, values](double cosine, double distance) {
+      return contribution(values, cosine, distance);
+    };
+    return;
+  }
+  throw UsageError("--falloff {} is not allowed{}; {} are", flags.falloff, suggestion(flags.falloff, names),
+                   enumerate(names));
+}
+
+double radius_of(const ReferenceCommand& flags, const Scene& scene) {
+  if (flags.radius.empty()) return scene.ao_radius;
+  if (flags.radius == "inf") return std::numeric_limits<double>::infinity();
+  return parse_number(flags.radius, "--radius", 1e-30, 1e30);
+}
+
+Json document(const AoReference& result, const AoReferenceOptions& options, const Scene& scene) {
+  const double seconds = result.seconds;
+  return {{"scene", scene.name},
+          {"faces", scene.faces()},
+          {"radius", std::isfinite(options.radius) ? Json(options.radius) : Json("inf")},
+          {"samples", int(result.frame.numbers.at("aoSamples"))},
+          {"falloff", options.falloff},
+          {"noise", result.noise},
+          {"largest_noise", result.largest_noise},
+          {"unlike_share", result.unlike_share},
+          {"resumed_share", result.resumed_share},
+          {"rays", result.rays},
+          {"seconds", seconds},
+          {"rays_per_second", seconds > 0 ? double(result.rays) / seconds : 0}};
+}
+
+void print(const AoReference& result, const AoReferenceOptions& options, const Scene& scene,
+           const ReferenceCommand& flags) {
+  fmt::print("{}: {} faces; radius {:g}, {} rays per pixel, falloff {}\n", printable(scene.name), scene.faces(),
+             options.radius, int(result.frame.numbers.at("aoSamples")), options.falloff);
+  if (result.resumed_share > 0) fmt::print("went on with {:.0f} % of an interrupted run\n", 100 * result.resumed_share);
+  fmt::print("noise {:.5f} RMS, largest {:.4f} (from two independent halves of the rays)\n", result.noise,
+             result.largest_noise);
+  fmt::print("{:.1f} million rays in {:.1f} s, {:.1f} million per second\n", double(result.rays) * 1e-6, result.seconds,
+             result.seconds > 0 ? double(result.rays) / result.seconds * 1e-6 : 0.0);
+  fmt::print("wrote {}\n", printable(flags.out));
+}
+
+void reference_command(const ReferenceCommand& flags) {
+  if (flags.what != "ao")
+    throw UsageError("reference: no '{}'{}; there is ao", flags.what, suggestion(flags.what, {"ao"}));
+  const WriteOptions write{flags.half, flags.compression};
+  check(write);
+  check_picture_name(flags.picture, "--picture");
+  check_paths({{"the frame", flags.frame},
+               {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+               {"--camera", flags.frame_flags.camera}},
+              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+  AoReferenceOptions options;
+  options.samples = parse_whole_number(flags.samples, "--samples", 1, 1 << 24);
+  options.seed = uint32_t(parse_whole_number(flags.seed, "--seed", 0, 1 << 30));
+  set_falloff(options, flags);
+  FrameFile file(flags.frame, flags.frame_flags.read_options());
+  if (!contains(file.common_planes(), "depth")) throw Error("{}: has no depth; {}", flags.frame, holdings(file));
+  const Scene scene = load_scene_of(flags, file);
+  options.radius = radius_of(flags, scene);
+  if (options.contribution && !std::isfinite(options.radius))
+    throw UsageError("--radius inf: the falloff of {} is in relation to the radius; give a finite one", flags.falloff);
+  const Frame frame = file.read({"depth", "normal"});
+  note(frame.assumed);
+  const Tracer tracer(scene);
+  options.checkpoint = flags.out + ".partial";
+  const auto bar = progress_bar();
+  if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
+  const AoReference result = ao_reference(tracer, frame, options);
+  if (result.unlike_share > 0.005)
+    note({fmt::format("in {:.1f} % of the pixels looked at the scene is over 1 % nearer or farther than the frame",
+                      100 * result.unlike_share)});
+  write_frame(flags.out, result.frame, write);
+  for (const View& view : result.frame.views) {
+    if (flags.picture.empty()) break;
+    write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at("ao"));
+  }
+  flags.json.write(document(result, options, scene));
+  if (!flags.json.only_json()) print(result, options, scene, flags);
+}
+
+}  // namespace
+
+void add_reference(CLI::App& app) {
+  auto flags = std::make_shared<ReferenceCommand>();
+  CLI::App* command = app.add_subcommand("reference", "ray-traced truth for a frame whose scene is at hand");
+  command->add_option("what", flags->what, "ao")->required()->type_name("ao");
+  command->add_option("frame", flags->frame, "EXR file with depth, a camera and perhaps normals")
+      ->required()
+      ->type_name("FRAME.exr");
+  command
+      ->add_option("--scene", flags->scene.scene,
+                   "OBJ or glTF file, or a built-in name; default: the built-in one that the frame names")
+      ->type_name("SCENE");
+  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("REF.exr");
+  command->add_option("--samples", flags->samples, "rays per pixel, rounded up to a multiple of 32; default 256")
+      ->type_name("N");
+  command->add_option("--radius", flags->radius, "reach of an occluder, scene units, or inf; default: the scene's own")
+      ->type_name("R");
+  command
+      ->add_option("--falloff", flags->falloff,
+                   "none, or a technique: its contribution at the true first hit (--set hbao+.bias=0.2)")
+      ->type_name("none|NAME");
+  command->add_option("--seed", flags->seed, "of the sample set")->type_name("N");
+  command->add_option("--picture", flags->picture, "also as a picture")->type_name("AO.png");
+  command->add_flag("--half", flags->half, "store as half");
+  command->add_option("--compression", flags->compression, "zip, zips, piz, rle or none")->type_name("NAME");
+  flags->scene.add_settings_to(*command);
+  flags->frame_flags.add_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Interrupted, it goes on where it was when run again. Examples:\n"
+      "  gloam reference ao colonnade.exr -o colonnade_ao_ref.exr --samples 1024\n"
+      "  gloam reference ao house.exr --scene house.glb -o ref.exr --radius 0.3\n"
+      "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+");
+  command->callback([flags] { reference_command(*flags); });
+}
+
+}  // namespace gloam::cli

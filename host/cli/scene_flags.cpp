@@ -1,0 +1,103 @@
+#include "scene_flags.h"
+
+#include <filesystem>
+#include <sstream>
+
+#include "camera_io.h"
+#include "gloam/error.h"
+
+namespace gloam::cli {
+namespace {
+
+glm::dvec3 parse_point(const std::string& text, const std::string& flag) {
+  const std::vector<std::string> items = split_list(text, flag);
+  if (items.size() != 3) throw UsageError("{} {} is not a point; write {} 1,2,3", flag, text, flag);
+  glm::dvec3 point;
+  for (int i = 0; i < 3; ++i) point[i] = parse_number(items[size_t(i)], flag, -1e12, 1e12);
+  return point;
+}
+
+bool is_file_name(const std::string& text) {
+  return std::filesystem::path(text).extension() == ".json" || std::filesystem::is_regular_file(text);
+}
+
+const SceneCamera& named_camera(const Scene& scene, const std::string& name) {
+  if (name.empty()) return scene.cameras.front();
+  std::vector<std::string> names;
+  for (const SceneCamera& camera : scene.cameras) {
+    if (camera.name == name) return camera;
+    names.push_back(camera.name);
+  }
+  throw UsageError("--camera {}: {} has no camera of that name{}; it has {}, and a camera JSON can be given", name,
+                   scene.name, suggestion(name, names), enumerate(names));
+}
+
+}  // namespace
+
+void SceneFlags::add_settings_to(CLI::App& app) {
+  app.add_option("--set", settings, "set a parameter of a built-in scene; --faces 50000 is short for it (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+}
+
+Scene SceneFlags::load() const {
+  std::vector<std::pair<std::string, std::string>> own;
+  for (const auto& setting : parse_settings(settings, "--set")) {
+    if (setting.first.find('.') == std::string::npos) own.push_back(setting);
+  }
+  Scene loaded = load_scene(scene, own);
+  note(loaded.notes);
+  return loaded;
+}
+
+SceneFlags scene_named_by(const std::string& attribute) {
+  SceneFlags flags;
+  const size_t colon = attribute.find(": ");
+  flags.scene = attribute.substr(0, colon);
+  if (colon == std::string::npos) return flags;
+  std::istringstream rest(attribute.substr(colon + 2));
+  for (std::string item; rest >> item;) flags.settings.push_back(item);
+  return flags;
+}
+
+void SceneCameraFlags::add_to(CLI::App& app) {
+  app.add_option("--camera", camera, "a camera of the scene by its name, or a camera JSON; default: the scene's first")
+      ->type_name("NAME|FILE")
+      ->group("Camera");
+  app.add_option("--eye", eye, "place of the camera, scene units; with --target")->type_name("X,Y,Z")->group("Camera");
+  app.add_option("--target", target, "what it looks at")->type_name("X,Y,Z")->group("Camera");
+  app.add_option("--fov", fov, "horizontal field of view in degrees, over the camera's own")
+      ->type_name("DEG")
+      ->group("Camera");
+}
+
+std::vector<std::pair<std::string, Camera>> SceneCameraFlags::cameras(const Scene& scene, int width, int height) const {
+  if (eye.empty() != target.empty()) throw UsageError("--eye and --target go together; give both or neither");
+  if (!eye.empty() && !camera.empty()) throw UsageError("--camera and --eye both place the camera; give one of them");
+  const double degrees = fov.empty() ? 0 : parse_number(fov, "--fov", 1, 179);
+  if (!camera.empty() && is_file_name(camera)) {
+    if (degrees > 0) throw UsageError("--fov cannot be given with a camera file; change the file's focal length");
+    std::vector<std::string> assumed;
+    std::vector<std::pair<std::string, Camera>> cameras;
+    for (auto& [view, read] : read_camera_file(camera, {0, 0, width, height}, assumed)) {
+      if (!read.pose) throw Error("{}: has no pose; expected camera_to_world or world_to_camera", camera);
+      cameras.emplace_back(view, read);
+    }
+    note(assumed);
+    return cameras;
+  }
+  SceneCamera chosen = named_camera(scene, camera);
+  if (!eye.empty()) {
+    const glm::dvec3 from = parse_point(eye, "--eye"), to = parse_point(target, "--target");
+    if (from == to) throw UsageError("--eye and --target are the same point");
+    chosen = looking_at("--eye", from, to, chosen.orthographic ? 60 : chosen.fov_degrees, scene.up);
+  }
+  if (degrees > 0) {
+    if (chosen.orthographic) throw UsageError("--fov: camera '{}' is orthographic and has none", chosen.name);
+    chosen.fov_degrees = degrees;
+  }
+  return {{"", camera_for(chosen, width, height)}};
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,34 @@
+// Flags of the commands that load a scene.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gloam/scene.h"
+#include "options.h"
+
+namespace gloam::cli {
+
+/// Which scene, and how it is made.
+struct SceneFlags {
+  std::string scene;
+  std::vector<std::string> settings;
+  /// The scene itself is an argument of `capture` and a flag of other commands: added there.
+  void add_settings_to(CLI::App& app);
+  /// Loads it; what was mended goes to the notes. `settings` without a dot in the name are the scene's.
+  Scene load() const;
+};
+
+/// The scene that a frame's header names (gloamScene), as a name and settings; empty where it names none.
+SceneFlags scene_named_by(const std::string& attribute);
+
+/// From where a scene is seen.
+struct SceneCameraFlags {
+  std::string camera, fov, eye, target;
+  void add_to(CLI::App& app);
+  /// Cameras by view. Throws UsageError for a camera that the scene lacks (with the nearest name).
+  std::vector<std::pair<std::string, Camera>> cameras(const Scene& scene, int width, int height) const;
+};
+
+}  // namespace gloam::cli

@@ -1,0 +1,58 @@
+// A G-buffer of a scene.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/frame.h"
+#include "gloam/tracer.h"
+
+namespace gloam {
+
+/// One eye.
+struct CaptureView {
+  std::string name;                       ///< "" for the only view
+  Camera camera;                          ///< with a pose
+  std::optional<Camera> previous_camera;  ///< of the frame before, for motion vectors
+};
+
+struct CaptureOptions {
+  int width = 1920, height = 1080;
+  std::vector<std::string> planes;  ///< of `capture_planes()`; depth is always there
+  int peel = 0;                     ///< depth layers per pixel, 0 to 64: planes peel.00 ... and peel_count
+  std::vector<CaptureView> views;
+  std::function<void(int done, int of)> progress;
+};
+
+struct CaptureResult {
+  Frame frame;
+  long long rays = 0;  ///< through pixels and towards the sun
+  double seconds = 0;  ///< of tracing
+};
+
+/// What can be captured: depth, normal, albedo, color, roughness, reflectance, position, back_depth, instance, motion.
+const std::vector<std::string>& capture_planes();
+
+/// Point-sampled at pixel centres. Every plane as docs/gbuffer.md has it; `peel_count` is the number of all surfaces
+/// under the pixel centre, stored or not. `instance` is the mesh's index + 1; 0 is background.
+/// The frame says in its attributes which scene it shows (gloamScene). Cameras' near and far planes clip.
+/// Throws UsageError for an unknown plane, a size or a number of layers out of range; Error for a camera without a pose.
+CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
+
+/// The ray through a point of the image, in pixels (centres at +0.5). Distances along it are planar view-space depths.
+/// Relative to Scene::origin.
+TracerRay camera_ray(const Camera& camera, const glm::dvec3& scene_origin, double x, double y);
+
+/// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with
+/// shadows) and of the sky (without occlusion, so that ambient occlusion can be multiplied in without counting it
+/// twice). Scene-linear. `seed` picks the points of the sun's disc.
+glm::vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed);
+/// Rays that `radiance` sends to the sun.
+inline constexpr int sun_rays = 16;
+
+/// What a ray that meets nothing sees.
+glm::vec3 sky_radiance(const Scene& scene, const glm::dvec3& direction);
+
+}  // namespace gloam

@@ -1,0 +1,119 @@
+// A scene: triangle meshes with materials, lights and cameras, from a file or made by a built-in recipe.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "gloam/camera.h"
+#include "gloam/parameters.h"
+
+namespace gloam {
+
+/// An image of 8-bit RGBA texels, row 0 on top; repeats outside [0, 1].
+struct Texture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<uint8_t> texels;  ///< 4 * width * height
+};
+
+/// What a surface is made of, after glTF's metallic-roughness model. Textures are indices into Scene::textures, -1 for
+/// none; a texture's value is multiplied by the factor beside it.
+struct Material {
+  std::string name;
+  glm::vec3 albedo{0.5f};  ///< base colour, linear
+  float roughness = 1;     ///< perceptual; GGX alpha is its square
+  float metallic = 0;
+  float reflectance = 0.04f;   ///< F0 of the dielectric part
+  glm::vec3 emission{0.0f};    ///< radiance, scene-linear
+  int albedo_texture = -1;     ///< sRGB; its alpha is the opacity
+  int roughness_texture = -1;  ///< linear; roughness in G
+  int metallic_texture = -1;   ///< linear; metallic in B
+  int emission_texture = -1;   ///< sRGB
+  float alpha_cutoff = 0;      ///< where the albedo texture's alpha is below it there is no surface; 0: solid
+};
+
+/// One instance of a mesh, in place. Positions are relative to Scene::origin. Counter-clockwise triangles face the
+/// viewer; both sides are seen.
+struct Mesh {
+  std::string name;
+  int material = 0;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  ///< one per position, unit, outward; or none: faces are flat
+  std::vector<glm::vec2> uvs;  ///< one per position, v up as glTF's is down: (0, 0) is the texture's top left; or none
+  std::vector<glm::uvec3> triangles;
+};
+
+/// A camera of the scene, for any size of image. Positions are in the world (not relative to Scene::origin).
+struct SceneCamera {
+  std::string name;
+  Pose pose;
+  bool orthographic = false;
+  double fov_degrees = 60;  ///< horizontal; perspective
+  double width = 1;         ///< scene units across the image; orthographic
+};
+
+/// Intrinsics for a size: square pixels, centred.
+Camera camera_for(const SceneCamera& camera, int width, int height);
+/// A camera at `eye` that looks at `target`.
+SceneCamera looking_at(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target, double fov_degrees,
+                       const glm::dvec3& up = {0, 1, 0});
+
+/// Light for the colour plane: a sun with a disc, and a sky without occlusion.
+struct Light {
+  glm::vec3 to_sun{0.4f, 0.8f, 0.45f};   ///< direction, need not be unit
+  glm::vec3 sun{2.6f, 2.3f, 1.9f};       ///< irradiance on a surface that faces it; 0: no sun
+  float sun_angle_degrees = 1.5f;        ///< angular radius
+  glm::vec3 zenith{0.35f, 0.5f, 0.8f};   ///< radiance of the sky above ...
+  glm::vec3 horizon{0.7f, 0.75f, 0.8f};  ///< ... at the horizon
+  glm::vec3 ground{0.25f, 0.23f, 0.2f};  ///< ... and below it
+};
+
+struct Scene {
+  std::string name;
+  glm::dvec3 origin{0.0};    ///< what positions are relative to, in the world
+  std::vector<Mesh> meshes;  ///< an index is the instance's identity
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<SceneCamera> cameras;  ///< at least one; the first is the default
+  glm::dvec3 up{0, 1, 0};
+  Light light;
+  double ao_radius = 0.5;          ///< a sensible reach of ambient occlusion, scene units
+  std::vector<std::string> notes;  ///< what was mended or left out, one sentence each
+  size_t faces() const;
+};
+
+/// Reads OBJ, glTF 2, GLB and whatever else assimp knows (docs/scenes-from-files.md); every instance becomes a mesh, in
+/// place. Without normals a mesh is flat; normals that are zero or not finite are made from the faces around them.
+/// Triangles without an area or with vertices that are not finite are left out. Of a texture that cannot be read the
+/// factor alone is used. `notes` says so, with counts. The last camera is "overview", which sees everything.
+/// Throws Error: no such file, not a scene (with the reason), cut short, no triangles, coordinates over 1e15.
+Scene import_scene(const std::filesystem::path& path);
+
+/// A built-in scene.
+struct SceneRecipe {
+  std::string name;     ///< "courtyard"
+  std::string summary;  ///< one line
+  std::vector<Parameter> parameters;
+  std::function<Scene(const ParameterValues&)> make;  ///< deterministic
+};
+
+/// All of data/scenes/, sorted by name.
+const std::vector<SceneRecipe>& builtin_scenes();
+/// None when there is no such scene.
+const SceneRecipe* find_builtin_scene(const std::string& name);
+
+/// A scene by what a user typed: a built-in name, else a file. `settings`: name = value, for built-in scenes.
+/// Throws UsageError for a name that is neither (with the nearest built-in name), for unknown settings and for values
+/// out of range; Error as `import_scene` does.
+Scene load_scene(const std::string& name_or_path, const std::vector<std::pair<std::string, std::string>>& settings);
+
+/// Throws Error for a scene that no ray can be traced in: no triangle, an index out of range, a value not finite.
+void check(const Scene& scene);
+
+}  // namespace gloam

@@ -1,0 +1,290 @@
+#include "gloam/capture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "lists.h"
+#include "low_discrepancy.h"
+
+namespace gloam {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// The depth at which a view's frustum ends, where the camera has one.
+double far_of(const Camera& camera) { return camera.far.value_or(std::numeric_limits<double>::infinity()); }
+
+/// The planes of one view, found once instead of by name for every pixel.
+struct Target {
+  Channel* depth = nullptr;
+  Channel *normal[3] = {}, *albedo[3] = {}, *color[3] = {}, *reflectance[3] = {}, *position[3] = {}, *motion[2] = {};
+  Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr;
+  std::vector<Channel*> peel;
+};
+
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  const PlaneKind kind = plane_kind(name);
+  Plane plane{name, {}};
+  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
+  return plane;
+}
+
+Channel* add_channel(View& view, const std::string& name, const Layout& layout) {
+  Plane& plane = view.planes.emplace(name, empty_plane(name, layout)).first->second;
+  return &plane.channels.front();
+}
+
+Target make_target(View& view, const CaptureOptions& options, const Layout& layout) {
+  Target target;
+  const auto single = [&](const char* name, Channel*& channel) {
+    if (contains(options.planes, std::string(name))) channel = add_channel(view, name, layout);
+  };
+  const auto several = [&](const char* name, auto& channels) {
+    if (!contains(options.planes, std::string(name))) return;
+    Channel* first = add_channel(view, name, layout);
+    for (size_t i = 0; i < std::size(channels); ++i) channels[i] = first + i;
+  };
+  target.depth = add_channel(view, "depth", layout);
+  several("normal", target.normal);
+  several("albedo", target.albedo);
+  several("color", target.color);
+  several("reflectance", target.reflectance);
+  several("position", target.position);
+  several("motion", target.motion);
+  single("roughness", target.roughness);
+  single("back_depth", target.back_depth);
+  single("instance", target.instance);
+  if (options.peel == 0) return target;
+  target.peel_count = add_channel(view, "peel_count", layout);
+  for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, fmt::format("peel.{:02}", i), layout));
+  return target;
+}
+
+template <size_t n, typename Vector>
+void put(Channel* const (&channels)[n], int x, int y, const Vector& value) {
+  if (!channels[0]) return;
+  for (size_t i = 0; i < n; ++i) channels[i]->at(x, y) = float(value[int(i)]);
+}
+
+/// Where a point (w = 1) or a direction (w = 0) of the world lands in an image, pixels; none when behind the camera.
+std::optional<glm::dvec2> projected(const Camera& camera, const dvec3& world, double w) {
+  const dvec3 view = camera.pose->world_to_view * (world - w * camera.pose->position);
+  if (camera.orthographic)
+    return w == 0 ? std::nullopt
+                  : std::optional(glm::dvec2(camera.cx + camera.fx * view.x, camera.cy - camera.fy * view.y));
+  if (!(view.z < 0)) return {};
+  return glm::dvec2(camera.cx - camera.fx * view.x / view.z, camera.cy + camera.fy * view.y / view.z);
+}
+
+/// Pixels that are not background.
+long long surfaces_in(const Channel& depth) {
+  long long count = 0;
+  for (int y = 0; y < depth.layout().height; ++y)
+    for (int x = 0; x < depth.layout().width; ++x) count += !is_background(depth.at(x, y));
+  return count;
+}
+
+/// Captures the rows of one view.
+class Capturer {
+ public:
+  Capturer(const Tracer& tracer, const CaptureView& view, const Target& target)
+      : tracer_(tracer), view_(view), target_(target) {
+    needs_all_ = target.back_depth || target.peel_count;
+  }
+
+  void row(int y, int width) const {
+    std::vector<Surface> surfaces;
+    for (int x = 0; x < width; ++x) pixel(x, y, uint32_t(y * width + x), surfaces);
+  }
+
+ private:
+  void pixel(int x, int y, uint32_t seed, std::vector<Surface>& surfaces) const {
+    TracerRay ray = camera_ray(view_.camera, tracer_.scene().origin, x + 0.5, y + 0.5);
+    ray.near = view_.camera.near.value_or(0);
+    ray.far = far_of(view_.camera);
+    surfaces.clear();
+    if (needs_all_) {
+      tracer_.all(ray, surfaces);
+    } else if (const std::optional<Surface> first = tracer_.first(ray)) {
+      surfaces.push_back(*first);
+    }
+    if (surfaces.empty()) {
+      background(x, y, ray);
+      return;
+    }
+    const Surface& first = surfaces.front();
+    target_.depth->at(x, y) = float(first.distance);
+    put(target_.normal, x, y, glm::normalize(view_.camera.pose->world_to_view * first.normal));
+    material(x, y, first, seed);
+    layers(x, y, surfaces);
+    if (target_.instance) target_.instance->at(x, y) = float(first.mesh + 1);
+    const dvec3 world = first.position + tracer_.scene().origin;
+    put(target_.position, x, y, world - view_.camera.pose->position);
+    moved(x, y, world, 1);
+  }
+
+  void background(int x, int y, const TracerRay& ray) const {
+    put(target_.color, x, y, sky_radiance(tracer_.scene(), ray.direction));
+    moved(x, y, ray.direction, 0);
+  }
+
+  void material(int x, int y, const Surface& surface, uint32_t seed) const {
+    if (!target_.albedo[0] && !target_.color[0] && !target_.roughness && !target_.reflectance[0]) return;
+    const SurfaceMaterial material = tracer_.material(surface);
+    put(target_.albedo, x, y, material.albedo);
+    put(target_.reflectance, x, y, material.reflectance);
+    if (target_.roughness) target_.roughness->at(x, y) = material.roughness;
+    if (target_.color[0]) put(target_.color, x, y, radiance(tracer_, surface, seed));
+  }
+
+  void layers(int x, int y, const std::vector<Surface>& surfaces) const {
+    if (target_.peel_count) target_.peel_count->at(x, y) = float(surfaces.size());
+    for (size_t i = 0; i < std::min(target_.peel.size(), surfaces.size()); ++i)
+      target_.peel[i]->at(x, y) = float(surfaces[i].distance);
+    if (!target_.back_depth) return;
+    for (size_t i = 1; i < surfaces.size(); ++i) {
+      if (surfaces[i].mesh != surfaces[0].mesh || !surfaces[i].back_face) continue;
+      target_.back_depth->at(x, y) = float(surfaces[i].distance);
+      return;
+    }
+  }
+
+  void moved(int x, int y, const dvec3& world, double w) const {
+    if (!target_.motion[0] || !view_.previous_camera) return;
+    const std::optional<glm::dvec2> before = projected(*view_.previous_camera, world, w);
+    if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
+  }
+
+  const Tracer& tracer_;
+  const CaptureView& view_;
+  const Target& target_;
+  bool needs_all_;
+};
+
+void check_options(const CaptureOptions& options) {
+  if (options.width < 1 || options.height < 1)
+    throw UsageError("a capture of {}x{} pixels has none; give a size such as 1920x1080", options.width,
+                     options.height);
+  if (options.peel < 0 || options.peel > 64) throw UsageError("{} layers cannot be peeled; 0 to 64 can", options.peel);
+  for (const std::string& plane : options.planes) {
+    if (contains(capture_planes(), plane)) continue;
+    throw UsageError("plane '{}' cannot be captured{}; {} can, and layers by their number", plane,
+                     suggestion(plane, capture_planes()), enumerate(capture_planes()));
+  }
+  for (const CaptureView& view : options.views) {
+    if (!view.camera.pose) throw Error("view '{}' has a camera without a pose; give its camera_to_world", view.name);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& capture_planes() {
+  static const std::vector<std::string> planes = {"depth",       "normal",   "albedo",     "color",    "roughness",
+                                                  "reflectance", "position", "back_depth", "instance", "motion"};
+  return planes;
+}
+
+TracerRay camera_ray(const Camera& camera, const dvec3& scene_origin, double x, double y) {
+  const glm::dmat3 to_world = glm::transpose(camera.pose->world_to_view);
+  const dvec3 eye = camera.pose->position - scene_origin;
+  const double across = (x - camera.cx) / camera.fx, up = (camera.cy - y) / camera.fy;
+  TracerRay ray;
+  if (camera.orthographic) {
+    ray.origin = eye + to_world * dvec3(across, up, 0);
+    ray.direction = to_world * dvec3(0, 0, -1);
+  } else {
+    ray.origin = eye;
+    ray.direction = to_world * dvec3(across, up, -1);
+  }
+  return ray;
+}
+
+vec3 sky_radiance(const Scene& scene, const dvec3& direction) {
+  const Light& light = scene.light;
+  const float height = float(glm::dot(glm::normalize(direction), glm::normalize(scene.up)));
+  if (height < 0) return glm::mix(light.horizon, light.ground, std::min(-4 * height, 1.0f));
+  return glm::mix(light.horizon, light.zenith, std::sqrt(height));
+}
+
+vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed) {
+  const Scene& scene = tracer.scene();
+  const Light& light = scene.light;
+  const SurfaceMaterial material = tracer.material(surface);
+  const vec3 diffuse = material.albedo * (1 - material.metallic);
+  // The sky as a blend of its zenith and the ground, by how far the surface faces up.
+  const float facing_up = 0.5f + 0.5f * float(glm::dot(surface.normal, glm::normalize(scene.up)));
+  vec3 irradiance = glm::pi<float>() * glm::mix(light.ground, 0.5f * (light.zenith + light.horizon), facing_up);
+  const dvec3 to_sun = glm::normalize(dvec3(light.to_sun));
+  if (light.sun != vec3(0) && glm::dot(to_sun, surface.normal) > -0.1) {
+    vec3 directions[sun_rays];
+    bool blocked[sun_rays];
+    const glm::dmat3 about = frame_about(to_sun);
+    const double disc = std::tan(light.sun_angle_degrees * glm::pi<double>() / 180);
+    for (int i = 0; i < sun_rays; ++i) {
+      const glm::dvec2 u = scrambled_sobol(uint32_t(i), hash(seed));
+      const double radius = disc * std::sqrt(u.x), angle = glm::two_pi<double>() * u.y;
+      directions[i] = vec3(glm::normalize(about * dvec3(radius * std::cos(angle), radius * std::sin(angle), 1.0)));
+    }
+    tracer.blocked(tracer.lifted(surface), directions, sun_rays, infinity, blocked);
+    float cosines = 0;
+    for (int i = 0; i < sun_rays; ++i) {
+      const vec3& d = directions[i];
+      if (blocked[i] || glm::dot(d, vec3(surface.facing)) <= 0) continue;
+      cosines += std::max(glm::dot(d, vec3(surface.normal)), 0.0f);
+    }
+    irradiance += light.sun * (cosines / sun_rays);
+  }
+  return material.emission + diffuse * irradiance / glm::pi<float>();
+}
+
+CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
+  check_options(options);
+  const auto start = std::chrono::steady_clock::now();
+  const Layout layout(options.width, options.height);
+  CaptureResult result;
+  Frame& frame = result.frame;
+  frame.display = frame.window = {0, 0, options.width, options.height};
+  frame.attributes["gloamScene"] = tracer.scene().name;
+  std::atomic<int> done = 0;
+  const int rows = options.height * int(options.views.size());
+  std::exception_ptr failure;  // an exception may not leave a parallel loop
+  for (const CaptureView& from : options.views) {
+    View& view = frame.views.emplace_back();
+    view.name = from.name;
+    view.camera = from.camera;
+    view.origin = from.camera.pose ? from.camera.pose->position : dvec3(0);
+    const Target target = make_target(view, options, layout);
+    const Capturer capturer(tracer, from, target);
+#pragma omp parallel for schedule(dynamic, 4)
+    for (int y = 0; y < options.height; ++y) {
+      try {
+        capturer.row(y, options.width);
+        const int now = ++done;
+#pragma omp critical
+        if (options.progress) options.progress(now, rows);
+      } catch (...) {
+#pragma omp critical
+        failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+    const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
+    result.rays += (long long)options.width * options.height + (lit ? sun_rays * surfaces_in(*target.depth) : 0);
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace gloam

@@ -1,0 +1,301 @@
+// Scenes from files, by assimp: meshes in place, cameras, and what was mended or left out.
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/mat4x4.hpp>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include "gloam/error.h"
+#include "gloam/scene.h"
+#include "gltf_json.h"
+#include "import_materials.h"
+#include "import_meshes.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Counted in place: a small file can ask for any number of instances.
+constexpr size_t most_triangles = 100'000'000;
+
+std::string counted(size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+
+// --- Reading the file
+
+/// A file that ends: some of assimp's readers (PLY) ask for more for ever where a file is cut short.
+class EndingStream : public Assimp::IOStream {
+ public:
+  explicit EndingStream(Assimp::IOStream* from) : from_(from) {}
+  size_t Read(void* to, size_t size, size_t count) override {
+    const size_t n = from_->Read(to, size, count);
+    if (n == 0 && count > 0 && ++reads_past_end_ > 1000) throw std::runtime_error("it ends too early");
+    return n;
+  }
+  size_t Write(const void*, size_t, size_t) override { return 0; }
+  aiReturn Seek(size_t offset, aiOrigin origin) override { return from_->Seek(offset, origin); }
+  size_t Tell() const override { return from_->Tell(); }
+  size_t FileSize() const override { return from_->FileSize(); }
+  void Flush() override {}
+
+ private:
+  std::unique_ptr<Assimp::IOStream> from_;
+  int reads_past_end_ = 0;
+};
+
+/// assimp ends the program where a property of a material comes before any material.
+bool begins_with_material(const fs::path& mtl) {
+  std::ifstream file(mtl);
+  std::string first;
+  while (file >> first && first.starts_with("#")) std::getline(file, first);
+  return !file || first == "newmtl";
+}
+
+/// Opens files for assimp, and remembers which .mtl files were of use: assimp goes on without, and says nothing.
+class Files : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const fs::path path(file);
+    const bool is_mtl = path.extension() == ".mtl";
+    Assimp::IOStream* stream = is_mtl && !begins_with_material(path) ? nullptr : DefaultIOSystem::Open(file, mode);
+    if (is_mtl) (stream ? found : missing).push_back(path.filename().string());
+    return stream ? new EndingStream(stream) : nullptr;
+  }
+  std::vector<std::string> found, missing;
+};
+
+void check_file(const fs::path& path) {
+  std::error_code failed;
+  const fs::file_status status = fs::status(path, failed);
+  if (!fs::exists(status)) throw Error("{}: no such file", path.string());
+  if (fs::is_directory(status)) throw Error("{}: is a folder; a scene is a file (OBJ, glTF, GLB)", path.string());
+  if (!std::ifstream(path)) throw Error("{}: cannot be opened for reading", path.string());
+  if (fs::is_regular_file(status) && fs::file_size(path) == 0) throw Error("{}: is empty (0 bytes)", path.string());
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) != 0; }, ' ');
+  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  if (reason.find("No suitable reader") != std::string::npos)
+    throw Error("{}: is no scene; OBJ, glTF 2 and GLB are read, and what else assimp knows (PLY, STL, FBX, ...)",
+                path.string());
+  throw Error("{}: cannot be read as a scene: {}", path.string(), reason.empty() ? "no reason given" : reason);
+}
+
+/// assimp checks the indices of some formats only, and its triangulation trusts them; and it ends the program where a
+/// mesh says that it has polygons and has none.
+void check_faces(const aiScene& scene, const fs::path& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    aiMesh& mesh = *scene.mMeshes[m];
+    mesh.mPrimitiveTypes = 0;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(std::max(face.mNumIndices, 1u));
+      for (unsigned i = 0; i < face.mNumIndices; ++i) {
+        if (face.mIndices[i] >= mesh.mNumVertices)
+          throw Error("{}: mesh '{}' has a face with vertex {}, and there are {}", path.string(), mesh.mName.C_Str(),
+                      face.mIndices[i], mesh.mNumVertices);
+      }
+    }
+  }
+}
+
+/// No smooth normals are made (missing ones mean flat faces) and no vertices joined.
+const aiScene& read(Assimp::Importer& importer, const fs::path& path, bool is_gltf) {
+  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (!scene || !scene->mRootNode) refuse(path, one_line(importer.GetErrorString()));
+  check_faces(*scene, path);
+  // Of glTF it gets texture transforms with a rotation wrong: import_materials takes care of those.
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | (is_gltf ? 0u : aiProcess_TransformUVCoords));
+  if (!scene) refuse(path, one_line(importer.GetErrorString()));
+  return *scene;
+}
+
+// --- Cameras
+
+/// "name", or "name 2" and so on where there is one.
+std::string unique_name(const Scene& scene, const std::string& wanted) {
+  const std::string base = wanted.empty() ? "camera" : wanted;
+  std::string name = base;
+  const auto taken = [&](const SceneCamera& camera) { return camera.name == name; };
+  for (int i = 2; std::any_of(scene.cameras.begin(), scene.cameras.end(), taken); ++i)
+    name = fmt::format("{} {}", base, i);
+  return name;
+}
+
+/// The transform of the node with a name; identity where there is none.
+glm::dmat4 to_world_of(const aiNode* node) {
+  glm::dmat4 m(1.0);
+  for (; node; node = node->mParent) m = matrix_of(node->mTransformation) * m;
+  return m;
+}
+
+/// assimp's cameras stand at a place and look along a direction within their node. The field of view is the whole
+/// horizontal angle, whatever assimp's header says of half of it.
+void add_cameras(const aiScene& from, Scene& scene) {
+  for (unsigned i = 0; i < from.mNumCameras; ++i) {
+    const aiCamera& camera = *from.mCameras[i];
+    const glm::dmat4 m = to_world_of(from.mRootNode->FindNode(camera.mName));
+    const glm::dvec3 eye(m * glm::dvec4(vector_of(camera.mPosition), 1.0));
+    const glm::dvec3 forward = glm::dmat3(m) * vector_of(camera.mLookAt), up = glm::dmat3(m) * vector_of(camera.mUp);
+    const double fov = double(camera.mHorizontalFOV) * 180 / glm::pi<double>(), width = 2.0 * camera.mOrthographicWidth;
+    const bool orthographic = width > 0, lens = orthographic ? std::isfinite(width) : fov > 0 && fov < 179.9;
+    const double area = glm::length(glm::cross(forward, up));
+    if (!lens || !finite(eye) || !std::isfinite(area) || !(area > 0)) {
+      scene.notes.push_back(
+          fmt::format("camera '{}' has no usable field of view or transform and was left out", camera.mName.C_Str()));
+      continue;
+    }
+    SceneCamera made = looking_at(unique_name(scene, camera.mName.C_Str()), glm::dvec3(0), glm::normalize(forward),
+                                  orthographic ? 60 : fov, glm::normalize(up));
+    made.pose.position = eye;
+    made.orthographic = orthographic;
+    if (orthographic) made.width = width;
+    scene.cameras.push_back(made);
+  }
+}
+
+/// From a corner above, so near that all of the bounding box is in an image of up to 16:9.
+SceneCamera overview(const Bounds& bounds, const Scene& scene) {
+  constexpr double fov_degrees = 50, margin = 1.05;
+  const glm::dvec3 side = std::abs(scene.up.x) > 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 out = glm::normalize(1.0 * glm::cross(side, scene.up) + 0.6 * side + 0.6 * scene.up);
+  SceneCamera camera = looking_at(unique_name(scene, "overview"), out, glm::dvec3(0), fov_degrees, scene.up);
+  const double across = std::tan(fov_degrees * glm::pi<double>() / 360), down = across * 9 / 16;
+  double distance = 0;
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 sign(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+    const glm::dvec3 corner = camera.pose.world_to_view * (sign * (bounds.high - bounds.low));
+    distance = std::max(distance, corner.z + margin * std::max(std::abs(corner.x) / across, std::abs(corner.y) / down));
+  }
+  camera.pose.position = scene.origin + distance * out;
+  return camera;
+}
+
+// --- The whole
+
+/// As the file says (FBX); assimp keeps its axes, and turns others to y up.
+glm::dvec3 up_of(const aiScene& from) {
+  int axis = 1, sign = 1;
+  if (from.mMetaData) from.mMetaData->Get("UpAxis", axis), from.mMetaData->Get("UpAxisSign", sign);
+  glm::dvec3 up(0.0);
+  up[axis >= 0 && axis < 3 ? axis : 1] = sign < 0 ? -1 : 1;
+  return up;
+}
+
+double to_one_digit(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  return std::round(value / unit) * unit;
+}
+
+void add_notes(const Mended& mended, const Bounds& bounds, const aiScene& from, Scene& scene) {
+  const auto note = [&](size_t n, const char* one, const char* many) {
+    if (n > 0) scene.notes.push_back(n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many));
+  };
+  note(mended.not_finite, "triangle was left out, with a vertex that is not finite",
+       "triangles were left out, with vertices that are not finite");
+  note(mended.degenerate, "triangle was left out, without an area", "triangles were left out, without an area");
+  note(mended.not_surfaces, "point or line was left out", "points and lines were left out");
+  note(mended.normals, "vertex normal was zero or not finite, and is made from the faces around it",
+       "vertex normals were zero or not finite, and are made from the faces around them");
+  note(mended.uvs, "texture coordinate was not finite, and is 0", "texture coordinates were not finite, and are 0");
+  note(mended.coloured, "mesh has vertex colours, which are left out",
+       "meshes have vertex colours, which are left out");
+  note(mended.moving, "mesh has bones or morph targets, and stands as modelled",
+       "meshes have bones or morph targets, and stand as modelled");
+  note(from.mNumLights, "light of the file was left out", "lights of the file were left out");
+  const double step = bounds.largest_local * std::numeric_limits<float>::epsilon();
+  if (step > 1e-5 * bounds.diagonal())
+    scene.notes.push_back(
+        fmt::format("vertices lie up to {:.3g} from zero, where float has steps of {:.1g}: surfaces "
+                    "are rough, unless the file moves the mesh by a transform instead",
+                    bounds.largest_local, step));
+}
+
+void check_count(const std::vector<Instance>& instances, const fs::path& path) {
+  size_t count = 0;
+  for (const Instance& instance : instances) count += instance.mesh->mNumFaces;
+  if (count > most_triangles)
+    throw Error("{}: has {} triangles with all instances; up to {} are read", path.string(), count, most_triangles);
+}
+
+[[noreturn]] void refuse_empty(const Mended& mended, const fs::path& path) {
+  std::vector<std::string> found;
+  if (mended.not_surfaces) found.push_back(counted(mended.not_surfaces, "point or line"));
+  if (mended.degenerate) found.push_back(counted(mended.degenerate, "triangle") + " without an area");
+  if (mended.not_finite) found.push_back(counted(mended.not_finite, "triangle") + " with vertices that are not finite");
+  throw Error("{}: has no triangles{}{}", path.string(), found.empty() ? "" : ", only ", enumerate(found));
+}
+
+Scene imported(const fs::path& path) {
+  check_file(path);
+  const bool is_gltf = has_gltf_ending(path);
+  const GltfJson gltf = is_gltf ? read_gltf_json(path) : GltfJson{};
+  Assimp::Importer importer;
+  Files* files = new Files;
+  importer.SetIOHandler(files);  // which owns it
+  const aiScene& from = read(importer, path, is_gltf);
+
+  Scene scene;
+  scene.name = path.filename().string();
+  scene.up = up_of(from);
+  const std::vector<Instance> instances = instances_of(from);
+  check_count(instances, path);
+  const Bounds bounds = bounds_of(instances, path);
+  if (!bounds.empty()) scene.origin = 0.5 * (bounds.low + bounds.high);
+  if (files->found.empty()) {
+    for (const std::string& name : std::set(files->missing.begin(), files->missing.end()))
+      scene.notes.push_back(
+          fmt::format("material file '{}' is not there or does not begin with newmtl; its materials are plain", name));
+  }
+  const std::vector<UvUse> uv_uses = import_materials(from, path.parent_path(), gltf.emissive_strength, scene);
+  Mended mended;
+  add_meshes(instances, uv_uses, scene, mended);
+  if (scene.faces() == 0) refuse_empty(mended, path);
+  add_notes(mended, bounds, from, scene);
+
+  scene.notes.insert(scene.notes.end(), gltf.notes.begin(), gltf.notes.end());
+  if (is_gltf) {
+    for (SceneCamera camera : gltf.cameras) {
+      camera.name = unique_name(scene, camera.name);
+      scene.cameras.push_back(camera);
+    }
+  } else {
+    add_cameras(from, scene);
+  }
+  scene.cameras.push_back(overview(bounds, scene));
+  scene.ao_radius = to_one_digit(0.02 * bounds.diagonal());
+  return scene;
+}
+
+}  // namespace
+
+Scene import_scene(const fs::path& path) {
+  try {
+    return imported(path);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error("{}: not enough memory to read it", path.string());
+  } catch (const std::exception& e) {
+    throw Error("{}: cannot be read as a scene: {}", path.string(), one_line(e.what()));
+  }
+}
+
+}  // namespace gloam

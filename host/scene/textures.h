@@ -1,0 +1,15 @@
+// Looking a texture up.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "gloam/scene.h"
+
+namespace gloam {
+
+/// Bilinear, repeating; 0 to 1, colours made linear where the texture is sRGB (alpha never is). (0, 0) is the top left
+/// corner.
+glm::vec4 texel(const Texture& texture, glm::vec2 uv, bool srgb);
+
+}  // namespace gloam

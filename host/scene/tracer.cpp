@@ -1,0 +1,296 @@
+#include "gloam/tracer.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <tuple>
+
+#include "gloam/error.h"
+#include "textures.h"
+
+namespace gloam {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+/// Two hits nearer to each other than this share of their distance are one surface: triangles that meet under the ray.
+constexpr double same_place = 1e-6;
+
+struct FreeDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct FreeScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+/// Throws what Embree has to say, if anything.
+void check_embree(RTCDevice device, const Scene& scene) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error("{}: no memory to trace {} triangles; use a smaller scene", scene.name, scene.faces());
+  throw Error("{}: cannot be traced, Embree's error {}", scene.name, int(error));
+}
+
+/// What a filter needs of a mesh whose texture has holes.
+struct Cutout {
+  const Scene* scene;
+  const Mesh* mesh;
+};
+
+vec3 barycentric(float u, float v) { return {1 - u - v, u, v}; }
+
+glm::vec2 uv_at(const Mesh& mesh, unsigned triangle, vec3 weights) {
+  if (mesh.uvs.empty()) return glm::vec2(0);
+  const glm::uvec3 t = mesh.triangles[triangle];
+  return weights.x * mesh.uvs[t.x] + weights.y * mesh.uvs[t.y] + weights.z * mesh.uvs[t.z];
+}
+
+/// Whether the texture has a hole there.
+bool is_cut_out(const Cutout& cutout, unsigned triangle, float u, float v) {
+  const Material& material = cutout.scene->materials[size_t(cutout.mesh->material)];
+  const Texture& texture = cutout.scene->textures[size_t(material.albedo_texture)];
+  return texel(texture, uv_at(*cutout.mesh, triangle, barycentric(u, v)), false).a < material.alpha_cutoff;
+}
+
+/// Lets rays pass through holes.
+void pass_holes(const RTCFilterFunctionNArguments* arguments) {
+  const Cutout& cutout = *static_cast<const Cutout*>(arguments->geometryUserPtr);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (!arguments->valid[i]) continue;
+    const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const float u = RTCHitN_u(arguments->hit, arguments->N, i), v = RTCHitN_v(arguments->hit, arguments->N, i);
+    if (is_cut_out(cutout, triangle, u, v)) arguments->valid[i] = 0;
+  }
+}
+
+/// A hit as Embree reports it.
+struct RawHit {
+  unsigned mesh, triangle;
+  float distance, u, v;
+};
+
+/// Embree's context with a list behind it, for `gather_hit`.
+struct GatheringContext {
+  RTCIntersectContext base;
+  std::vector<RawHit>* hits;
+};
+
+/// Takes every hit down and lets the ray go on.
+void gather_hit(const RTCFilterFunctionNArguments* arguments) {
+  auto& context = *reinterpret_cast<GatheringContext*>(arguments->context);
+  const RTCHit hit = rtcGetHitFromHitN(arguments->hit, 1, 0);
+  const RTCRay ray = rtcGetRayFromRayN(arguments->ray, 1, 0);
+  if (arguments->valid[0]) context.hits->push_back({hit.geomID, hit.primID, ray.tfar, hit.u, hit.v});
+  arguments->valid[0] = 0;
+}
+
+RTCRay embree_ray(const TracerRay& ray) {
+  RTCRay out;
+  out.org_x = float(ray.origin.x), out.org_y = float(ray.origin.y), out.org_z = float(ray.origin.z);
+  out.dir_x = float(ray.direction.x), out.dir_y = float(ray.direction.y), out.dir_z = float(ray.direction.z);
+  out.tnear = float(ray.near), out.tfar = float(ray.far);
+  out.time = 0, out.mask = ~0u, out.id = 0, out.flags = 0;
+  return out;
+}
+
+/// Up to 16 rays from one point.
+struct Packet {
+  alignas(64) int valid[16];
+  RTCRayHit16 rays;
+
+  Packet(const vec3& origin, const vec3* directions, int count, float far) {
+    for (int i = 0; i < 16; ++i) {
+      const vec3 direction = i < count ? directions[i] : vec3(0, 0, 1);
+      valid[i] = i < count ? -1 : 0;
+      rays.ray.org_x[i] = origin.x, rays.ray.org_y[i] = origin.y, rays.ray.org_z[i] = origin.z;
+      rays.ray.dir_x[i] = direction.x, rays.ray.dir_y[i] = direction.y, rays.ray.dir_z[i] = direction.z;
+      rays.ray.tnear[i] = 0, rays.ray.tfar[i] = far;
+      rays.ray.time[i] = 0, rays.ray.mask[i] = ~0u, rays.ray.id[i] = 0, rays.ray.flags[i] = 0;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+};
+
+dvec3 unit_or(const dvec3& v, const dvec3& otherwise) {
+  const double length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? v / length : otherwise;
+}
+
+}  // namespace
+
+struct Tracer::Impl {
+  const Scene& scene;
+  std::unique_ptr<RTCDeviceTy, FreeDevice> device;
+  std::unique_ptr<RTCSceneTy, FreeScene> embree;
+  std::vector<std::unique_ptr<Cutout>> cutouts;
+  double build_seconds = 0;
+
+  explicit Impl(const Scene& scene) : scene(scene) {}
+  void add(const Mesh& mesh, unsigned id);
+  Surface surface(const TracerRay& ray, const RawHit& hit) const;
+};
+
+void Tracer::Impl::add(const Mesh& mesh, unsigned id) {
+  if (mesh.triangles.empty()) return;
+  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
+                                            mesh.positions.size());
+  void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                            mesh.triangles.size());
+  check_embree(device.get(), scene);
+  std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
+  std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+  const Material& material = scene.materials[size_t(mesh.material)];
+  if (material.alpha_cutoff > 0 && material.albedo_texture >= 0 && !mesh.uvs.empty()) {
+    cutouts.push_back(std::make_unique<Cutout>(Cutout{&scene, &mesh}));
+    rtcSetGeometryUserData(geometry, cutouts.back().get());
+    rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(embree.get(), geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const glm::uvec3 t = mesh.triangles[hit.triangle];
+  const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+  const dvec3 normal = unit_or(glm::cross(b - a, c - a), -glm::normalize(ray.direction));
+  Surface surface;
+  surface.mesh = int(hit.mesh);
+  surface.triangle = hit.triangle;
+  // The ray against the triangle's plane, in double; where the ray runs along the plane, Embree's word.
+  const double approach = glm::dot(ray.direction, normal);
+  surface.distance = glm::dot(a - ray.origin, normal) / approach;
+  if (!(std::abs(surface.distance - hit.distance) <= 1e-3 * std::abs(hit.distance))) surface.distance = hit.distance;
+  surface.position = ray.origin + surface.distance * ray.direction;
+  surface.back_face = approach > 0;
+  surface.facing = surface.back_face ? -normal : normal;
+  const vec3 weights = barycentric(hit.u, hit.v);
+  surface.uv = uv_at(mesh, hit.triangle, weights);
+  surface.normal = surface.facing;
+  if (!mesh.normals.empty()) {
+    const dvec3 smooth =
+        unit_or(weights.x * mesh.normals[t.x] + weights.y * mesh.normals[t.y] + weights.z * mesh.normals[t.z], normal);
+    // Turned to the ray's side, whichever way triangle and normal are wound.
+    surface.normal = glm::dot(smooth, surface.facing) < 0 ? -smooth : smooth;
+  }
+  return surface;
+}
+
+Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
+  check(scene);
+  const auto start = std::chrono::steady_clock::now();
+  impl_->device.reset(rtcNewDevice(nullptr));
+  if (!impl_->device) throw Error("{}: Embree does not start", scene.name);
+  impl_->embree.reset(rtcNewScene(impl_->device.get()));
+  rtcSetSceneFlags(impl_->embree.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  for (size_t i = 0; i < scene.meshes.size(); ++i) impl_->add(scene.meshes[i], unsigned(i));
+  rtcCommitScene(impl_->embree.get());
+  check_embree(impl_->device.get(), scene);
+  impl_->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Tracer::~Tracer() = default;
+
+const Scene& Tracer::scene() const { return impl_->scene; }
+
+double Tracer::build_seconds() const { return impl_->build_seconds; }
+
+std::optional<Surface> Tracer::first(const TracerRay& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query;
+  query.ray = embree_ray(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->embree.get(), &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return impl_->surface(ray, {query.hit.geomID, query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v});
+}
+
+void Tracer::all(const TracerRay& ray, std::vector<Surface>& surfaces) const {
+  thread_local std::vector<RawHit> hits;
+  hits.clear();
+  GatheringContext context;
+  rtcInitIntersectContext(&context.base);
+  context.base.filter = gather_hit;
+  context.hits = &hits;
+  RTCRayHit query;
+  query.ray = embree_ray(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->embree.get(), &context.base, &query);
+  surfaces.clear();
+  for (const RawHit& hit : hits) surfaces.push_back(impl_->surface(ray, hit));
+  std::sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
+    return std::tie(a.distance, a.mesh, a.triangle) < std::tie(b.distance, b.mesh, b.triangle);
+  });
+  const auto same = [](const Surface& a, const Surface& b) {
+    return a.mesh == b.mesh && a.back_face == b.back_face && b.distance - a.distance <= same_place * b.distance;
+  };
+  surfaces.erase(std::unique(surfaces.begin(), surfaces.end(), same), surfaces.end());
+}
+
+void Tracer::blocked(const vec3& origin, const vec3* directions, int count, float far, bool* blocked) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (int first = 0; first < count; first += 16) {
+    const int n = std::min(16, count - first);
+    Packet packet(origin, directions + first, n, far);
+    rtcOccluded16(packet.valid, impl_->embree.get(), &context, &packet.rays.ray);
+    for (int i = 0; i < n; ++i) blocked[first + i] = packet.rays.ray.tfar[i] < 0;
+  }
+}
+
+void Tracer::distances(const vec3& origin, const vec3* directions, int count, float far, float* distances) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (int first = 0; first < count; first += 16) {
+    const int n = std::min(16, count - first);
+    Packet packet(origin, directions + first, n, far);
+    rtcIntersect16(packet.valid, impl_->embree.get(), &context, &packet.rays);
+    for (int i = 0; i < n; ++i) {
+      const bool hit = packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      distances[first + i] = hit ? packet.rays.ray.tfar[i] : std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
+vec3 Tracer::lifted(const Surface& surface) const {
+  // Embree subtracts the ray's origin from the vertices in float: its error grows with their distance, and the rounding
+  // of the origin with its coordinates.
+  const Mesh& mesh = impl_->scene.meshes[size_t(surface.mesh)];
+  const glm::uvec3 t = mesh.triangles[surface.triangle];
+  double extent = 0;
+  for (const unsigned i : {t.x, t.y, t.z}) {
+    const dvec3 corner = mesh.positions[i], along = glm::abs(corner - surface.position), place = glm::abs(corner);
+    extent = std::max({extent, along.x, along.y, along.z, place.x, place.y, place.z});
+  }
+  return vec3(surface.position + (extent * 0x1p-20) * surface.facing);
+}
+
+SurfaceMaterial Tracer::material(const Surface& surface) const {
+  const Scene& scene = impl_->scene;
+  const Material& from = scene.materials[size_t(scene.meshes[size_t(surface.mesh)].material)];
+  const auto looked_up = [&](int texture, bool srgb) {
+    return texture < 0 ? glm::vec4(1) : texel(scene.textures[size_t(texture)], surface.uv, srgb);
+  };
+  SurfaceMaterial material;
+  material.albedo = from.albedo * vec3(looked_up(from.albedo_texture, true));
+  material.roughness = from.roughness * looked_up(from.roughness_texture, false).g;
+  material.metallic = from.metallic * looked_up(from.metallic_texture, false).b;
+  material.emission = from.emission * vec3(looked_up(from.emission_texture, true));
+  material.reflectance = glm::mix(vec3(from.reflectance), material.albedo, material.metallic);
+  return material;
+}
+
+}  // namespace gloam

@@ -1,0 +1,68 @@
+"""Renders the ambient-occlusion pass of an OBJ file with Blender's Cycles, one sample position per pixel: its centre.
+
+blender -b --factory-startup --python-exit-code 1 -P render_ao.py -- SCENE.obj CAMERA.json RADIUS SAMPLES SEED OUT.exr
+
+The OBJ holds triangles only and is taken in its own axes. The camera JSON is as docs/gbuffer.md has it.
+"""
+import json
+import sys
+
+import bpy
+import mathutils
+
+
+def read_obj(path):
+    vertices, faces = [], []
+    with open(path) as lines:
+        for line in lines:
+            words = line.split()
+            if words[:1] == ["v"]:
+                vertices.append(tuple(float(w) for w in words[1:4]))
+            elif words[:1] == ["f"]:
+                faces.append(tuple(int(w.split("/")[0]) - 1 for w in words[1:]))
+    return vertices, faces
+
+
+def add_camera(scene, camera):
+    data = bpy.data.cameras.new("camera")
+    data.sensor_fit = "HORIZONTAL"
+    data.sensor_width = 36
+    data.lens = camera["fx"] / camera["width"] * data.sensor_width
+    data.clip_start, data.clip_end = 0.001, 1e5
+    item = bpy.data.objects.new("camera", data)
+    item.matrix_world = mathutils.Matrix(camera["camera_to_world"])
+    scene.collection.objects.link(item)
+    scene.camera = item
+
+
+def main(scene_file, camera_file, radius, samples, seed, out):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    mesh = bpy.data.meshes.new("mesh")
+    vertices, faces = read_obj(scene_file)
+    mesh.from_pydata(vertices, [], faces)
+    scene.collection.objects.link(bpy.data.objects.new("mesh", mesh))
+    with open(camera_file) as text:
+        camera = json.load(text)
+    add_camera(scene, camera)
+
+    scene.world = bpy.data.worlds.new("world")
+    scene.world.light_settings.distance = float(radius)
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = int(samples)
+    scene.cycles.seed = int(seed)
+    scene.cycles.use_adaptive_sampling = False
+    scene.cycles.use_denoising = False
+    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
+    scene.cycles.filter_width = 0.01
+    scene.view_layers[0].use_pass_ambient_occlusion = True
+    scene.view_layers[0].use_pass_z = True
+    scene.render.resolution_x, scene.render.resolution_y = camera["width"], camera["height"]
+    scene.render.resolution_percentage = 100
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.image_settings.color_depth = "32"
+    scene.render.filepath = out
+    bpy.ops.render.render(write_still=True)
+
+
+main(*sys.argv[sys.argv.index("--") + 1:])

@@ -1,0 +1,128 @@
+// The ray-traced reference against an independent one: the ambient-occlusion pass of Blender's Cycles.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/gloam_process.h"
+#include "gloam/error.h"
+#include "gloam/exr.h"
+#include "mesh_builder.h"
+
+namespace gloam::test {
+namespace {
+
+using glm::vec3;
+
+constexpr int width = 160, height = 90;
+constexpr double radius = 0.6;
+
+/// A floor, two walls, a table, a ball, steps and a leaning board; flat triangles.
+Mesh room() {
+  Mesh mesh;
+  scenes::add_quad(mesh, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, {-3, 0, -3}, 4);
+  scenes::add_quad(mesh, {-3, 0, -3}, {3, 0, -3}, {3, 3, -3}, {-3, 3, -3}, 4);
+  scenes::add_quad(mesh, {-3, 0, 3}, {-3, 0, -3}, {-3, 3, -3}, {-3, 3, 3}, 4);
+  scenes::add_box(mesh, {-1, 0.7f, -1.5f}, {0.6f, 0.8f, -0.5f});
+  for (const float x : {-0.95f, 0.45f})
+    for (const float z : {-1.45f, -0.65f}) scenes::add_box(mesh, {x, 0, z}, {x + 0.1f, 0.7f, z + 0.1f});
+  for (int i = 0; i < 4; ++i)
+    scenes::add_box(mesh, {1.2f + 0.3f * float(i), 0, -2.9f}, {3, 0.2f + 0.2f * float(i), -1 - 0.1f * float(i)});
+  scenes::add_cylinder(mesh, {-0.2f, 0.8f, -1}, {-0.2f, 1.1f, -1}, 0.15f, 0.1f, 40);
+  Mesh board;
+  scenes::add_box(board, {-2, 0, -0.03f}, {-1.5f, 1.6f, 0.03f});
+  scenes::append(mesh, board, scenes::moved({0, 0, -2.2f}) * scenes::turned(-0.35f, {1, 0, 0}));
+  return mesh;
+}
+
+void write_obj(const fs::path& path, const Mesh& mesh) {
+  std::ofstream out(path);
+  out.precision(9);
+  for (const vec3& p : mesh.positions) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const glm::uvec3& t : mesh.triangles) out << "f " << t.x + 1 << ' ' << t.y + 1 << ' ' << t.z + 1 << '\n';
+}
+
+void write_camera(const fs::path& path, const Camera& camera) {
+  const glm::dmat3 turn = glm::transpose(camera.pose->world_to_view);
+  const glm::dvec3 p = camera.pose->position;
+  nlohmann::json matrix = nlohmann::json::array();
+  for (int row = 0; row < 3; ++row) matrix.push_back({turn[0][row], turn[1][row], turn[2][row], p[row]});
+  matrix.push_back({0, 0, 0, 1});
+  std::ofstream(path) << nlohmann::json{{"width", width},           {"height", height}, {"fx", camera.fx},
+                                        {"fy", camera.fy},          {"cx", camera.cx},  {"cy", camera.cy},
+                                        {"camera_to_world", matrix}};
+}
+
+/// The pass that Blender renders, or none where it does not.
+Channel blender_ao(const fs::path& folder, int seed) {
+  const fs::path out = folder / ("blender_" + std::to_string(seed) + ".exr");
+  const std::string command = fmt::format(
+      "blender -b --factory-startup --python-exit-code 1 -P '{}/tests/blender/render_ao.py' -- '{}' '{}' {} 512 {} "
+      "'{}' "
+      ">'{}' 2>&1",
+      GLOAM_SOURCE_DIR, (folder / "room.obj").string(), (folder / "view.camera.json").string(), radius, seed,
+      out.string(), (folder / "blender.log").string());
+  if (std::system(command.c_str()) != 0) throw Error("Blender failed: {}", slurp(folder / "blender.log"));
+  ReadOptions options;
+  options.as_stored = true;
+  options.camera_file = (folder / "view.camera.json").string();
+  return std::move(FrameFile(out, options).read({"ao"}).views[0].planes.at("ao").channels[0]);
+}
+
+/// Whether the pixel and its neighbours show one flat face: at edges the two sample another face now and then.
+bool is_inside_a_face(const View& view, int x, int y) {
+  if (x == 0 || y == 0 || x == width - 1 || y == height - 1) return false;
+  const std::vector<Channel>& n = view.planes.at("normal").channels;
+  const Channel& z = view.planes.at("depth").channels[0];
+  if (is_background(z.at(x, y))) return false;
+  for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+    double cosine = 0;
+    for (size_t i = 0; i < 3; ++i) cosine += double(n[i].at(x, y)) * n[i].at(x + dx, y + dy);
+    if (!(cosine > 0.999 && std::abs(z.at(x + dx, y + dy) / z.at(x, y) - 1) < 0.1)) return false;
+  }
+  return true;
+}
+
+class Blender : public Cli {};
+
+TEST_F(Blender, AgreesWithTheReferenceWithinTheNoise) {
+  if (std::system("command -v blender >/dev/null") != 0) GTEST_SKIP() << "no blender to compare with";
+  const std::string obj = path("room.obj"), camera = path("view.camera.json");
+  const std::string frame = path("frame.exr"), reference = path("reference.exr");
+  write_obj(obj, room());
+  write_camera(camera, camera_for(looking_at("main", {2.2, 1.9, 2.4}, {-0.3, 0.6, -1.2}, 65), width, height));
+  ASSERT_EQ(
+      gloam({"capture", obj, "-o", frame, "--size", "160x90", "--camera", camera, "--planes", "depth,normal"}).err, "");
+  ASSERT_EQ(
+      gloam({"reference", "ao", frame, "--scene", obj, "-o", reference, "--radius", "0.6", "--samples", "4096"}).err,
+      "");
+  FrameFile file(reference, {});
+  const Frame ours = file.read({"ao"}), captured = FrameFile(frame, {}).read({"depth", "normal"});
+  const Channel a = blender_ao(folder, 1), b = blender_ao(folder, 2);
+  double ours_to_theirs = 0, theirs_to_theirs = 0, bias = 0;
+  int count = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!is_inside_a_face(captured.views[0], x, y)) continue;
+      const double mean = (a.at(x, y) + b.at(x, y)) / 2, half = (a.at(x, y) - b.at(x, y)) / 2;
+      const double error = ours.views[0].planes.at("ao").channels[0].at(x, y) - mean;
+      ours_to_theirs += error * error;
+      theirs_to_theirs += half * half;
+      bias += error;
+      ++count;
+    }
+  }
+  ASSERT_GT(count, width * height / 2);
+  const double rmse = std::sqrt(ours_to_theirs / count), blender_noise = std::sqrt(theirs_to_theirs / count);
+  const double our_noise = file.number_attribute("aoNoise").value();
+  std::printf("%d pixels: RMSE %.5f, bias %+.5f; noise of Blender %.5f, of gloam %.5f\n", count, rmse, bias / count,
+              blender_noise, our_noise);
+  EXPECT_LT(rmse, 1.5 * std::hypot(blender_noise, our_noise));
+  EXPECT_LT(std::abs(bias / count), 1e-3);
+}
+
+}  // namespace
+}  // namespace gloam::test

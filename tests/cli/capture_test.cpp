@@ -1,0 +1,158 @@
+// gloam capture and gloam reference, as a user runs them.
+#include <cmath>
+
+#include "cli/gloam_process.h"
+#include "gloam/error.h"
+
+namespace gloam::test {
+namespace {
+
+class CaptureCommand : public Cli {
+ protected:
+  std::string file(const std::string& name) const { return path(name).string(); }
+
+  void expect_refused(const Arguments& arguments, int status, const std::string& says) {
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(files().empty()) << "a refused command leaves nothing behind";
+  }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+};
+
+TEST_F(CaptureCommand, WritesEveryPlane) {
+  const Result result = gloam({"capture", "plane", "-o", file("p.exr"), "--size", "64x36", "--tilt", "30", "--peel",
+                               "3", "--picture", file("p.png"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["scene"], "plane: tilt=30");
+  EXPECT_EQ(result.json()["faces"], 8192);
+  EXPECT_EQ(result.json()["size"], nlohmann::json({64, 36}));
+  EXPECT_EQ(result.json()["layers"]["mean"], 1);
+  const nlohmann::json info = gloam({"info", file("p.exr"), "--json", "-"}).json();
+  std::vector<std::string> planes;
+  for (const auto& plane : info["planes"]) planes.push_back(plane["name"]);
+  for (const char* plane : {"depth", "normal", "albedo", "color", "roughness", "reflectance", "position", "back_depth",
+                            "instance", "peel_count", "peel.00", "peel.02"})
+    EXPECT_TRUE(std::find(planes.begin(), planes.end(), plane) != planes.end()) << plane << " in " << info["planes"];
+  EXPECT_EQ(info["camera"]["source"], "scene camera 'main'") << info["camera"];
+  EXPECT_EQ(files(), (std::vector<std::string>{"p.exr", "p.png"}));
+}
+
+TEST_F(CaptureCommand, EyeAndTargetOverTheScenesCamera) {
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("p.exr"), "--size", "33x33", "--tilt", "0", "--eye", "0,0,7.5",
+                   "--target", "0,0,0", "--fov", "30", "--planes", "depth"})
+                .err,
+            "");
+  FrameFile frame(file("p.exr"), {});
+  const Camera camera = *frame.camera("");
+  EXPECT_NEAR(camera.fx, 33 / 2.0 / std::tan(15 * M_PI / 180), 1e-3);
+  EXPECT_NEAR(camera.pose->position.z, 7.5, 1e-6);
+  EXPECT_NEAR(frame.read({"depth"}).views[0].planes.at("depth").channels[0].at(16, 16), 7.5, 1e-5);
+  EXPECT_EQ(frame.common_planes(), std::vector<std::string>{"depth"});
+}
+
+TEST_F(CaptureCommand, TwoViewsFromACameraFile) {
+  write("pair.camera.json", R"({"width": 64, "height": 36, "fx": 60, "fy": 60, "cx": 32, "cy": 18, "views": [
+    {"view": "left", "camera_to_world": [[1,0,0,-0.05],[0,1,0,0],[0,0,1,4],[0,0,0,1]]},
+    {"view": "right", "cx": 30, "camera_to_world": [[1,0,0,0.05],[0,1,0,0],[0,0,1,4],[0,0,0,1]]}]})");
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("pair.exr"), "--size", "64x36", "--camera", file("pair.camera.json"),
+                   "--planes", "depth,normal"})
+                .err,
+            "");
+  FrameFile frame(file("pair.exr"), {});
+  EXPECT_EQ(frame.views(), (std::vector<std::string>{"left", "right"}));
+  EXPECT_NEAR(frame.camera("right")->cx, 30, 1e-4);
+}
+
+TEST_F(CaptureCommand, APathGivesOneFramePerCameraWithMotion) {
+  write("path.json", R"({"width": 64, "height": 36, "fx": 60, "fy": 60, "cx": 32, "cy": 18, "frames": 3, "path": [
+    {"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]},
+    {"camera_to_world": [[1,0,0,1],[0,1,0,0],[0,0,1,4],[0,0,0,1]]}]})");
+  ASSERT_EQ(gloam({"capture", "plane", "--tilt", "0", "-o", file("walk.exr"), "--size", "64x36", "--camera-path",
+                   file("path.json"), "--planes", "depth"})
+                .err,
+            "");
+  EXPECT_EQ(files(), (std::vector<std::string>{"path.json", "walk.0001.exr", "walk.0002.exr", "walk.0003.exr"}));
+  FrameFile second(file("walk.0002.exr"), {});
+  EXPECT_NEAR(second.camera("")->pose->position.x, 0.5, 1e-6) << "halfway";
+  const Frame frame = second.read({"motion"});
+  EXPECT_NEAR(frame.views[0].planes.at("motion").channels[0].at(40, 20), 0.5 * 60 / 4, 1e-3)
+      << "from further left, it was further right";
+  EXPECT_NEAR(FrameFile(file("walk.0001.exr"), {}).read({"motion"}).views[0].planes.at("motion").channels[0].at(40, 20),
+              0, 1e-6);
+}
+
+TEST_F(CaptureCommand, RefusesInOneLine) {
+  expect_refused({"capture", "plan", "-o", file("x.exr")}, 2, "did you mean 'plane'");
+  expect_refused({"capture", "no.obj", "-o", file("x.exr")}, 1, "no.obj");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--camera", "man"}, 2, "did you mean 'main'");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--size", "64"}, 2, "--size 64");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--size", "0x5"}, 2, "width");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--size", "65536x65536"}, 2, "--size");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--peel", "65"}, 2, "--peel");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--planes", "depht"}, 2, "did you mean 'depth'");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--planes", "motion"}, 2, "--camera-path");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--tilt", "95"}, 2, "0 to 89.9");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--set", "faces=5"}, 2, "faces");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "1,2,3"}, 2, "--target");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "1,2", "--target", "0,0,0"}, 2, "--eye 1,2,3");
+  expect_refused({"capture", "plane", "-o", file("no/x.exr")}, 1, "is not a folder");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--compression", "dwaa"}, 2, "lossless");
+}
+
+TEST_F(CaptureCommand, ReferenceOfACapturedFrame) {
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("p.exr"), "--size", "64x36", "--planes", "depth,normal"}).status, 0);
+  const Result result = gloam({"reference", "ao", file("p.exr"), "-o", file("r.exr"), "--samples", "50", "--picture",
+                               file("r.png"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["scene"], "plane: tilt=60") << "the frame names it";
+  EXPECT_EQ(result.json()["samples"], 64);
+  EXPECT_EQ(result.json()["noise"], 0);
+  FrameFile reference(file("r.exr"), {});
+  EXPECT_NEAR(reference.number_attribute("aoRadius").value(), 0.5, 1e-6);
+  EXPECT_EQ(reference.number_attribute("aoNoise"), 0);
+  EXPECT_EQ(reference.text_attribute("aoFalloff"), "none");
+  EXPECT_EQ(files(), (std::vector<std::string>{"p.exr", "r.exr", "r.png"})) << "no checkpoint is left";
+  const nlohmann::json compared = gloam({"compare", file("r.exr"), file("r.exr"), "--json", "-"}).json();
+  EXPECT_EQ(compared["rmse"], 0);
+  EXPECT_EQ(compared["plane"], "ao");
+}
+
+TEST_F(CaptureCommand, ReferenceWithATechniquesOwnFalloff) {
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("p.exr"), "--size", "64x36", "--planes", "depth,normal"}).status, 0);
+  EXPECT_EQ(gloam({"reference", "ao", file("p.exr"), "-o", file("r.exr"), "--samples", "32", "--falloff", "hbao+",
+                   "--set", "hbao+.bias=0.2"})
+                .err,
+            "");
+  EXPECT_EQ(FrameFile(file("r.exr"), {}).text_attribute("aoFalloff"), "hbao+");
+}
+
+TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
+  const std::string out = file("r.exr");
+  expect_refused({"reference", "shadow", loggia, "-o", out}, 2, "no 'shadow'");
+  expect_refused({"reference", "ao", loggia, "-o", out}, 2, "--scene");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out}, 1, "is not what the frame shows");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--falloff", "hbao"}, 2,
+                 "did you mean 'hbao+'");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "0"}, 2, "--radius");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--samples", "0"}, 2, "--samples");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "inf", "--falloff", "hbao+"}, 2,
+                 "finite");
+}
+
+TEST_F(CaptureCommand, ListsScenes) {
+  const nlohmann::json scenes = gloam({"list", "scenes", "--json", "-"}).json();
+  bool found = false;
+  for (const auto& scene : scenes) {
+    EXPECT_NE(scene["summary"], "");
+    found = found || (scene["name"] == "plane" && scene["parameters"][0]["name"] == "tilt");
+  }
+  EXPECT_TRUE(found);
+  EXPECT_NE(gloam({"capture", "plane", "--help"}).out.find("--tilt"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gloam::test
