@@ -1,7 +1,5 @@
 #include "gloam/visualise.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
-#include "gloam/files.h"
 #include "gloam/planes.h"
+#include "picture.h"
 
 namespace gloam {
 namespace {
@@ -18,10 +16,7 @@ namespace {
 // ---------------------------------------------------------------------------------------------------------------------
 // Colours (blue, green, red, as OpenCV keeps them)
 
-const cv::Scalar paper(255, 255, 255), ink(34, 34, 34), faint(118, 118, 118), rule(200, 200, 200), grid(232, 232, 232),
-    bar_fill(190, 175, 165);
-const cv::Scalar background_tone(214, 214, 214);
-const cv::Vec3b background_line(186, 186, 186);
+const cv::Scalar grid(232, 232, 232), bar_fill(190, 175, 165);
 const cv::Scalar bias_ink(30, 120, 20), rmse_ink(150, 60, 130);
 
 /// One side of the difference map, from no difference to the end of the scale: equal steps of lightness in the OKLab
@@ -44,133 +39,6 @@ cv::Vec3b difference_colour(double t) {
     colour[c] =
         cv::saturate_cast<unsigned char>(colours[i][size_t(2 - c)] * (1 - f) + colours[i + 1][size_t(2 - c)] * f);
   return colour;
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// Planes as 8-bit images
-
-/// NaN is black: a picture has to show something.
-unsigned char to_byte(double v) {
-  return std::isnan(v) ? 0 : cv::saturate_cast<unsigned char>(std::clamp(v, 0.0, 1.0) * 255);
-}
-
-double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-
-double shown(double v, PlaneKind::Meaning meaning) {
-  return meaning == PlaneKind::unit_vector ? 0.5 + 0.5 * v : srgb(std::clamp(v, 0.0, 1.0));
-}
-
-cv::Mat grey_image(const Channel& channel) {
-  cv::Mat image(channel.layout().height, channel.layout().width, CV_8UC1);
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x) image.at<unsigned char>(y, x) = to_byte(channel.at(x, y));
-  return image;
-}
-
-/// The first three components as red, green and blue; a missing one is 0.
-cv::Mat colour_image(const Plane& plane) {
-  const Layout& layout = plane.channels[0].layout();
-  const PlaneKind::Meaning meaning = plane_kind(plane.name).meaning;
-  cv::Mat image(layout.height, layout.width, CV_8UC3, cv::Scalar::all(0));
-  for (size_t c = 0; c < std::min<size_t>(plane.channels.size(), 3); ++c)
-    for (int y = 0; y < image.rows; ++y)
-      for (int x = 0; x < image.cols; ++x)
-        image.at<cv::Vec3b>(y, x)[int(2 - c)] = to_byte(shown(plane.channels[c].at(x, y), meaning));
-  return image;
-}
-
-cv::Mat image_of(const Plane& plane) {
-  return plane.channels.size() == 1 ? grey_image(plane.channels[0]) : colour_image(plane);
-}
-
-void write_png(const std::filesystem::path& path, const cv::Mat& image) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = png_uint_32(image.cols);
-    png.height = png_uint_32(image.rows);
-    png.format = image.channels() == 1 ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
-    if (!png_image_write_to_file(&png, temporary.c_str(), 0, image.data, png_int_32(image.step[0]), nullptr))
-      throw Error("{}: cannot be written as PNG: {}", path.string(), png.message);
-  });
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// Text
-
-enum class Align { left, centre, right };
-
-/// How a piece of text looks. Sizes are heights of capitals in pixels.
-struct Style {
-  double size;
-  cv::Scalar colour = ink;
-  bool bold = false;
-};
-
-/// Hershey strokes drawn this much larger and averaged down have soft edges and any stroke width.
-constexpr int oversampling = 4;
-
-double font_scale(const Style& style) { return style.size * oversampling / 21; }
-int stroke(const Style& style) { return std::max(1, cvRound(style.size * oversampling * (style.bold ? 0.19 : 0.115))); }
-
-double text_width(const std::string& text, const Style& style) {
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, font_scale(style), stroke(style), nullptr);
-  return double(size.width) / oversampling;
-}
-
-/// How much of each pixel the text covers, with a border of `pad` pixels; the baseline is at `baseline`.
-cv::Mat text_coverage(const std::string& text, const Style& style, int pad, int baseline) {
-  const int width = int(text_width(text, style)) + 1 + 2 * pad, height = baseline + int(style.size) + pad;
-  cv::Mat large(height * oversampling, width * oversampling, CV_8UC1, cv::Scalar(0)), small;
-  cv::putText(large, text, cv::Point(pad, baseline) * oversampling, cv::FONT_HERSHEY_SIMPLEX, font_scale(style),
-              cv::Scalar(255), stroke(style), cv::LINE_AA);
-  cv::resize(large, small, cv::Size(width, height), 0, 0, cv::INTER_AREA);
-  return small;
-}
-
-void blend(cv::Mat& canvas, const cv::Mat& coverage, cv::Point corner, const cv::Scalar& colour) {
-  const cv::Rect inside = cv::Rect(corner, coverage.size()) & cv::Rect({}, canvas.size());
-  for (int y = inside.y; y < inside.y + inside.height; ++y)
-    for (int x = inside.x; x < inside.x + inside.width; ++x) {
-      const double a = coverage.at<unsigned char>(y - corner.y, x - corner.x) / 255.0;
-      cv::Vec3b& pixel = canvas.at<cv::Vec3b>(y, x);
-      for (int c = 0; c < 3; ++c) pixel[c] = cv::saturate_cast<unsigned char>(pixel[c] + a * (colour[c] - pixel[c]));
-    }
-}
-
-/// Writes text with its baseline at `at`.
-void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const Style& style, Align align = Align::left) {
-  if (text.empty()) return;
-  const double width = text_width(text, style);
-  const int shift = align == Align::left ? 0 : cvRound(align == Align::centre ? width / 2 : width);
-  const int pad = int(style.size / 2) + 1, baseline = int(style.size * 1.5) + 1;
-  blend(canvas, text_coverage(text, style, pad, baseline), at - cv::Point(shift + pad, baseline), style.colour);
-}
-
-/// Hershey fonts hold ASCII only: each other character becomes one '?'.
-std::string ascii(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (byte >= 32 && byte < 127)
-      out += c;
-    else if (byte < 128 || byte >= 192)
-      out += '?';  // 128 to 191 continue a character of UTF-8
-  }
-  return out;
-}
-
-/// The text, with its middle left out where it is wider than `width`: both the start and the ending of a file name
-/// tell.
-std::string shortened(const std::string& text, double width, const Style& style) {
-  const std::string whole = ascii(text);
-  const size_t most = std::min(whole.size(), size_t(4 * width / style.size));  // no letter is that narrow
-  if (most == whole.size() && text_width(whole, style) <= width) return whole;
-  for (size_t keep = most; keep > 1; --keep) {
-    const std::string cut = whole.substr(0, keep - keep / 2) + "..." + whole.substr(whole.size() - keep / 2);
-    if (text_width(cut, style) <= width) return cut;
-  }
-  return "...";
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -262,40 +130,7 @@ Histogram histogram_of(const Differences& d, double range, int bins) {
 // ---------------------------------------------------------------------------------------------------------------------
 // The sheet
 
-/// How large an image of the frame's size is drawn.
-struct PanelSize {
-  cv::Size image;         ///< as drawn
-  int box = 0;            ///< width kept for it on the sheet
-  std::string zoom_note;  ///< for the caption; empty at full size
-};
-
-constexpr int smallest_box = 320, largest_box = 1280, largest_height = 2560, thinnest = 24;
-
-/// Full size as far as the sheet stays readable: less for large images, whole multiples for tiny ones. A row or column
-/// of pixels is widened until it can be seen.
-PanelSize panel_size(int width, int height) {
-  const double shrink = std::min({1.0, double(largest_box) / width, double(largest_height) / height});
-  const int grow = std::max(1, std::min((smallest_box + width - 1) / width, largest_box / height));
-  const double scale = shrink < 1 ? shrink : grow;
-  PanelSize size;
-  size.image = {std::max(thinnest, cvRound(width * scale)), std::max(thinnest, cvRound(height * scale))};
-  size.box = std::max(smallest_box, size.image.width);
-  if (width * scale < thinnest - 1 || height * scale < thinnest - 1)
-    size.zoom_note = "stretched";
-  else if (scale > 1)
-    size.zoom_note = fmt::format("{} x", grow);
-  else if (scale < 1)
-    size.zoom_note = fmt::format("{:.0f} %", 100 * scale);
-  return size;
-}
-
-cv::Mat resized(const cv::Mat& image, cv::Size size) {
-  cv::Mat smaller, out;
-  const cv::Size least(std::min(size.width, image.cols), std::min(size.height, image.rows));
-  cv::resize(image, smaller, least, 0, 0, cv::INTER_AREA);
-  cv::resize(smaller, out, size, 0, 0, cv::INTER_NEAREST);
-  return out;
-}
+constexpr PanelLimits panel_limits{320, 1280, 2560};
 
 /// White paper and its measures: all lengths are multiples of `unit`, so that the sheet keeps its looks at any size.
 struct Sheet {
@@ -321,7 +156,7 @@ struct Sheet {
 
 Sheet blank_sheet(const Differences& d) {
   Sheet sheet;
-  sheet.panel = panel_size(d.width, d.height);
+  sheet.panel = panel_size(d.width, d.height, panel_limits);
   sheet.unit = std::clamp(sheet.panel.box / 420.0, 1.0, 1.9);
   const PlaneKind::Meaning meaning = plane_kind(d.test.name).meaning;
   sheet.light = meaning != PlaneKind::unit_vector && meaning != PlaneKind::view_depth;
@@ -357,30 +192,12 @@ void draw_title(Sheet& sheet, const Differences& d, const DifferencePicture& opt
            {sheet.margin(), sheet.px(60)}, sheet.small());
 }
 
-/// Background as no value looks: grey with slanting lines.
-void hatch(cv::Mat& panel, const cv::Mat& background, double unit) {
-  const int period = std::max(6, cvRound(7 * unit)), line = std::max(1, cvRound(unit));
-  for (int y = 0; y < panel.rows; ++y)
-    for (int x = 0; x < panel.cols; ++x)
-      if (background.at<unsigned char>(y, x) > 127 && (x + y) % period < line)
-        panel.at<cv::Vec3b>(y, x) = background_line;
-}
-
 void draw_panel(Sheet& sheet, int column, const cv::Mat& picture, const cv::Mat& background, const std::string& label,
                 const std::string& name) {
-  cv::Mat colours;
-  if (picture.channels() == 1)
-    cv::cvtColor(picture, colours, cv::COLOR_GRAY2BGR);
-  else
-    colours = picture;
-  colours.setTo(background_tone, background);
-  const cv::Size size = sheet.panel.image;
-  cv::Mat panel = resized(colours, size);
-  hatch(panel, resized(background, size), sheet.unit);
-  const cv::Rect place(sheet.column(column) + (sheet.panel.box - size.width) / 2, sheet.panels_top(), size.width,
-                       size.height);
-  panel.copyTo(sheet.canvas(place));
-  cv::rectangle(sheet.canvas, place + cv::Point(-1, -1) + cv::Size(2, 2), rule, 1);
+  cv::Mat colours = picture;
+  if (picture.channels() == 1) cv::cvtColor(picture, colours, cv::COLOR_GRAY2BGR);
+  const cv::Point corner(sheet.column(column) + (sheet.panel.box - sheet.panel.image.width) / 2, sheet.panels_top());
+  put_panel(sheet.canvas, colours, background, corner, sheet.panel.image, sheet.unit);
 
   const cv::Point caption(sheet.column(column), sheet.panels_top() - sheet.px(9));
   put_text(sheet.canvas, label, caption, sheet.strong());

@@ -5,6 +5,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/visualise.h"
 #include "options.h"
 
 namespace gloam::cli {
@@ -170,8 +171,18 @@ Json planes_document(const std::vector<PlaneFacts>& facts) {
   return planes;
 }
 
-void info_command(const std::string& path, const FrameFlags& flags, const JsonFlag& json) {
-  check_paths({{"the frame", path}}, {{"--json", json.file()}});
+/// Drawn after everything is known to be sound and before anything is said.
+void write_planes_picture(const std::string& picture, const std::string& path, const Frame& frame) {
+  if (picture.empty()) return;
+  const bool drawable =
+      std::any_of(frame.views.begin(), frame.views.end(), [](const View& view) { return !view.planes.empty(); });
+  if (!drawable) throw Error("--picture {}: {} has no plane that gloam knows; nothing to draw", picture, path);
+  write_contact_sheet(picture, frame, {.title = std::filesystem::path(path).filename().string()});
+}
+
+void info_command(const std::string& path, const std::string& picture, const FrameFlags& flags, const JsonFlag& json) {
+  check_picture_name(picture, "--picture");
+  check_paths({{"the frame", path}, {"--camera", flags.camera}}, {{"--picture", picture}, {"--json", json.file()}});
   ReadOptions options = flags.read_options();
   options.count_nonfinite = true;
   options.as_stored = true;
@@ -212,27 +223,32 @@ void info_command(const std::string& path, const FrameFlags& flags, const JsonFl
                          {"runs", runs},
                          {"lacks", lacks},
                          {"unread", unread_channels(file)}};
+  write_planes_picture(picture, path, frame);
   json.write(document);
-  if (!json.only_json()) print_info(file, facts, document, frame.assumed);
+  if (json.only_json()) return;
+  print_info(file, facts, document, frame.assumed);
+  if (!picture.empty()) fmt::print("wrote {}\n", printable(picture));
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
   struct Flags {
-    std::string frame;
+    std::string frame, picture;
     FrameFlags frame_flags;
     JsonFlag json;
   };
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app.add_subcommand("info", "what a frame holds, what is assumed, what can run on it");
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  command->add_option("--picture", flags->picture, "also all planes as a contact sheet")->type_name("PLANES.png");
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
-      "Examples:\n  gloam info frame.exr\n  gloam info frame.exr --depth ray --json -\n"
+      "Examples:\n  gloam info frame.exr\n  gloam info frame.exr --picture planes.png\n"
+      "  gloam info frame.exr --depth ray --json -\n"
       "  gloam info frame.exr --plane depth=Layer.Z");
-  command->callback([flags] { info_command(flags->frame, flags->frame_flags, flags->json); });
+  command->callback([flags] { info_command(flags->frame, flags->picture, flags->frame_flags, flags->json); });
 }
 
 }  // namespace gloam::cli

@@ -1,81 +1,30 @@
 #include "gloam/visualise.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <random>
 
 #include "gloam/error.h"
+#include "pictures.h"
 
 namespace gloam {
 namespace {
 
+using namespace test;
 namespace fs = std::filesystem;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-using Pattern = std::function<float(int x, int y)>;
-
-Plane plane_of(const std::string& name, int width, int height, const std::vector<Pattern>& components) {
-  Plane plane{name, {}};
-  for (const Pattern& pattern : components) {
-    Channel channel(Layout(width, height), nan);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) channel.at(x, y) = pattern(x, y);
-    plane.channels.push_back(std::move(channel));
-  }
-  return plane;
-}
-
-Pattern level(float v) {
-  return [v](int, int) { return v; };
-}
-
-struct Pixel {
-  int r, g, b;
-  bool operator==(const Pixel&) const = default;
-};
-
-std::ostream& operator<<(std::ostream& out, const Pixel& p) { return out << p.r << " " << p.g << " " << p.b; }
-
-struct Picture {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;
-  Pixel at(int x, int y) const {
-    const size_t i = 3 * (size_t(y) * size_t(width) + size_t(x));
-    return {rgb[i], rgb[i + 1], rgb[i + 2]};
-  }
-};
-
-Picture read_png(const fs::path& path) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  EXPECT_TRUE(png_image_begin_read_from_file(&png, path.c_str())) << png.message;
-  png.format = PNG_FORMAT_RGB;
-  Picture picture{int(png.width), int(png.height), std::vector<unsigned char>(PNG_IMAGE_SIZE(png))};
-  EXPECT_TRUE(png_image_finish_read(&png, nullptr, picture.rgb.data(), 0, nullptr)) << png.message;
-  return picture;
-}
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-class Visualise : public testing::Test {
+class Visualise : public test::PictureTest {
  protected:
-  void SetUp() override {
-    folder = fs::temp_directory_path() /
-             ("gloam_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
-              std::to_string(std::random_device{}()));
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   Picture difference(const Plane& test, const Plane& truth, const Mask& mask,
                      const DifferencePicture& options = {"a.exr", "b.exr"}, const std::string& name = "d.png") {
     write_difference_picture(folder / name, test, truth, mask, compare(test, truth, mask), options);
@@ -85,8 +34,6 @@ class Visualise : public testing::Test {
     write_picture(folder / "p.png", plane);
     return read_png(folder / "p.png");
   }
-
-  fs::path folder;
 };
 
 /// Where the panels of a sheet of full-size or enlarged images are, from the layout: equal margins and gaps.

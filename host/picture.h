@@ -1,0 +1,87 @@
+// What the pictures for people have in common: colours, text, planes as 8-bit images, panels, PNG files.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "gloam/frame.h"
+
+namespace gloam {
+
+// --- Colours: blue, green, red, as OpenCV keeps them
+
+inline const cv::Scalar paper(255, 255, 255), ink(34, 34, 34), faint(118, 118, 118), rule(200, 200, 200);
+/// Background is no value: grey with slanting lines.
+inline const cv::Scalar background_tone(214, 214, 214);
+inline const cv::Vec3b background_line(186, 186, 186);
+
+// --- Planes as 8-bit images
+
+/// 0 .. 1 as 0 .. 255, clamped. NaN is black: a picture has to show something.
+unsigned char to_byte(double v);
+
+/// Linear light as an sRGB value, 0 .. 1 each.
+double srgb(double v);
+
+/// Grey for one component; else the first three as red, green and blue: unit vectors as 0.5 + 0.5 n, others clamped to
+/// 0..1 through sRGB. A missing component is 0. CV_8UC1 or CV_8UC3.
+cv::Mat image_of(const Plane& plane);
+
+/// CV_8UC1 or CV_8UC3, written atomically. Throws Error naming `path`.
+void write_png(const std::filesystem::path& path, const cv::Mat& image);
+
+// --- Text
+
+enum class Align { left, centre, right };
+
+/// How a piece of text looks. Sizes are heights of capitals in pixels.
+struct Style {
+  double size;
+  cv::Scalar colour = ink;
+  bool bold = false;
+};
+
+/// Pixels.
+double text_width(const std::string& text, const Style& style);
+
+/// Writes text with its baseline at `at`.
+void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const Style& style, Align align = Align::left);
+
+/// The font holds ASCII only: each other character becomes one '?'.
+std::string ascii(const std::string& text);
+
+/// The text in ASCII, with its middle left out where it is wider than `width`: both the start and the ending of a file
+/// name tell.
+std::string shortened(const std::string& text, double width, const Style& style);
+
+// --- Panels: images on the paper
+
+/// Between what sizes an image is drawn, pixels.
+struct PanelLimits {
+  int smallest_box;  ///< narrower images are enlarged towards it by a whole factor
+  int largest_box;   ///< wider ones are reduced to it
+  int largest_height;
+};
+
+/// How large an image is drawn.
+struct PanelSize {
+  cv::Size image;         ///< as drawn
+  int box = 0;            ///< width kept for it on the sheet
+  std::string zoom_note;  ///< for the caption; empty at full size
+};
+
+/// Full size as far as the sheet stays readable: less for large images, whole multiples for tiny ones. A row or column
+/// of pixels is widened until it can be seen.
+PanelSize panel_size(int width, int height, const PanelLimits& limits);
+
+/// How an image gets its size on the sheet.
+enum class Sampling { average, point };
+
+/// Draws an image (CV_8UC3) with a thin frame around it; where `background` (CV_8UC1) is set, hatched.
+/// Enlarged pixels stay squares; reduced ones are averaged over areas or, for identities, sampled at points.
+/// `unit` scales the hatching.
+void put_panel(cv::Mat& canvas, const cv::Mat& colours, const cv::Mat& background, cv::Point corner, cv::Size size,
+               double unit, Sampling sampling = Sampling::average);
+
+}  // namespace gloam
