@@ -1,17 +1,16 @@
 #include "bench_frame.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "loggia.h"
+#include "low_discrepancy.h"
+#include "measures.h"
+#include "native.h"
 
 namespace gloam::bench {
 namespace {
@@ -27,13 +26,19 @@ void set3(Plane& plane, int x, int y, const glm::vec3& value) {
   for (int i = 0; i < 3; ++i) plane.channels[size_t(i)].at(x, y) = value[i];
 }
 
+void scale(Plane& plane, float factor) {
+  for (Channel& channel : plane.channels) {
+    for (size_t i = 0; i < channel.layout().count(); ++i) channel.data()[i] *= factor;
+  }
+}
+
 void fill_with_noise(Plane& plane) {
   for (size_t c = 0; c < plane.channels.size(); ++c) {
     Channel& channel = plane.channels[c];
     const Layout& layout = channel.layout();
     for (int y = 0; y < layout.height; ++y) {
       for (int x = 0; x < layout.width; ++x) {
-        channel.at(x, y) = float(analytic::hash(uint32_t(layout.index(x, y) * 4 + c)) >> 8) * 0x1p-24f;
+        channel.at(x, y) = float(hash(uint32_t(layout.index(x, y) * 4 + c)) >> 8) * 0x1p-24f;
       }
     }
   }
@@ -68,12 +73,18 @@ Frame loggia_frame(int width, int height) {
 }
 
 void add_plane(Frame& frame, const std::string& name) {
+  if (is_stack(name)) {
+    for (int number = 0; number < most_layers; ++number) add_plane(frame, layer_name(name, number));
+    return;
+  }
   View& view = frame.views[0];
   if (view.find(name)) return;
   const PlaneKind kind = plane_kind(name);
   Plane plane;
   if (kind.meaning == PlaneKind::view_depth) {
     plane = view.planes.at("depth").clone();
+    const std::optional<StackLayer> layer = stack_layer(name);
+    if (layer) scale(plane, 1 + 0.1f * float(layer->number));
   } else if (kind.meaning == PlaneKind::unit_vector) {
     plane = view.planes.at("normal").clone();
   } else {
@@ -84,16 +95,7 @@ void add_plane(Frame& frame, const std::string& name) {
   view.planes.emplace(name, std::move(plane));
 }
 
-float radius_reaching(const Frame& frame, double pixels) {
-  const Channel& depth = frame.views[0].planes.at("depth").channels[0];
-  std::vector<double> depths;
-  for (int y = 0; y < frame.height(); ++y) {
-    for (int x = 0; x < frame.width(); ++x) {
-      if (!is_background(depth.at(x, y))) depths.push_back(depth.at(x, y));
-    }
-  }
-  return float(pixels * median(std::move(depths)) / frame.views[0].camera->fx);
-}
+float radius_reaching(const Frame& frame, double pixels) { return float(pixels / median_reach(frame, 1)); }
 
 std::string size_name(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
 
@@ -124,18 +126,18 @@ bool take_flag(int& argc, char** argv, const std::string& name) {
   return found;
 }
 
-void make_openmp_wait_passively(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY")) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv);
-  std::fprintf(stderr, "OMP_WAIT_POLICY=passive could not be set: threads of the native loop may spin\n");
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + long(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+int run_program(const char* name, int argc, char** argv, int (*main)(int, char**)) {
+  if (!make_openmp_wait_passively())
+    std::fprintf(stderr, "%s: OMP_WAIT_POLICY=passive could not be set: threads of the native loop may spin\n", name);
+  try {
+    return main(argc, argv);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return error.exit_status();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 1;
+  }
 }
 
 }  // namespace gloam::bench

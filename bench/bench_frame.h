@@ -12,8 +12,15 @@ namespace gloam::bench {
 /// The bundled loggia at any size, with depth, normal and albedo.
 Frame loggia_frame(int width, int height);
 
-/// Adds a plane that the frame lacks: a copy of depth or normal where it means that, else noise from a hash.
+/// The depth layers that a stack gets.
+constexpr int most_layers = 8;
+
+/// Adds a plane that the frame lacks: a copy of depth or normal where it means that, else noise from a hash. A stack gets
+/// `most_layers` layers, each a tenth of the depth behind the one before.
 void add_plane(Frame& frame, const std::string& name);
+
+/// The median reach that a benchmark's radius has on the screen, at 1920 columns.
+constexpr double reach_in_full_hd = 60;
 
 /// The radius in scene units that reaches `pixels` at the median depth of the surfaces.
 float radius_reaching(const Frame& frame, double pixels);
@@ -27,10 +34,7 @@ std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv);
 /// Takes --NAME out of the command line; whether it was there.
 bool take_flag(int& argc, char** argv, const std::string& name);
 
-/// OpenMP threads that spin after a loop would take the cores from PoCL's. How they wait is read once, before main: where
-/// it is not set, sets it and starts the program again.
-void make_openmp_wait_passively(char** argv);
-
-double median(std::vector<double> values);
+/// Runs a program's main function; an error is one line that begins with the program's name. Returns the exit status.
+int run_program(const char* name, int argc, char** argv, int (*main)(int argc, char** argv));
 
 }  // namespace gloam::bench

@@ -12,14 +12,20 @@ inline constexpr int directions = 8, steps = 4;
 struct PixelCamera {
   int width, height, pitch, seed;
   float scale_x, scale_y;    ///< scene units per pixel at depth 1
-  float centre_x, centre_y;  ///< principal point, pixels
+  float centre_x, centre_y;  ///< principal point, pixels from the planes' first
 };
 
 inline PixelCamera pixel_camera(const Frame& frame) {
   const Camera& camera = *frame.views[0].camera;
   const Layout layout(frame.width(), frame.height());
-  return {layout.width,         layout.height,        layout.pitch,     0,
-          float(1 / camera.fx), float(1 / camera.fy), float(camera.cx), float(camera.cy)};
+  return {layout.width,
+          layout.height,
+          layout.pitch,
+          0,
+          float(1 / camera.fx),
+          float(1 / camera.fy),
+          float(camera.cx - frame.window.x0),
+          float(camera.cy - frame.window.y0)};
 }
 
 }  // namespace gloam::bench

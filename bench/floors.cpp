@@ -15,7 +15,16 @@ namespace {
 
 KernelFrame kernel_frame(const Frame& frame) {
   const PixelCamera c = pixel_camera(frame);
-  return {c.width, c.height, c.pitch, c.seed, c.scale_x, c.scale_y, c.centre_x, c.centre_y, 1, 0};
+  return {c.width,
+          c.height,
+          c.pitch,
+          c.seed,
+          c.scale_x,
+          c.scale_y,
+          c.centre_x,
+          c.centre_y,
+          frame.views[0].camera->orthographic ? 0.0f : 1.0f,
+          frame.views[0].camera->orthographic ? 1.0f : 0.0f};
 }
 
 std::string options(const Device& device) {

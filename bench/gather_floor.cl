@@ -12,7 +12,8 @@ static inline __attribute__((always_inline)) real sum_of_gathers(Frame frame, gl
 #pragma unroll
     for (int k = 0; k < STEPS; ++k) {
       integer dx = nearest(cosine * (1 + (shift + k) * stride_x)), dy = nearest(sine * (1 + (shift + k) * stride_y));
-      sum += sample_near(depth, frame, x, y, here, within, &dx, &dy);
+      keep_in_frame(frame, x, y, within, &dx, &dy);
+      sum += sample_near(depth, frame, here, within, dx, dy);
     }
     const real next = cosine * turn_cosine - sine * turn_sine;
     sine = sine * turn_cosine + cosine * turn_sine;

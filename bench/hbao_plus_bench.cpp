@@ -4,29 +4,22 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <functional>
 #include <memory>
 
 #include "bench_frame.h"
 #include "floors.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
+#include "measures.h"
 #include "naive.h"
 #include "native.h"
+#include "timing.h"
 
 namespace gloam::bench {
 namespace {
 
 constexpr int rounds = 15;
-constexpr double reach_in_full_hd = 60;  ///< pixels, median
-
-/// One way to compute the estimate (or a floor of it); gives milliseconds.
-struct Contender {
-  std::string name;
-  std::function<double()> run;
-};
 
 Plan hbao_plus_plan(const Frame& frame, float radius) {
   PlanRequest request{.outputs = {"hbao+"}, .only = {"ao_raw"}, .then = "none"};
@@ -65,23 +58,17 @@ class Arena {
   std::string size() const { return size_name(frame_); }
 
  private:
-  /// The kernel's time by its events: the run's own warm-up first, then two, of which the second counts.
-  RunResult run_gloam(Math math) {
+  void add_gloam(const std::string& name, Math math) {
     RunOptions options;
     options.math = math;
-    options.repeat = 2;
-    return run(plan_, frame_, device_, options);
-  }
-
-  void add_gloam(const std::string& name, Math math) {
-    RunResult result = run_gloam(math);
-    Channel ao = std::move(result.frame.views[0].planes.at("ao_raw").channels[0]);
+    Channel ao = std::move(run(plan_, frame_, device_, options).frame.views[0].planes.at("ao_raw").channels[0]);
     if (math == Math::fast) {
       expected_ = std::move(ao);
     } else {
       check(name, ao);
     }
-    contenders_.push_back({name, [this, math] { return run_gloam(math).total_ms.back(); }});
+    auto timed = std::make_shared<TimedPlan>(plan_, frame_, device_, math);
+    contenders_.push_back({name, [timed] { return timed->run(); }});
   }
 
   void add_naive(const std::string& name, Counts counts) {
@@ -107,11 +94,7 @@ class Arena {
 
   /// A baseline that computes something else is no baseline.
   void check(const std::string& name, const Channel& ao) const {
-    double sum = 0;
-    for (int y = 0; y < frame_.height(); ++y) {
-      for (int x = 0; x < frame_.width(); ++x) sum += std::abs(double(ao.at(x, y)) - expected_.at(x, y));
-    }
-    const double mean = sum / (double(frame_.width()) * frame_.height());
+    const double mean = mean_difference(ao, expected_);
     std::fprintf(stderr, "%s %s: mean absolute difference from gloam %.2e\n", size().c_str(), name.c_str(), mean);
     if (!(mean <= 1e-4)) throw Error("{} differs from gloam by {:.2e} on average; 1e-4 allowed", name, mean);
   }
@@ -138,24 +121,8 @@ void add_benchmarks(const Arena& arena) {
   }
 }
 
-/// Runs all in turn, many times, so that what else the machine does falls on all alike.
-std::vector<std::vector<double>> interleaved(const std::vector<Contender>& contenders) {
-  std::vector<std::vector<double>> ms(contenders.size());
-  for (int round = 0; round < rounds; ++round) {
-    for (size_t i = 0; i < contenders.size(); ++i) ms[i].push_back(contenders[i].run());
-  }
-  return ms;
-}
-
-/// Median of the rounds' ratios: both of a round saw the same machine.
-double ratio(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> ratios;
-  for (size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
-  return median(std::move(ratios));
-}
-
 void print_table(std::FILE* out, const Arena& arena) {
-  const std::vector<std::vector<double>> ms = interleaved(arena.contenders());
+  const std::vector<Series> ms = interleaved(arena.contenders(), rounds);
   fmt::print(out, "\n{}, {} interleaved rounds (ms)\n", arena.size(), rounds);
   fmt::print(out, "| {:<15} | median |    min |    max | gloam fast / this | gloam precise / this |\n", "");
   fmt::print(out, "|-----------------|--------|--------|--------|-------------------|----------------------|\n");
@@ -197,14 +164,5 @@ int bench_main(int argc, char** argv) {
 }  // namespace gloam::bench
 
 int main(int argc, char** argv) {
-  gloam::bench::make_openmp_wait_passively(argv);
-  try {
-    return gloam::bench::bench_main(argc, argv);
-  } catch (const gloam::Error& error) {
-    std::fprintf(stderr, "bench_hbao_plus: %s\n", error.what());
-    return error.exit_status();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_hbao_plus: %s\n", error.what());
-    return 1;
-  }
+  return gloam::bench::run_program("bench_hbao_plus", argc, argv, gloam::bench::bench_main);
 }

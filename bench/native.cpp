@@ -1,10 +1,16 @@
 #include "native.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define GLOAM_X86 1
@@ -181,6 +187,20 @@ Row row_function(Instructions instructions) {
 }
 
 }  // namespace
+
+bool make_openmp_wait_passively() {
+  if (std::getenv("OMP_WAIT_POLICY")) return true;
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  if (arguments.empty()) return false;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv.data());
+  return false;
+}
 
 Instructions widest_instructions() {
 #ifdef GLOAM_X86

@@ -7,6 +7,11 @@ namespace gloam::bench {
 
 enum class Instructions { scalar, avx2, avx512 };
 
+/// OpenMP threads that spin after a loop would take the cores from OpenCL's, and each other's where other programs run.
+/// How they wait is read before main: where OMP_WAIT_POLICY is not set, sets it to passive and starts the program again
+/// with the same arguments. To be called before anything is done. Returns false where that did not work.
+bool make_openmp_wait_passively();
+
 /// The widest that this CPU has.
 Instructions widest_instructions();
 const char* name_of(Instructions instructions);

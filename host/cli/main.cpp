@@ -8,19 +8,30 @@
 
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "gloam/scene.h"
 #include "options.h"
 
 namespace gloam::cli {
 namespace {
 
-/// Every parameter of every technique is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
-std::vector<std::string> with_parameter_flags(int argc, char** argv) {
+/// What --set of a command can set: parameters of techniques, or of built-in scenes.
+std::set<std::string> settable_by(const std::string& command) {
   std::set<std::string> names;
-  for (const Technique& t : registry()) {
-    for (const Parameter& p : t.parameters) names.insert(p.name);
+  const auto add = [&](const std::vector<Parameter>& parameters) {
+    for (const Parameter& p : parameters) names.insert(p.name);
+  };
+  if (command == "run" || command == "plan") {
+    for (const Technique& t : registry()) add(t.parameters);
   }
-  const std::string command = argc > 1 ? argv[1] : "";
-  if (command != "run" && command != "plan") names.clear();  // the commands that have --set
+  if (command == "capture" || command == "reference") {
+    for (const SceneRecipe& r : builtin_scenes()) add(r.parameters);
+  }
+  return names;
+}
+
+/// Every parameter is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
+std::vector<std::string> with_parameter_flags(int argc, char** argv) {
+  const std::set<std::string> names = settable_by(argc > 1 ? argv[1] : "");
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -54,12 +65,7 @@ std::vector<std::string> flag_names(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  const bool sets = std::find(names.begin(), names.end(), "--set") != names.end();
-  for (const Technique& t : registry()) {
-    for (const Parameter& p : t.parameters) {
-      if (sets) names.push_back("--" + p.name);
-    }
-  }
+  for (const std::string& name : settable_by(command.get_name())) names.push_back("--" + name);
   return names;
 }
 
@@ -86,19 +92,24 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{}{} {}", command, command.empty() ? "" : ": ", message, help);
 }
 
-/// `gloam run hbao+ --help` also shows what can be set.
+void print_parameters(const std::string& owner, const std::vector<Parameter>& parameters) {
+  if (parameters.empty()) return;
+  const ParameterValues initial(parameters);
+  std::vector<std::vector<std::string>> rows;
+  for (const Parameter& p : parameters) {
+    rows.push_back({"  --" + p.name, initial.text(p.name), "(" + allowed_values(p) + ")", p.help});
+  }
+  fmt::print("\nParameters of {}:\n", owner);
+  print_table(rows, 4);
+}
+
+/// `gloam run hbao+ --help` and `gloam capture statue --help` also show what can be set.
 void print_parameters_of(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::vector<std::string> names = technique_names();
-    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) continue;
-    const Technique& technique = find_technique(argv[i]);
-    const ParameterValues initial(technique.parameters);
-    std::vector<std::vector<std::string>> rows;
-    for (const Parameter& p : technique.parameters) {
-      rows.push_back({"  --" + p.name, initial.text(p.name), "(" + allowed_values(p) + ")", p.help});
-    }
-    fmt::print("\nParameters of {}:\n", technique.name);
-    print_table(rows, 4);
+    if (std::find(names.begin(), names.end(), argv[i]) != names.end())
+      print_parameters(argv[i], find_technique(argv[i]).parameters);
+    if (const SceneRecipe* recipe = find_builtin_scene(argv[i])) print_parameters(recipe->name, recipe->parameters);
   }
 }
 
@@ -119,6 +130,9 @@ int run_command(int argc, char** argv) {
   add_compare(app);
   add_plan(app);
   add_list(app);
+  add_capture(app);
+  add_reference(app);
+  add_bench(app);
   try {
     app.parse(with_parameter_flags(argc, argv));
   } catch (const CLI::Success& success) {

@@ -1,0 +1,52 @@
+// How the time of a technique grows with the work it is given.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/device.h"
+#include "gloam/frame.h"
+#include "gloam/technique.h"
+
+namespace gloam::bench {
+
+struct GrowthPoint {
+  double x;   ///< pixels, samples per pixel, pixels of radius, layers or views
+  double ms;  ///< median
+};
+
+/// The exponent p of ms = c * x^p, by least squares over the logarithms. None with fewer than two different x, or where
+/// a value is not above 0.
+std::optional<double> exponent(const std::vector<GrowthPoint>& points);
+
+struct Growth {
+  std::string over;  ///< "pixels", "samples", "radius", "layers" or "views"
+  std::vector<GrowthPoint> points;
+};
+
+struct GrowthOptions {
+  double radius = 0.5;  ///< scene units
+  int rounds = 5;       ///< interleaved over the points
+};
+
+/// A frame of another size: pixels repeated or left out. Cameras, and so what the planes mean, go with it.
+Frame resized(const Frame& frame, int width, int height);
+
+/// The same frame with its first view several times.
+Frame with_views(const Frame& frame, int views);
+
+/// The same frame with the first `layers` of its peeled layers.
+Frame with_layers(const Frame& frame, int layers);
+
+/// Times of a technique with its default settings and without its filter, over
+/// - pixels: a quarter to four times the frame's (the radius on the screen grows with the image's width),
+/// - samples: the technique's presets; x is the product of the whole numbers that they set,
+/// - radius: a quarter to four times; x is in pixels at the median depth,
+/// - layers: where it reads peeled layers, 1, 2, 4 ... of those in the frame,
+/// - views: 1, 2 and 4.
+/// What a technique does not have is left out. Throws what `gloam::run` throws.
+std::vector<Growth> measure_growth(const Technique& technique, const Frame& frame, Device& device,
+                                   const GrowthOptions& options);
+
+}  // namespace gloam::bench

@@ -1,0 +1,113 @@
+// Every kernel of the registry by itself: one line per pass of a technique with default settings, at one lane and at the
+// device's own width; one that reads a stack of layers with 1, 2, 4 and 8 of them. A new technique appears by itself.
+//
+// bench_kernels [--size=WIDTHxHEIGHT]... [Google Benchmark's flags]      Default size: 1920x1080
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bench_frame.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "gloam/run.h"
+#include "lists.h"
+#include "plans.h"
+
+namespace gloam::bench {
+namespace {
+
+/// What a technique reads, with a number of layers for each stack.
+std::vector<std::string> planes_read(const Technique& technique, int layers) {
+  std::vector<std::string> planes;
+  for (const std::string& plane : technique.reads) {
+    if (!is_stack(plane)) planes.push_back(plane);
+    for (int number = 0; is_stack(plane) && number < layers; ++number) planes.push_back(layer_name(plane, number));
+  }
+  return planes;
+}
+
+/// The technique alone: all it reads is there, nothing follows.
+Plan plan_alone(const Technique& technique, float radius, int layers) {
+  PlanRequest request{.outputs = {technique.name}, .only = technique.writes, .then = "none"};
+  if (ParameterValues(technique.parameters).has("radius"))
+    request.settings.emplace_back("radius", fmt::format("{}", radius));
+  return make_plan(request, planes_read(technique, layers), "the benchmark's frame");
+}
+
+/// One pass of it, with all that the pass reads as inputs.
+Plan pass_alone(const Plan& technique, const PlannedPass& pass) {
+  Plan plan;
+  plan.technique = pass.label();
+  plan.passes = {pass};
+  for (const Binding& binding : pass.pass.reads) {
+    const auto stack = technique.stacks.find(binding.plane);
+    if (stack == technique.stacks.end()) {
+      add_new(plan.inputs, binding.plane);
+      continue;
+    }
+    plan.stacks.insert(*stack);
+    for (const std::string& layer : stack->second) add_new(plan.inputs, layer);
+  }
+  return plan;
+}
+
+/// 0 where it reads no stack.
+std::vector<int> layer_counts(const Technique& technique) {
+  return reads_layers(technique) ? std::vector<int>{1, 2, 4, most_layers} : std::vector<int>{0};
+}
+
+void measure(benchmark::State& state, const Plan& plan, const Frame& frame, Device& device, int lanes) {
+  RunOptions options;
+  options.lanes = lanes;
+  options.repeat = 2;
+  try {
+    for (auto _ : state) state.SetIterationTime(run(plan, frame, device, options).total_ms.back() * 1e-3);
+  } catch (const Error& error) {
+    state.SkipWithError(error.what());
+  }
+}
+
+void add_benchmark(const Plan& plan, Frame& frame, Device& device, int lanes, int layers) {
+  for (const std::string& plane : plan.inputs) add_plane(frame, plane);
+  const std::string name = fmt::format("{}/lanes:{}{}/{}", plan.technique, lanes,
+                                       layers == 0 ? "" : fmt::format("/layers:{}", layers), size_name(frame));
+  benchmark::RegisterBenchmark(
+      name.c_str(),
+      [plan, &frame, &device, lanes](benchmark::State& state) { measure(state, plan, frame, device, lanes); })
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+void add_benchmarks(const Technique& technique, Frame& frame, Device& device, float radius) {
+  std::vector<int> widths = {1};
+  if (device.info().lanes != 1) widths.push_back(device.info().lanes);
+  for (const int layers : layer_counts(technique)) {
+    const Plan plan = plan_alone(technique, radius, layers);
+    for (const PlannedPass& pass : plan.passes) {
+      for (const int lanes : widths) add_benchmark(pass_alone(plan, pass), frame, device, lanes, layers);
+    }
+  }
+}
+
+int bench_main(int argc, char** argv) {
+  const auto sizes = take_sizes(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  Device device;
+  std::vector<std::unique_ptr<Frame>> frames;
+  for (const auto& [width, height] : sizes) {
+    frames.push_back(std::make_unique<Frame>(loggia_frame(width, height)));
+    const float radius = radius_reaching(*frames.back(), reach_in_full_hd * width / 1920);
+    for (const Technique& technique : registry()) add_benchmarks(technique, *frames.back(), device, radius);
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
+
+}  // namespace
+}  // namespace gloam::bench
+
+int main(int argc, char** argv) {
+  return gloam::bench::run_program("bench_kernels", argc, argv, gloam::bench::bench_main);
+}

@@ -1,0 +1,63 @@
+#include "measures.h"
+
+#include <cmath>
+
+#include "timing.h"
+
+namespace gloam::bench {
+
+std::vector<Mask> foreground(const Frame& frame) {
+  std::vector<Mask> masks;
+  for (const View& view : frame.views) {
+    const Channel& depth = view.planes.at("depth").channels[0];
+    Mask& mask = masks.emplace_back();
+    mask.reserve(size_t(frame.width()) * size_t(frame.height()));
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) mask.push_back(!is_background(depth.at(x, y)));
+    }
+  }
+  return masks;
+}
+
+double rmse(const Image& test, const Image& truth, const std::vector<Mask>& foreground) {
+  double squares = 0;
+  long long count = 0;
+  for (size_t i = 0; i < foreground.size(); ++i) {
+    const Channel &a = test.at(i).channels[0], &b = truth.at(i).channels[0];
+    const int width = a.layout().width, height = a.layout().height;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!foreground[i][size_t(y) * size_t(width) + size_t(x)]) continue;
+        const double d = double(a.at(x, y)) - double(b.at(x, y));
+        squares += d * d;
+        ++count;
+      }
+    }
+  }
+  return count == 0 ? 0 : std::sqrt(squares / double(count));
+}
+
+double mean_difference(const Channel& a, const Channel& b) {
+  const Layout& layout = a.layout();
+  double sum = 0;
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x) sum += std::abs(double(a.at(x, y)) - double(b.at(x, y)));
+  }
+  return sum / (double(layout.width) * layout.height);
+}
+
+double median_reach(const Frame& frame, double radius) {
+  const View& view = frame.views.front();
+  if (!view.camera || !view.find("depth")) return 0;
+  const Channel& depth = view.planes.at("depth").channels[0];
+  std::vector<double> depths;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (!is_background(depth.at(x, y))) depths.push_back(depth.at(x, y));
+    }
+  }
+  if (depths.empty()) return 0;
+  return radius * view.camera->fx / (view.camera->orthographic ? 1 : median(std::move(depths)));
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,106 @@
+#include "plans.h"
+
+#include <algorithm>
+
+#include "gloam/planes.h"
+#include "lists.h"
+
+namespace gloam::bench {
+namespace {
+
+bool reads_from(const Technique& reader, const Technique& writer) {
+  return std::any_of(reader.reads.begin(), reader.reads.end(),
+                     [&](const std::string& plane) { return contains(writer.writes, plane); });
+}
+
+/// The radius in the shortest form that reads back as the same float.
+PlanRequest request_for(const Variation& variation) {
+  PlanRequest request{.outputs = {variation.technique->name}, .preset = variation.preset};
+  if (ParameterValues(variation.technique->parameters).has("radius"))
+    request.settings.emplace_back("radius", fmt::format("{}", float(variation.radius)));
+  return request;
+}
+
+}  // namespace
+
+const std::vector<std::string>& outputs_of(const Technique& technique) {
+  return technique.outputs.empty() ? technique.writes : technique.outputs;
+}
+
+bool is_filter(const Technique& technique) {
+  return std::any_of(registry().begin(), registry().end(), [&](const Technique& other) {
+    return &other != &technique && contains(outputs_of(other), "ao") && reads_from(technique, other);
+  });
+}
+
+std::string own_plane(const Technique& technique) {
+  if (technique.then.empty() || contains(technique.writes, "ao")) return "ao";
+  const Technique& filter = find_technique(technique.then);
+  for (const std::string& plane : technique.writes) {
+    if (contains(filter.reads, plane)) return plane;
+  }
+  return "ao";
+}
+
+bool reads_layers(const Technique& technique) {
+  return std::any_of(technique.reads.begin(), technique.reads.end(),
+                     [](const std::string& plane) { return is_stack(plane); });
+}
+
+const Technique* over_all_layers(const Technique& technique) {
+  if (contains(technique.reads, "peel")) return &technique;
+  for (const Technique& other : registry()) {
+    if (other.name == "dp-" + technique.name) return &other;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> planes_of(const Frame& frame) {
+  std::vector<std::string> names;
+  for (const auto& [name, plane] : frame.views.front().planes) {
+    const bool everywhere = std::all_of(frame.views.begin(), frame.views.end(),
+                                        [&, &wanted = name](const View& view) { return view.find(wanted); });
+    if (everywhere) names.push_back(name);
+  }
+  return names;
+}
+
+Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds) {
+  PlanRequest request = request_for(variation);
+  request.only = {"ao"};
+  return make_plan(request, available, holds);
+}
+
+Plan unfiltered_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds,
+                     const Settings& more) {
+  PlanRequest request = request_for(variation);
+  request.only = {own_plane(*variation.technique)};
+  request.then = "none";
+  request.settings.insert(request.settings.end(), more.begin(), more.end());
+  return make_plan(request, available, holds);
+}
+
+Plan filter_of(const Plan& whole, const Technique& technique) {
+  Plan plan = whole;
+  const auto own = [&](const PlannedPass& planned) { return planned.technique == &technique; };
+  const auto last = std::find_if(plan.passes.rbegin(), plan.passes.rend(), own);
+  plan.passes.erase(plan.passes.begin(), last.base());
+  plan.inputs.clear();
+  std::vector<std::string> made;
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& binding : planned.pass.reads) {
+      if (!contains(made, binding.plane)) add_new(plan.inputs, binding.plane);
+    }
+    for (const Binding& binding : planned.pass.writes) made.push_back(binding.plane);
+  }
+  return plan;
+}
+
+const ParameterValues* values_of(const Plan& plan, const std::string& technique) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.technique->name == technique) return &planned.values;
+  }
+  return nullptr;
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,56 @@
+// The plans that the benchmarks run for a technique that makes `ao`.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gloam/frame.h"
+#include "gloam/plan.h"
+
+namespace gloam::bench {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Planes that a technique puts out, those that it leaves to its filter included.
+const std::vector<std::string>& outputs_of(const Technique& technique);
+
+/// Whether it makes `ao` only from what another technique that puts out `ao` leaves to it.
+bool is_filter(const Technique& technique);
+
+/// The plane of ambient occlusion that the technique itself writes: `ao_raw` where a filter follows, else `ao`.
+std::string own_plane(const Technique& technique);
+
+/// Whether it reads a stack of depth layers.
+bool reads_layers(const Technique& technique);
+
+/// The technique over all peeled layers: "dp-hbao+" for "hbao+", itself for one that reads layers already. None where the
+/// registry has none.
+const Technique* over_all_layers(const Technique& technique);
+
+/// How a technique is asked for.
+struct Variation {
+  const Technique* technique = nullptr;
+  std::string preset;  ///< empty: default settings
+  double radius = 0.5;
+  std::string name() const { return preset.empty() ? "default" : preset; }
+};
+
+/// The names of a frame's planes that every view has.
+std::vector<std::string> planes_of(const Frame& frame);
+
+/// All that makes `ao`, the filter included. Throws what `make_plan` throws.
+Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds);
+
+/// Without the filter: makes `own_plane`. `more`: settings over those of the preset.
+Plan unfiltered_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds,
+                     const Settings& more = {});
+
+/// What of a whole plan comes after the technique's own passes, reading their result as an input. No passes where
+/// nothing follows.
+Plan filter_of(const Plan& whole, const Technique& technique);
+
+/// Values of a technique's parameters in a plan; null where the plan does without it.
+const ParameterValues* values_of(const Plan& plan, const std::string& technique);
+
+}  // namespace gloam::bench

@@ -1,0 +1,52 @@
+#include "timing.h"
+
+#include <algorithm>
+
+namespace gloam::bench {
+
+std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
+                                const std::function<void(int, int)>& progress) {
+  std::vector<Series> ms(contenders.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (size_t i = 0; i < contenders.size(); ++i) ms[i].push_back(contenders[i].run());
+    if (progress) progress(round + 1, rounds);
+  }
+  return ms;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+double ratio(const Series& a, const Series& b) {
+  Series ratios;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) ratios.push_back(a[i] / b[i]);
+  return median(std::move(ratios));
+}
+
+TimedPlan::TimedPlan(Plan plan, const Frame& frame, Device& device, Math math)
+    : plan_(std::move(plan)), frame_(frame), device_(device) {
+  // Two timed runs, of which the last counts, follow an untimed one: fresh pages and cold caches are behind them. For
+  // what takes long those are nothing.
+  constexpr double long_ms = 100;
+  options_.math = math;
+  const RunResult first = gloam::run(plan_, frame_, device_, options_);
+  lanes_ = first.lanes;
+  options_.repeat = first.total_ms.back() > long_ms ? 1 : 2;
+  for (const PlannedPass& planned : plan_.passes) passes_.push_back({planned.label(), {}});
+}
+
+double TimedPlan::run() {
+  const RunResult result = gloam::run(plan_, frame_, device_, options_);
+  for (size_t i = 0; i < passes_.size(); ++i) {
+    double ms = 0;  // the passes of one view come after those of the other
+    for (size_t k = i; k < result.passes.size(); k += passes_.size()) ms += result.passes[k].ms.back();
+    passes_[i].ms.push_back(ms);
+  }
+  return result.total_ms.back();
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,229 @@
+// gloam bench: what its document holds. Never how long anything took.
+#include <cmath>
+
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A run on a small image of one plane takes seconds.
+Arguments small(const fs::path& folder, const Arguments& more = {}) {
+  Arguments arguments = {"bench",    "-o",    folder.string(), "--size", "96x54",    "--rays", "32",
+                         "--scenes", "plane", "--techniques",  "hbao+",  "--rounds", "3",      "--no-growth"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+const Json* find(const Json& results, const std::string& preset) {
+  for (const Json& result : results) {
+    if (result["preset"] == preset) return &result;
+  }
+  return nullptr;
+}
+
+void expect_ms(const Json& ms) {
+  ASSERT_EQ(ms.size(), 3u);
+  EXPECT_GT(ms["min"], 0);
+  EXPECT_LE(ms["min"], ms["median"]);
+  EXPECT_LE(ms["median"], ms["max"]);
+}
+
+TEST_F(Cli, BenchWritesTheContractsDocument) {
+  const Result result = gloam(small(path("out")));
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("RMSE to the truth"), std::string::npos) << result.out;
+  const Json document = Json::parse(slurp(path("out/bench.json")));
+  for (const char* key : {"device", "cpu", "driver", "date", "commit"}) EXPECT_TRUE(document[key].is_string()) << key;
+  EXPECT_EQ(document["date"].get<std::string>().size(), 10u);
+  EXPECT_GT(document["cores"], 0);
+  EXPECT_TRUE(document["paper"].is_array());
+  EXPECT_TRUE(document["growth"].empty());
+  ASSERT_EQ(document["results"].size(), 4u);  // the presets
+  for (const Json& row : document["results"]) {
+    EXPECT_EQ(row["technique"], "hbao+");
+    EXPECT_EQ(row["scene"], "plane");
+    EXPECT_EQ(row["width"], 96);
+    EXPECT_EQ(row["height"], 54);
+    EXPECT_TRUE(row["settings"].is_object());
+    expect_ms(row["ms"]);
+    ASSERT_EQ(row["passes"].size(), 3u);
+    for (const Json& pass : row["passes"]) expect_ms(pass["ms"]);
+    for (const char* key : {"ratio_to_gather_floor", "ratio_to_copy_floor", "ratio_to_hbao_plus"}) {
+      ASSERT_TRUE(row[key].is_number()) << key;
+      EXPECT_GT(row[key], 0) << key;
+    }
+    EXPECT_TRUE(row["rmse_to_truth"].is_number());
+    ASSERT_EQ(row["ladder"].size(), 7u);
+    for (const char* key : {"t0w", "t1", "t2", "t3", "t4_bias", "t4_noise", "t5"}) {
+      ASSERT_TRUE(row["ladder"][key].is_number()) << key;
+      EXPECT_GE(row["ladder"][key], 0) << key;
+      EXPECT_LT(row["ladder"][key], 1e-3) << key;  // a plane is open, for everyone
+    }
+    // The baselines are HBAO+ with 8 x 4 samples, and compared with that only.
+    for (const char* key : {"ratio_to_naive", "ratio_to_native"})
+      EXPECT_EQ(row[key].is_number(), row["preset"] == "medium") << key << " " << row["preset"];
+  }
+  EXPECT_EQ((*find(document["results"], "low"))["settings"]["directions"], 4);
+  EXPECT_EQ(files(), Arguments{"out"});
+}
+
+TEST_F(Cli, BenchNamesNoMachine) {
+  ASSERT_EQ(gloam(small(path("out"), {"--presets", "medium"})).status, 0);
+  const std::string text = slurp(path("out/bench.json"));
+  char host[256] = {};
+  ASSERT_EQ(gethostname(host, sizeof host - 1), 0);
+  // A host may be called "x": then it is in any text.
+  if (std::string(host).size() > 3) {
+    EXPECT_EQ(text.find(host), std::string::npos);
+  }
+  EXPECT_EQ(text.find(folder.string()), std::string::npos);
+}
+
+TEST_F(Cli, BenchUsesTruthsAgain) {
+  const Arguments arguments = small(path("out"), {"--presets", "medium", "--json", "-"});
+  const Result first = gloam(arguments);
+  ASSERT_EQ(first.status, 0) << first.err;
+  const Json made = {"plane.exr", "plane_ao_ref.exr", "plane_ao_ref_hbao+.exr"};
+  EXPECT_EQ(first.json()["scenes"][0]["made"], made);
+  EXPECT_TRUE(first.json()["scenes"][0]["reused"].empty());
+  const auto written = fs::last_write_time(path("out/scenes/plane_ao_ref.exr"));
+
+  const Result second = gloam(arguments);
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(second.json()["scenes"][0]["reused"], made);
+  EXPECT_NE(second.err.find("plane_ao_ref.exr"), std::string::npos) << second.err;
+  EXPECT_EQ(fs::last_write_time(path("out/scenes/plane_ao_ref.exr")), written);
+
+  // Another radius needs other truths of the same frame.
+  Arguments wider = arguments;
+  wider.insert(wider.end(), {"--radius", "0.75"});
+  const Result third = gloam(wider);
+  ASSERT_EQ(third.status, 0) << third.err;
+  EXPECT_EQ(third.json()["scenes"][0]["reused"], Json({"plane.exr"}));
+}
+
+TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
+  const Result result =
+      gloam({"bench", "-o", path("out"), "--size", "96x54", "--rays", "64", "--scenes", "hairball", "--techniques",
+             "hbao+,dp-hbao+", "--presets", "low,high", "--rounds", "3", "--no-growth", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::map<std::string, Json> ladders;
+  const Json document = result.json();
+  for (const Json& row : document["results"])
+    ladders[row["technique"].get<std::string>() + " " + row["preset"].get<std::string>()] = row["ladder"];
+  ASSERT_EQ(ladders.size(), 4u);
+  const Json &low = ladders["hbao+ low"], &high = ladders["hbao+ high"], &layered = ladders["dp-hbao+ low"];
+  EXPECT_GT(low["t0w"], 1e-3);          // it computes something else than the truth
+  EXPECT_GT(low["t2"], 1e-3);           // strands hide strands
+  EXPECT_EQ(layered["t2"], 0);          // ... not from all layers
+  EXPECT_GT(low["t3"], high["t3"]);     // more samples, less noise
+  EXPECT_EQ(low["t1"], layered["t1"]);  // one truth, one limit
+  EXPECT_LT(low["t5"], 1e-3);
+}
+
+TEST_F(Cli, BenchOfOnesOwnFrameAgreesWithRunAndCompare) {
+  const Result result = gloam({"bench", "-o", path("out"), "--frame", loggia, "--truth", loggia_truth, "--techniques",
+                               "hbao+", "--presets", "low", "--rounds", "1", "--no-growth", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  ASSERT_EQ(document["results"].size(), 1u);
+  const Json& row = document["results"][0];
+  EXPECT_EQ(row["scene"], "loggia");
+  EXPECT_TRUE(row["ladder"]["t0w"].is_null());  // no scene to trace
+  EXPECT_TRUE(row["ladder"]["t1"].is_null());   // one layer
+  EXPECT_GT(row["ladder"]["t3"], 1e-3);
+  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--preset", "low", "--radius", "0.5"}).status, 0);
+  const Json figures = gloam({"compare", path("ao.exr"), loggia_truth, "--json", "-"}).json();
+  EXPECT_NEAR(row["rmse_to_truth"], figures["rmse"], 1e-7);
+
+  const Result without = gloam({"bench", "-o", path("out"), "--frame", loggia, "--techniques", "hbao+", "--presets",
+                                "low", "--rounds", "1", "--no-growth", "--json", "-"});
+  ASSERT_EQ(without.status, 0) << without.err;
+  EXPECT_TRUE(without.json()["results"][0]["rmse_to_truth"].is_null());
+}
+
+TEST_F(Cli, BenchMeasuresGrowth) {
+  const Result result = gloam({"bench", "-o", path("out"), "--size", "64x36", "--rays", "32", "--scenes", "plane",
+                               "--techniques", "dp-hbao+", "--presets", "low", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::map<std::string, size_t> points;
+  const Json document = result.json();
+  for (const Json& growth : document["growth"]) {
+    EXPECT_EQ(growth["technique"], "dp-hbao+");
+    EXPECT_TRUE(growth["exponent"].is_number());
+    points[growth["over"]] = growth["points"].size();
+  }
+  const std::map<std::string, size_t> expected = {
+      {"pixels", 5}, {"samples", 4}, {"radius", 5}, {"layers", 4}, {"views", 3}};
+  EXPECT_EQ(points, expected);
+}
+
+TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
+  Frame flat = small_frame(48, 32, {"depth", "normal"}), pair = small_frame(48, 32, {"depth", "normal"});
+  flat.views[0].camera->orthographic = true;
+  pair.views[0].name = "left";
+  pair.views.push_back(std::move(small_frame(48, 32, {"depth", "normal"}).views[0]));
+  pair.views[1].name = "right";
+  write_frame(path("flat.exr"), flat);
+  write_frame(path("pair.exr"), pair);
+  write_frame(path("plain.exr"), small_frame(48, 32, {"depth"}));
+  const auto row = [&](const char* file) {
+    const Result result = gloam({"bench", "-o", path("out"), "--frame", path(file), "--techniques", "hbao+",
+                                 "--presets", "medium", "--rounds", "1", "--no-growth", "--json", "-"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const Json document = result.json();
+    return document["results"].at(0);
+  };
+  EXPECT_TRUE(row("plain.exr")["ratio_to_naive"].is_number());  // normals are made of the depth
+  EXPECT_TRUE(row("plain.exr")["ratio_to_native"].is_number());
+  EXPECT_TRUE(row("flat.exr")["ratio_to_naive"].is_null());
+  EXPECT_TRUE(row("flat.exr")["ratio_to_gather_floor"].is_number());
+  EXPECT_TRUE(row("pair.exr")["ratio_to_native"].is_null());
+  EXPECT_TRUE(row("pair.exr")["ratio_to_gather_floor"].is_null());
+  EXPECT_TRUE(row("pair.exr")["ratio_to_hbao_plus"].is_number());
+}
+
+TEST_F(Cli, BenchSaysWhatIsWrong) {
+  struct Wrong {
+    Arguments flags;
+    std::string says;
+    int status = 2;
+  };
+  const std::vector<Wrong> all = {
+      {{"--techniques", "hbao"}, "did you mean 'hbao+'?"},
+      {{"--techniques", "normals"}, "not ao"},
+      {{"--scenes", "plan"}, "did you mean 'plane'?"},
+      {{"--presets", "mediun"}, "did you mean 'medium'?"},
+      {{"--rounds", "0"}, "--rounds 0"},
+      {{"--size", "96"}, "--size 96"},
+      {{"--truth", loggia_truth}, "--frame"},
+      {{"--fov", "60"}, "--frame"},
+      {{"--frame", loggia, "--scenes", "plane"}, "--scenes"},
+      {{"--frame", path("missing.exr").string()}, "missing.exr", 1},
+  };
+  for (const Wrong& wrong : all) {
+    Arguments arguments = {"bench", "-o", path("out")};
+    arguments.insert(arguments.end(), wrong.flags.begin(), wrong.flags.end());
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, wrong.status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find(wrong.says), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(path("out/bench.json")));
+  }
+}
+
+TEST_F(Cli, BenchNeedsAFolderThatCanBeWritten) {
+  std::ofstream(path("file")) << "not a folder";
+  for (const fs::path& out : {path("file"), path("file") / "below"}) {
+    const Result result = gloam(small(out));
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find("-o"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(slurp(path("file")), "not a folder");
+}
+
+}  // namespace
+}  // namespace gloam::test
