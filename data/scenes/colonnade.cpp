@@ -34,8 +34,8 @@ Materials add_materials(Scene& scene) {
   m.green = add_material(scene, "green cloth", {0.10f, 0.28f, 0.13f}, 0.95f);
   m.blue = add_material(scene, "blue cloth", {0.09f, 0.15f, 0.38f}, 0.95f);
   m.wood = add_material(scene, "cedar", {0.30f, 0.18f, 0.10f}, 0.6f);
-  m.iron = add_material(scene, "iron", {0.30f, 0.29f, 0.28f}, 0.5f, 1);
-  m.gold = add_material(scene, "gilt", {0.90f, 0.68f, 0.30f}, 0.25f, 1);
+  m.iron = add_material(scene, "painted iron", {0.10f, 0.10f, 0.10f}, 0.45f);
+  m.gold = add_material(scene, "gilt", {0.90f, 0.68f, 0.30f}, 0.35f, 0.3f);
   m.lamp = add_material(scene, "flame glass", {0.9f, 0.7f, 0.4f}, 0.4f);
   m.clay = add_material(scene, "terracotta", {0.58f, 0.30f, 0.19f}, 0.75f);
   m.leaf = add_material(scene, "leaf", {0.13f, 0.29f, 0.08f}, 0.55f);

@@ -177,7 +177,7 @@ Materials add_materials(Scene& scene) {
   m.white_paint = add_material(scene, "white paint", {0.78f, 0.77f, 0.73f}, 0.35f);
   m.oak = add_material(scene, "oak", {0.42f, 0.28f, 0.16f}, 0.5f);
   m.dark_wood = add_material(scene, "walnut", {0.20f, 0.12f, 0.07f}, 0.4f);
-  m.iron = add_material(scene, "cast iron", {0.35f, 0.34f, 0.33f}, 0.5f, 1);
+  m.iron = add_material(scene, "painted iron", {0.16f, 0.17f, 0.16f}, 0.4f);
   m.brass = add_material(scene, "brass", {0.80f, 0.60f, 0.28f}, 0.25f, 1);
   m.fabric = add_material(scene, "wool", {0.30f, 0.33f, 0.38f}, 1);
   m.red = add_material(scene, "red enamel", {0.55f, 0.06f, 0.04f}, 0.25f);

@@ -29,7 +29,7 @@ Materials add_materials(Scene& scene) {
   m.wood = add_material(scene, "oak", {0.40f, 0.26f, 0.14f}, 0.6f);
   m.dark_wood = add_material(scene, "dark oak", {0.16f, 0.10f, 0.06f}, 0.5f);
   m.green_paint = add_material(scene, "green paint", {0.12f, 0.28f, 0.20f}, 0.4f);
-  m.iron = add_material(scene, "wrought iron", {0.20f, 0.20f, 0.21f}, 0.45f, 1);
+  m.iron = add_material(scene, "painted iron", {0.08f, 0.08f, 0.09f}, 0.45f);
   m.brass = add_material(scene, "brass", {0.80f, 0.60f, 0.28f}, 0.25f, 1);
   m.glass = add_material(scene, "window pane", {0.05f, 0.06f, 0.07f}, 0.05f);
   m.clay = add_material(scene, "terracotta", {0.60f, 0.30f, 0.18f}, 0.8f);
