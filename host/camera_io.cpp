@@ -515,6 +515,8 @@ std::map<std::string, Camera> read_camera_file(const fs::path& file, const Windo
   const json document = parse_camera_file(file);
   std::map<std::string, Camera> cameras;
   const auto views = document.find("views");
+  if (views == document.end() && document.contains("path"))
+    throw Error("{}: holds a path of cameras; give it as --camera-path of gloam capture", file.string());
   if (views == document.end()) {
     cameras[""] = camera_from({file.string(), "", document, document}, display, assumed);
     return cameras;
@@ -540,8 +542,11 @@ namespace {
 
 /// Between two cameras, at 0 to 1.
 Camera between(const Camera& a, const Camera& b, double t) {
+  if (t == 0 || t == 1) return t == 0 ? a : b;
   Camera camera = a;
   const auto mixed = [t](double from, double to) { return from + t * (to - from); };
+  if (a.near && b.near) camera.near = mixed(*a.near, *b.near);
+  if (a.far && b.far) camera.far = mixed(*a.far, *b.far);
   camera.fx = mixed(a.fx, b.fx), camera.fy = mixed(a.fy, b.fy);
   camera.cx = mixed(a.cx, b.cx), camera.cy = mixed(a.cy, b.cy);
   camera.pose->position = a.pose->position + t * (b.pose->position - a.pose->position);
@@ -564,6 +569,10 @@ std::vector<Camera> read_camera_path(const fs::path& file, const Window& display
     keys.push_back(camera_from({file.string(), fmt::format("path[{}].", i), entry, document}, display, assumed));
     if (!keys.back().pose)
       throw Error("{}: path[{}] has no pose; expected camera_to_world or world_to_camera", file.string(), i);
+  }
+  for (const Camera& key : keys) {
+    if (key.orthographic != keys.front().orthographic)
+      throw Error("{}: path mixes perspective and orthographic cameras; expected one kind", file.string());
   }
   const std::optional<double> frames = number({file.string(), "", document, document}, "frames");
   if (!frames) return keys;

@@ -67,10 +67,22 @@ class Registered {
   bool renamed_ = false;
 };
 
+std::atomic<const char*> interruption_text{nullptr};
+std::atomic<bool> leaving{false};
+
+void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
+
 extern "C" void remove_and_leave(int signal) {
+  if (leaving.exchange(true)) return;  // a second signal on another thread: one says it
   unsigned written = files_written.load();
   for (Temporary& slot : temporaries)
     if (slot.exists.load() && ::unlink(slot.path) != 0 && slot.moving.load()) ++written;
+  if (const char* text = interruption_text.load()) {
+    say("gloam: interrupted; ");
+    say(text);
+    say("\n");
+    ::_exit(128 + signal);
+  }
   static const char nothing[] = "gloam: interrupted; no output was written\n";
   static const char something[] = "gloam: interrupted; already written: ";
   char count[32] = {};
@@ -157,6 +169,8 @@ void remove_temporaries_on_signal() {
   ::signal(SIGXFSZ, SIG_IGN);
   files_written.store(0);
 }
+
+void say_on_interruption(const char* text) { interruption_text.store(text); }
 
 std::string read_text(const fs::path& path) {
   std::error_code code;

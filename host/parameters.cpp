@@ -115,7 +115,8 @@ size_t ParameterValues::index_of(const std::string& name) const {
   }
   std::vector<std::string> names;
   for (const Parameter& p : table_) names.push_back(p.name);
-  throw UsageError("no parameter '{}'{}", name, suggestion(name, names));
+  throw UsageError("no parameter '{}'{}; {}", name, suggestion(name, names),
+                   names.empty() ? "there is none" : enumerate(names) + " can be set");
 }
 
 void ParameterValues::set(const std::string& name, const std::string& value, const std::string& technique) {

@@ -262,7 +262,8 @@ Subject own_subject(const BenchCommand& flags, const Options& options) {
     subject.truth = &*subject.given;
     const std::optional<double> traced = FrameFile(flags.truth, {}).number_attribute("aoRadius");
     if (radius && traced && std::abs(*traced - *radius) > 1e-6 * *traced)
-      note({fmt::format("--radius {:g}: the truth was made with {:g}", *radius, *traced)});
+      throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth", *radius,
+                       *traced);
     if (!radius) radius = traced;
   }
   const SceneFlags scene = scene_named_by(file.text_attribute("gloamScene"));
@@ -696,14 +697,19 @@ void add_bench(CLI::App& app) {
           ->type_name("A,B");
   CLI::Option* frame =
       command->add_option("--frame", flags->frame, "measure on this frame instead of scenes")->type_name("FRAME.exr");
-  command->add_option("--truth", flags->truth, "the frame's truth, as gloam reference makes it; default: none")
+  command
+      ->add_option(
+          "--truth", flags->truth,
+          "the frame's truth, as gloam reference makes it; default: traced where the frame shows a built-in scene")
       ->type_name("REF.exr")
       ->needs(frame);
   CLI::Option* size =
       command->add_option("--size", flags->size, "of the scenes' images; default 960x540")->type_name("WxH");
   frame->excludes(scenes)->excludes(size);
   command->add_option("--rays", flags->rays, "per pixel, for truths that are traced; default 256")->type_name("N");
-  command->add_option("--radius", flags->radius, "scene units; default: the truth's or the scene's own")
+  command
+      ->add_option("--radius", flags->radius,
+                   "scene units; default: the truth's, else a built-in scene's own, else 0.5")
       ->type_name("R");
   command->add_option("--rounds", flags->rounds, "each runs everything once, in turn; default 9")->type_name("N");
   command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");

@@ -91,11 +91,23 @@ struct Layers {
   double mean() const { return pixels == 0 ? 0 : double(surfaces) / double(pixels); }
 };
 
+long long surface_pixels(const Frame& frame) {
+  long long count = 0;
+  for (const View& view : frame.views) {
+    const Channel& depth = view.planes.at("depth").channels[0];
+    for (int y = 0; y < frame.height(); ++y)
+      for (int x = 0; x < frame.width(); ++x) count += !is_background(depth.at(x, y));
+  }
+  return count;
+}
+
 struct Figures {
   size_t faces = 0, meshes = 0;
   double load = 0, build = 0, trace = 0, write = 0;
   long long rays = 0;
   Layers layers;
+  std::string camera;  ///< where the first view's camera came from
+  long long surface_pixels = 0;
   std::vector<std::string> files;
 };
 
@@ -103,9 +115,7 @@ struct Figures {
 void write_colour(const Shot& shot, const Frame& frame) {
   if (shot.picture.empty()) return;
   for (const View& view : frame.views) {
-    const Plane* color = view.find("color");
-    write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1),
-                  color ? *color : view.planes.begin()->second);
+    write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1), view.planes.at("color"));
   }
 }
 
@@ -115,6 +125,7 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   figures.trace += result.seconds;
   figures.rays += result.rays;
   figures.layers.add(result.frame);
+  figures.surface_pixels += surface_pixels(result.frame);
   const auto start = std::chrono::steady_clock::now();
   write_frame(shot.file, result.frame, write);
   write_colour(shot, result.frame);
@@ -140,6 +151,7 @@ Json document(const Scene& scene, const CaptureOptions& options, const Figures& 
 void print(const Scene& scene, const CaptureOptions& options, const Figures& f) {
   fmt::print("{}: {} faces in {} meshes, {}x{}\n", printable(scene.name), f.faces, f.meshes, options.width,
              options.height);
+  fmt::print("{}; AO radius that suits: {:g} scene units\n", f.camera, scene.ao_radius);
   if (options.peel > 0)
     fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
   fmt::print("load {:.2f} s, build {:.2f} s, trace {:.2f} s ({:.1f} million rays per second), write {:.2f} s\n", f.load,
@@ -153,17 +165,33 @@ void print(const Scene& scene, const CaptureOptions& options, const Figures& f) 
 void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
   check(write);
   check_picture_name(flags.picture, "--picture");
-  if (!flags.path.empty() && !flags.camera.camera.empty())
-    throw UsageError("--camera-path and --camera both place the camera; give one of them");
+  if (std::filesystem::path(flags.out).extension() != ".exr")
+    throw UsageError("-o {}: a frame is an EXR file; name it something.exr", flags.out);
+  if (!flags.path.empty() && flags.camera.any())
+    throw UsageError(
+        "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "
+        "--fov");
+  if (!flags.picture.empty() && !flags.planes.empty() && !contains(split_list(flags.planes, "--planes"), "color"))
+    throw UsageError("--picture shows the plane color; add it to --planes");
+}
+
+/// None of what is written may be what is read, or be written twice.
+void check_files(const CaptureCommand& flags, const std::vector<Shot>& shots) {
+  std::vector<NamedPath> outputs = {{"--json", flags.json.file()}};
+  for (const Shot& shot : shots) {
+    outputs.emplace_back("-o", shot.file);
+    outputs.emplace_back("--picture", shot.picture);
+  }
   check_paths({{"the scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
                {"--camera", flags.camera.camera},
                {"--camera-path", flags.path}},
-              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+              outputs);
 }
 
 void capture_command(const CaptureCommand& flags) {
   const WriteOptions write{flags.half, flags.compression};
   check_flags(flags, write);
+  if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
   CaptureOptions options;
   std::tie(options.width, options.height) = parse_size(flags.size, "--size");
   if ((long long)options.width * options.height > max_pixels)
@@ -175,6 +203,8 @@ void capture_command(const CaptureCommand& flags) {
   const Scene scene = flags.scene.load();
   figures.load = seconds_since(start);
   const std::vector<Shot> shots = shots_of(flags, scene, options.width, options.height);
+  check_files(flags, shots);
+  figures.camera = shots.front().views.front().camera.source;
   const Tracer tracer(scene);
   figures.build = tracer.build_seconds();
   figures.faces = scene.faces();
@@ -188,6 +218,8 @@ void capture_command(const CaptureCommand& flags) {
     take(shot, tracer, options, write, figures);
     ++taken;
   }
+  if (figures.surface_pixels == 0)
+    note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
   flags.json.write(document(scene, options, figures));
   if (!flags.json.only_json()) print(scene, options, figures);
 }
@@ -202,7 +234,8 @@ void add_capture(CLI::App& app) {
       ->type_name("SCENE");
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("FRAME.exr");
   command->add_option("--size", flags->size, "of the image; default 1920x1080")->type_name("WxH");
-  command->add_option("--planes", flags->planes, "these planes only: " + enumerate(capture_planes()))->type_name("A,B");
+  command->add_option("--planes", flags->planes, "these planes and depth only: " + enumerate(capture_planes()))
+      ->type_name("A,B");
   command->add_option("--peel", flags->peel, "depth layers to store per pixel, 0 to 64")->type_name("N");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");

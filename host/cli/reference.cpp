@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "gloam/error.h"
+#include "gloam/files.h"
 #include "gloam/visualise.h"
 #include "scene_flags.h"
 
@@ -30,37 +31,47 @@ Scene load_scene_of(const ReferenceCommand& flags, const FrameFile& file) {
   return named.load();
 }
 
-/// Settings of the falloff's technique: --set hbao+.bias=0.2.
-ParameterValues falloff_values(const Technique& technique, const std::vector<std::string>& settings) {
-  ParameterValues values(technique.parameters);
-  for (const auto& [name, value] : parse_settings(settings, "--set")) {
-    const size_t dot = name.rfind('.');
-    if (dot == std::string::npos) continue;
-    if (name.substr(0, dot) != technique.name)
-      throw UsageError("--set {}: the falloff is {}'s; write --set {}.{}={}", name, technique.name, technique.name,
-                       name.substr(dot + 1), value);
-    values.set(name.substr(dot + 1), value, technique.name);
-  }
-  return values;
-}
-
-void set_falloff(AoReferenceOptions& options, const ReferenceCommand& flags) {
-  options.falloff = flags.falloff;
-  if (flags.falloff == "none") return;
+/// The technique whose contribution is traced; none for no falloff.
+const Technique* falloff_technique(const std::string& name) {
+  if (name == "none") return nullptr;
   std::vector<std::string> names = {"none"};
   for (const Technique& t : registry()) {
-    if (t.contribution) names.push_back(t.name);
+    if (!t.contribution) continue;
+    if (t.name == name) return &t;
+    names.push_back(t.name);
   }
-  for (const Technique& t : registry()) {
-    if (t.name != flags.falloff || !t.contribution) continue;
-    const ParameterValues values = falloff_values(t, flags.scene.settings);
-    options.contribution = [contribution = t.contribution, values](double cosine, double distance) {
-      return contribution(values, cosine, distance);
-    };
-    return;
+  throw UsageError("--falloff {} is not allowed{}; {} are", name, suggestion(name, names), enumerate(names));
+}
+
+/// `settings`: of the falloff's technique, --set hbao+.bias=0.2.
+void set_falloff(AoReferenceOptions& options, const std::string& name,
+                 const std::vector<std::pair<std::string, std::string>>& settings) {
+  const Technique* technique = falloff_technique(name);
+  options.falloff = name;
+  ParameterValues values(technique ? technique->parameters : std::vector<Parameter>());
+  for (const auto& [key, value] : settings) {
+    const size_t dot = key.rfind('.');
+    if (!technique || key.substr(0, dot) != technique->name)
+      throw UsageError("--set {}: the falloff is {}; with --falloff {} it can be set", key, name, key.substr(0, dot));
+    if (key.substr(dot + 1) == "radius")
+      throw UsageError("--set {}: the radius is the reference's; give --radius", key);
+    values.set(key.substr(dot + 1), value, technique->name);
   }
-  throw UsageError("--falloff {} is not allowed{}; {} are", flags.falloff, suggestion(flags.falloff, names),
-                   enumerate(names));
+  if (!technique) return;
+  for (const Parameter& p : technique->parameters) {
+    if (p.name == "radius") continue;  // that is the reference's own
+    options.falloff_parameters += (options.falloff_parameters.empty() ? "" : " ") + p.name + "=" + values.text(p.name);
+  }
+  options.contribution = [contribution = technique->contribution, values](double cosine, double distance) {
+    return contribution(values, cosine, distance);
+  };
+}
+
+/// A frame that says it shows something else may still be the right one: of a file that has moved or been renamed.
+void note_other_scene(const FrameFile& file, const Scene& scene) {
+  const std::string named = file.text_attribute("gloamScene");
+  if (named.empty() || named == scene.name) return;
+  note({fmt::format("the frame says that it shows '{}', and the scene is '{}'", named, scene.name)});
 }
 
 double radius_of(const ReferenceCommand& flags, const Scene& scene) {
@@ -97,20 +108,22 @@ void print(const AoReference& result, const AoReferenceOptions& options, const S
   fmt::print("wrote {}\n", printable(flags.out));
 }
 
-void reference_command(const ReferenceCommand& flags) {
+void reference_command(ReferenceCommand flags) {
   if (flags.what != "ao")
     throw UsageError("reference: no '{}'{}; there is ao", flags.what, suggestion(flags.what, {"ao"}));
   const WriteOptions write{flags.half, flags.compression};
   check(write);
   check_picture_name(flags.picture, "--picture");
-  check_paths({{"the frame", flags.frame},
-               {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
-               {"--camera", flags.frame_flags.camera}},
-              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+  const std::string checkpoint = flags.out + ".partial";
+  check_paths(
+      {{"the frame", flags.frame},
+       {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+       {"--camera", flags.frame_flags.camera}},
+      {{"-o", flags.out}, {"the unfinished", checkpoint}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
   AoReferenceOptions options;
   options.samples = parse_whole_number(flags.samples, "--samples", 1, 1 << 24);
   options.seed = uint32_t(parse_whole_number(flags.seed, "--seed", 0, 1 << 30));
-  set_falloff(options, flags);
+  set_falloff(options, flags.falloff, flags.scene.take_dotted_settings());
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   if (!contains(file.common_planes(), "depth")) throw Error("{}: has no depth; {}", flags.frame, holdings(file));
   const Scene scene = load_scene_of(flags, file);
@@ -119,15 +132,20 @@ void reference_command(const ReferenceCommand& flags) {
     throw UsageError("--radius inf: the falloff of {} is in relation to the radius; give a finite one", flags.falloff);
   const Frame frame = file.read({"depth", "normal"});
   note(frame.assumed);
+  note_other_scene(file, scene);
   const Tracer tracer(scene);
-  options.checkpoint = flags.out + ".partial";
+  options.checkpoint = checkpoint;
   const auto bar = progress_bar();
   if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
+  say_on_interruption("run it again and it goes on where it was");
   const AoReference result = ao_reference(tracer, frame, options);
+  note(result.notes);
   if (result.unlike_share > 0.005)
     note({fmt::format("in {:.1f} % of the pixels looked at the scene is over 1 % nearer or farther than the frame",
                       100 * result.unlike_share)});
   write_frame(flags.out, result.frame, write);
+  std::error_code gone;
+  std::filesystem::remove(checkpoint, gone);
   for (const View& view : result.frame.views) {
     if (flags.picture.empty()) break;
     write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at("ao"));

@@ -42,13 +42,23 @@ void SceneFlags::add_settings_to(CLI::App& app) {
 }
 
 Scene SceneFlags::load() const {
-  std::vector<std::pair<std::string, std::string>> own;
-  for (const auto& setting : parse_settings(settings, "--set")) {
-    if (setting.first.find('.') == std::string::npos) own.push_back(setting);
-  }
-  Scene loaded = load_scene(scene, own);
+  Scene loaded = load_scene(scene, parse_settings(settings, "--set"));
   note(loaded.notes);
   return loaded;
+}
+
+std::vector<std::pair<std::string, std::string>> SceneFlags::take_dotted_settings() {
+  std::vector<std::pair<std::string, std::string>> dotted;
+  const auto parsed = parse_settings(settings, "--set");
+  std::vector<std::string> own;
+  for (size_t i = 0; i < parsed.size(); ++i) {
+    if (parsed[i].first.find('.') == std::string::npos)
+      own.push_back(settings[i]);
+    else
+      dotted.push_back(parsed[i]);
+  }
+  settings = own;
+  return dotted;
 }
 
 SceneFlags scene_named_by(const std::string& attribute) {

@@ -16,8 +16,10 @@ struct SceneFlags {
   std::vector<std::string> settings;
   /// The scene itself is an argument of `capture` and a flag of other commands: added there.
   void add_settings_to(CLI::App& app);
-  /// Loads it; what was mended goes to the notes. `settings` without a dot in the name are the scene's.
+  /// Loads it; what was mended goes to the notes.
   Scene load() const;
+  /// Takes out settings of others than the scene, which have a dot in the name: {"hbao+.bias", "0.2"}.
+  std::vector<std::pair<std::string, std::string>> take_dotted_settings();
 };
 
 /// The scene that a frame's header names (gloamScene), as a name and settings; empty where it names none.
@@ -27,6 +29,7 @@ SceneFlags scene_named_by(const std::string& attribute);
 struct SceneCameraFlags {
   std::string camera, fov, eye, target;
   void add_to(CLI::App& app);
+  bool any() const { return !(camera.empty() && fov.empty() && eye.empty() && target.empty()); }
   /// Cameras by view. Throws UsageError for a camera that the scene lacks (with the nearest name).
   std::vector<std::pair<std::string, Camera>> cameras(const Scene& scene, int width, int height) const;
 };

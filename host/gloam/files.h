@@ -17,6 +17,9 @@ void write_atomically(const std::filesystem::path& path,
 /// that is ignored (nohup) stays so. SIGXFSZ is ignored: a file over the limit becomes an ordinary error.
 void remove_temporaries_on_signal();
 
+/// From now on an interruption says this instead of the number of files written. `text` must live as long as the program.
+void say_on_interruption(const char* text);
+
 /// A whole text file. Throws Error naming it.
 std::string read_text(const std::filesystem::path& path);
 

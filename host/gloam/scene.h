@@ -60,7 +60,7 @@ struct SceneCamera {
 
 /// Intrinsics for a size: square pixels, centred.
 Camera camera_for(const SceneCamera& camera, int width, int height);
-/// A camera at `eye` that looks at `target`.
+/// A camera at `eye` that looks at `target`. Throws UsageError where these are one point, or not finite.
 SceneCamera looking_at(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target, double fov_degrees,
                        const glm::dvec3& up = {0, 1, 0});
 
@@ -113,7 +113,8 @@ const SceneRecipe* find_builtin_scene(const std::string& name);
 /// out of range; Error as `import_scene` does.
 Scene load_scene(const std::string& name_or_path, const std::vector<std::pair<std::string, std::string>>& settings);
 
-/// Throws Error for a scene that no ray can be traced in: no triangle, an index out of range, a value not finite.
+/// Throws Error for a scene that no ray can be traced in: no triangle, an index out of range, a position or normal that is not
+/// finite, no camera, 2^24 meshes or more.
 void check(const Scene& scene);
 
 }  // namespace gloam

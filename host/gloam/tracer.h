@@ -51,7 +51,7 @@ class Tracer {
 
   const Scene& scene() const;
 
-  /// The first surface on the ray.
+  /// The first surface on the ray. Throws Error for a ray that is not finite, here and below.
   std::optional<Surface> first(const TracerRay& ray) const;
 
   /// All surfaces on the ray, nearest first. Two triangles of one mesh that meet under the ray count once.
@@ -64,7 +64,8 @@ class Tracer {
   void distances(const glm::vec3& origin, const glm::vec3* directions, int count, float far, float* distances) const;
 
   /// A point from which rays to the side of `facing` do not meet the surface's own triangle: the position moved off by
-  /// a few units of float rounding of the coordinates around it.
+  /// some units of the rounding of its coordinates. For `blocked` and `distances`, which leave out hits that lie behind
+  /// the start in double.
   glm::vec3 lifted(const Surface& surface) const;
 
   SurfaceMaterial material(const Surface& surface) const;

@@ -9,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <mutex>
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -257,7 +258,9 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
   Frame& frame = result.frame;
   frame.display = frame.window = {0, 0, options.width, options.height};
   frame.attributes["gloamScene"] = tracer.scene().name;
-  std::atomic<int> done = 0;
+  std::atomic<bool> failed = false;
+  std::mutex mutex;
+  int done = 0;
   const int rows = options.height * int(options.views.size());
   std::exception_ptr failure;  // an exception may not leave a parallel loop
   for (const CaptureView& from : options.views) {
@@ -270,12 +273,13 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
 #pragma omp parallel for schedule(dynamic, 4)
     for (int y = 0; y < options.height; ++y) {
       try {
+        if (failed) continue;
         capturer.row(y, options.width);
-        const int now = ++done;
-#pragma omp critical
-        if (options.progress) options.progress(now, rows);
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (options.progress) options.progress(++done, rows);
       } catch (...) {
-#pragma omp critical
+        const std::lock_guard<std::mutex> lock(mutex);
+        failed = true;
         failure = std::current_exception();
       }
     }

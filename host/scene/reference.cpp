@@ -25,6 +25,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int packet = 16;
 
+/// The attribute that makes a file a checkpoint.
+constexpr const char* key_name = "gloamReferenceKey";
+
 /// Surfaces whose depth is this near to the frame's, as a share of it, are the frame's.
 constexpr double same_depth = 0.01;
 
@@ -154,45 +157,95 @@ class ViewTracer {
 
 // --- What is kept between two runs
 
-/// Mixes bytes into a 64-bit FNV-1a hash.
-void mix(uint64_t& state, const void* bytes, size_t count) {
-  const auto* p = static_cast<const unsigned char*>(bytes);
-  for (size_t i = 0; i < count; ++i) state = (state ^ p[i]) * 0x100000001b3ULL;
-}
-
-void mix(uint64_t& state, const Plane* plane) {
-  if (!plane) return;
-  for (const Channel& channel : plane->channels) mix(state, channel.data(), channel.layout().bytes());
-}
-
-/// Tells one computation from another: all that the result depends on.
-std::string key_of(const Tracer& tracer, const Frame& frame, const AoReferenceOptions& options) {
-  uint64_t state = 0xcbf29ce484222325ULL;
-  for (const Mesh& mesh : tracer.scene().meshes) {
-    mix(state, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
-    mix(state, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+/// A 64-bit FNV-1a hash in the making.
+class Fingerprint {
+ public:
+  void add(const void* bytes, size_t count) {
+    const auto* p = static_cast<const unsigned char*>(bytes);
+    for (size_t i = 0; i < count; ++i) state_ = (state_ ^ p[i]) * 0x100000001b3ULL;
   }
+  template <typename Item>
+  void add(const std::vector<Item>& items) {
+    add(items.data(), items.size() * sizeof(Item));
+  }
+  void add(const std::vector<double>& numbers, const std::string& text) {
+    add(numbers);
+    add(text.data(), text.size());
+  }
+  void add(const Plane* plane) {
+    if (!plane) return;
+    for (const Channel& channel : plane->channels) add(channel.data(), channel.layout().bytes());
+  }
+  uint64_t value() const { return state_; }
+
+ private:
+  uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+void add(Fingerprint& print, const Scene& scene) {
+  print.add({scene.origin.x, scene.origin.y, scene.origin.z}, "");
+  for (const Mesh& mesh : scene.meshes) {
+    print.add(mesh.positions);
+    print.add(mesh.normals);
+    print.add(mesh.uvs);
+    print.add(mesh.triangles);
+    const Material& material = scene.materials[size_t(mesh.material)];
+    print.add({double(material.alpha_cutoff)}, "");
+    if (material.alpha_cutoff > 0 && material.albedo_texture >= 0)
+      print.add(scene.textures[size_t(material.albedo_texture)].texels);
+  }
+}
+
+void add(Fingerprint& print, const Frame& frame) {
+  print.add({double(frame.window.x0), double(frame.window.y0)}, "");
   for (const View& view : frame.views) {
-    mix(state, view.find("depth"));
-    mix(state, view.find("normal"));
+    print.add(view.find("depth"));
+    print.add(view.find("normal"));
     const Camera& c = *view.camera;
-    const double numbers[] = {c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic)};
-    mix(state, numbers, sizeof numbers);
-    mix(state, &c.pose->position, sizeof c.pose->position);
-    mix(state, &c.pose->world_to_view, sizeof c.pose->world_to_view);
+    const glm::dvec3 p = c.pose->position;
+    print.add({c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic), p.x, p.y, p.z}, view.name);
+    print.add(&c.pose->world_to_view, sizeof c.pose->world_to_view);
   }
-  return fmt::format("{:016x} {}x{} radius {} samples {} seed {} falloff {}", state, frame.width(), frame.height(),
-                     options.radius, rounded_samples(options.samples), options.seed, options.falloff);
+}
+
+/// Tells one computation from another: all that the result depends on. The number is raised when the method changes.
+std::string key_of(const Tracer& tracer, const Frame& frame, const AoReferenceOptions& options) {
+  Fingerprint print;
+  add(print, tracer.scene());
+  add(print, frame);
+  return fmt::format("1: {:016x} {}x{} radius {} samples {} seed {} falloff {} {}", print.value(), frame.width(),
+                     frame.height(), options.radius, rounded_samples(options.samples), options.seed, options.falloff,
+                     options.falloff_parameters);
+}
+
+/// A file in the checkpoint's place that is not a checkpoint belongs to somebody.
+void check_checkpoint(const std::filesystem::path& path) {
+  std::error_code code;
+  if (path.empty() || !std::filesystem::exists(std::filesystem::symlink_status(path, code))) return;
+  bool ours = false;
+  try {
+    ours = std::filesystem::is_regular_file(path, code) && !FrameFile(path, {}).text_attribute(key_name).empty();
+  } catch (const Error&) {
+    // Not even an EXR.
+  }
+  if (!ours)
+    throw Error("{}: is where an unfinished reference would be kept, and is something else; move it away",
+                path.string());
 }
 
 /// Rows that an interrupted run has finished already: pixels that it has not are NaN.
-void resume(Frame& result, const std::string& key, const AoReferenceOptions& options) {
+void resume(AoReference& reference, const std::string& key, const AoReferenceOptions& options) {
+  Frame& result = reference.frame;
   if (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) return;
   try {
     ReadOptions as_stored;
     as_stored.as_stored = true;
     FrameFile file(options.checkpoint, as_stored);
-    if (file.text_attribute("gloamReferenceKey") != key) return;
+    if (file.text_attribute(key_name) != key) {
+      reference.notes.push_back(fmt::format("{}: was the unfinished reference of other settings, and is given up",
+                                            options.checkpoint.string()));
+      return;
+    }
     Frame kept = file.read({"ao", "ao_noise"});
     for (const char* name : {"ao", "ao_noise"}) {
       if (!contains(file.common_planes(), name)) return;
@@ -202,7 +255,7 @@ void resume(Frame& result, const std::string& key, const AoReferenceOptions& opt
         view.planes.at(name) = std::move(kept.view(view.name).planes.at(name));
     }
   } catch (const Error&) {
-    // Not one of ours, or damaged: computed anew and written over.
+    // Damaged: computed anew and written over.
   }
 }
 
@@ -229,15 +282,16 @@ class AoTracing {
         plane.channels.emplace_back(layout, std::numeric_limits<float>::quiet_NaN());
       }
     }
+    check_checkpoint(options.checkpoint);
     key_ = key_of(tracer, frame, options);
-    resume(result_.frame, key_, options);
+    resume(result_, key_, options);
   }
 
   AoReference run() {
     count_resumed();
+    for (const View& view : frame_.views) check_likeness(view, ViewTracer(tracer_, view, frame_.window));
     for (size_t i = 0; i < frame_.views.size(); ++i) trace(frame_.views[i], result_.frame.views[i]);
     summarise();
-    if (!options_.checkpoint.empty()) std::filesystem::remove(options_.checkpoint);
     return std::move(result_);
   }
 
@@ -251,29 +305,30 @@ class AoTracing {
     for (const View& view : result_.frame.views) {
       for (int y = 0; y < frame_.height(); ++y) rows_done_ += row_is_done(view.planes.at("ao").channels[0], y);
     }
-    result_.resumed_share = double(rows_done_) / double(rows());
+    result_.resumed_share = double(rows_done_) / double(std::max(1LL, rows()));
   }
 
   long long rows() const { return (long long)frame_.height() * (long long)frame_.views.size(); }
 
   void trace(const View& view, View& out) {
     const ViewTracer pixels(tracer_, view, frame_.window);
-    check_likeness(view, pixels);
     Channel& ao = out.planes.at("ao").channels[0];
     Channel& noise = out.planes.at("ao_noise").channels[0];
     std::exception_ptr failure;  // an exception may not leave a parallel loop
+    std::atomic<bool> failed = false;
 #pragma omp parallel for schedule(dynamic, 1)
     for (int y = 0; y < frame_.height(); ++y) {
-      if (row_is_done(ao, y)) continue;
+      if (failed || row_is_done(ao, y)) continue;
       try {
         std::vector<float> open(size_t(frame_.width()), 1.0f), error(size_t(frame_.width()), 0.0f);
-        const Tally tally = trace_row(pixels, y, open, error);
+        const long long surfaces = trace_row(pixels, y, open, error);
         const std::lock_guard<std::mutex> lock(mutex_);
         std::copy(open.begin(), open.end(), ao.row(y));
         std::copy(error.begin(), error.end(), noise.row(y));
-        finish_row(tally);
+        finish_row(surfaces);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex_);
+        failed = true;
         failure = std::current_exception();
       }
     }
@@ -281,8 +336,9 @@ class AoTracing {
     out.planes["depth"] = view.planes.at("depth").clone();
   }
 
-  Tally trace_row(const ViewTracer& pixels, int y, std::vector<float>& open, std::vector<float>& error) const {
-    Tally tally;
+  /// Gives the number of pixels that are not background.
+  long long trace_row(const ViewTracer& pixels, int y, std::vector<float>& open, std::vector<float>& error) const {
+    long long surfaces = 0;
     for (int x = 0; x < frame_.width(); ++x) {
       if (pixels.is_background_at(x, y)) continue;
       bool alike = true;
@@ -291,21 +347,30 @@ class AoTracing {
       const double a = estimator_.open_share(site, hash(2 * seed)), b = estimator_.open_share(site, hash(2 * seed + 1));
       open[size_t(x)] = float(std::clamp((a + b) / 2, 0.0, 1.0));
       error[size_t(x)] = float(std::abs(a - b) / 2);
-      ++tally.surfaces;
-      tally.unlike += !alike;
+      ++surfaces;
     }
-    return tally;
+    return surfaces;
   }
 
   /// Called with the lock held.
-  void finish_row(const Tally& tally) {
-    result_.rays += tally.surfaces * estimator_.rays_per_pixel();
+  void finish_row(long long surfaces) {
+    result_.rays += surfaces * estimator_.rays_per_pixel();
     if (options_.progress) options_.progress(double(++rows_done_) / double(rows()));
-    if (options_.checkpoint.empty() || seconds_since(saved_) < options_.checkpoint_seconds) return;
-    result_.frame.attributes["gloamReferenceKey"] = key_;
-    write_frame(options_.checkpoint, result_.frame);
-    result_.frame.attributes.erase("gloamReferenceKey");
+    if (!options_.checkpoint.empty() && seconds_since(saved_) >= options_.checkpoint_seconds) save();
+  }
+
+  /// Not being able to is no reason to lose the work itself.
+  void save() {
     saved_ = Clock::now();
+    if (!can_save_) return;
+    result_.frame.attributes[key_name] = key_;
+    try {
+      write_frame(options_.checkpoint, result_.frame);
+    } catch (const Error& error) {
+      can_save_ = false;
+      result_.notes.push_back(fmt::format("an interruption would have lost the work: {}", error.what()));
+    }
+    result_.frame.attributes.erase(key_name);
   }
 
   /// A frame of another scene is found before hours go into it: by a grid of pixels.
@@ -325,7 +390,7 @@ class AoTracing {
     looked_at_ += tally.surfaces;
     unlike_ += tally.unlike;
     result_.unlike_share = double(unlike_) / double(looked_at_);
-    if (2 * tally.unlike <= tally.surfaces) return;
+    if (4 * tally.unlike <= tally.surfaces) return;
     TracerRay ray = camera_ray(*view.camera, tracer_.scene().origin, frame_.window.x0 + tally.x + 0.5,
                                frame_.window.y0 + tally.y + 0.5);
     const std::optional<Surface> there = tracer_.first(ray);
@@ -363,6 +428,7 @@ class AoTracing {
     frame.numbers["aoSamples"] = estimator_.rays_per_pixel();
     frame.numbers["aoNoise"] = result_.noise;
     frame.attributes["aoFalloff"] = options_.falloff;
+    if (!options_.falloff_parameters.empty()) frame.attributes["aoFalloffParameters"] = options_.falloff_parameters;
     frame.attributes["aoDefinition"] =
         options_.falloff == "none"
             ? "cosine-weighted share of directions in which nothing is nearer than aoRadius"
@@ -378,6 +444,7 @@ class AoTracing {
   AoReference result_;
   std::string key_;
   std::mutex mutex_;
+  bool can_save_ = true;
   long long rows_done_ = 0, looked_at_ = 0, unlike_ = 0;
   Clock::time_point start_ = Clock::now(), saved_ = Clock::now();
 };

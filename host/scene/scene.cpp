@@ -27,6 +27,9 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
   for (const glm::vec3& p : mesh.positions) {
     if (!finite(p)) throw Error("{}: mesh '{}' has a vertex that is not finite", scene.name, mesh.name);
   }
+  for (const glm::vec3& n : mesh.normals) {
+    if (!finite(n)) throw Error("{}: mesh '{}' has a normal that is not finite", scene.name, mesh.name);
+  }
   for (const glm::uvec3& t : mesh.triangles) {
     if (t.x >= n || t.y >= n || t.z >= n)
       throw Error("{}: mesh '{}' has a triangle with vertex {}, and there are {}", scene.name, mesh.name,
@@ -37,7 +40,7 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
 void check_material(const Scene& scene, const Material& material) {
   for (const int texture :
        {material.albedo_texture, material.roughness_texture, material.metallic_texture, material.emission_texture}) {
-    if (texture >= int(scene.textures.size()))
+    if (texture < -1 || texture >= int(scene.textures.size()))
       throw Error("{}: material '{}' has texture {}, and there are {}", scene.name, material.name, texture,
                   scene.textures.size());
   }
@@ -72,7 +75,13 @@ Camera camera_for(const SceneCamera& from, int width, int height) {
 
 SceneCamera looking_at(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target, double fov_degrees,
                        const glm::dvec3& up) {
-  const glm::dvec3 back = glm::normalize(eye - target);
+  const glm::dvec3 away = eye - target;
+  // By its largest component first: squares of very small or large numbers are out of double's range.
+  const double largest = std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
+  if (!(largest > 0 && std::isfinite(largest)))
+    throw UsageError("a camera at ({:g}, {:g}, {:g}) cannot look at ({:g}, {:g}, {:g})", eye.x, eye.y, eye.z, target.x,
+                     target.y, target.z);
+  const glm::dvec3 back = glm::normalize(away / largest);
   glm::dvec3 right = glm::cross(up, back);
   if (glm::length(right) < 1e-9) right = glm::cross(glm::dvec3(0, 0, -1), back);
   right = glm::normalize(right);
@@ -129,6 +138,8 @@ void check(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) check_mesh(scene, mesh);
   for (const Material& material : scene.materials) check_material(scene, material);
   for (const Texture& texture : scene.textures) check_texture(scene, texture);
+  if (scene.meshes.size() >= (1u << 24))
+    throw Error("{}: has {} meshes; fewer than {} can be told apart", scene.name, scene.meshes.size(), 1 << 24);
   if (scene.cameras.empty()) throw Error("{}: has no camera", scene.name);
   if (scene.faces() == 0) throw Error("{}: has no triangles", scene.name);
 }

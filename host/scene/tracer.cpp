@@ -72,7 +72,8 @@ void pass_holes(const RTCFilterFunctionNArguments* arguments) {
 /// A hit as Embree reports it.
 struct RawHit {
   unsigned mesh, triangle;
-  float distance, u, v;
+  double distance;
+  float u, v;
 };
 
 /// Embree's context with a list behind it, for `gather_hit`.
@@ -90,11 +91,39 @@ void gather_hit(const RTCFilterFunctionNArguments* arguments) {
   arguments->valid[0] = 0;
 }
 
-RTCRay embree_ray(const TracerRay& ray) {
+/// Embree's context with the scene behind it, for `pass_what_is_behind`.
+struct SceneContext {
+  RTCIntersectContext base;
+  const Scene* scene;
+  float near;  ///< hits nearer than this are looked at again
+};
+
+/// Lets go on what has only been hit by rounding: a triangle that in double lies behind the ray's start, such as the one
+/// that the ray leaves.
+void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments) {
+  const auto& context = *reinterpret_cast<const SceneContext*>(arguments->context);
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (!arguments->valid[i] || RTCRayN_tfar(arguments->ray, n, i) > context.near) continue;
+    const Mesh& mesh = context.scene->meshes[RTCHitN_geomID(arguments->hit, n, i)];
+    const glm::uvec3 t = mesh.triangles[RTCHitN_primID(arguments->hit, n, i)];
+    const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    const dvec3 origin(RTCRayN_org_x(arguments->ray, n, i), RTCRayN_org_y(arguments->ray, n, i),
+                       RTCRayN_org_z(arguments->ray, n, i));
+    const dvec3 direction(RTCRayN_dir_x(arguments->ray, n, i), RTCRayN_dir_y(arguments->ray, n, i),
+                          RTCRayN_dir_z(arguments->ray, n, i));
+    const dvec3 normal = glm::cross(b - a, c - a);
+    if (glm::dot(a - origin, normal) * glm::dot(direction, normal) <= 0) arguments->valid[i] = 0;
+  }
+}
+
+/// A ray as Embree takes it, from `start` along it on.
+RTCRay embree_ray(const TracerRay& ray, double start) {
+  const dvec3 origin = ray.origin + start * ray.direction;
   RTCRay out;
-  out.org_x = float(ray.origin.x), out.org_y = float(ray.origin.y), out.org_z = float(ray.origin.z);
+  out.org_x = float(origin.x), out.org_y = float(origin.y), out.org_z = float(origin.z);
   out.dir_x = float(ray.direction.x), out.dir_y = float(ray.direction.y), out.dir_z = float(ray.direction.z);
-  out.tnear = float(ray.near), out.tfar = float(ray.far);
+  out.tnear = float(std::max(ray.near - start, 0.0)), out.tfar = float(ray.far - start);
   out.time = 0, out.mask = ~0u, out.id = 0, out.flags = 0;
   return out;
 }
@@ -123,6 +152,16 @@ dvec3 unit_or(const dvec3& v, const dvec3& otherwise) {
   return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
+/// Whether one of the first `count` surfaces, which are sorted, is the same: met twice where two triangles join.
+bool is_there_already(const std::vector<Surface>& surfaces, size_t count, const Surface& surface) {
+  for (size_t i = count; i-- > 0;) {
+    const Surface& other = surfaces[i];
+    if (surface.distance - other.distance > same_place * surface.distance) return false;
+    if (other.mesh == surface.mesh && other.back_face == surface.back_face) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 struct Tracer::Impl {
@@ -130,12 +169,49 @@ struct Tracer::Impl {
   std::unique_ptr<RTCDeviceTy, FreeDevice> device;
   std::unique_ptr<RTCSceneTy, FreeScene> embree;
   std::vector<std::unique_ptr<Cutout>> cutouts;
+  dvec3 centre{0.0};  ///< of a sphere around everything
+  double extent = 0;  ///< its radius
   double build_seconds = 0;
 
   explicit Impl(const Scene& scene) : scene(scene) {}
   void add(const Mesh& mesh, unsigned id);
   Surface surface(const TracerRay& ray, const RawHit& hit) const;
+  void bound();
+  std::optional<double> start_of(const TracerRay& ray) const;
+  SceneContext context() const;
 };
+
+void Tracer::Impl::bound() {
+  dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const vec3& p : mesh.positions) low = glm::min(low, dvec3(p)), high = glm::max(high, dvec3(p));
+  }
+  centre = 0.5 * (low + high);
+  extent = 0.5 * glm::length(high - low);
+}
+
+/// Where along a ray Embree is to begin: not before everything, since its floats lose what is far away. None where the
+/// ray ends before.
+std::optional<double> Tracer::Impl::start_of(const TracerRay& ray) const {
+  const double length = glm::length(ray.direction), far_away = glm::length(ray.origin);
+  if (!(length > 0 && std::isfinite(length) && std::isfinite(far_away)) || std::isnan(ray.near) || std::isnan(ray.far))
+    throw Error("{}: a ray that is not finite cannot be traced; check the camera", scene.name);
+  const double middle = glm::dot(centre - ray.origin, ray.direction) / (length * length);
+  const double entry = middle - 1.01 * extent / length;
+  // From inside, and from near by, rays start where they start.
+  const double start = ray.near < 0 || entry > extent / length ? std::max(entry, ray.near) : std::min(ray.near, 0.0);
+  if (!(start < ray.far && ray.near < ray.far)) return {};
+  return start;
+}
+
+SceneContext Tracer::Impl::context() const {
+  SceneContext context;
+  rtcInitIntersectContext(&context.base);
+  context.base.filter = pass_what_is_behind;
+  context.scene = &scene;
+  context.near = float(extent * 0x1p-12);
+  return context;
+}
 
 void Tracer::Impl::add(const Mesh& mesh, unsigned id) {
   if (mesh.triangles.empty()) return;
@@ -188,6 +264,7 @@ Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
 
 Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
   check(scene);
+  impl_->bound();
   const auto start = std::chrono::steady_clock::now();
   impl_->device.reset(rtcNewDevice(nullptr));
   if (!impl_->device) throw Error("{}: Embree does not start", scene.name);
@@ -206,58 +283,65 @@ const Scene& Tracer::scene() const { return impl_->scene; }
 double Tracer::build_seconds() const { return impl_->build_seconds; }
 
 std::optional<Surface> Tracer::first(const TracerRay& ray) const {
+  const std::optional<double> start = impl_->start_of(ray);
+  if (!start) return {};
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query;
-  query.ray = embree_ray(ray);
+  query.ray = embree_ray(ray, *start);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->embree.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return impl_->surface(ray, {query.hit.geomID, query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v});
+  return impl_->surface(
+      ray, {query.hit.geomID, query.hit.primID, *start + double(query.ray.tfar), query.hit.u, query.hit.v});
 }
 
 void Tracer::all(const TracerRay& ray, std::vector<Surface>& surfaces) const {
   thread_local std::vector<RawHit> hits;
   hits.clear();
+  surfaces.clear();
+  const std::optional<double> start = impl_->start_of(ray);
+  if (!start) return;
   GatheringContext context;
   rtcInitIntersectContext(&context.base);
   context.base.filter = gather_hit;
   context.hits = &hits;
   RTCRayHit query;
-  query.ray = embree_ray(ray);
+  query.ray = embree_ray(ray, *start);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->embree.get(), &context.base, &query);
-  surfaces.clear();
-  for (const RawHit& hit : hits) surfaces.push_back(impl_->surface(ray, hit));
+  for (RawHit& hit : hits) {
+    hit.distance += *start;
+    surfaces.push_back(impl_->surface(ray, hit));
+  }
   std::sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
     return std::tie(a.distance, a.mesh, a.triangle) < std::tie(b.distance, b.mesh, b.triangle);
   });
-  const auto same = [](const Surface& a, const Surface& b) {
-    return a.mesh == b.mesh && a.back_face == b.back_face && b.distance - a.distance <= same_place * b.distance;
-  };
-  surfaces.erase(std::unique(surfaces.begin(), surfaces.end(), same), surfaces.end());
+  size_t kept = 0;
+  for (const Surface& surface : surfaces) {
+    if (!is_there_already(surfaces, kept, surface)) surfaces[kept++] = surface;
+  }
+  surfaces.resize(kept);
 }
 
 void Tracer::blocked(const vec3& origin, const vec3* directions, int count, float far, bool* blocked) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  SceneContext context = impl_->context();
   for (int first = 0; first < count; first += 16) {
     const int n = std::min(16, count - first);
     Packet packet(origin, directions + first, n, far);
-    rtcOccluded16(packet.valid, impl_->embree.get(), &context, &packet.rays.ray);
+    rtcOccluded16(packet.valid, impl_->embree.get(), &context.base, &packet.rays.ray);
     for (int i = 0; i < n; ++i) blocked[first + i] = packet.rays.ray.tfar[i] < 0;
   }
 }
 
 void Tracer::distances(const vec3& origin, const vec3* directions, int count, float far, float* distances) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  SceneContext context = impl_->context();
   for (int first = 0; first < count; first += 16) {
     const int n = std::min(16, count - first);
     Packet packet(origin, directions + first, n, far);
-    rtcIntersect16(packet.valid, impl_->embree.get(), &context, &packet.rays);
+    rtcIntersect16(packet.valid, impl_->embree.get(), &context.base, &packet.rays);
     for (int i = 0; i < n; ++i) {
       const bool hit = packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
       distances[first + i] = hit ? packet.rays.ray.tfar[i] : std::numeric_limits<float>::infinity();
@@ -266,16 +350,9 @@ void Tracer::distances(const vec3& origin, const vec3* directions, int count, fl
 }
 
 vec3 Tracer::lifted(const Surface& surface) const {
-  // Embree subtracts the ray's origin from the vertices in float: its error grows with their distance, and the rounding
-  // of the origin with its coordinates.
-  const Mesh& mesh = impl_->scene.meshes[size_t(surface.mesh)];
-  const glm::uvec3 t = mesh.triangles[surface.triangle];
-  double extent = 0;
-  for (const unsigned i : {t.x, t.y, t.z}) {
-    const dvec3 corner = mesh.positions[i], along = glm::abs(corner - surface.position), place = glm::abs(corner);
-    extent = std::max({extent, along.x, along.y, along.z, place.x, place.y, place.z});
-  }
-  return vec3(surface.position + (extent * 0x1p-20) * surface.facing);
+  // Some units of the rounding of the point's own coordinates; `pass_what_is_behind` does the rest.
+  const dvec3 place = glm::abs(surface.position);
+  return vec3(surface.position + std::max({place.x, place.y, place.z}) * 0x1p-21 * surface.facing);
 }
 
 SurfaceMaterial Tracer::material(const Surface& surface) const {

@@ -241,17 +241,55 @@ TEST(Reference, GoesOnWhereItWasInterrupted) {
   std::filesystem::copy(options.checkpoint, copy);
   other.checkpoint = copy;
   EXPECT_EQ(ao_reference(tracer, whole.captured, other).resumed_share, 0);
+  other.seed = options.seed;
+  other.falloff_parameters = "bias=0.5";
+  EXPECT_EQ(ao_reference(tracer, whole.captured, other).resumed_share, 0);
   // ... and the same one does, with the same bits in the end.
   const AoReference resumed = ao_reference(tracer, whole.captured, options);
   EXPECT_GE(resumed.resumed_share, 0.4);
   EXPECT_LT(resumed.rays, whole.reference.rays);
-  EXPECT_FALSE(std::filesystem::exists(options.checkpoint));
+  EXPECT_TRUE(std::filesystem::exists(options.checkpoint)) << "it stays until the result is in safety";
   EXPECT_EQ(resumed.noise, whole.reference.noise);
   for (int y = 0; y < 18; ++y)
     for (int x = 0; x < 32; ++x)
       ASSERT_EQ(resumed.frame.views[0].planes.at("ao").channels[0].at(x, y),
                 whole.reference.frame.views[0].planes.at("ao").channels[0].at(x, y));
   std::filesystem::remove_all(folder);
+}
+
+// A disk that is full loses the checkpoint, not the work.
+TEST(Reference, ACheckpointThatCannotBeWrittenIsOnlyANote) {
+  const Scene scene = corner();
+  AoReferenceOptions options = options_with(0.8);
+  options.samples = 32;
+  options.checkpoint = "/nonexistent/folder/ref.exr.partial";
+  options.checkpoint_seconds = 0;
+  const Traced result = traced(scene, options);
+  ASSERT_EQ(result.reference.notes.size(), 1u);
+  EXPECT_NE(result.reference.notes[0].find("interruption"), std::string::npos) << result.reference.notes[0];
+}
+
+// A small thing on a floor of any size: the floor's triangles must not move what starts on them.
+TEST(Reference, LargeTrianglesDoNoHarm) {
+  const auto with_floor = [](float half) {
+    Scene scene = scene_with(looking_at("main", {0.5, 0.6, 1}, {0, 0, 0}, 50));
+    add_floor(scene, half);
+    scenes::add_box(mesh_of(scene, "box"), {-0.2f, 0, -0.2f}, {0.2f, 0.3f, 0.2f});
+    AoReferenceOptions options = options_with(0.5);
+    options.samples = 1024;
+    return traced(scene, options);
+  };
+  const Traced small = with_floor(10);
+  for (const float half : {1e3f, 1e5f}) {
+    const Traced large = with_floor(half);
+    double worst = 0;
+    for (int y = 0; y < 18; ++y)
+      for (int x = 0; x < 32; ++x)
+        worst = std::max(worst, std::abs(double(small.reference.frame.views[0].planes.at("ao").channels[0].at(x, y)) -
+                                         large.reference.frame.views[0].planes.at("ao").channels[0].at(x, y)));
+    EXPECT_LE(worst, 0.005) << half;
+    std::printf("floor of %g: worst difference %.1e\n", half, worst);
+  }
 }
 
 TEST(Reference, RefusesTheFrameOfAnotherScene) {

@@ -101,6 +101,68 @@ TEST_F(CaptureCommand, RefusesInOneLine) {
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "1,2", "--target", "0,0,0"}, 2, "--eye 1,2,3");
   expect_refused({"capture", "plane", "-o", file("no/x.exr")}, 1, "is not a folder");
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--compression", "dwaa"}, 2, "lossless");
+  expect_refused({"capture", "plane", "-o", file("x.png")}, 2, ".exr");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--set", "hbao+.bias=1"}, 2, "tilt can be set");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--planes", "normal", "--picture", file("x.png")}, 2,
+                 "color");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--camera-path", "p.json", "--fov", "50"}, 2,
+                 "--camera-path");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "0,0,1", "--target", "0,0,1"}, 2, "same point");
+}
+
+// What Embree asserts on, and would end the program.
+TEST_F(CaptureCommand, CamerasAtTheEdgeOfWhatCanBe) {
+  EXPECT_EQ(
+      gloam({"capture", "plane", "-o", file("a.exr"), "--size", "8x8", "--eye", "0,5e-200,0", "--target", "0,0,0"})
+          .status,
+      0);
+  EXPECT_EQ(
+      gloam({"capture", "plane", "-o", file("b.exr"), "--size", "8x8", "--eye", "1e12,0,1e12", "--target", "0,0,0"})
+          .status,
+      0);
+  write("behind.json", R"({"width": 8, "height": 8, "camera_type": "ORTHO", "pixels_per_unit": 4, "cx": 4, "cy": 4,
+    "near": -10, "far": 20, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,-3],[0,0,0,1]]})");
+  EXPECT_EQ(
+      gloam({"capture", "plane", "--tilt", "0", "-o", file("c.exr"), "--size", "8x8", "--camera", file("behind.json")})
+          .err,
+      "");
+  const Frame frame = FrameFile(file("c.exr"), {}).read({"peel.00", "position"});
+  EXPECT_NEAR(frame.views[0].planes.at("position").channels[2].at(4, 4), 3, 1e-6) << "the plane behind the eye is seen";
+}
+
+TEST_F(CaptureCommand, APathMayNotOverwriteItsScene) {
+  write("walk.0001.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("path.json", R"({"width": 8, "height": 8, "fx": 9, "fy": 9, "cx": 4, "cy": 4, "path": [
+    {"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]},
+    {"camera_to_world": [[1,0,0,1],[0,1,0,0],[0,0,1,4],[0,0,0,1]]}]})");
+  const std::string before = slurp(path("walk.0001.obj"));
+  EXPECT_EQ(
+      gloam({"capture", file("walk.0001.obj"), "-o", file("walk.obj"), "--camera-path", file("path.json")}).status, 2);
+  EXPECT_EQ(slurp(path("walk.0001.obj")), before);
+}
+
+TEST_F(CaptureCommand, APathIsOfOneKindOfCamera) {
+  write("path.json", R"({"width": 8, "height": 8, "cx": 4, "cy": 4, "path": [
+    {"fx": 9, "fy": 9, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]},
+    {"camera_type": "ORTHO", "pixels_per_unit": 4, "camera_to_world": [[1,0,0,1],[0,1,0,0],[0,0,1,4],[0,0,0,1]]}]})");
+  const Result result =
+      gloam({"capture", "plane", "-o", file("w.exr"), "--size", "8x8", "--camera-path", file("path.json")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("one kind"), std::string::npos) << result.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"path.json"});
+}
+
+TEST_F(CaptureCommand, ReferenceKeepsItsHandsOffOthersFiles) {
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("p.exr"), "--size", "16x9", "--planes", "depth"}).status, 0);
+  write("r.exr.partial", "somebody's");
+  Result result = gloam({"reference", "ao", file("p.exr"), "-o", file("r.exr")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("move it away"), std::string::npos) << result.err;
+  EXPECT_EQ(slurp(path("r.exr.partial")), "somebody's");
+  fs::rename(file("p.exr"), file("q.exr.partial"));
+  result = gloam({"reference", "ao", file("q.exr.partial"), "-o", file("q.exr")});
+  EXPECT_EQ(result.status, 2) << result.err;
+  EXPECT_TRUE(fs::exists(file("q.exr.partial")));
 }
 
 TEST_F(CaptureCommand, ReferenceOfACapturedFrame) {
@@ -128,6 +190,7 @@ TEST_F(CaptureCommand, ReferenceWithATechniquesOwnFalloff) {
                 .err,
             "");
   EXPECT_EQ(FrameFile(file("r.exr"), {}).text_attribute("aoFalloff"), "hbao+");
+  EXPECT_NE(FrameFile(file("r.exr"), {}).text_attribute("aoFalloffParameters").find("bias=0.2"), std::string::npos);
 }
 
 TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
@@ -139,6 +202,11 @@ TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
                  "did you mean 'hbao+'");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "0"}, 2, "--radius");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--samples", "0"}, 2, "--samples");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--set", "hbao+.bias=0.3"}, 2,
+                 "with --falloff hbao+");
+  expect_refused(
+      {"reference", "ao", loggia, "--scene", "plane", "-o", out, "--falloff", "hbao+", "--set", "hbao+.radius=0.3"}, 2,
+      "--radius");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "inf", "--falloff", "hbao+"}, 2,
                  "finite");
 }
