@@ -91,23 +91,13 @@ struct Layers {
   double mean() const { return pixels == 0 ? 0 : double(surfaces) / double(pixels); }
 };
 
-long long surface_pixels(const Frame& frame) {
-  long long count = 0;
-  for (const View& view : frame.views) {
-    const Channel& depth = view.planes.at("depth").channels[0];
-    for (int y = 0; y < frame.height(); ++y)
-      for (int x = 0; x < frame.width(); ++x) count += !is_background(depth.at(x, y));
-  }
-  return count;
-}
-
 struct Figures {
   size_t faces = 0, meshes = 0;
   double load = 0, build = 0, trace = 0, write = 0;
   long long rays = 0;
   Layers layers;
-  std::string camera;  ///< where the first view's camera came from
-  long long surface_pixels = 0;
+  std::string camera;      ///< where the first view's camera came from
+  long long surfaces = 0;  ///< pixels that show one
   std::vector<std::string> files;
 };
 
@@ -125,7 +115,7 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   figures.trace += result.seconds;
   figures.rays += result.rays;
   figures.layers.add(result.frame);
-  figures.surface_pixels += surface_pixels(result.frame);
+  figures.surfaces += result.surfaces;
   const auto start = std::chrono::steady_clock::now();
   write_frame(shot.file, result.frame, write);
   write_colour(shot, result.frame);
@@ -218,8 +208,7 @@ void capture_command(const CaptureCommand& flags) {
     take(shot, tracer, options, write, figures);
     ++taken;
   }
-  if (figures.surface_pixels == 0)
-    note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
+  if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
   flags.json.write(document(scene, options, figures));
   if (!flags.json.only_json()) print(scene, options, figures);
 }

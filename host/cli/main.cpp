@@ -121,6 +121,9 @@ int run_command(int argc, char** argv) {
       "  gloam info frame.exr\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam compare ao.exr truth.exr -o difference.png\n"
+      "  gloam capture colonnade -o frame.exr --size 960x540\n"
+      "  gloam reference ao frame.exr -o truth.exr --radius 0.5\n"
+      "  gloam bench -o out/bench --frame frame.exr --truth truth.exr\n"
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("--version", "gloam " GLOAM_VERSION);
   app.require_subcommand(1);

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "gloam/error.h"
-#include "gloam/files.h"
 #include "gloam/visualise.h"
 #include "scene_flags.h"
 
@@ -137,7 +136,6 @@ void reference_command(ReferenceCommand flags) {
   options.checkpoint = checkpoint;
   const auto bar = progress_bar();
   if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
-  say_on_interruption("run it again and it goes on where it was");
   const AoReference result = ao_reference(tracer, frame, options);
   note(result.notes);
   if (result.unlike_share > 0.005)

@@ -28,8 +28,9 @@ struct CaptureOptions {
 
 struct CaptureResult {
   Frame frame;
-  long long rays = 0;  ///< through pixels and towards the sun
-  double seconds = 0;  ///< of tracing
+  long long surfaces = 0;  ///< pixels that show one
+  long long rays = 0;      ///< through pixels and towards the sun
+  double seconds = 0;      ///< of tracing
 };
 
 /// What can be captured: depth, normal, albedo, color, roughness, reflectance, position, back_depth, instance, motion.

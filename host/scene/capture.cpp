@@ -285,7 +285,9 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
     }
     if (failure) std::rethrow_exception(failure);
     const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
-    result.rays += (long long)options.width * options.height + (lit ? sun_rays * surfaces_in(*target.depth) : 0);
+    const long long surfaces = surfaces_in(*target.depth);
+    result.surfaces += surfaces;
+    result.rays += (long long)options.width * options.height + (lit ? sun_rays * surfaces : 0);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

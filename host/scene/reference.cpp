@@ -13,6 +13,7 @@
 #include "gloam/capture.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "gloam/files.h"
 #include "lists.h"
 #include "low_discrepancy.h"
 
@@ -27,6 +28,9 @@ constexpr int packet = 16;
 
 /// The attribute that makes a file a checkpoint.
 constexpr const char* key_name = "gloamReferenceKey";
+
+/// What an interrupted run says once something is kept.
+constexpr const char* goes_on = "run it again and it goes on where it was";
 
 /// Surfaces whose depth is this near to the frame's, as a share of it, are the frame's.
 constexpr double same_depth = 0.01;
@@ -289,6 +293,7 @@ class AoTracing {
 
   AoReference run() {
     count_resumed();
+    if (rows_done_ > 0) say_on_interruption(goes_on);
     for (const View& view : frame_.views) check_likeness(view, ViewTracer(tracer_, view, frame_.window));
     for (size_t i = 0; i < frame_.views.size(); ++i) trace(frame_.views[i], result_.frame.views[i]);
     summarise();
@@ -366,6 +371,7 @@ class AoTracing {
     result_.frame.attributes[key_name] = key_;
     try {
       write_frame(options_.checkpoint, result_.frame);
+      say_on_interruption(goes_on);
     } catch (const Error& error) {
       can_save_ = false;
       result_.notes.push_back(fmt::format("an interruption would have lost the work: {}", error.what()));
