@@ -9,13 +9,12 @@
 #include <thread>
 
 #include "commit.h"
-#include "floors.h"
 #include "gloam/error.h"
 #include "growth.h"
 #include "ladder.h"
-#include "naive.h"
 #include "native.h"
 #include "plans.h"
+#include "race.h"
 #include "scene_flags.h"
 #include "subject.h"
 #include "timing.h"
@@ -28,8 +27,6 @@ using namespace gloam::bench;
 const std::vector<std::string> default_scenes = {"courtyard", "corridor", "colonnade", "gallery"};
 constexpr int peeled_layers = 8;
 constexpr int growth_rounds = 5;
-/// Above this mean absolute difference a baseline computes something else than gloam.
-constexpr double baseline_tolerance = 1e-4;
 
 struct BenchCommand {
   std::string folder, techniques, scenes, presets, frame, truth, size = "960x540", rays = "256", radius, rounds = "9",
@@ -50,13 +47,9 @@ struct Options {
 };
 
 /// One row of the table.
-struct Row {
-  Variation variation;
+struct Row : Racer {
   std::string scene;
   int width = 0, height = 0;
-  std::unique_ptr<TimedPlan> timed;
-  Series ms;
-  std::optional<double> to_naive, to_native, to_gather_floor, to_copy_floor, to_hbao_plus;
   Ladder ladder;
 };
 
@@ -280,146 +273,6 @@ Subject own_subject(const BenchCommand& flags, const Options& options) {
   return subject;
 }
 
-// --- Times
-
-/// What HBAO+ with 8 x 4 samples is measured against, and floors of the device.
-class Baselines {
- public:
-  /// `estimate`: what gloam makes; a baseline that makes something else takes no part.
-  Baselines(Device& device, const Frame& frame, const HbaoPlusParams& params, const Channel& estimate)
-      : planes_(device, frame),
-        gathers_(device, frame, planes_, params),
-        copy_(device, frame, planes_),
-        naive_(device, frame, planes_, params, Counts::at_run_time),
-        native_(frame, params, widest_instructions()) {
-    if (frame.views[0].camera->orthographic) return;
-    naive_.run();
-    has_naive_ = fits("naive", planes_.download(), estimate);
-    native_.run();
-    has_native_ = fits("native", native_.result(), estimate);
-  }
-
-  std::vector<Contender> contenders() {
-    std::vector<Contender> list = {{"gather floor", [this] { return gathers_.run(); }},
-                                   {"copy floor", [this] { return copy_.run(); }}};
-    if (has_naive_) list.push_back({"naive", [this] { return naive_.run(); }});
-    if (has_native_) list.push_back({"native", [this] { return native_.run(); }});
-    return list;
-  }
-
- private:
-  static bool fits(const char* name, const Channel& ao, const Channel& estimate) {
-    const double difference = mean_difference(ao, estimate);
-    if (difference <= baseline_tolerance) return true;
-    note({fmt::format("the {} loop differs from hbao+ by {:.2g} on average: no ratio to it", name, difference)});
-    return false;
-  }
-
-  DevicePlanes planes_;
-  GatherFloor gathers_;
-  CopyFloor copy_;
-  Naive naive_;
-  Native native_;
-  bool has_naive_ = false, has_native_ = false;
-};
-
-/// The baselines' frame: one view's depth and normals, which are computed where the frame has none.
-Frame depth_and_normals(const Frame& frame, Device& device) {
-  Frame out = run(make_plan({.outputs = {"depth", "normal"}}, planes_of(frame), "the frame"), frame, device).frame;
-  if (const Plane* given = frame.views.front().find("normal"))
-    out.views.front().planes.insert_or_assign("normal", given->clone());
-  return out;
-}
-
-/// HBAO+ as the baselines compute it; null where a plan does otherwise.
-const ParameterValues* as_baseline(const Plan& plan) {
-  const ParameterValues* values = values_of(plan, "hbao+");
-  if (!values) return nullptr;
-  const bool same = values->number("directions") == directions && values->number("steps") == steps &&
-                    values->number("power") == 1 && values->text("falloff") == "quadratic" &&
-                    values->text("jitter") == "on";
-  return same ? values : nullptr;
-}
-
-/// All that runs in turn on one frame.
-class Race {
- public:
-  Race(const Subject& subject, Device& device) : subject_(subject), device_(device) {}
-
-  /// Rows that the table shows. Throws what `gloam::run` throws.
-  void enter(Row& row) {
-    row.timed = std::make_unique<TimedPlan>(whole_plan(row.variation, planes_of(subject_.frame), subject_.holds),
-                                            subject_.frame, device_);
-    rows_.push_back(&row);
-    contenders_.push_back({"", [timed = row.timed.get()] { return timed->run(); }});
-  }
-
-  void run(int rounds) {
-    enter_reference();
-    const std::vector<Series> ms = interleaved(contenders_, rounds, [&](int done, int of) {
-      show(fmt::format("{}: {} plans in turn, round", subject_.name, contenders_.size()), double(done) / of);
-    });
-    for (size_t i = 0; i < rows_.size(); ++i) rows_[i]->ms = ms[i];
-    for (size_t i = 0; i < contenders_.size(); ++i) series_[contenders_[i].name] = ms[i];
-    for (Row* row : rows_) add_ratios(*row);
-  }
-
- private:
-  /// HBAO+ 8 x 4, and what goes with it: only where the frame has what it reads.
-  void enter_reference() {
-    for (const Technique& t : registry()) {
-      if (t.name == "hbao+") reference_variation_ = {&t, "medium", subject_.radius};
-    }
-    if (!reference_variation_.technique) return;
-    const std::vector<std::string> available = planes_of(subject_.frame);
-    try {
-      const Plan plan = whole_plan(reference_variation_, available, subject_.holds);
-      if (const ParameterValues* values = as_baseline(plan)) enter_baselines(values->as<HbaoPlusParams>());
-      reference_ = std::make_unique<TimedPlan>(plan, subject_.frame, device_);
-      contenders_.push_back({"hbao+", [this] { return reference_->run(); }});
-    } catch (const MissingPlanes&) {
-    }
-  }
-
-  void enter_baselines(const HbaoPlusParams& params) {
-    if (subject_.frame.views.size() != 1) return;
-    plain_ = depth_and_normals(subject_.frame, device_);
-    const Plan estimate = unfiltered_plan(reference_variation_, planes_of(plain_), subject_.holds);
-    const RunResult result = gloam::run(estimate, plain_, device_);
-    baselines_ = std::make_unique<Baselines>(device_, plain_, params,
-                                             result.frame.views[0].planes.at(estimate.outputs.front()).channels[0]);
-    for (Contender& contender : baselines_->contenders()) contenders_.push_back(std::move(contender));
-  }
-
-  std::optional<double> ratio_to(const Series& ms, const std::string& contender) const {
-    const auto known = series_.find(contender);
-    if (known == series_.end()) return {};
-    return ratio(ms, known->second);
-  }
-
-  void add_ratios(Row& row) const {
-    row.to_gather_floor = ratio_to(row.ms, "gather floor");
-    row.to_copy_floor = ratio_to(row.ms, "copy floor");
-    row.to_hbao_plus = ratio_to(row.ms, "hbao+");
-    if (row.variation.technique->name != "hbao+" || !as_baseline(row.timed->plan())) return;
-    for (const TimedPlan::Pass& pass : row.timed->passes()) {
-      if (pass.name != "hbao+/estimate") continue;
-      row.to_naive = ratio_to(pass.ms, "naive");
-      row.to_native = ratio_to(pass.ms, "native");
-    }
-  }
-
-  const Subject& subject_;
-  Device& device_;
-  std::vector<Row*> rows_;
-  std::vector<Contender> contenders_;  ///< of the rows, then the others
-  Variation reference_variation_;
-  Frame plain_;
-  std::unique_ptr<TimedPlan> reference_;
-  std::unique_ptr<Baselines> baselines_;
-  std::map<std::string, Series> series_;
-};
-
 // --- One frame
 
 void measure_growth_of(const Subject& subject, const std::vector<const Technique*>& techniques, Device& device,
@@ -491,7 +344,7 @@ std::vector<std::unique_ptr<Row>> rows_of(const Technique& technique, const Subj
 }
 
 void measure(Subject& subject, const Options& options, bool growth, Device& device, Report& report) {
-  Race race(subject, device);
+  Race race(subject.frame, subject.holds, subject.radius, device);
   Steps steps(subject.frame, subject.holds, device, subject.truth, subject.truths.get());
   std::vector<const Technique*> measured;
   for (const Technique* technique : options.techniques) {
@@ -499,7 +352,12 @@ void measure(Subject& subject, const Options& options, bool growth, Device& devi
     if (!rows.empty()) measured.push_back(technique);
     for (auto& row : rows) report.rows.push_back(std::move(row));
   }
-  if (!measured.empty()) race.run(options.rounds);
+  if (!measured.empty()) {
+    race.run(options.rounds, [&](int done, int of) {
+      show(fmt::format("{}: all plans in turn, round", subject.name), double(done) / of);
+    });
+  }
+  note(race.notes());
   if (growth) measure_growth_of(subject, measured, device, report);
   add_scene(subject, report);
   erase_status();
