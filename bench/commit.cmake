@@ -1,5 +1,6 @@
 # Writes a C++ file with the commit that SOURCE is at, unless that is there already.
 # Usage: cmake -DSOURCE=checkout -DOUTPUT=commit.cpp -P commit.cmake
+include("${CMAKE_CURRENT_LIST_DIR}/../cmake/write_text.cmake")
 set(commit "unknown")
 # A .git of its own: sources unpacked inside another project's checkout are not at that one's commit.
 if(EXISTS "${SOURCE}/.git")
@@ -21,10 +22,4 @@ namespace gloam::bench {
 const char* const commit = \"${commit}\";
 }  // namespace gloam::bench
 ")
-set(old "")
-if(EXISTS "${OUTPUT}")
-  file(READ "${OUTPUT}" old)
-endif()
-if(NOT text STREQUAL old)
-  file(WRITE "${OUTPUT}" "${text}")
-endif()
+write_text_if_different("${OUTPUT}" "${text}")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fingerprint.h"
 #include "gloam/capture.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -14,55 +15,26 @@ namespace {
 
 constexpr const char* recipe_attribute = "gloamBench";  ///< header of the kept files: what they were made from
 
-/// FNV-1a over the bytes of plain values.
-class Digest {
- public:
-  template <typename T>
-  void add(const T& value) {
-    add(&value, sizeof value);
-  }
-  template <typename T>
-  void add_all(const std::vector<T>& values) {
-    add(values.size());
-    add(values.data(), values.size() * sizeof(T));
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  void add(const void* data, size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3ull;
-  }
-  uint64_t hash_ = 0xcbf29ce484222325ull;
-};
-
 /// Tells scenes apart whose geometry, first camera or reach differs.
 std::string digest_of(const Scene& scene) {
-  Digest digest;
-  for (const Mesh& mesh : scene.meshes) {
-    digest.add_all(mesh.positions);
-    digest.add_all(mesh.normals);
-    digest.add_all(mesh.triangles);
-  }
   const SceneCamera& camera = scene.cameras.front();
-  digest.add(scene.origin);
-  digest.add(camera.pose.world_to_view);
-  digest.add(camera.pose.position);
-  digest.add(camera.orthographic);
-  digest.add(camera.fov_degrees);
-  digest.add(camera.width);
-  return digest.text();
+  Fingerprint print;
+  print.add(scene);
+  print.add(camera.pose.world_to_view);
+  print.add(camera.pose.position);
+  print.add(std::vector<double>{double(camera.orthographic), camera.fov_degrees, camera.width});
+  return print.text();
 }
 
 /// Tells contributions apart, by their values.
 std::string digest_of(const std::function<double(double, double)>& contribution) {
   if (!contribution) return "none";
   constexpr int n = 16;
-  Digest digest;
+  Fingerprint print;
   for (int c = 1; c <= n; ++c) {
-    for (int d = 0; d < n; ++d) digest.add(contribution(double(c) / n, double(d) / n));
+    for (int d = 0; d < n; ++d) print.add(contribution(double(c) / n, double(d) / n));
   }
-  return digest.text();
+  return print.text();
 }
 
 Image image_of(const Frame& frame, const std::string& plane) {
@@ -191,6 +163,7 @@ Truth read_truth(const std::filesystem::path& path, const Frame& frame) {
     }
   }
   result.noise = file.number_attribute("aoNoise");
+  result.radius = file.number_attribute("aoRadius");
   return result;
 }
 

@@ -19,7 +19,7 @@ namespace gloam::bench {
 /// A truth, and how far it is from the limit of infinitely many rays.
 struct Truth {
   Image ao;
-  std::optional<double> noise;  ///< RMS, where its file says it
+  std::optional<double> noise, radius;  ///< RMS and scene units, where its file says them
 };
 
 /// Where and how frames and truths of a scene are kept.

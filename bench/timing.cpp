@@ -14,13 +14,6 @@ std::vector<Series> interleaved(const std::vector<Contender>& contenders, int ro
   return ms;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
 double ratio(const Series& a, const Series& b) {
   Series ratios;
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) ratios.push_back(a[i] / b[i]);

@@ -9,6 +9,7 @@
 #include "gloam/frame.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "statistics.h"
 
 namespace gloam::bench {
 
@@ -24,9 +25,6 @@ struct Contender {
 /// Runs all in turn, `rounds` times, so that what else the machine does falls on all alike. `progress` may be empty.
 std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
                                 const std::function<void(int done, int of)>& progress = {});
-
-/// 0 for none; the mean of the middle two for an even number.
-double median(std::vector<double> values);
 
 /// Median of the rounds' ratios a / b: both of a round saw the same machine.
 double ratio(const Series& a, const Series& b);

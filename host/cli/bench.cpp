@@ -164,8 +164,6 @@ Options options_of(const BenchCommand& flags, Report& report) {
   choose_presets(options, flags.presets);
   if (flags.frame.empty()) choose_scenes(options, flags.scenes);
   std::tie(options.scene.width, options.scene.height) = parse_size(flags.size, "--size");
-  if ((long long)options.scene.width * options.scene.height > max_pixels)
-    throw UsageError("--size {} has more than {} pixels; take a smaller one", flags.size, max_pixels);
   options.scene.layers = peeled_layers;
   options.scene.rays = parse_whole_number(flags.rays, "--rays", 1, 1 << 24);
   if (!flags.radius.empty()) options.scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
@@ -253,7 +251,7 @@ Subject own_subject(const BenchCommand& flags, const Options& options) {
   if (!flags.truth.empty()) {
     subject.given = read_truth(flags.truth, subject.frame);
     subject.truth = &*subject.given;
-    const std::optional<double> traced = FrameFile(flags.truth, {}).number_attribute("aoRadius");
+    const std::optional<double> traced = subject.given->radius;
     if (radius && traced && std::abs(*traced - *radius) > 1e-6 * *traced)
       throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth", *radius,
                        *traced);
@@ -465,10 +463,9 @@ void print_times(const Report& report) {
   for (const auto& row : report.rows) {
     const auto [least, most] = std::minmax_element(row->ms.begin(), row->ms.end());
     rows.push_back({row->scene, row->variation.technique->name, row->variation.name(),
-                    fmt::format("{:.2f}", bench::median(row->ms)), fmt::format("{:.2f}", *least),
-                    fmt::format("{:.2f}", *most), cell(row->to_hbao_plus, "{:.2f}"),
-                    cell(row->to_gather_floor, "{:.2f}"), cell(row->to_copy_floor, "{:.1f}"),
-                    cell(row->to_naive, "{:.3f}"), cell(row->to_native, "{:.2f}")});
+                    fmt::format("{:.2f}", median(row->ms)), fmt::format("{:.2f}", *least), fmt::format("{:.2f}", *most),
+                    cell(row->to_hbao_plus, "{:.2f}"), cell(row->to_gather_floor, "{:.2f}"),
+                    cell(row->to_copy_floor, "{:.1f}"), cell(row->to_naive, "{:.3f}"), cell(row->to_native, "{:.2f}")});
   }
   print_table(rows, 3);
 }

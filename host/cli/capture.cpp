@@ -184,8 +184,6 @@ void capture_command(const CaptureCommand& flags) {
   if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
   CaptureOptions options;
   std::tie(options.width, options.height) = parse_size(flags.size, "--size");
-  if ((long long)options.width * options.height > max_pixels)
-    throw UsageError("--size {} has more than {} pixels; take a smaller one", flags.size, max_pixels);
   options.planes = planes_of(flags);
   options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
   Figures figures;

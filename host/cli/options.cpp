@@ -14,6 +14,7 @@
 #include "gloam/error.h"
 #include "gloam/files.h"
 #include "lists.h"
+#include "statistics.h"
 
 namespace gloam::cli {
 namespace {
@@ -82,8 +83,11 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
 std::pair<int, int> parse_size(const std::string& text, const std::string& flag) {
   const size_t cross = text.find('x');
   if (cross == std::string::npos) throw UsageError("{} {} is not WIDTHxHEIGHT; write 1920x1080", flag, text);
-  return {parse_whole_number(text.substr(0, cross), flag + " " + text + ": width", 1, 65536),
-          parse_whole_number(text.substr(cross + 1), flag + " " + text + ": height", 1, 65536)};
+  const int width = parse_whole_number(text.substr(0, cross), flag + " " + text + ": width", 1, 65536);
+  const int height = parse_whole_number(text.substr(cross + 1), flag + " " + text + ": height", 1, 65536);
+  if ((long long)width * height > max_pixels)
+    throw UsageError("{} {} has more than {} pixels; take a smaller one", flag, text, max_pixels);
+  return {width, height};
 }
 
 std::vector<std::pair<std::string, std::string>> parse_settings(const std::vector<std::string>& items,
@@ -246,13 +250,6 @@ void JsonFlag::write(const Json& document) const {
     stream.close();
     if (!stream) throw Error("{}: cannot be written", path);
   });
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
 Json milliseconds(std::vector<double> ms) {

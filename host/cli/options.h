@@ -63,7 +63,6 @@ std::vector<std::string> split_list(const std::string& text, const std::string& 
 
 /// median, min, max
 Json milliseconds(std::vector<double> ms);
-double median(std::vector<double> values);
 
 /// A plan as the contract has it.
 Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);
@@ -91,7 +90,7 @@ void print_table(const std::vector<std::vector<std::string>>& rows, size_t first
 /// Draws a bar on standard error once the work has taken a second; empty unless that is a terminal.
 std::function<void(int done, int of)> progress_bar();
 
-/// "1920x1080"; throws UsageError. 1 to 65536 each way.
+/// "1920x1080"; throws UsageError. 1 to 65536 each way, and `max_pixels` at most.
 std::pair<int, int> parse_size(const std::string& text, const std::string& flag);
 
 /// A number within bounds; throws UsageError that names the flag.

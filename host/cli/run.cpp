@@ -7,6 +7,7 @@
 #include "gloam/error.h"
 #include "gloam/visualise.h"
 #include "options.h"
+#include "statistics.h"
 
 namespace gloam::cli {
 namespace {

@@ -276,7 +276,8 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
         if (failed) continue;
         capturer.row(y, options.width);
         const std::lock_guard<std::mutex> lock(mutex);
-        if (options.progress) options.progress(++done, rows);
+        ++done;
+        if (options.progress) options.progress(done, rows);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex);
         failed = true;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <mutex>
 
+#include "fingerprint.h"
 #include "gloam/capture.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -161,63 +162,30 @@ class ViewTracer {
 
 // --- What is kept between two runs
 
-/// A 64-bit FNV-1a hash in the making.
-class Fingerprint {
- public:
-  void add(const void* bytes, size_t count) {
-    const auto* p = static_cast<const unsigned char*>(bytes);
-    for (size_t i = 0; i < count; ++i) state_ = (state_ ^ p[i]) * 0x100000001b3ULL;
-  }
-  template <typename Item>
-  void add(const std::vector<Item>& items) {
-    add(items.data(), items.size() * sizeof(Item));
-  }
-  void add(const std::vector<double>& numbers, const std::string& text) {
-    add(numbers);
-    add(text.data(), text.size());
-  }
-  void add(const Plane* plane) {
-    if (!plane) return;
-    for (const Channel& channel : plane->channels) add(channel.data(), channel.layout().bytes());
-  }
-  uint64_t value() const { return state_; }
-
- private:
-  uint64_t state_ = 0xcbf29ce484222325ULL;
-};
-
-void add(Fingerprint& print, const Scene& scene) {
-  print.add({scene.origin.x, scene.origin.y, scene.origin.z}, "");
-  for (const Mesh& mesh : scene.meshes) {
-    print.add(mesh.positions);
-    print.add(mesh.normals);
-    print.add(mesh.uvs);
-    print.add(mesh.triangles);
-    const Material& material = scene.materials[size_t(mesh.material)];
-    print.add({double(material.alpha_cutoff)}, "");
-    if (material.alpha_cutoff > 0 && material.albedo_texture >= 0)
-      print.add(scene.textures[size_t(material.albedo_texture)].texels);
-  }
+void add(Fingerprint& print, const Plane* plane) {
+  if (!plane) return;
+  for (const Channel& channel : plane->channels) print.add_bytes(channel.data(), channel.layout().bytes());
 }
 
 void add(Fingerprint& print, const Frame& frame) {
-  print.add({double(frame.window.x0), double(frame.window.y0)}, "");
+  print.add(std::vector<int>{frame.window.x0, frame.window.y0});
   for (const View& view : frame.views) {
-    print.add(view.find("depth"));
-    print.add(view.find("normal"));
+    add(print, view.find("depth"));
+    add(print, view.find("normal"));
     const Camera& c = *view.camera;
-    const glm::dvec3 p = c.pose->position;
-    print.add({c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic), p.x, p.y, p.z}, view.name);
-    print.add(&c.pose->world_to_view, sizeof c.pose->world_to_view);
+    print.add(view.name);
+    print.add(std::vector<double>{c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic)});
+    print.add(c.pose->position);
+    print.add(c.pose->world_to_view);
   }
 }
 
 /// Tells one computation from another: all that the result depends on. The number is raised when the method changes.
 std::string key_of(const Tracer& tracer, const Frame& frame, const AoReferenceOptions& options) {
   Fingerprint print;
-  add(print, tracer.scene());
+  print.add(tracer.scene());
   add(print, frame);
-  return fmt::format("1: {:016x} {}x{} radius {} samples {} seed {} falloff {} {}", print.value(), frame.width(),
+  return fmt::format("2: {} {}x{} radius {} samples {} seed {} falloff {} {}", print.text(), frame.width(),
                      frame.height(), options.radius, rounded_samples(options.samples), options.seed, options.falloff,
                      options.falloff_parameters);
 }
@@ -360,7 +328,8 @@ class AoTracing {
   /// Called with the lock held.
   void finish_row(long long surfaces) {
     result_.rays += surfaces * estimator_.rays_per_pixel();
-    if (options_.progress) options_.progress(double(++rows_done_) / double(rows()));
+    ++rows_done_;
+    if (options_.progress) options_.progress(double(rows_done_) / double(rows()));
     if (!options_.checkpoint.empty() && seconds_since(saved_) >= options_.checkpoint_seconds) save();
   }
 
@@ -401,9 +370,8 @@ class AoTracing {
                                frame_.window.y0 + tally.y + 0.5);
     const std::optional<Surface> there = tracer_.first(ray);
     throw Error(
-        "{}: is not what the frame shows: at pixel ({}, {}) the frame's depth is {:g} and the scene's is {}; check "
-        "scene, "
-        "camera and unit",
+        "{}: is not what the frame shows: at pixel ({}, {}) the frame's depth is {:g} and the scene's is {}; "
+        "check scene, camera and unit",
         tracer_.scene().name, tally.x, tally.y, view.planes.at("depth").channels[0].at(tally.x, tally.y),
         there ? fmt::format("{:g}", there->distance) : "that of the background");
   }

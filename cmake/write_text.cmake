@@ -1,0 +1,11 @@
+# Writes a text, unless it is there already: what depends on the file is not built anew then.
+function(write_text_if_different path text)
+  set(old "")
+  if(EXISTS "${path}")
+    file(READ "${path}" old)
+  endif()
+  if(NOT text STREQUAL old)
+    file(WRITE "${path}" "${text}")
+    message(STATUS "Wrote ${path}")
+  endif()
+endfunction()
