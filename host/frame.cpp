@@ -31,6 +31,10 @@ std::vector<std::string> view_names(const Frame& frame) {
 
 void Channel::Free::operator()(float* p) const { std::free(p); }
 
+Layout reduced(const Layout& layout, int scale) {
+  return Layout((layout.width + scale - 1) / scale, (layout.height + scale - 1) / scale);
+}
+
 Channel::Channel(const Layout& layout) : layout_(layout), data_(allocate(layout)) {}
 
 Channel::Channel(const Layout& layout, float value) : Channel(layout) {

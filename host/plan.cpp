@@ -6,6 +6,7 @@
 
 #include "gloam/planes.h"
 #include "lists.h"
+#include "resample.h"
 
 namespace gloam {
 namespace {
@@ -19,13 +20,17 @@ const Technique* technique_named(const std::string& name) {
   return nullptr;
 }
 
-/// All planes that any technique writes, for suggestions.
+/// Whether a technique makes a plane, by itself or where it is asked to.
+bool makes(const Technique& t, const std::string& plane) {
+  return contains(t.writes, plane) || contains(t.extras, plane);
+}
+
+/// All planes that any technique makes, for suggestions.
 std::vector<std::string> plane_and_technique_names() {
   std::vector<std::string> names = technique_names();
   for (const Technique& t : registry()) {
-    for (const std::string& plane : t.writes) {
-      if (!contains(names, plane)) names.push_back(plane);
-    }
+    for (const std::string& plane : t.writes) add_new(names, plane);
+    for (const std::string& plane : t.extras) add_new(names, plane);
   }
   return names;
 }
@@ -41,11 +46,11 @@ struct Wanted {
 const Technique* maker_of(const std::string& plane, const Technique* asking,
                           const std::vector<const Technique*>& makers) {
   for (const Technique* t : makers) {
-    if (t != asking && contains(t->writes, plane)) return t;
+    if (t != asking && makes(*t, plane)) return t;
   }
   const Technique* simplest = nullptr;
   for (const Technique& t : registry()) {
-    if (&t == asking || !contains(t.writes, plane)) continue;
+    if (&t == asking || !makes(t, plane)) continue;
     if (!simplest || t.reads.size() < simplest->reads.size()) simplest = &t;
   }
   return simplest;
@@ -105,6 +110,23 @@ void want_plane(Wanted& wanted, const std::string& plane, const std::vector<std:
   add_new(wanted.outputs, plane);
 }
 
+bool is_extra(const Wanted& wanted, const std::string& plane) {
+  return std::any_of(wanted.makers.begin(), wanted.makers.end(),
+                     [&](const Technique* maker) { return contains(maker->extras, plane); });
+}
+
+void want_extra(Wanted& wanted, const std::string& plane) {
+  std::vector<std::string> known;
+  for (const Technique* maker : wanted.makers) {
+    for (const std::string& extra : maker->extras) add_new(known, extra);
+  }
+  if (!contains(known, plane)) {
+    throw UsageError("--with {}: {} does not make it{}; {}", plane, wanted.makers.front()->name,
+                     suggestion(plane, known), known.empty() ? "it has no extras" : "it has " + enumerate(known));
+  }
+  add_new(wanted.outputs, plane);
+}
+
 Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& available) {
   Wanted wanted;
   for (const std::string& output : request.outputs) {
@@ -113,8 +135,9 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
     else
       want_plane(wanted, output, available, request.then);
   }
+  for (const std::string& plane : request.with) want_extra(wanted, plane);
   for (const std::string& plane : request.only) {
-    if (contains(wanted.outputs, plane)) continue;
+    if (contains(wanted.outputs, plane) || is_extra(wanted, plane)) continue;
     throw UsageError("{}: no output '{}'{}; there are {}", request.outputs.front(), plane,
                      suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
   }
@@ -125,8 +148,11 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
 /// Walks back from planes to what makes them, and to the planes at hand.
 class Walk {
  public:
-  Walk(const Wanted& wanted, std::vector<std::string> available) : wanted_(wanted), available_(std::move(available)) {
+  /// `also`: planes that are needed beside the outputs.
+  Walk(const Wanted& wanted, std::vector<std::string> available, const std::vector<std::string>& also)
+      : wanted_(wanted), available_(std::move(available)) {
     for (const std::string& output : wanted.outputs) need(output, nullptr);
+    for (const std::string& plane : also) need(plane, nullptr);
   }
 
   std::vector<const Technique*> order;  ///< techniques to run
@@ -137,6 +163,7 @@ class Walk {
   void need(const std::string& plane, const Technique* asking) {
     if (contains(made_, plane) || contains(inputs, plane) || contains(missing, plane)) return;
     const Technique* maker = maker_of(plane, asking, wanted_.makers);
+    if (std::find(order.begin(), order.end(), maker) != order.end()) return;  // an extra of what is made
     const bool under_way = maker && std::find(begun_.begin(), begun_.end(), maker) != begun_.end();
     const bool asked_for =
         maker && std::find(wanted_.makers.begin(), wanted_.makers.end(), maker) != wanted_.makers.end();
@@ -210,10 +237,20 @@ void take_inputs(Plan& plan, const std::vector<std::string>& inputs, const std::
   }
 }
 
-std::string layer_count_define(const Binding& binding) {
-  std::string name = binding.argument;
+std::string upper_case(std::string name) {
   for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-  return name + "_LAYERS";
+  return name;
+}
+
+std::string layer_count_define(const Binding& binding) { return upper_case(binding.argument) + "_LAYERS"; }
+
+/// Planes made beside the others because they are asked for.
+void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
+  for (const Binding& extra : pass.extras) {
+    if (!contains(outputs, extra.plane)) continue;
+    pass.writes.push_back(extra);
+    pass.defines.emplace_back("WITH_" + upper_case(extra.argument), 1);
+  }
 }
 
 /// What the pass's kernel has to know of the stacks that it reads.
@@ -286,7 +323,8 @@ void apply(const PlanRequest& request, const std::vector<const Technique*>& orde
 void inherit(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
     for (size_t to = from + 1; to < order.size(); ++to) {
-      if (order[from]->then.empty() || !reads_from(*order[to], *order[from])) continue;
+      if (order[from]->then.empty()) continue;
+      if (order[to] != &resampling() && !reads_from(*order[to], *order[from])) continue;
       for (const Parameter& p : order[from]->parameters) {
         if (values[to].has(p.name)) values[to].set(p.name, values[from].text(p.name), order[to]->name);
       }
@@ -294,15 +332,21 @@ void inherit(const std::vector<const Technique*>& order, std::vector<ParameterVa
   }
 }
 
+std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& values) {
+  return technique.passes ? technique.passes(values) : std::vector<Pass>();
+}
+
 }  // namespace
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
   const Wanted wanted = wanted_by(request, available);
-  Walk walk(wanted, with_stacks(available));
+  const bool is_reduced = request.resolution > 1;
+  Walk walk(wanted, with_stacks(available), is_reduced ? resampling().reads : std::vector<std::string>());
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   take_inputs(plan, walk.inputs, available, walk.missing);
   if (!walk.missing.empty()) throw_missing(plan.technique, walk.missing, holds);
+  if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);
   // Twice: what a follower inherits is already set, and what is said of the follower itself wins.
@@ -310,12 +354,15 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   inherit(walk.order, values);
   apply(request, walk.order, plan.technique, values);
   for (size_t i = 0; i < walk.order.size(); ++i) {
-    for (Pass& pass : walk.order[i]->passes(values[i])) {
+    for (Pass& pass : passes_of(*walk.order[i], values[i])) {
+      add_extras(pass, wanted.outputs);
       define_layers(pass, plan);
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
     }
   }
   plan.outputs = wanted.outputs;
+  plan.resolution = request.resolution;
+  if (is_reduced) reduce(plan, wanted.makers, values.back());
   plan.skipped = walk.skipped;
   skip_the_rest(plan, available);
   if (contains(plan.inputs, "depth"))
@@ -324,6 +371,16 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
     plan.depends_on_pixels.push_back("normal space: compared with the depth where neither file nor flag says it");
   }
   return plan;
+}
+
+std::map<std::string, int> plane_scales(const Plan& plan) {
+  std::map<std::string, int> scales;
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& b : planned.pass.reads) scales.emplace(b.plane, b.layers > 0 ? planned.scale : 1);
+    for (const Binding& b : planned.pass.writes)
+      scales.emplace(b.plane, b.layers > 0 ? planned.scale : planned.pass.scale);
+  }
+  return scales;
 }
 
 }  // namespace gloam

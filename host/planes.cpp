@@ -54,6 +54,8 @@ const std::vector<PlaneKind>& plane_kinds() {
 }
 
 PlaneKind plane_kind(std::string_view name) {
+  // At a lower resolution (plan.h) a plane means the same.
+  name = name.substr(0, name.find('@'));
   for (const PlaneKind& known : plane_kinds())
     if (known.name == name) return known;
   const std::string own(name);

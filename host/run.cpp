@@ -25,17 +25,19 @@ namespace {
 #undef FRAME_NAME
 static_assert(Layout::guard == FRAME_GUARD);
 
+/// `layout`: of every `scale`-th pixel. The centre of reduced pixel X is that of pixel X * scale.
 template <typename KernelFrame>
-KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout& layout, int seed) {
+KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout& layout, int scale, int seed) {
   using Scalar = decltype(KernelFrame::scale_x);
+  const auto centre = [scale](double pixels) { return Scalar((pixels - 0.5) / scale + 0.5); };
   return {layout.width,
           layout.height,
           layout.pitch,
           seed,
-          Scalar(1 / camera.fx),
-          Scalar(1 / camera.fy),
-          Scalar(camera.cx - frame.window.x0),
-          Scalar(camera.cy - frame.window.y0),
+          Scalar(scale / camera.fx),
+          Scalar(scale / camera.fy),
+          centre(camera.cx - frame.window.x0),
+          centre(camera.cy - frame.window.y0),
           Scalar(camera.orthographic ? 0 : 1),
           Scalar(camera.orthographic ? 1 : 0)};
 }
@@ -52,47 +54,91 @@ std::set<std::string> planes_of(const Plan& plan) {
 
 /// Planes of one channel each that lie in one buffer: the layers of a stack; 1 for all else.
 size_t layers_in_buffer(const Plan& plan, const std::string& name) {
-  const auto stack = plan.stacks.find(name);
-  return stack == plan.stacks.end() ? 1 : stack->second.size();
+  if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& binding : planned.pass.writes) {
+      if (binding.plane == name && binding.layers > 0) return size_t(binding.layers);
+    }
+  }
+  return 1;
+}
+
+/// The layouts of a plan's planes on an image.
+class Layouts {
+ public:
+  Layouts(const Plan& plan, const Layout& whole) : whole_(whole), scales_(plane_scales(plan)) {}
+  Layout of(const std::string& plane) const { return reduced(whole_, scale_of(plane)); }
+  int scale_of(const std::string& plane) const {
+    const auto known = scales_.find(plane);
+    return known == scales_.end() ? 1 : known->second;
+  }
+
+ private:
+  Layout whole_;
+  std::map<std::string, int> scales_;
+};
+
+/// The one scale beside the pass's own among the planes that it binds; 0 where there is none.
+int other_scale(const PlannedPass& planned, const Layouts& layouts) {
+  int other = 0;
+  for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
+    for (const Binding& binding : *list) {
+      const int scale = layouts.scale_of(binding.plane);
+      if (scale == planned.pass.scale || scale == other) continue;
+      if (other != 0)
+        throw Error("{}: binds planes of three resolutions (1/{}, 1/{}, 1/{}); two are allowed", planned.label(),
+                    planned.pass.scale, other, scale);
+      other = scale;
+    }
+  }
+  return other;
 }
 
 /// One view's planes on the device. On a device that shares memory the host's own pages are used.
 class Buffers {
  public:
-  Buffers(Device::Impl& device, const Layout& layout) : device_(device), layout_(layout) {}
+  Buffers(Device::Impl& device) : device_(device) {}
 
   void upload(const Plane& plane) {
     for (const Channel& channel : plane.channels) {
       const cl_mem_flags flags =
           CL_MEM_READ_ONLY | (device_.info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
-      buffers_[plane.name].emplace_back(device_.context, flags, layout_.bytes(), const_cast<float*>(channel.data()));
+      buffers_[plane.name].emplace_back(device_.context, flags, channel.layout().bytes(),
+                                        const_cast<float*>(channel.data()));
     }
   }
 
   /// One buffer with the layers one after another, each in the layout of any plane.
   void upload_stack(const std::string& name, const std::vector<const Plane*>& layers) {
-    cl::Buffer buffer(device_.context, CL_MEM_READ_ONLY, layers.size() * layout_.bytes());
+    const size_t bytes = layers.front()->channels.front().layout().bytes();
+    cl::Buffer buffer(device_.context, CL_MEM_READ_ONLY, layers.size() * bytes);
     for (size_t i = 0; i < layers.size(); ++i) {
-      device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, i * layout_.bytes(), layout_.bytes(),
-                                       layers[i]->channels.front().data());
+      device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, i * bytes, bytes, layers[i]->channels.front().data());
     }
     buffers_[name].push_back(std::move(buffer));
   }
 
-  void allocate(const std::string& name) {
+  /// Room for a stack that is computed. All of it holds what lies outside, as far as nothing is computed there.
+  void allocate_stack(const std::string& name, const Layout& layout, size_t layers) {
+    cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layers * layout.bytes());
+    device_.queue.enqueueFillBuffer(buffer, plane_kind(name).outside, 0, layers * layout.bytes());
+    buffers_[name].push_back(std::move(buffer));
+  }
+
+  void allocate(const std::string& name, const Layout& layout) {
     const PlaneKind kind = plane_kind(name);
     for (size_t i = 0; i < kind.components.size(); ++i) {
       if (device_.info.shares_memory) {
-        Channel channel(layout_);
+        Channel channel(layout);
         channel.fill_padding(kind.outside);
-        buffers_[name].emplace_back(device_.context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, layout_.bytes(),
+        buffers_[name].emplace_back(device_.context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, layout.bytes(),
                                     channel.data());
         host_[name].push_back(std::move(channel));
       } else {
-        cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layout_.bytes());
+        cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layout.bytes());
         const size_t guard = Layout::guard * sizeof(float);
         device_.queue.enqueueFillBuffer(buffer, kind.outside, 0, guard);
-        device_.queue.enqueueFillBuffer(buffer, kind.outside, layout_.bytes() - guard, guard);
+        device_.queue.enqueueFillBuffer(buffer, kind.outside, layout.bytes() - guard, guard);
         buffers_[name].push_back(std::move(buffer));
       }
     }
@@ -101,19 +147,19 @@ class Buffers {
   std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
 
   /// Takes a computed plane back to the host; it is no longer on the device then.
-  Plane download(const std::string& name) {
+  Plane download(const std::string& name, const Layout& layout) {
     const PlaneKind kind = plane_kind(name);
     Plane plane{name, {}};
     for (size_t i = 0; i < kind.components.size(); ++i) {
       cl::Buffer& buffer = buffers_.at(name)[i];
       if (device_.info.shares_memory) {
         // Mapped, the device's result is what the host sees.
-        void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout_.bytes());
+        void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout.bytes());
         device_.queue.enqueueUnmapMemObject(buffer, mapped);
         plane.channels.push_back(std::move(host_.at(name)[i]));
       } else {
-        Channel channel(layout_);
-        device_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, layout_.bytes(), channel.data());
+        Channel channel(layout);
+        device_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, layout.bytes(), channel.data());
         plane.channels.push_back(std::move(channel));
       }
     }
@@ -125,7 +171,6 @@ class Buffers {
 
  private:
   Device::Impl& device_;
-  Layout layout_;
   std::map<std::string, std::vector<Channel>> host_;  // outlives the buffers that use its pages
   std::map<std::string, std::vector<cl::Buffer>> buffers_;
 };
@@ -141,8 +186,9 @@ std::string build_options(const PlannedPass& planned, const Device::Impl& device
 }
 
 /// Argument names that the declaration promises.
-std::vector<std::string> declared_arguments(const PlannedPass& planned) {
+std::vector<std::string> declared_arguments(const PlannedPass& planned, const Layouts& layouts) {
   std::vector<std::string> names = {"frame"};
+  if (other_scale(planned, layouts) != 0) names.push_back("other");
   if (!planned.technique->parameters.empty()) names.push_back("params");
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
@@ -169,7 +215,8 @@ std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
   return names;
 }
 
-cl::Kernel build_kernel(const PlannedPass& planned, Device::Impl& device, const RunOptions& options, int lanes) {
+cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
+                        const RunOptions& options, int lanes) {
   cl::Program& program = device.program(planned.technique->source, build_options(planned, device, options, lanes));
   cl::Kernel kernel;
   try {
@@ -178,7 +225,7 @@ cl::Kernel build_kernel(const PlannedPass& planned, Device::Impl& device, const 
     throw Error("{}: kernels/{} has no kernel '{}' ({})", planned.label(), planned.technique->source,
                 planned.pass.kernel, cl_error_name(error.err()));
   }
-  const std::vector<std::string> declared = declared_arguments(planned), actual = kernel_arguments(kernel);
+  const std::vector<std::string> declared = declared_arguments(planned, layouts), actual = kernel_arguments(kernel);
   if (!actual.empty() && declared != actual) {
     throw Error("{}: the pass declares ({}), kernel '{}' takes ({})", planned.label(), fmt::join(declared, ", "),
                 planned.pass.kernel, fmt::join(actual, ", "));
@@ -186,14 +233,27 @@ cl::Kernel build_kernel(const PlannedPass& planned, Device::Impl& device, const 
   return kernel;
 }
 
-void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, const Frame& frame, const Camera& camera,
-                   const Layout& layout, Buffers& buffers, const RunOptions& options) {
+/// The whole image, and what a kernel has to know of it.
+struct Image {
+  const Frame& frame;
+  const Camera& camera;
+  Layout layout;
+  Layouts layouts;
+};
+
+void set_frame(cl::Kernel& kernel, cl_uint index, const Image& image, int scale, const RunOptions& options) {
+  const Layout layout = reduced(image.layout, scale);
+  if (options.real == Real::float64)
+    kernel.setArg(index, kernel_frame<FrameOfDoubles>(image.frame, image.camera, layout, scale, options.seed));
+  else
+    kernel.setArg(index, kernel_frame<FrameOfFloats>(image.frame, image.camera, layout, scale, options.seed));
+}
+
+void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, const Image& image, Buffers& buffers,
+                   const RunOptions& options) {
   cl_uint index = 0;
-  if (options.real == Real::float64) {
-    kernel.setArg(index++, kernel_frame<FrameOfDoubles>(frame, camera, layout, options.seed));
-  } else {
-    kernel.setArg(index++, kernel_frame<FrameOfFloats>(frame, camera, layout, options.seed));
-  }
+  set_frame(kernel, index++, image, planned.pass.scale, options);
+  if (const int other = other_scale(planned, image.layouts)) set_frame(kernel, index++, image, other, options);
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
@@ -236,9 +296,10 @@ void check_memory(const Plan& plan, const Layout& layout, const DeviceInfo& info
     throw Error("{}: {}x{} pixels with rows padded to {} are more than 2^31; use a smaller frame", plan.technique,
                 layout.width, layout.height, layout.pitch);
   }
+  const Layouts layouts(plan, layout);
   for (const std::string& name : planes_of(plan)) {
     const size_t layers = layers_in_buffer(plan, name);
-    const unsigned long long bytes = layers * layout.bytes();
+    const unsigned long long bytes = layers * layouts.of(name).bytes();
     if (bytes <= info.largest_buffer) continue;
     const std::string what = layers == 1 ? "one plane" : fmt::format("'{}', {} layers", name, layers);
     throw Error(
@@ -262,9 +323,9 @@ const Plane& input_plane(const Plan& plan, const View& view, const std::string& 
 }
 
 /// Brings the inputs to the device, and makes room for what is computed.
-void fill(Buffers& buffers, const Plan& plan, const View& view, const Layout& layout) {
+void fill(Buffers& buffers, const Plan& plan, const View& view, const Image& image) {
   std::map<std::string, const Plane*> inputs;
-  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, view, name, layout);
+  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, view, name, image.layout);
   for (const std::string& name : planes_of(plan)) {
     if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) {
       std::vector<const Plane*> layers;
@@ -272,8 +333,10 @@ void fill(Buffers& buffers, const Plan& plan, const View& view, const Layout& la
       buffers.upload_stack(name, layers);
     } else if (const auto input = inputs.find(name); input != inputs.end()) {
       buffers.upload(*input->second);
+    } else if (const size_t layers = layers_in_buffer(plan, name); layers > 1) {
+      buffers.allocate_stack(name, image.layouts.of(name), layers);
     } else {
-      buffers.allocate(name);
+      buffers.allocate(name, image.layouts.of(name));
     }
   }
 }
@@ -281,12 +344,13 @@ void fill(Buffers& buffers, const Plan& plan, const View& view, const Layout& la
 void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device, const RunOptions& options,
               int lanes, View& out, RunResult& result) {
   const Layout layout(frame.width(), frame.height());
-  Buffers buffers(device, layout);
-  fill(buffers, plan, view, layout);
+  const Image image{frame, *view.camera, layout, Layouts(plan, layout)};
+  Buffers buffers(device);
+  fill(buffers, plan, view, image);
   std::vector<cl::Kernel> kernels;
   for (const PlannedPass& planned : plan.passes) {
-    kernels.push_back(build_kernel(planned, device, options, lanes));
-    set_arguments(kernels.back(), planned, frame, *view.camera, layout, buffers, options);
+    kernels.push_back(build_kernel(planned, image.layouts, device, options, lanes));
+    set_arguments(kernels.back(), planned, image, buffers, options);
   }
   const size_t first = result.passes.size();
   for (const PlannedPass& planned : plan.passes) result.passes.push_back({view.name, planned.label(), {}});
@@ -294,7 +358,7 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
   for (int i = -warm_ups; i < options.repeat; ++i) {
     for (size_t k = 0; k < kernels.size(); ++k) {
       try {
-        const double ms = launch(device, kernels[k], layout, lanes);
+        const double ms = launch(device, kernels[k], reduced(layout, plan.passes[k].pass.scale), lanes);
         if (i >= 0) result.passes[first + k].ms.push_back(ms);
       } catch (const cl::Error& error) {
         throw Error("{} on {}: {} ({})", plan.passes[k].label(), device.info.name, error.what(),
@@ -308,17 +372,18 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
   for (const std::string& name : plan.outputs) {
     const Plane* given = view.find(name);
     const bool is_input = std::find(plan.inputs.begin(), plan.inputs.end(), name) != plan.inputs.end();
-    out.planes.emplace(name, is_input ? given->clone() : buffers.download(name));
+    out.planes.emplace(name, is_input ? given->clone() : buffers.download(name, image.layouts.of(name)));
   }
 }
 
 }  // namespace
 
 unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
-  unsigned long long channels = 0;
+  const Layouts layouts(plan, layout);
+  unsigned long long bytes = 0;
   for (const std::string& name : planes_of(plan))
-    channels += plane_kind(name).components.size() * layers_in_buffer(plan, name);
-  return channels * layout.bytes();
+    bytes += plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
+  return bytes;
 }
 
 void check(const Plan& plan, const Layout& layout, const Device& device, const RunOptions& options) {
@@ -328,7 +393,9 @@ void check(const Plan& plan, const Layout& layout, const Device& device, const R
 
 void prepare(const Plan& plan, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
-  for (const PlannedPass& planned : plan.passes) build_kernel(planned, impl, options, lanes_for(impl.info, options));
+  const Layouts layouts(plan, Layout(1, 1));
+  for (const PlannedPass& planned : plan.passes)
+    build_kernel(planned, layouts, impl, options, lanes_for(impl.info, options));
 }
 
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {

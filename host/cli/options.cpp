@@ -200,11 +200,21 @@ void TechniqueFlags::add_to(CLI::App& app) {
   app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
       ->type_name("NAME")
       ->group("Technique");
+  app.add_option("--with", with, "planes to make beside the usual ones, such as bent_normal,cone")
+      ->type_name("A,B")
+      ->group("Technique");
+  app.add_option(
+         "--resolution", resolution,
+         "full, half or quarter: estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
+      ->type_name("NAME")
+      ->group("Technique");
 }
 
 PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
-  PlanRequest request{outputs, {}, then, preset, {}};
+  PlanRequest request{.outputs = outputs, .then = then, .preset = preset};
   request.settings = parse_settings(settings, "--set");
+  if (!with.empty()) request.with = split_list(with, "--with");
+  request.resolution = one_of<int>(resolution, "--resolution", {{"full", 1}, {"half", 2}, {"quarter", 4}});
   return request;
 }
 

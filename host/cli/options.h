@@ -29,7 +29,7 @@ struct FrameFlags {
 /// Which techniques, and with which parameters.
 struct TechniqueFlags {
   std::vector<std::string> settings;
-  std::string preset, then;
+  std::string preset, then, with, resolution = "full";
   void add_to(CLI::App& app);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };
@@ -115,5 +115,6 @@ void add_compare(CLI::App& app);
 void add_capture(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_report(CLI::App& app);
 
 }  // namespace gloam::cli

@@ -36,6 +36,9 @@ struct Layout {
   bool operator==(const Layout&) const = default;
 };
 
+/// Of every `scale`-th pixel of every `scale`-th row, beginning with the first.
+Layout reduced(const Layout& layout, int scale);
+
 /// One image of floats in the layout above, 4096-byte aligned so that a CPU device can use it in place. Move-only.
 class Channel {
  public:

@@ -14,19 +14,25 @@ namespace gloam {
 struct PlanRequest {
   /// Planes to be made; a technique's name stands for its outputs.
   std::vector<std::string> outputs;
-  /// Of these, only the planes named here (all when empty).
+  /// Of these, only the planes named here (all when empty); may name a technique's extras.
   std::vector<std::string> only;
+  /// Extras of the techniques asked for to be made as well: "bent_normal".
+  std::vector<std::string> with;
   /// Replaces every technique's `then`: a technique, "none", or empty for the default.
   std::string then;
   std::string preset;
   /// name = value, or technique.name = value. A bare name reaches every planned technique that has it.
   std::vector<std::pair<std::string, std::string>> settings;
+  /// Every `resolution`-th pixel of every `resolution`-th row is estimated and filtered, and the rest is brought back by
+  /// joint bilateral upsampling (resample.h): 1, 2 or 4.
+  int resolution = 1;
 };
 
 struct PlannedPass {
   const Technique* technique;
   Pass pass;
   ParameterValues values;
+  int scale = 1;  ///< of the technique as a whole: the plan's resolution, or 1
   std::string label() const { return technique->name + "/" + pass.name; }
 };
 
@@ -36,6 +42,7 @@ struct Plan {
   std::vector<std::string> inputs;                           ///< planes to take from the frame
   std::map<std::string, std::vector<std::string>> stacks;    ///< layers of each stack read: "peel" -> "peel.00", ...
   std::vector<PlannedPass> passes;                           ///< in order
+  int resolution = 1;                                        ///< as asked for
   std::vector<std::pair<std::string, std::string>> skipped;  ///< what, why
   std::vector<std::string> depends_on_pixels;                ///< what only the pixel values will tell
 };
@@ -53,6 +60,10 @@ class MissingPlanes : public Error {
 /// A stack (planes.h) is at hand when its first layer is, and has all layers up to the last one available: one that is
 /// missing in between is a missing plane. A pass that reads a stack gets a define with the number of layers, named after
 /// the argument: PEEL_LAYERS.
+/// Where `resolution` is above 1, planes of that size have names that end in it: "depth@2".
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds);
+
+/// The scale (`Pass::scale`) of every plane and stack that a plan's passes touch.
+std::map<std::string, int> plane_scales(const Plan& plan);
 
 }  // namespace gloam

@@ -13,19 +13,31 @@ namespace gloam {
 /// A plane behind a kernel argument. Argument and plane mostly share the name; a kernel that serves several planes
 /// names its argument otherwise: {"source", "ao_raw"}. A plane of several components takes as many arguments, in order
 /// (`normal_x`, `normal_y`, `normal_z`).
+///
+/// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
+/// the technique's own resolution whatever the pass's. A pass that reads and writes such a stack names it once, as
+/// written.
 struct Binding {
   std::string argument, plane;
+  int layers = 0;
   Binding(const char* name) : argument(name), plane(name) {}
-  Binding(const char* argument, const char* plane) : argument(argument), plane(plane) {}
+  Binding(std::string argument, std::string plane, int layers = 0)
+      : argument(std::move(argument)), plane(std::move(plane)), layers(layers) {}
 };
 
-/// One kernel launch over all pixels. Kernel arguments: (Frame, Params, reads..., writes...); a technique without
-/// parameters has no Params argument.
+/// One kernel launch. Kernel arguments: (Frame frame, Frame other, Params params, reads..., writes...). A technique
+/// without parameters has no `params`. `other` is there only where planes of a second resolution are bound: their frame.
 struct Pass {
   std::string name;                                  ///< "estimate": shown as "hbao+/estimate"
   std::string kernel;                                ///< function in the technique's source
   std::vector<Binding> reads, writes;                ///< planes that no technique declares are intermediate
   std::vector<std::pair<std::string, int>> defines;  ///< counts that shape loops, and choices
+  /// Of the technique's `extras` those that this pass can make. Of these the ones asked for join `writes`, with a define
+  /// each: WITH_BENT_NORMAL.
+  std::vector<Binding> extras;
+  /// Pixels of the image per pixel of what is computed, along each axis: one of `scale` x `scale` pixels is launched, and
+  /// the planes written are that small (`reduced`, frame.h).
+  int scale = 1;
 };
 
 /// A named set of parameter values.
@@ -44,6 +56,7 @@ struct Technique {
                                      ///< by the technique that `then` names
   std::string then;                  ///< technique that follows by default, such as a filter; inherits parameters of
                                      ///< the same name
+  std::vector<std::string> extras;   ///< planes made beside `writes` where they are asked for by name
   std::vector<Parameter> parameters;
   std::vector<Preset> presets;
   /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant

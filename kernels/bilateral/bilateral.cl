@@ -6,8 +6,7 @@
 // out: result  filtered; 1 on background
 // -D HALF_WIDTH, VERTICAL
 #include "bilateral/params.h"
-#include "shared/camera.h"
-#include "shared/math.h"
+#include "shared/surface.h"
 
 kernel void bilateral(Frame frame, BilateralParams params, PLANE source, PLANE depth, PLANE normal_x, PLANE normal_y,
                       PLANE normal_z, PLANE_OUT result) {
@@ -16,12 +15,7 @@ kernel void bilateral(Frame frame, BilateralParams params, PLANE source, PLANE d
   const real z = load(depth, here), own = load(source, here);
   const real3 n = load3(normal_x, normal_y, normal_z, here);
   const Anchor p = anchor_at(frame, to_real(x), (real)(y), z);
-  // One over the tolerances, in units of the pixel's depth and as 1 - cosine.
-  const scalar tolerance = (scalar)params.depth_tolerance * params.radius;
-  const real per_distance = (scalar)1 / larger(tolerance * p.inverse_depth, (real)(1e-18f));
-  real widest, unused;
-  cosine_sine_of_turns((real)(params.normal_tolerance * (scalar)0.15915494309189535), &widest, &unused);
-  const real per_cosine = (scalar)1 / larger(1 - widest, (real)(1e-7f));
+  const Tolerance tolerance = tolerance_of(p, params.depth_tolerance * params.radius, params.normal_tolerance);
 
 #if VERTICAL
   const int from = -min(HALF_WIDTH, y), to = min(HALF_WIDTH, frame.height - 1 - y);
@@ -38,10 +32,8 @@ kernel void bilateral(Frame frame, BilateralParams params, PLANE source, PLANE d
     const int there = here + k;
     const real3 v = towards(frame, p, p.x + k, p.y, relative_depth(p, z, load(depth, there)));
 #endif
-    const real by_distance = larger(1 - fabs(dot3(n, v)) * per_distance, (real)(0));
-    const real cosine = dot3(n, load3(normal_x, normal_y, normal_z, there));
-    const real by_angle = larger(1 - (1 - cosine) * per_cosine, (real)(0));
-    real weight = k == 0 ? (real)(0) : window * by_distance * by_angle;
+    const real same = same_surface(tolerance, v, n, load3(normal_x, normal_y, normal_z, there));
+    real weight = k == 0 ? (real)(0) : window * same;
 #if !VERTICAL
     weight = choose(to_mask((x + k >= 0) & (x + k < frame.width)), weight, (real)(0));
 #endif

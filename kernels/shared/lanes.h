@@ -79,6 +79,9 @@ static inline real3 make3(real x, real y, real z) {
   return v;
 }
 static inline real3 scale3(real3 a, real s) { return make3(a.x * s, a.y * s, a.z * s); }
+static inline real3 choose3(mask m, real3 a, real3 b) {
+  return make3(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z));
+}
 static inline real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 #endif

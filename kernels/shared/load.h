@@ -22,6 +22,10 @@ static inline global const float* layer_of(global const float* stack, Frame f, i
   return stack + (size_t)layer * (2 * FRAME_GUARD + (size_t)f.pitch * f.height);
 }
 
+static inline global float* layer_of_out(global float* stack, Frame f, int layer) {
+  return stack + (size_t)layer * (2 * FRAME_GUARD + (size_t)f.pitch * f.height);
+}
+
 #if LANES == 1
 static inline real load(PLANE plane, int i) { return to_real(plane[i]); }
 static inline void store(real value, PLANE_OUT plane, int i) { plane[i] = to_stored(value); }

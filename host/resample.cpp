@@ -1,0 +1,122 @@
+#include "resample.h"
+
+#include <set>
+
+#include "gloam/planes.h"
+#include "lists.h"
+#include "resample/params.h"
+
+namespace gloam {
+namespace {
+
+std::string reduced_name(const std::string& plane, int resolution) { return fmt::format("{}@{}", plane, resolution); }
+
+/// The kernel for planes of as many components.
+std::string kernel_for(const std::string& kernel, const std::string& plane) {
+  const size_t components = plane_kind(plane).components.size();
+  if (components == 1) return kernel;
+  if (components == 3) return kernel + "_vector";
+  throw Error("'{}' has {} components; only planes of one or three can be had at a lower resolution", plane,
+              components);
+}
+
+/// Of the whole image's plane or stack, every n-th pixel.
+Pass subsample(const std::string& plane, const Plan& plan) {
+  const int resolution = plan.resolution;
+  Pass pass{.name = "subsample " + plane, .defines = {{"SCALE", resolution}}, .scale = resolution};
+  pass.reads = {{"source", plane}};
+  const auto stack = plan.stacks.find(plane);
+  if (stack == plan.stacks.end()) {
+    pass.kernel = kernel_for("subsample", plane);
+    pass.writes = {{"result", reduced_name(plane, resolution)}};
+  } else {
+    const int layers = int(stack->second.size());
+    pass.kernel = "subsample_stack";
+    pass.defines.emplace_back("SOURCE_LAYERS", layers);
+    pass.writes = {{"result", reduced_name(plane, resolution), layers}};
+  }
+  return pass;
+}
+
+Pass upsample(const std::string& plane, int resolution) {
+  return {.name = "upsample " + plane,
+          .kernel = kernel_for("joint_upsample", plane),
+          .reads = {{"source", reduced_name(plane, resolution)},
+                    {"low_depth", reduced_name("depth", resolution)},
+                    {"low_normal", reduced_name("normal", resolution)},
+                    "depth",
+                    "normal"},
+          .writes = {{"result", plane}},
+          .defines = {{"SCALE", resolution}}};
+}
+
+/// Passes of a plan, rewritten one by one.
+class Reduction {
+ public:
+  Reduction(const Plan& plan, const ParameterValues& values) : plan_(plan), values_(values) {}
+
+  void add(const PlannedPass& planned) { passes.push_back(planned); }
+
+  void add_reduced(PlannedPass planned) {
+    for (Binding& binding : planned.pass.reads) rename(binding);
+    for (Binding& binding : planned.pass.writes) {
+      made_.insert(binding.plane);
+      rename(binding);
+    }
+    planned.pass.scale *= plan_.resolution;
+    planned.scale = plan_.resolution;
+    passes.push_back(std::move(planned));
+  }
+
+  void add_outputs() {
+    for (const std::string& output : plan_.outputs) {
+      if (made_.count(output) == 0) continue;
+      for (const char* guide : {"depth", "normal"}) need(guide);
+      passes.push_back({&resampling(), upsample(output, plan_.resolution), values_});
+    }
+  }
+
+  std::vector<PlannedPass> passes;
+
+ private:
+  /// What is not made at the low resolution comes from the whole image.
+  void need(const std::string& plane) {
+    if (!made_.insert(plane).second) return;
+    passes.push_back({&resampling(), subsample(plane, plan_), values_, plan_.resolution});
+  }
+
+  void rename(Binding& binding) {
+    need(binding.plane);
+    binding.plane = reduced_name(binding.plane, plan_.resolution);
+  }
+
+  const Plan& plan_;
+  const ParameterValues& values_;
+  std::set<std::string> made_;  ///< at the low resolution
+};
+
+}  // namespace
+
+const Technique& resampling() {
+  static const Technique technique = {.name = "resample",
+                                      .summary = "every n-th pixel, and back by joint bilateral upsampling",
+                                      .paper = "Kopf, Cohen, Lischinski, Uyttendaele 2007",
+                                      .source = "resample/resample.cl",
+                                      .reads = {"depth", "normal"},
+                                      .parameters = ResampleParams::table()};
+  return technique;
+}
+
+void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const ParameterValues& values) {
+  Reduction reduction(plan, values);
+  for (PlannedPass& planned : plan.passes) {
+    if (std::find(techniques.begin(), techniques.end(), planned.technique) == techniques.end())
+      reduction.add(planned);
+    else
+      reduction.add_reduced(std::move(planned));
+  }
+  reduction.add_outputs();
+  plan.passes = std::move(reduction.passes);
+}
+
+}  // namespace gloam
