@@ -28,8 +28,8 @@ KernelFrame kernel_frame(const Frame& frame) {
 }
 
 std::string options(const Device& device) {
-  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={}", device.info().lanes,
-                     directions, steps);
+  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1",
+                     device.info().lanes, directions, steps);
 }
 
 }  // namespace
@@ -44,9 +44,9 @@ Floor::Floor(Device& device, const Frame& frame, const char* header, const char*
 double Floor::run() { return launch(device_, kernel_, global_); }
 
 GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params)
-    : Floor(device, frame, "shared/sample.h", gather_floor_cl, "gather_floor") {
+    : Floor(device, frame, "shared/fan.h", gather_floor_cl, "gather_floor") {
   kernel_.setArg(1, params.radius);
-  kernel_.setArg(2, params.max_pixels);
+  kernel_.setArg(2, params.max_reach);
   kernel_.setArg(3, planes.depth);
   kernel_.setArg(4, planes.result);
 }

@@ -1,5 +1,5 @@
 // HBAO+ as one would port a GPU's pixel shader: one pixel per work-item, float3 positions, native functions, an early
-// return on background. Samples, hash and result are those of kernels/hbao_plus.
+// return on background. Samples, noise and result are those of kernels/hbao_plus.
 //
 // -D DIRECTIONS, STEPS: loop counts known to the compiler; without them they are arguments.
 #define GUARD 64
@@ -11,16 +11,9 @@ typedef struct {
 
 typedef struct {
   float radius, bias, strength;
-  int max_pixels, directions, steps;
+  float max_pixels;
+  int directions, steps;
 } Settings;
-
-uint hash(uint h) {
-  h ^= h >> 16;
-  h *= 0x7feb352du;
-  h ^= h >> 15;
-  h *= 0x846ca68bu;
-  return h ^ (h >> 16);
-}
 
 float unit_random(uint h) { return (h >> 8) * 0x1p-24f; }
 
@@ -50,10 +43,11 @@ kernel void naive_hbao_plus(Camera camera, Settings settings, global const float
   }
   const float3 p = position(camera, x, y, z), n = (float3)(normal_x[here], normal_y[here], normal_z[here]);
 
-  const uint h = hash(x + hash(y + hash(camera.seed)));
-  const float turn = unit_random(h) / directions, shift = unit_random(hash(h + 1));
-  const float reach_x = fmin(settings.radius / (z * camera.scale_x), (float)settings.max_pixels);
-  const float reach_y = fmin(settings.radius / (z * camera.scale_y), (float)settings.max_pixels);
+  const uint start = camera.seed * 0x9e3779b9u;
+  const float turn = unit_random(x * 0x8e42b7fdu + y * 0x4f2cbe3cu + start) / directions;
+  const float shift = unit_random(x * 0xc13fa9a9u + y * 0x91e10da6u + start);
+  const float reach_x = fmin(settings.radius / (z * camera.scale_x), settings.max_pixels);
+  const float reach_y = fmin(settings.radius / (z * camera.scale_y), settings.max_pixels);
   const float stride_x = fmax(reach_x - 1, 0.0f) / steps, stride_y = fmax(reach_y - 1, 0.0f) / steps;
   const float inverse_square = 1 / (settings.radius * settings.radius);
 

@@ -8,7 +8,8 @@ namespace {
 /// The layout of `Settings` in naive.cl.
 struct Settings {
   float radius, bias, strength;
-  int max_pixels, directions, steps;
+  float max_pixels;
+  int directions, steps;
 };
 
 std::string options(Counts counts) {
@@ -23,7 +24,8 @@ Naive::Naive(Device& device, const Frame& frame, DevicePlanes& planes, const Hba
     : device_(device), kernel_(build(device, naive_cl, options(counts), "naive_hbao_plus")) {
   const PixelCamera camera = pixel_camera(frame);
   kernel_.setArg(0, camera);
-  kernel_.setArg(1, Settings{params.radius, params.bias, params.strength, params.max_pixels, directions, steps});
+  kernel_.setArg(1, Settings{params.radius, params.bias, params.strength, params.max_reach * float(frame.width()),
+                             directions, steps});
   kernel_.setArg(2, planes.depth);
   kernel_.setArg(3, planes.normal_x);
   kernel_.setArg(4, planes.normal_y);

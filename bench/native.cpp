@@ -34,14 +34,6 @@ constexpr float step_cosine = 0.70710678f, step_sine = 0.70710678f;  ///< from o
 static_assert(directions == 8);
 #define GLOAM_UNROLL _Pragma("GCC unroll 4")
 
-uint32_t hash(uint32_t h) {
-  h ^= h >> 16;
-  h *= 0x7feb352du;
-  h ^= h >> 15;
-  h *= 0x846ca68bu;
-  return h ^ (h >> 16);
-}
-
 // The loop is written once in native_loop.h, on the types and functions that each namespace here defines: F and I are
 // a vector of floats and of 32-bit integers. GCC and Clang provide + - * on both.
 
@@ -69,7 +61,6 @@ inline F fnma(F a, F b, F c) { return c - a * b; }
 inline F inverse_sqrt(F x) { return 1 / std::sqrt(x); }
 inline I truncated(F x) { return I(x); }
 inline F converted(I i) { return F(i); }
-inline U hashed(U h) { return hash(h); }
 inline F random(U h) { return F(h >> 8) * 0x1p-24f; }
 inline bool all_infinite(F x) { return x == INFINITY; }
 inline F smallest(F x) { return x; }
@@ -109,13 +100,6 @@ inline F converted(I i) { return _mm256_cvtepi32_ps(i); }
 inline I plus(I a, I b) { return _mm256_add_epi32(a, b); }
 inline I plus(I a, int b) { return plus(a, all_i(b)); }
 inline I times(I a, int b) { return _mm256_mullo_epi32(a, all_i(b)); }
-inline U hashed(U h) {
-  h = _mm256_xor_si256(h, _mm256_srli_epi32(h, 16));
-  h = times(h, int(0x7feb352du));
-  h = _mm256_xor_si256(h, _mm256_srli_epi32(h, 15));
-  h = times(h, int(0x846ca68bu));
-  return _mm256_xor_si256(h, _mm256_srli_epi32(h, 16));
-}
 inline F random(U h) { return _mm256_cvtepi32_ps(_mm256_srli_epi32(h, 8)) * all(0x1p-24f); }
 inline F infinite(F x) { return _mm256_cmp_ps(x, all(INFINITY), _CMP_EQ_OQ); }
 inline bool all_infinite(F x) { return _mm256_movemask_ps(infinite(x)) == 0xff; }
@@ -160,13 +144,6 @@ inline F converted(I i) { return _mm512_cvtepi32_ps(i); }
 inline I plus(I a, I b) { return _mm512_add_epi32(a, b); }
 inline I plus(I a, int b) { return plus(a, all_i(b)); }
 inline I times(I a, int b) { return _mm512_mullo_epi32(a, all_i(b)); }
-inline U hashed(U h) {
-  h = _mm512_xor_si512(h, _mm512_srli_epi32(h, 16));
-  h = times(h, int(0x7feb352du));
-  h = _mm512_xor_si512(h, _mm512_srli_epi32(h, 15));
-  h = times(h, int(0x846ca68bu));
-  return _mm512_xor_si512(h, _mm512_srli_epi32(h, 16));
-}
 inline F random(U h) { return _mm512_cvtepi32_ps(_mm512_srli_epi32(h, 8)) * all(0x1p-24f); }
 inline __mmask16 infinite(F x) { return _mm512_cmp_ps_mask(x, all(INFINITY), _CMP_EQ_OQ); }
 inline bool all_infinite(F x) { return infinite(x) == 0xffff; }
@@ -226,7 +203,7 @@ double Native::run() {
   const Job job{camera_,
                 params_.radius,
                 params_.bias,
-                float(params_.max_pixels),
+                params_.max_reach * float(camera_.width),
                 1 / (params_.radius * params_.radius),
                 params_.strength,
                 view_.planes.at("depth").channels[0].row(0),

@@ -10,6 +10,9 @@ inline void cosine_sine(F a, F& cosine, F& sine) {
   sine = a * fma(fma(fma(b, all(-1.0f / 5040), all(1.0f / 120)), b, all(-1.0f / 6)), b, all(1));
 }
 
+// The pixel noise of kernels/shared/sample.h, per column.
+constexpr uint32_t turn_across = 0x8e42b7fdu, shift_across = 0xc13fa9a9u;
+
 // What one row's pixels share.
 struct RowConstants {
   F scale_x, scale_y, origin_x, origin_y;  // position at depth 1 = scale * pixel + origin
@@ -36,7 +39,8 @@ inline F obscurance(const RowConstants& r, const Point& p, I ix, I iy, F depth) 
 
 // The block of pixels from column x; z is their depth. `inside`: every sample lies in the frame.
 template <bool inside>
-inline F open_share(const Job& job, const RowConstants& r, int x, int y, size_t here, U pixel_hash, F z) {
+inline F open_share(const Job& job, const RowConstants& r, int x, int y, size_t here, uint32_t first_turn,
+                    uint32_t first_shift, F z) {
   const PixelCamera& c = job.camera;
   const F column = all(float(x)) + iota();
   const F nx = load(job.normal_x + here), ny = load(job.normal_y + here), nz = all(0) - load(job.normal_z + here);
@@ -49,8 +53,8 @@ inline F open_share(const Job& job, const RowConstants& r, int x, int y, size_t 
                 nz,
                 least * least};
 
-  const F turn = random(pixel_hash) * all(2 * pi / directions);
-  const F shift = random(hashed(plus(pixel_hash, 1)));
+  const F turn = random(plus(times(iota_u(), int(turn_across)), int(first_turn))) * all(2 * pi / directions);
+  const F shift = random(plus(times(iota_u(), int(shift_across)), int(first_shift)));
   const F reach = all(job.radius) / z, most = all(job.max_pixels), zero = all(0);
   const F stride_x = larger(smaller(reach * all(1 / c.scale_x), most) - all(1), zero) * all(1.0f / steps);
   const F stride_y = larger(smaller(reach * all(1 / c.scale_y), most) - all(1), zero) * all(1.0f / steps);
@@ -103,15 +107,17 @@ inline void row(const Job& job, int y) {
                        c.width - 1,
                        c.height - 1,
                        c.pitch};
-  const uint32_t row_hash = hash(uint32_t(y) + hash(uint32_t(c.seed)));
+  const uint32_t start = uint32_t(c.seed) * 0x9e3779b9u;
   for (int x = 0; x < c.pitch; x += width) {
     const size_t here = size_t(y) * size_t(c.pitch) + size_t(x);
     const F z = load(job.depth + here);
     F open = all(1);
     if (!all_infinite(z)) {
-      const U h = hashed(plus(iota_u(), int(uint32_t(x) + row_hash)));
+      const uint32_t first_turn = uint32_t(x) * turn_across + uint32_t(y) * 0x4f2cbe3cu + start;
+      const uint32_t first_shift = uint32_t(x) * shift_across + uint32_t(y) * 0x91e10da6u + start;
       const bool inside = tuned && reaches_only_inside(job, x, y, z);
-      const F share = inside ? open_share<true>(job, r, x, y, here, h, z) : open_share<false>(job, r, x, y, here, h, z);
+      const F share = inside ? open_share<true>(job, r, x, y, here, first_turn, first_shift, z)
+                             : open_share<false>(job, r, x, y, here, first_turn, first_shift, z);
       open = where_infinite(z, open, share);
     }
     store(job.ao + here, open);

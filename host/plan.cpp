@@ -319,6 +319,16 @@ void apply(const PlanRequest& request, const std::vector<const Technique*>& orde
   }
 }
 
+/// What a technique says of its follower.
+void set_followers(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
+  for (const Technique* technique : order) {
+    for (size_t i = 0; i < order.size(); ++i) {
+      if (order[i]->name != technique->then) continue;
+      for (const auto& [name, value] : technique->then_with) values[i].set(name, value, order[i]->name);
+    }
+  }
+}
+
 /// A follower works on the same radius as the technique it follows.
 void inherit(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
@@ -349,6 +359,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);
+  set_followers(walk.order, values);
   // Twice: what a follower inherits is already set, and what is said of the follower itself wins.
   apply(request, walk.order, plan.technique, values);
   inherit(walk.order, values);

@@ -181,6 +181,7 @@ std::string build_options(const PlannedPass& planned, const Device::Impl& device
   if (options.math == Math::fast) text += " -D MATH_FAST=1";
   if (options.math == Math::precise && device.info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
+  if (options.gathers_only) text += " -D GATHERS_ONLY=1";
   for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
   return text;
 }

@@ -19,7 +19,10 @@ struct RunOptions {
   Real real = Real::float32;
   int lanes = 0;  ///< pixels per work-item: 1, 4, 8, 16; 0: what suits the device (half of it for double)
   int seed = 0;
-  int repeat = 1;                                  ///< timed runs; more than one: after an untimed warm-up
+  int repeat = 1;  ///< timed runs; more than one: after an untimed warm-up
+  /// Instead of what samples contribute, adds up what is read: what a kernel's addresses and reads cost by themselves. The
+  /// result means nothing.
+  bool gathers_only = false;
   std::function<void(int done, int of)> progress;  ///< called after each pass
 };
 

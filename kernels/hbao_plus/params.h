@@ -1,14 +1,12 @@
-#include "shared/params.h"
+#include "shared/ambient_occlusion.h"
 
 #define HBAO_PLUS_PARAMS(P)                                                                                   \
-  P(float, radius, 0.5f, 0, INFINITY, "scene units", "reach of an occluder")                                  \
+  REACH_PARAMS(P)                                                                                             \
   P(float, bias, 0.1f, 0, 0.99f, "", "cosine above the tangent plane below which an occluder does not count") \
   P(int, directions, 8, 1, 32, "", "directions searched per pixel")                                           \
   P(int, steps, 4, 1, 32, "", "samples along each direction")                                                 \
-  P(int, max_pixels, 512, 1, 16384, "pixels", "cap on the radius on the screen")                              \
   P(float, strength, 1, 0, 8, "", "factor on the obscurance")                                                 \
   P(int, power, 1, 1, 4, "", "exponent on the result: NVIDIA's library uses 2 for contrast")                  \
-  P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")                \
-  P(bool, jitter, on, "turn and shift the samples from pixel to pixel")
+  P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")
 
 PARAMS(HbaoPlusParams, HBAO_PLUS_PARAMS)

@@ -10,7 +10,11 @@ Pass estimate_of(const HbaoPlusParams& p) {
                 "hbao_plus_estimate",
                 {"depth", "normal"},
                 {"ao_raw"},
-                {{"DIRECTIONS", p.directions}, {"STEPS", p.steps}, {"POWER", p.power}, {"JITTER", p.jitter}}};
+                {{"DIRECTIONS", p.directions},
+                 {"STEPS", p.steps},
+                 {"POWER", p.power},
+                 {"JITTER", p.jitter},
+                 {"OUTSIDE_OPEN", p.outside == HbaoPlusParams::outside_values::open}}};
   if (p.falloff == HbaoPlusParams::falloff_values::none) estimate.defines.push_back({"NO_FALLOFF", 1});
   return estimate;
 }

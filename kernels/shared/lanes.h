@@ -16,7 +16,7 @@
 #define IOTA 0
 #else
 #define N_LANES(type) JOIN(type, LANES)
-#define ANY(m) any(m)
+#define ANY(m) any_lane(m)
 #define IOTA JOIN(IOTA, LANES)
 #define IOTA4 (int4)(0, 1, 2, 3)
 #define IOTA8 (int8)(0, 1, 2, 3, 4, 5, 6, 7)
@@ -58,6 +58,23 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 #else
 #define to_mask(m) (m)
 #endif
+#endif
+
+#define EVERY_LANE ((mask)(LANES == 1 ? 1 : -1))
+
+#if LANES > 1
+// Whether a mask holds for any lane. `any` takes lanes one by one on CPUs; these are one instruction.
+static inline int any_lane(mask m) {
+#if LANES == 16 && defined(__AVX512DQ__) && !defined(REAL_DOUBLE)
+  return __builtin_ia32_cvtd2mask512(m) != 0;
+#elif LANES == 8 && defined(__AVX__) && !defined(REAL_DOUBLE)
+  return __builtin_ia32_movmskps256(as_float8(m)) != 0;
+#elif LANES == 4 && defined(__SSE__) && !defined(REAL_DOUBLE)
+  return __builtin_ia32_movmskps(as_float4(m)) != 0;
+#else
+  return any(m);
+#endif
+}
 #endif
 
 // Per lane: m ? a : b.

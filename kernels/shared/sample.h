@@ -22,6 +22,27 @@ static inline natural pixel_hash(integer x, int y, int seed) {
 // 24 bits of a hash as 0 <= u < 1: exact in float.
 static inline real unit_random(natural h) { return to_real(h >> 8) * (scalar)0x1p-24; }
 
+// Two numbers for each pixel, 0 <= each < 1, spread evenly over any few neighbouring pixels, so that a small filter sees all
+// directions: rank-1 lattices. `turn` has the steps of interleaved gradient noise (Jimenez 2014), `shift` those of the R2
+// sequence (Roberts 2018). In whole numbers: the same on every device, in float and in double.
+typedef struct {
+  real turn, shift;
+} Noise;
+
+static inline Noise noise_at(integer x, int y, int seed) {
+  Noise n;
+#if JITTER
+  const natural column = to_natural(x);
+  const uint row = (uint)y, start = (uint)seed * 0x9e3779b9u;
+  n.turn = unit_random(column * 0x8e42b7fdu + (row * 0x4f2cbe3cu + start));
+  n.shift = unit_random(column * 0xc13fa9a9u + (row * 0x91e10da6u + start));
+#else
+  n.turn = (real)(0);
+  n.shift = (real)(0.5f);
+#endif
+  return n;
+}
+
 // How far a radius in scene units reaches on the screen, in pixels of each axis, capped; and in units of the depth.
 typedef struct {
   real pixels_x, pixels_y;
@@ -30,12 +51,13 @@ typedef struct {
 
 // A radius of 0 reaches no pixel; an infinite one every pixel up to the cap. Distances of 1e15 depths and more are out
 // of any reach, so that background never counts, not even for an infinite radius.
-static inline Reach reach_of(Anchor a, scalar radius, scalar most_pixels) {
+static inline Reach reach_of(Frame f, Anchor a, scalar radius, scalar most_pixels) {
   Reach r;
   const real relative = (scalar)radius * a.inverse_depth;
-  r.pixels_x = smaller(relative / a.across_x, (real)(most_pixels));
-  r.pixels_y = smaller(relative / a.across_y, (real)(most_pixels));
-  const real inverse = larger((scalar)1 / larger(relative, (real)(1e-18f)), (real)(1e-15f));
+  const real per_depth = f.perspective * a.inverse_depth + f.parallel;
+  r.pixels_x = smaller(((scalar)radius / f.scale_x) * per_depth, (real)(most_pixels));
+  r.pixels_y = smaller(((scalar)radius / f.scale_y) * per_depth, (real)(most_pixels));
+  const real inverse = larger(quick_inverse(larger(relative, (real)(1e-18f))), (real)(1e-15f));
   r.inverse_square = inverse * inverse;
   return r;
 }
@@ -54,12 +76,20 @@ static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
   return !ANY(!((a.x >= x) & (a.x + x < (scalar)f.width) & (a.y >= y) & (a.y + y < (scalar)f.height)));
 }
 
-// Changes an offset in pixels from each lane's own (x, y) that leads out of the frame to the frame's border.
+// Changes an offset in pixels from each lane's own (x, y) that leads out of the frame to the frame's border. Returns which
+// samples count: all, or with OUTSIDE_OPEN only those that were in the frame.
 // `within`: a constant, one of the above.
-static inline void keep_in_frame(Frame f, integer x, int y, int within, integer* dx, integer* dy) {
-  if (within == SAMPLES_INSIDE) return;
-  *dx = min(max(*dx, -x), f.width - 1 - x);
-  *dy = min(max(*dy, -y), f.height - 1 - y);
+static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer* dx, integer* dy) {
+  if (within == SAMPLES_INSIDE) return EVERY_LANE;
+  const integer kept_x = min(max(*dx, -x), f.width - 1 - x), kept_y = min(max(*dy, -y), f.height - 1 - y);
+#if OUTSIDE_OPEN
+  const mask inside = to_mask((kept_x == *dx) & (kept_y == *dy));
+#else
+  const mask inside = EVERY_LANE;
+#endif
+  *dx = kept_x;
+  *dy = kept_y;
+  return inside;
 }
 
 // A plane's value at an offset that stays in the frame; `here` is the first lane's index. |dy| is below SHORT_PITCH.

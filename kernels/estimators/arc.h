@@ -1,0 +1,33 @@
+// What an occluder takes from one side of a slice: all below it, so that the highest one counts (Jimenez, Wu, Pesce,
+// Jarabo 2016, equation 7, from the tangent instead of the line to the eye).
+#ifndef GLOAM_ARC_H
+#define GLOAM_ARC_H
+
+#include "shared/slice.h"
+
+// Elevations are kept as cotangents: one division, exact for flat ones, no angle. This one is that of nothing: 0 degrees.
+#define NO_HORIZON ((scalar)1e9f)
+
+// The horizon after a point `along` the tangent and `above` it, where `counts`; above > 0 there.
+static inline real raised(real horizon, real along, real above, mask counts) {
+  return choose(counts, smaller(along * rough_inverse(above), horizon), horizon);
+}
+
+// The same, but a sample below the horizon draws it down by `share` of the way, in cosines (the thickness heuristic of the
+// paper's section 5.2): thin occluders do not close all behind them.
+static inline real raised_or_lowered(real horizon, real along, real above, scalar share, mask counts) {
+  const real point = along * rough_inverse(above);
+  const real own = horizon * inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
+  const real lower = point * inverse_sqrt(multiply_add(point, point, (real)(1)));
+  const real cosine = own + (lower - own) * share;
+  const real drawn = cosine * inverse_sqrt(larger(1 - cosine * cosine, (real)(1e-18f)));
+  return choose(counts, choose(point < horizon, point, drawn), horizon);
+}
+
+// Share of a slice's mass below a horizon; (cosine, sine): the normal's lean towards this side.
+static inline real share_below(real horizon, real cosine, real sine, real mass) {
+  const real inverse = inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
+  return mass_below(horizon * inverse, inverse * inverse, cosine, sine) * ((scalar)0.5 * quick_inverse(mass));
+}
+
+#endif

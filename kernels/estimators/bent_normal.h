@@ -1,0 +1,43 @@
+// Bent normal and cone: the mean of the directions that are open, each of them counting by its solid angle, and the cone
+// about it that is as open (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
+#ifndef GLOAM_BENT_NORMAL_H
+#define GLOAM_BENT_NORMAL_H
+
+#include "shared/load.h"
+#include "shared/math.h"
+
+typedef struct {
+  real3 sum;
+  real weight;
+} OpenDirections;
+
+static inline OpenDirections no_directions(void) {
+  OpenDirections d;
+  d.sum = make3((real)(0), (real)(0), (real)(0));
+  d.weight = (real)(0);
+  return d;
+}
+
+// `weight`: solid angle, 0 where the direction (unit) is closed.
+static inline void add_open(OpenDirections* d, real3 direction, real weight) {
+  d->sum.x += weight * direction.x;
+  d->sum.y += weight * direction.y;
+  d->sum.z += weight * direction.z;
+  d->weight += weight;
+}
+
+// The normal where nothing is open.
+static inline real3 bent_normal_of(OpenDirections d, real3 normal) {
+  const real square = dot3(d.sum, d.sum);
+  const mask is_there = square > (scalar)1e-12f;
+  return choose3(is_there, scale3(d.sum, inverse_sqrt(choose(is_there, square, (real)(1)))), normal);
+}
+
+// Cosine of the cone's half angle: directions spread evenly over a cap of that size have a mean of length
+// (1 + cosine) / 2. 0 where a whole hemisphere is open, 1 where nothing is.
+static inline real cone_of(OpenDirections d) {
+  const real length = sqrt(dot3(d.sum, d.sum)), cosine = 2 * length / larger(d.weight, (real)(1e-12f)) - 1;
+  return choose(d.weight > (scalar)1e-6f, smaller(larger(cosine, (real)(0)), (real)(1)), (real)(1));
+}
+
+#endif

@@ -1,0 +1,52 @@
+// What an occluder of some thickness takes from one side of a slice: the sectors between its front and its back (Therrien,
+// Levesque, Gilet 2023, section 3), here of equal cosine-weighted mass, so that the number left is what is open.
+#ifndef GLOAM_SECTORS_H
+#define GLOAM_SECTORS_H
+
+#include "shared/slice.h"
+
+// Of a slice. Less than the bits of a mask by one and a little: no shift by all of them, whatever the rounding.
+#define SECTORS ((scalar)30.9f)
+
+// How the mass on one side of a slice is divided.
+typedef struct {
+  real cosine, sine;  // of the normal's lean towards this side, times sectors per twice the mass
+  real shift;         // 0 to just below 1: where counting begins, so that rounding is fair on average
+} Scale;
+
+static inline Scale scale_of(real cosine, real sine, real mass, real shift) {
+  const real per_mass = SECTORS * (scalar)0.5 * quick_inverse(mass);
+  Scale s;
+  s.cosine = cosine * per_mass;
+  s.sine = sine * per_mass;
+  s.shift = shift * (scalar)0.999;
+  return s;
+}
+
+// Number of sectors up to the elevation whose cotangent is `horizon` (arc.h); with the shift.
+static inline real sectors_below_horizon(real horizon, Scale s) {
+  const real inverse = inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
+  return mass_below(horizon * inverse, inverse * inverse, s.cosine, s.sine) + s.shift;
+}
+
+// The same up to a point `along` the tangent and `above` it, above >= 0; with the shift.
+static inline real sectors_below(real along, real above, Scale s) {
+  const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
+  const real inverse = rough_inverse_sqrt(square), sine = above * inverse;
+  return mass_below(along * inverse, sine * sine, s.cosine, s.sine) + s.shift;
+}
+
+// One bit for each whole sector from `low` to `high`.
+static inline natural sectors_between(real low, real high) {
+  return ((natural)(1u) << to_natural(to_integer(high))) - ((natural)(1u) << to_natural(to_integer(low)));
+}
+
+// Number of bits; OpenCL's popcount takes lanes one by one on CPUs.
+static inline real count_of(natural m) {
+  m -= (m >> 1) & 0x55555555u;
+  m = (m & 0x33333333u) + ((m >> 2) & 0x33333333u);
+  m = (m + (m >> 4)) & 0x0f0f0f0fu;
+  return to_real((m * 0x01010101u) >> 24);
+}
+
+#endif

@@ -1,0 +1,223 @@
+// Ambient occlusion by slices: GTAO's sampling and integral (Jimenez, Wu, Pesce, Jarabo 2016, sections 4 and 5), where all
+// below the highest occluder is closed; or with BITMASK what lies between front and back of occluders of one thickness
+// (Therrien, Levesque, Gilet 2023). AO = weighted mean over slices of the open share of their cosine-weighted mass.
+//
+// in : depth      view-space z, scene units, +inf = background
+//      normal     unit, view space
+//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+// out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
+//      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
+//      cone         cosine of the half angle of the open cone about it (WITH_CONE)
+// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+#include "estimators/arc.h"
+#include "estimators/bent_normal.h"
+#include "estimators/sectors.h"
+#include "gtao/params.h"
+
+#if BITMASK
+typedef BitmaskParams Params;
+#else
+typedef GtaoParams Params;
+#endif
+
+// What a row of pixels looks for, the same on both sides of all slices.
+typedef struct {
+  Receiver receiver;
+  Surface surface;
+  real radius_square, thickness;  // units of the pixel's depth
+} Search;
+
+// One side of a slice.
+typedef struct {
+  real along, above;                // of a sample on the pixel's own depth (slice.h)
+  real slope, above_e;              // slice.h
+  real deeper_along, deeper_above;  // from the front of an occluder to its back
+  Scale scale;
+  real horizon;     // of what has no back that matters (arc.h)
+  natural covered;  // sectors.h
+} Side;
+
+static inline Side side_of(Slice slice, Search search, real sign) {
+  Side s;
+  s.slope = sign * slice.slope;
+  s.above_e = slice.above_e;
+  s.deeper_along = sign * slice.sine * search.thickness;
+  s.deeper_above = -slice.cosine * search.thickness;
+  s.scale = scale_of(slice.cosine, sign * slice.sine, slice.mass, search.receiver.noise.shift);
+  s.horizon = (real)(NO_HORIZON);
+  s.covered = (natural)(0u);
+  return s;
+}
+
+static inline void take_point(Side* side, Params params, Search search, real along, real above, mask in_frame) {
+  const real square = multiply_add(along, along, above * above);
+  const mask counts = in_frame & (square < search.radius_square) & (above > 0);
+#if BITMASK
+  // What reaches down to the tangent only raises the horizon, which is cheap; few occluders float above it.
+  const real back = above + side->deeper_above;
+  const mask floats = counts & (back > 0);
+  side->horizon = raised(side->horizon, along, above, counts & (back <= 0));
+  if (ANY(floats)) {
+    const real low = sectors_below(along + side->deeper_along, back, side->scale);
+    const natural covered = sectors_between(low, sectors_below(along, above, side->scale));
+    side->covered |= floats ? covered : (natural)(0u);
+  }
+#else
+  real height = above;
+#if FADE
+  height *= smaller((1 - square * search.receiver.reach.inverse_square) / params.fade, (real)(1));
+#endif
+#if THICKNESS_HEURISTIC
+  side->horizon = raised_or_lowered(side->horizon, along, height, params.thickness_heuristic, counts & (height > 0));
+#else
+  side->horizon = raised(side->horizon, along, height, counts & (height > 0));
+#endif
+#endif
+}
+
+// Every layer at an offset in pixels.
+static inline __attribute__((always_inline)) void look(Frame frame, Params params, global const float* occluders,
+                                                       Search search, integer dx, integer dy, mask in_frame, int within,
+                                                       Side* side) {
+  const Receiver r = search.receiver;
+  for (int k = 0; k < LAYERS; ++k) {
+    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+#if GATHERS_ONLY
+    side->horizon = smaller(side->horizon, depth);
+    continue;
+#endif
+    const real e = relative_depth(r.point, r.depth, depth);
+    const real q = multiply_add((real)(frame.perspective), e, (real)(1));
+    const real above = multiply_add(e, side->above_e, q * side->above);
+    const real along = multiply_add(-side->slope, above, q * side->along);
+    take_point(side, params, search, along, above, in_frame);
+  }
+}
+
+// Samples on both sides, denser towards the pixel.
+static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params,
+                                                               global const float* occluders, Search search,
+                                                               Slice slice, int within, Side* right, Side* left) {
+  const Receiver r = search.receiver;
+  const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
+  for (int k = 0; k < STEPS; ++k) {
+    const real even = (k + r.noise.shift) * (scalar)(1.0f / STEPS), t = even * ((scalar)0.4f + (scalar)0.6f * even);
+    integer dx = nearest(reach_x * t), dy = nearest(reach_y * t), other_dx = -dx, other_dy = -dy;
+    const mask in_frame = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+    right->along = to_real(dx) * slice.along_x + to_real(dy) * slice.along_y;
+    right->above = to_real(dx) * slice.above_x + to_real(dy) * slice.above_y;
+    left->along = right->along;
+    left->above = -right->above;
+    mask other_in_frame = in_frame;
+    if (within != SAMPLES_INSIDE) {
+      other_in_frame = keep_in_frame(frame, r.x, r.y, within, &other_dx, &other_dy);
+      left->along = -(to_real(other_dx) * slice.along_x + to_real(other_dy) * slice.along_y);
+      left->above = to_real(other_dx) * slice.above_x + to_real(other_dy) * slice.above_y;
+    }
+    look(frame, params, occluders, search, dx, dy, in_frame, within, right);
+    look(frame, params, occluders, search, other_dx, other_dy, other_in_frame, within, left);
+  }
+}
+
+// Share of a slice's mass.
+static inline real covered_share(Slice slice, Side* right, Side* left) {
+#if BITMASK
+  right->covered |= sectors_between((real)(0), sectors_below_horizon(right->horizon, right->scale));
+  left->covered |= sectors_between((real)(0), sectors_below_horizon(left->horizon, left->scale));
+  return (count_of(right->covered) + count_of(left->covered)) * (1 / SECTORS);
+#else
+  return share_below(right->horizon, slice.cosine, slice.sine, slice.mass) +
+         share_below(left->horizon, slice.cosine, -slice.sine, slice.mass);
+#endif
+}
+
+#if WITH_BENT_NORMAL || WITH_CONE
+#define BENT_STEPS 32
+// The open directions on one side, by angle from the line to the eye.
+static inline void add_open_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
+  for (int k = 0; k < BENT_STEPS; ++k) {
+    real cosine, sine;
+    cosine_sine_of_turns((real)((k + (scalar)0.5f) * (scalar)(0.5f / BENT_STEPS)), &cosine, &sine);
+    // Elevation above the tangent.
+    const real up = cosine * slice.cosine + sign * sine * slice.sine;
+    const real along = sine * slice.cosine - sign * cosine * slice.sine;
+#if BITMASK
+    const natural sector = to_natural(to_integer(sectors_below(along, larger(up, (real)(0)), side.scale)));
+    const mask is_open = to_mask(((side.covered >> sector) & 1u) == 0u) & (up > 0);
+#else
+    const mask is_open = (along < side.horizon * up) & (up > 0);
+#endif
+    const real3 v = search.surface.to_eye, t = slice.tangent;
+    const real across = sign * sine;
+    add_open(open, make3(v.x * cosine + t.x * across, v.y * cosine + t.y * across, v.z * cosine + t.z * across),
+             choose(is_open, sine, (real)(0)));
+  }
+}
+#endif
+
+static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, global const float* occluders,
+                                                             Search search, int within, OpenDirections* directions) {
+  const Receiver r = search.receiver;
+  real open = 0, weights = 0;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+    real cosine, sine;
+    cosine_sine_of_turns(((scalar)d + r.noise.turn) * (scalar)(0.5f / DIRECTIONS), &cosine, &sine);
+    const Slice slice = slice_at(r.point, search.surface, cosine, sine);
+    Side right = side_of(slice, search, (real)(1)), left = side_of(slice, search, (real)(-1));
+    search_slice(frame, params, occluders, search, slice, within, &right, &left);
+    const real share = larger(1 - covered_share(slice, &right, &left), (real)(0));
+#if WITH_BENT_NORMAL || WITH_CONE
+    add_open_side(directions, search, slice, right, (real)(1));
+    add_open_side(directions, search, slice, left, (real)(-1));
+#endif
+    if (DIRECTIONS == 1) return share;
+    open += slice.weight * share;
+    weights += slice.weight;
+  }
+  return open / weights;
+}
+
+kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw
+#if WITH_BENT_NORMAL
+                          ,
+                          PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
+#endif
+#if WITH_CONE
+                          ,
+                          PLANE_OUT cone
+#endif
+) {
+  OCCLUDERS_FROM(depth)
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  OpenDirections directions = no_directions();
+  real open = 1;
+  if (ANY(!r.point.background)) {
+    Search search;
+    search.receiver = r;
+    search.surface = surface_at(r.point, r.normal);
+    const real radius = (scalar)params.radius * r.point.inverse_depth;
+    search.radius_square = radius * radius;
+#if BITMASK
+    search.thickness = (scalar)params.thickness * radius;
+#else
+    search.thickness = 0;
+#endif
+    // Along a slice that is not square to the view the radius reaches further on the screen.
+    Reach widest = r.reach;
+    widest.pixels_x *= search.surface.length;
+    widest.pixels_y *= search.surface.length;
+    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, occluders, search, within, &directions))
+  }
+  store_open(open, r, ao_raw);
+#if WITH_BENT_NORMAL
+  const real3 bent = bent_normal_of(directions, r.normal);
+  const real there = choose(r.point.background, (real)(0), (real)(1));
+  store(bent.x * there, bent_normal_x, r.here);
+  store(bent.y * there, bent_normal_y, r.here);
+  store(bent.z * there, bent_normal_z, r.here);
+#endif
+#if WITH_CONE
+  store(choose(r.point.background, (real)(0), cone_of(directions)), cone, r.here);
+#endif
+}

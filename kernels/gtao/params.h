@@ -1,0 +1,20 @@
+#include "shared/ambient_occlusion.h"
+
+#define SLICE_PARAMS(P)                                         \
+  REACH_PARAMS(P)                                               \
+  P(int, directions, 1, 1, 64, "", "slices searched per pixel") \
+  P(int, steps, 9, 1, 128, "", "samples on each side of a slice")
+
+#define GTAO_PARAMS(P)                                                                                               \
+  SLICE_PARAMS(P)                                                                                                    \
+  P(float, fade, 0, 0, 1, "radii", "width of the outer part of the radius over which occluders sink to the tangent") \
+  P(float, thickness_heuristic, 0, 0, 1, "",                                                                         \
+    "how far the horizon falls back to a sample below it; 0: occluders have no "                                     \
+    "back")
+
+#define BITMASK_PARAMS(P) \
+  SLICE_PARAMS(P)         \
+  P(float, thickness, 0.4f, 0, INFINITY, "radii", "how far an occluder reaches behind what is seen of it")
+
+PARAMS(GtaoParams, GTAO_PARAMS)
+PARAMS(BitmaskParams, BITMASK_PARAMS)
