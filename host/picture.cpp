@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
+#include "gloam/exr.h"
 #include "gloam/files.h"
 #include "gloam/planes.h"
 
@@ -81,6 +83,15 @@ void hatch(cv::Mat& panel, const cv::Mat& background, double unit) {
         panel.at<cv::Vec3b>(y, x) = background_line;
 }
 
+png_image header_of(const cv::Mat& image) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = png_uint_32(image.cols);
+  png.height = png_uint_32(image.rows);
+  png.format = image.channels() == 1 ? PNG_FORMAT_GRAY : image.channels() == 2 ? PNG_FORMAT_GA : PNG_FORMAT_BGR;
+  return png;
+}
+
 }  // namespace
 
 unsigned char to_byte(double v) {
@@ -95,14 +106,35 @@ cv::Mat image_of(const Plane& plane) {
 
 void write_png(const std::filesystem::path& path, const cv::Mat& image) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = png_uint_32(image.cols);
-    png.height = png_uint_32(image.rows);
-    png.format = image.channels() == 1 ? PNG_FORMAT_GRAY : PNG_FORMAT_BGR;
+    png_image png = header_of(image);
     if (!png_image_write_to_file(&png, temporary.c_str(), 0, image.data, png_int_32(image.step[0]), nullptr))
       throw Error("{}: cannot be written as PNG: {}", path.string(), png.message);
   });
+}
+
+std::string encode_png(const cv::Mat& image) {
+  png_image png = header_of(image);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data, png_int_32(image.step[0]), nullptr))
+    throw Error("a picture of {}x{} cannot be written as PNG: {}", image.cols, image.rows, png.message);
+  bytes.resize(size);
+  return bytes;
+}
+
+cv::Mat read_png(const std::filesystem::path& path) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&png, path.c_str()))
+    throw Error("{}: cannot be read as PNG: {}", path.string(), png.message);
+  const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&png, png_image_free);
+  if ((long long)png.width * png.height > max_pixels)
+    throw Error("{}: has {}x{} pixels; {} are read at most", path.string(), png.width, png.height, max_pixels);
+  png.format = PNG_FORMAT_GA;
+  cv::Mat image(int(png.height), int(png.width), CV_8UC2);
+  if (!png_image_finish_read(&png, nullptr, image.data, png_int_32(image.step[0]), nullptr))
+    throw Error("{}: cannot be read as PNG: {}", path.string(), png.message);
+  return image;
 }
 
 double text_width(const std::string& text, const Style& style) {

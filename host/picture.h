@@ -28,8 +28,14 @@ double srgb(double v);
 /// 0..1 through sRGB. A missing component is 0. CV_8UC1 or CV_8UC3.
 cv::Mat image_of(const Plane& plane);
 
-/// CV_8UC1 or CV_8UC3, written atomically. Throws Error naming `path`.
+/// CV_8UC1, CV_8UC2 (grey and alpha, not multiplied by it) or CV_8UC3, written atomically. Throws Error naming `path`.
 void write_png(const std::filesystem::path& path, const cv::Mat& image);
+
+/// The same as the bytes of a file.
+std::string encode_png(const cv::Mat& image);
+
+/// A PNG of any kind as grey and alpha (CV_8UC2), alpha 255 where it has none. Throws Error naming `path`.
+cv::Mat read_png(const std::filesystem::path& path);
 
 // --- Text
 

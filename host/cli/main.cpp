@@ -124,6 +124,7 @@ int run_command(int argc, char** argv) {
       "  gloam capture colonnade -o frame.exr --size 960x540\n"
       "  gloam reference ao frame.exr -o truth.exr --radius 0.5\n"
       "  gloam bench -o out/bench --frame frame.exr --truth truth.exr\n"
+      "  gloam report out/bench\n"
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("--version", "gloam " GLOAM_VERSION);
   app.require_subcommand(1);
@@ -136,6 +137,7 @@ int run_command(int argc, char** argv) {
   add_capture(app);
   add_reference(app);
   add_bench(app);
+  add_report(app);
   try {
     app.parse(with_parameter_flags(argc, argv));
   } catch (const CLI::Success& success) {

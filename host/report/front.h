@@ -1,0 +1,54 @@
+// The Pareto front: the settings that no other beats in both time and error.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "measurements.h"
+
+namespace gloam::report {
+
+/// Both are to be small; any units.
+struct Cost {
+  double time = 0, error = 0;
+};
+
+/// Indices of the points on the front, fastest first. A point is on it when no other has both a time and an error that
+/// are no larger and one of them smaller: of two equal points both are on it. A point that is not finite never is.
+std::vector<size_t> pareto_front(const std::vector<Cost>& points);
+
+/// Which of a row's times a front is over.
+enum class TimeOf { ratio, ms };
+
+/// The front of one scene; indices into the rows.
+struct SceneFront {
+  TimeOf time = TimeOf::ratio;  ///< ms where a row with an error has no ratio to HBAO+
+  size_t candidates = 0;        ///< rows with a time and an error
+  std::vector<size_t> all;      ///< over every row of the scene
+  std::vector<size_t> plain;    ///< over the rows whose variant is ""
+};
+
+SceneFront front_of_scene(const std::vector<Row>& rows, const std::string& scene);
+
+/// One setting over the scenes of a class.
+struct ClassPoint {
+  std::string technique, preset, variant;
+  double error = 0, ratio = 0;      ///< means over the scenes
+  bool on_front = false;            ///< of the means, over all settings
+  bool on_plain_front = false;      ///< of the means, over those whose variant is ""
+  std::vector<std::string> fronts;  ///< scenes of the class on whose own front it is, over all settings
+};
+
+/// The front of a class of scenes.
+struct ClassFront {
+  std::string name;
+  std::vector<std::string> scenes;  ///< those with an error and a ratio; the means are over all of them
+  std::vector<ClassPoint> points;   ///< settings measured in all of the scenes, fastest first
+  size_t left_out = 0;              ///< settings measured in some of the scenes only: their mean would be another
+};
+
+/// One per class, in order of first appearance; none for a class without a scene that has errors and ratios.
+std::vector<ClassFront> fronts_of_classes(const Measurements& measurements);
+
+}  // namespace gloam::report

@@ -1,0 +1,235 @@
+#include "measurements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gloam/error.h"
+#include "gloam/files.h"
+
+namespace gloam::report {
+namespace {
+
+/// An object of the file, with its place in it for messages: "results[3]".
+class Object {
+ public:
+  Object(const Json& value, std::string file, std::string place)
+      : value_(value), file_(std::move(file)), place_(std::move(place)) {
+    if (!value_.is_object()) fail(place_.empty() ? "the document" : place_, value_, "an object");
+  }
+
+  /// Empty where it is null or missing.
+  std::string text(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return "";
+    if (!value->is_string()) fail(place_of(key), *value, "a text");
+    return value->get<std::string>();
+  }
+
+  Number number(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(place_of(key), *value, "a number");
+    return value->get<double>();
+  }
+
+  std::string needed_text(const char* key) const {
+    if (!find(key)) missing(key);
+    return text(key);
+  }
+
+  double needed_number(const char* key) const {
+    if (!find(key)) missing(key);
+    return *number(key);
+  }
+
+  Object object(const char* key) const {
+    const Json* value = find(key);
+    return Object(value ? *value : nothing, file_, place_of(key));
+  }
+
+  Object needed_object(const char* key) const {
+    if (!find(key)) missing(key);
+    return object(key);
+  }
+
+  std::vector<Object> list(const char* key) const {
+    std::vector<Object> items;
+    const Json* value = find(key);
+    if (!value) return items;
+    if (!value->is_array()) fail(place_of(key), *value, "a list");
+    for (size_t i = 0; i < value->size(); ++i)
+      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", place_of(key), i));
+    return items;
+  }
+
+  std::vector<Object> needed_list(const char* key) const {
+    if (!find(key)) missing(key);
+    return list(key);
+  }
+
+  /// The two numbers of a size; empty where there is none.
+  std::pair<Number, Number> size(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    if (!value->is_array() || value->size() != 2 || !value->at(0).is_number() || !value->at(1).is_number())
+      fail(place_of(key), *value, "a list of width and height");
+    return {value->at(0).get<double>(), value->at(1).get<double>()};
+  }
+
+  const Json& json() const { return value_; }
+
+ private:
+  static const Json nothing;
+
+  const Json* find(const char* key) const {
+    const auto found = value_.find(key);
+    return found == value_.end() || found->is_null() ? nullptr : &*found;
+  }
+  std::string place_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+
+  [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
+    std::string shown = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+    if (shown.size() > 40) shown = shown.substr(0, 37) + "...";
+    throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file_, place, shown, needed);
+  }
+  [[noreturn]] void missing(const char* key) const {
+    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, place_of(key));
+  }
+
+  const Json& value_;
+  std::string file_, place_;
+};
+
+const Json Object::nothing = Json::object();
+
+Milliseconds milliseconds_of(const Object& object) {
+  const double median = object.needed_number("median");
+  return {median, object.number("min").value_or(median), object.number("max").value_or(median)};
+}
+
+Ladder ladder_of(const Object& l) {
+  return {l.number("t0w"),     l.number("t1"),       l.number("t2"), l.number("t3"),
+          l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
+}
+
+Row row_of(const Object& o) {
+  Row row;
+  row.technique = o.needed_text("technique");
+  row.preset = o.text("preset");
+  row.variant = o.text("variant");
+  row.scene = o.needed_text("scene");
+  row.ms = milliseconds_of(o.needed_object("ms"));
+  row.rmse_to_truth = o.number("rmse_to_truth");
+  row.bias = o.number("bias");
+  row.ratio_to_hbao_plus = o.number("ratio_to_hbao_plus");
+  row.ratio_to_gather_floor = o.number("ratio_to_gather_floor");
+  row.ratio_to_copy_floor = o.number("ratio_to_copy_floor");
+  row.ratio_to_naive = o.number("ratio_to_naive");
+  row.ratio_to_native = o.number("ratio_to_native");
+  row.own_floor_ms = o.number("own_floor_ms");
+  row.ratio_to_own_floor = o.number("ratio_to_own_floor");
+  row.ladder = ladder_of(o.object("ladder"));
+  for (const Object& s : o.list("spent_on")) row.spent_on.push_back({s.needed_text("what"), s.needed_number("share")});
+  for (const Object& p : o.list("passes"))
+    row.passes.push_back({p.needed_text("name"), milliseconds_of(p.needed_object("ms"))});
+  row.width = o.number("width");
+  row.height = o.number("height");
+  row.lanes = o.number("lanes");
+  row.samples = o.number("samples");
+  row.resolution = o.text("resolution");
+  row.math = o.text("math");
+  row.storage = o.text("storage");
+  row.settings = o.object("settings").json();
+  row.image = o.text("image");
+  return row;
+}
+
+Scene scene_of(const Object& o) {
+  Scene scene;
+  scene.name = o.needed_text("name");
+  scene.scene_class = o.text("class");
+  std::tie(scene.width, scene.height) = o.size("size");
+  scene.radius = o.number("radius");
+  scene.radius_pixels = o.number("radius_pixels");
+  scene.truth_noise = o.number("truth_noise");
+  scene.truth_image = o.text("truth_image");
+  return scene;
+}
+
+Growth growth_of(const Object& o) {
+  Growth growth{o.needed_text("technique"), o.needed_text("over"), o.text("scene"), o.needed_number("exponent")};
+  const std::vector<Object> points = o.list("points");
+  if (points.empty()) return growth;
+  growth.x_from = points.front().number("x");
+  growth.x_to = points.back().number("x");
+  growth.ms_from = points.front().number("ms");
+  growth.ms_to = points.back().number("ms");
+  return growth;
+}
+
+PaperFigure paper_figure_of(const Object& o) {
+  return {o.text("table"), o.text("row"),     o.text("column"),       o.text("base"),
+          o.number("ms"),  o.number("ratio"), o.number("paper_ratio")};
+}
+
+Measurements measurements_of(const Object& o) {
+  Measurements m;
+  m.device = o.text("device");
+  m.cpu = o.text("cpu");
+  m.driver = o.text("driver");
+  m.date = o.text("date");
+  m.commit = o.text("commit");
+  m.cores = o.number("cores");
+  m.rounds = o.number("rounds");
+  m.rays = o.number("rays");
+  for (const Object& each : o.list("scenes")) m.scenes.push_back(scene_of(each));
+  for (const Object& each : o.needed_list("results")) m.rows.push_back(row_of(each));
+  for (const Object& each : o.list("growth")) m.growth.push_back(growth_of(each));
+  for (const Object& each : o.list("skipped"))
+    m.skipped.push_back({each.text("technique"), each.text("preset"), each.text("scene"), each.text("why")});
+  for (const Object& each : o.list("paper")) m.paper.push_back(paper_figure_of(each));
+  return m;
+}
+
+/// A scene that rows name and the list of scenes does not.
+void add_scenes_of_rows(Measurements& m) {
+  for (const Row& row : m.rows) {
+    const auto is_it = [&](const Scene& scene) { return scene.name == row.scene; };
+    if (std::any_of(m.scenes.begin(), m.scenes.end(), is_it)) continue;
+    Scene scene;
+    scene.name = row.scene;
+    scene.width = row.width;
+    scene.height = row.height;
+    m.scenes.push_back(scene);
+  }
+}
+
+Json parsed(const std::filesystem::path& file) {
+  try {
+    return Json::parse(read_text(file));
+  } catch (const nlohmann::json::exception& e) {
+    const std::string why = e.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
+    throw Error("{}: is not JSON: {}; gloam bench makes the file anew", file.string(),
+                why.substr(std::min(why.find("] ") + 2, why.size())));
+  }
+}
+
+}  // namespace
+
+Measurements read_measurements(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "bench.json";
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown))
+    throw Error("{}: is not a folder; 'gloam bench -o {}' makes one to report on", folder.string(), folder.string());
+  if (!std::filesystem::exists(file, unknown))
+    throw Error("{}: has no bench.json; 'gloam bench -o {}' makes one", folder.string(), folder.string());
+  const Json document = parsed(file);
+  Measurements m = measurements_of(Object(document, file.string(), ""));
+  if (m.rows.empty())
+    throw Error("{}: results is empty, there is nothing to show; 'gloam bench -o {}' measures", file.string(),
+                folder.string());
+  add_scenes_of_rows(m);
+  return m;
+}
+
+}  // namespace gloam::report

@@ -1,0 +1,28 @@
+// The report: measurements and pictures as one HTML file that needs nothing else.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "front.h"
+#include "measurements.h"
+
+namespace gloam::report {
+
+struct PageOptions {
+  int picture_width = 640;                         ///< wider pictures are reduced to it by averaging; 0: as stored
+  std::function<void(int done, int of)> progress;  ///< may be empty
+};
+
+struct Page {
+  std::string html;
+  int pictures = 0;                ///< embedded
+  std::vector<std::string> notes;  ///< pictures that could not be had, and why
+};
+
+/// Makes the page. Pictures that cannot be read are left out, with a note.
+Page make_page(const Measurements& measurements, const std::filesystem::path& folder, const PageOptions& options);
+
+}  // namespace gloam::report

@@ -1,0 +1,419 @@
+// gloam report: what the page holds, and that it works in a browser that opens it from disk.
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "gloam_process.h"
+#include "picture.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json row(const std::string& scene, const std::string& technique, const std::string& preset, double ratio, Json error) {
+  return {{"technique", technique},
+          {"preset", preset},
+          {"settings", {{"radius", 0.5}, {"falloff", "quadratic"}}},
+          {"scene", scene},
+          {"width", 48},
+          {"height", 32},
+          {"ms", {{"median", 4 * ratio}, {"min", 3.9 * ratio}, {"max", 4.5 * ratio}}},
+          {"passes", Json::array()},
+          {"ratio_to_hbao_plus", ratio},
+          {"rmse_to_truth", error},
+          {"ladder", {{"t0w", nullptr}, {"t1", 0.05}, {"t2", 0.02}, {"t3", 0.01}, {"t4_bias", 0.01}, {"t5", 1e-7}}}};
+}
+
+/// Two scenes; on the second, which has no truth, no pictures either.
+Json measurements() {
+  Json document = {{"device", "a device"}, {"cpu", "a CPU"},      {"cores", 2},  {"driver", "a driver 1.0"},
+                   {"date", "2026-01-31"}, {"commit", "0123abc"}, {"rounds", 9}, {"rays", 64}};
+  document["scenes"] = {{{"name", "hall"}, {"size", {48, 32}}, {"radius", 0.5}, {"class", "architecture"}},
+                        {{"name", "field"}, {"size", {48, 32}}, {"class", "open"}}};
+  document["scenes"][0]["truth_image"] = "images/hall/truth.png";
+  document["results"] = {row("hall", "hbao+", "low", 0.6, 0.2),   row("hall", "hbao+", "medium", 1, 0.19),
+                         row("hall", "hbao+", "ultra", 5, 0.195), row("hall", "gtao", "low", 0.8, 0.15),
+                         row("hall", "gtao", "low", 0.3, 0.17),   row("field", "hbao+", "medium", 1, nullptr)};
+  document["results"][4]["variant"] = "half";
+  document["results"][1]["own_floor_ms"] = 2.0;
+  document["results"][1]["ratio_to_own_floor"] = 2.0;
+  document["results"][1]["spent_on"] = {{{"what", "gathers"}, {"share", 0.5}},
+                                        {{"what", "the filter"}, {"share", 0.5}}};
+  document["results"][0]["image"] = "images/hall/low.png";
+  document["results"][1]["image"] = "images/hall/medium.png";
+  document["growth"] = {{{"technique", "hbao+"}, {"over", "pixels"}, {"scene", "hall"}, {"exponent", 1.01}}};
+  document["skipped"] = {
+      {{"technique", "normals"}, {"preset", nullptr}, {"scene", nullptr}, {"why", "makes no </script> ao"}}};
+  return document;
+}
+
+/// Grey of one value, transparent in the left quarter.
+void write_grey(const fs::path& path, int value, int width = 48, int height = 32) {
+  cv::Mat picture(height, width, CV_8UC2, cv::Scalar(value, 255));
+  picture(cv::Rect(0, 0, width / 4, height)).setTo(cv::Scalar(0, 0));
+  write_png(path, picture);
+}
+
+int count_of(const std::string& text, const std::string& word) {
+  int count = 0;
+  for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+std::string lines_with(const std::string& text, const std::string& word) {
+  std::istringstream stream(text);
+  std::string found;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find(word) != std::string::npos) found += line + "\n";
+  }
+  return found;
+}
+
+class Report : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    fs::create_directories(path("out/images/hall"));
+    write_grey(path("out/images/hall/truth.png"), 200);
+    write_grey(path("out/images/hall/low.png"), 100);
+    write_grey(path("out/images/hall/medium.png"), 220);
+    write(measurements());
+  }
+
+  void write(const Json& document) const { write_text("out/bench.json", document.dump()); }
+  void write_text(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+  Result report(const Arguments& more = {}) const {
+    Arguments arguments = {"report", path("out")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  }
+
+  /// Opens the page, runs `script` in it once it is drawn, and returns what that put into `result`. `width` is that of
+  /// the page in pixels; it stands in a frame, since a browser's window cannot be as narrow as a telephone.
+  Json in_browser(const std::string& script, int width = 1280) const {
+    std::string page = slurp(path("out/report.html"));
+    const size_t start = page.find("<script"), end = page.rfind("</body>");
+    const std::string watch =
+        "<script>const problems = []; addEventListener('error', (e) => problems.push(e.message));"
+        "addEventListener('unhandledrejection', (e) => problems.push(String(e.reason)));"
+        "addEventListener('securitypolicyviolation', (e) => problems.push('asked for ' + e.blockedURI));</script>\n";
+    const std::string run =
+        "<script>const wait = (ms) => new Promise((done) => setTimeout(done, ms));"
+        "const until = async (holds) => { for (let i = 0; i < 400 && !holds(); ++i) await wait(25);"
+        " if (!holds()) problems.push('never came: ' + holds); };"
+        "const points = () => [...document.querySelectorAll('#scatter .point_marks path')];"
+        "const click = (e, more) => e.dispatchEvent(new MouseEvent('click', {bubbles: true, ...more}));"
+        "(async () => { const result = {}; try { await until(() => points().length > 0);" +
+        script +
+        "} catch (e) { problems.push(String(e)); } result.problems = problems; parent.postMessage(result, '*'); })();"
+        "</script>\n";
+    page.insert(end, run).insert(start, watch);
+    write_text("watched.html", page);
+    // A document that is still being written keeps the browser from ending before the page has answered.
+    write_text("frame.html",
+               "<!DOCTYPE html><iframe id='open'></iframe><script>const open = "
+               "document.getElementById('open').contentDocument; open.open();"
+               "addEventListener('message', (e) => { document.body.append('RESULT' + "
+               "encodeURIComponent(JSON.stringify(e.data)) + 'END'); open.close(); });"
+               "</script><iframe src='watched.html' style='border:0;height:900px;width:" +
+                   std::to_string(width) + "px'></iframe>");
+    const std::string command =
+        "timeout 50 chromium --headless --no-sandbox --disable-gpu --window-size=1400,1000 "
+        "--enable-logging=stderr --v=0 --dump-dom --user-data-dir='" +
+        path("profile").string() + "' 'file://" + path("frame.html").string() + "' >'" + path("dom").string() +
+        "' 2>'" + path("log").string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << lines_with(slurp(path("log")), "CONSOLE");
+    EXPECT_EQ(lines_with(slurp(path("log")), "CONSOLE"), "");
+    const std::string dom = slurp(path("dom"));
+    const size_t from = dom.find("RESULT%"), to = dom.find("END", from);
+    if (from == std::string::npos) {
+      ADD_FAILURE() << "the page said nothing";
+      return Json::object();
+    }
+    std::string text;
+    for (size_t i = from + 6; i < to; ++i) {
+      if (dom[i] != '%') {
+        text += dom[i];
+        continue;
+      }
+      text += char(std::stoi(dom.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    }
+    const Json result = Json::parse(text);
+    EXPECT_EQ(result["problems"], Json::array());
+    return result;
+  }
+};
+
+/// The same, where there is a browser.
+class ReportInBrowser : public Report {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v chromium >/dev/null") != 0)
+      GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
+    Report::SetUp();
+    ASSERT_EQ(report().status, 0);
+  }
+};
+
+TEST_F(Report, WritesOneFileAndSaysItsSize) {
+  const Result result = report();
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("report.html: 6 rows, 2 scenes, 3 pictures, "), std::string::npos) << result.out;
+  const std::string page = slurp(path("out/report.html"));
+  EXPECT_EQ(count_of(page, "id=\"picture-"), 3);
+  EXPECT_EQ(count_of(page, "id=\"mask-"), 1);  // the same foreground in all
+  for (const char* word : {" src=\"", " href=\"http", "@import", "url(http"})
+    EXPECT_EQ(count_of(page, word), 0) << word;
+  for (const char* word : {"BSD-3-Clause", "ISC licence", "a CPU", "0123abc", "makes no \\u003c/script> ao"})
+    EXPECT_NE(page.find(word), std::string::npos) << word;
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(path("out"))) left.push_back(entry.path().filename().string());
+  std::sort(left.begin(), left.end());
+  EXPECT_EQ(left, (Arguments{"bench.json", "images", "report.html"}));
+}
+
+TEST_F(Report, GivesTheFrontsAsJson) {
+  const Result result = report({"--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  EXPECT_EQ(document["report"], (path("out") / "report.html").string());
+  const auto setting = [](const char* preset, const char* variant) {
+    return Json{{"technique", "gtao"}, {"preset", preset}, {"variant", variant}};
+  };
+  ASSERT_EQ(document["scenes"].size(), 2u);
+  EXPECT_EQ(document["scenes"][0]["name"], "hall");
+  EXPECT_EQ(document["scenes"][0]["front"], Json({setting("low", "half"), setting("low", "")}));
+  EXPECT_EQ(document["scenes"][1]["front"], Json::array());
+  ASSERT_EQ(document["classes"].size(), 1u);
+  EXPECT_EQ(document["classes"][0]["name"], "architecture");
+  Json point = setting("low", "half");
+  point["scenes_on_front"] = 1;
+  point["scenes"] = 1;
+  EXPECT_EQ(document["classes"][0]["front"][0], point);
+}
+
+TEST_F(Report, ReducesPicturesByAveragingWhatIsThere) {
+  // Left half background, then black and white columns in turn: their average is grey, the background's black is not in it.
+  cv::Mat stripes(4, 64, CV_8UC2, cv::Scalar(0, 0));
+  for (int x = 32; x < 64; ++x) stripes.col(x).setTo(cv::Scalar(x % 2 ? 255 : 0, 255));
+  write_png(path("out/images/hall/low.png"), stripes);
+  const auto size = [&](const char* width) {
+    EXPECT_EQ(report({"--picture-width", width}).status, 0);
+    return fs::file_size(path("out/report.html"));
+  };
+  EXPECT_LT(size("8"), size("0"));
+  if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
+  ASSERT_EQ(report({"--picture-width", "16"}).status, 0);
+  const Json result = in_browser(
+      "const p = await loadPicture(data.rows[0].picture); result.size = [p.width, p.height];"
+      "result.values = [12, 15].map((i) => p.grey(i)); result.there = [0, 7, 8, 15].map((i) => p.isThere(i));");
+  EXPECT_EQ(result["size"], Json({16, 1}));
+  for (const Json& value : result["values"]) EXPECT_NEAR(value, 127.5, 1);
+  EXPECT_EQ(result["there"], Json({false, false, true, true}));
+}
+
+TEST_F(Report, GoesWithoutPicturesThatCannotBeHad) {
+  write_text("out/images/hall/low.png", "no picture");
+  fs::remove(path("out/images/hall/medium.png"));
+  write_grey(path("secret.png"), 7);
+  Json document = measurements();
+  document["results"][2]["image"] = "../secret.png";
+  document["results"][3]["image"] = path("secret.png").string();
+  write(document);
+  const Result result = report();
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.lines_of_error(), 4) << result.err;
+  EXPECT_NE(result.err.find("low.png: cannot be read as PNG"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("medium.png: is no file"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("../secret.png: is not below"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("1 picture,"), std::string::npos) << result.out;
+}
+
+TEST_F(Report, ReadsOlderFiles) {
+  const Result bench = gloam({"bench", "-o", path("bench"), "--size", "48x32", "--rays", "16", "--scenes", "plane",
+                              "--techniques", "hbao+", "--presets", "low", "--rounds", "1", "--no-growth"});
+  ASSERT_EQ(bench.status, 0) << bench.err;
+  EXPECT_EQ(gloam({"report", path("bench")}).status, 0);
+  write({{"results", {{{"technique", "t"}, {"scene", "s"}, {"ms", {{"median", 1}}}}}}});
+  const Result result = report({"--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["scenes"], Json({{{"name", "s"}, {"front", Json::array()}}}));
+}
+
+TEST_F(Report, SaysWhatIsWrong) {
+  const auto says = [&](const Result& result, int status, const std::string& words) {
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  says(gloam({"report", path("nowhere")}), 1, "gloam bench -o");
+  fs::create_directory(path("empty"));
+  says(gloam({"report", path("empty")}), 1, "empty: has no bench.json; 'gloam bench -o");
+  says(report({"--picture-width", "-1"}), 2, "--picture-width -1");
+  says(report({"--json", path("out/bench.json")}), 2, "--json");
+  const auto changed = [&](const char* pointer, const Json& value) {
+    Json document = measurements();
+    document[Json::json_pointer(pointer)] = value;
+    write(document);
+    return report();
+  };
+  says(changed("/results/3/ms/median", "fast"), 1, "bench.json: results[3].ms.median is \"fast\", not a number");
+  says(changed("/results/0/technique", nullptr), 1, "results[0].technique is missing");
+  says(changed("/results", 7), 1, "results is 7, not a list");
+  says(changed("/results", Json::array()), 1, "results is empty");
+  says(changed("/scenes/0", "hall"), 1, "scenes[0] is \"hall\", not an object");
+  says(changed("/scenes/0/size", {1}), 1, "scenes[0].size");
+  says(changed("/results/0/spent_on", {{{"what", "x"}}}), 1, "results[0].spent_on[0].share is missing");
+  write_text("out/bench.json", "{\"results\": [");
+  says(report(), 1, "bench.json: is not JSON");
+  write_text("out/bench.json", "[]");
+  says(report(), 1, "not an object");
+  EXPECT_FALSE(fs::exists(path("out/report.html")));
+}
+
+TEST_F(ReportInBrowser, DrawsEveryRowAndAsksForNothing) {
+  const Json result = in_browser(R"js(
+    const drawn = () => points().length;
+    result.requests = performance.getEntriesByType('resource').map((entry) => entry.name);
+    result.plain = drawn();
+    const box = document.querySelector('[data-filter=variant][data-value=half]');
+    box.click();
+    await until(() => drawn() > 4);
+    result.all = drawn();
+    document.querySelector('[data-filter=technique][data-value="gtao"]').click();
+    await until(() => drawn() < 4);
+    result.filtered = drawn();
+    result.listed = document.querySelectorAll('#rows-table tbody tr').length;
+    document.getElementById('all-scenes').click();
+    result.listed_of_all = document.querySelectorAll('#rows-table tbody tr').length;
+    result.text = document.body.innerText;
+  )js");
+  EXPECT_EQ(result["requests"], Json::array());
+  EXPECT_EQ(result["plain"], 4);  // of the hall, without the variant
+  EXPECT_EQ(result["all"], 5);
+  EXPECT_EQ(result["filtered"], 3);
+  EXPECT_EQ(result["listed"], 3);
+  EXPECT_EQ(result["listed_of_all"], 4);
+  const std::string text = result["text"];
+  for (const char* words : {"a CPU", "a driver 1.0", "2026-01-31", "0123abc", "not at hand", "makes no </script> ao",
+                            "hbao+ medium takes 2.00 times its floor", "no truth, so no front"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+TEST_F(ReportInBrowser, ShowsWhatIsClicked) {
+  const Json result = in_browser(R"js(
+    const shown = () => [document.getElementById('viewer').dataset.shown, (document.querySelector('#viewer .image') || {}).src];
+    // A point is drawn where its row says: found by the figures in its data.
+    const point = (preset) => points().find((path) => path.__data__.datum.label === 'hbao+ ' + preset);
+    const shows = (name) => until(() => document.getElementById('viewer').dataset.shown === name);
+    const centre = () => {
+      const canvas = document.querySelector('#viewer canvas');
+      return canvas && [...canvas.getContext('2d').getImageData(40, 16, 1, 1).data];
+    };
+    click(point('low'));
+    await shows('hbao+ low');
+    result.low = shown();
+    result.low_difference = centre();
+    result.background = [...document.querySelector('#viewer canvas').getContext('2d').getImageData(2, 16, 1, 1).data];
+    result.canvas = [document.querySelector('#viewer canvas').width, document.querySelector('#viewer canvas').height];
+    const slider = document.querySelector('#viewer .slider');
+    slider.value = 25;
+    slider.dispatchEvent(new Event('input'));
+    result.wipe = document.querySelector('.wipe').style.getPropertyValue('--at');
+    click(point('medium'));
+    await shows('hbao+ medium');
+    result.medium = shown();
+    result.medium_difference = centre();
+    result.figures = document.getElementById('picked').innerText;
+    click(point('ultra'));
+    await shows('hbao+ ultra');
+    result.ultra = document.getElementById('viewer').innerText;
+    click(point('low'), {shiftKey: true});
+    const bars = () => document.querySelectorAll('#ladder-chart .bar_marks path').length;
+    await until(() => bars() === 15);
+    result.chips = [...document.querySelectorAll('#chosen .chip')].map((chip) => chip.innerText);
+    result.bars = bars();
+    result.rules = document.querySelectorAll('#ladder-chart .total_rules line').length;
+  )js");
+  EXPECT_EQ(result["low"][0], "hbao+ low");
+  EXPECT_EQ(result["medium"][0], "hbao+ medium");
+  EXPECT_NE(result["low"][1], result["medium"][1]);
+  EXPECT_EQ(result["canvas"], Json({48, 32}));
+  // 100 - 200 is beyond the colours: all blue; 220 - 200 is a little above: more red than blue.
+  EXPECT_EQ(result["low_difference"], Json({24, 90, 189, 255}));
+  EXPECT_GT(result["medium_difference"][0], result["medium_difference"][2]);
+  EXPECT_EQ(result["background"][3], 0);
+  EXPECT_EQ(result["wipe"], "25%");
+  EXPECT_NE(result["figures"].get<std::string>().find("0.1900"), std::string::npos) << result["figures"];
+  EXPECT_NE(result["ultra"].get<std::string>().find("There is no picture of hbao+ ultra"), std::string::npos);
+  const size_t compared = result["chips"].size();
+  EXPECT_EQ(compared, 3u) << result["chips"];    // the picked, HBAO+ medium to begin with, and the kept
+  EXPECT_EQ(result["bars"], 5 * int(compared));  // t0w and t4_noise are not at hand
+  EXPECT_EQ(result["rules"], int(compared));
+}
+
+TEST_F(ReportInBrowser, SwitchesScenesAndAxes) {
+  const Json result = in_browser(R"js(
+    const press = (place, text) => [...document.querySelectorAll(place + ' button')].find((b) => b.innerText === text).click();
+    const titles = () => [...document.querySelectorAll('#scatter .role-axis-title text')].map((t) => t.textContent).join();
+    await until(() => titles() !== '');
+    result.ratio = titles();
+    press('#time-switch', 'in ms');
+    await until(() => titles() !== '' && titles() !== result.ratio);
+    result.ms = titles();
+    press('#scenes', 'field');
+    result.drawn = points().length;
+    result.remark = document.getElementById('scatter-remark').innerText;
+    result.row = document.querySelector('#rows-table tbody tr').innerText;
+    press('#scenes', 'hall');
+    const column = (n) => [...document.querySelectorAll(`#rows-table tbody td:nth-child(${n})`)].map((cell) => cell.innerText);
+    const head = () => [...document.querySelectorAll('#rows-table th button')];
+    const rmse = head().findIndex((button) => button.innerText === 'rmse');
+    head()[rmse].click();
+    result.up = column(rmse + 1);
+    head()[rmse].click();
+    result.down = column(rmse + 1);
+    const floor = head().findIndex((button) => button.innerText === '/ own floor');
+    result.floor = [0, 1].map(() => { head()[floor].click(); return column(floor + 1)[0]; });
+  )js");
+  EXPECT_NE(result["ratio"].get<std::string>().find("HBAO+"), std::string::npos) << result["ratio"];
+  EXPECT_NE(result["ms"].get<std::string>().find("ms"), std::string::npos) << result["ms"];
+  EXPECT_EQ(result["drawn"], 0);
+  EXPECT_NE(result["remark"].get<std::string>().find("no truth for this scene"), std::string::npos) << result["remark"];
+  EXPECT_NE(result["row"].get<std::string>().find("hbao+"), std::string::npos) << result["row"];
+  EXPECT_EQ(result["up"], Json({"0.1500", "0.1900", "0.1950", "0.2000"}));
+  EXPECT_EQ(result["down"], Json({"0.2000", "0.1950", "0.1900", "0.1500"}));
+  EXPECT_EQ(result["floor"], Json({"2.00", "2.00"}));  // what has none goes last both ways
+}
+
+TEST_F(ReportInBrowser, FitsWideAndNarrowPages) {
+  for (const int width : {1280, 400}) {
+    const Json result = in_browser(
+        "result.width = innerWidth; result.needs = document.documentElement.scrollWidth;"
+        "result.chart = document.querySelector('#scatter svg').getBoundingClientRect().width;",
+        width);
+    EXPECT_EQ(result["width"], width);
+    EXPECT_LE(result["needs"], width);
+    EXPECT_GT(result["chart"], width / 2);
+  }
+}
+
+TEST_F(ReportInBrowser, BearsHundredsOfRows) {
+  Json document = measurements();
+  for (int i = 0; i < 400; ++i) {
+    document["results"].push_back(row("hall", "technique " + std::to_string(i % 20), std::to_string(i / 20),
+                                      0.2 + 0.01 * i, 0.05 + 0.3 / (1 + i)));
+  }
+  write(document);
+  ASSERT_EQ(report().status, 0);
+  const Json result = in_browser(
+      "result.points = points().length;"
+      "result.needs = document.documentElement.scrollWidth;");
+  EXPECT_EQ(result["points"], 404);
+  EXPECT_LE(result["needs"], 1280);
+}
+
+}  // namespace
+}  // namespace gloam::test
