@@ -10,13 +10,13 @@
 
 // The horizon after a point `along` the tangent and `above` it, where `counts`; above > 0 there.
 static inline real raised(real horizon, real along, real above, mask counts) {
-  return choose(counts, smaller(along * rough_inverse(above), horizon), horizon);
+  return choose(counts, smaller(along * quick_inverse(above), horizon), horizon);
 }
 
 // The same, but a sample below the horizon draws it down by `share` of the way, in cosines (the thickness heuristic of the
 // paper's section 5.2): thin occluders do not close all behind them.
 static inline real raised_or_lowered(real horizon, real along, real above, scalar share, mask counts) {
-  const real point = along * rough_inverse(above);
+  const real point = along * quick_inverse(above);
   const real own = horizon * inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
   const real lower = point * inverse_sqrt(multiply_add(point, point, (real)(1)));
   const real cosine = own + (lower - own) * share;

@@ -32,7 +32,7 @@ static inline real sectors_below_horizon(real horizon, Scale s) {
 // The same up to a point `along` the tangent and `above` it, above >= 0; with the shift.
 static inline real sectors_below(real along, real above, Scale s) {
   const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
-  const real inverse = rough_inverse_sqrt(square), sine = above * inverse;
+  const real inverse = inverse_sqrt(square), sine = above * inverse;
   return mass_below(along * inverse, sine * sine, s.cosine, s.sine) + s.shift;
 }
 

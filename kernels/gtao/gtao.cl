@@ -51,7 +51,7 @@ static inline Side side_of(Slice slice, Search search, real sign) {
 
 static inline void take_point(Side* side, Params params, Search search, real along, real above, mask in_frame) {
   const real square = multiply_add(along, along, above * above);
-  const mask counts = in_frame & (square < search.radius_square) & (above > 0);
+  const mask counts = in_frame & (square < search.radius_square) & (above > params.bias * along);
 #if BITMASK
   // What reaches down to the tangent only raises the horizon, which is cheap; few occluders float above it.
   const real back = above + side->deeper_above;
@@ -60,7 +60,7 @@ static inline void take_point(Side* side, Params params, Search search, real alo
   if (ANY(floats)) {
     const real low = sectors_below(along + side->deeper_along, back, side->scale);
     const natural covered = sectors_between(low, sectors_below(along, above, side->scale));
-    side->covered |= floats ? covered : (natural)(0u);
+    side->covered |= covered & bits_of(floats);
   }
 #else
   real height = above;
@@ -68,9 +68,9 @@ static inline void take_point(Side* side, Params params, Search search, real alo
   height *= smaller((1 - square * search.receiver.reach.inverse_square) / params.fade, (real)(1));
 #endif
 #if THICKNESS_HEURISTIC
-  side->horizon = raised_or_lowered(side->horizon, along, height, params.thickness_heuristic, counts & (height > 0));
+  side->horizon = raised_or_lowered(side->horizon, along, height, params.thickness_heuristic, counts);
 #else
-  side->horizon = raised(side->horizon, along, height, counts & (height > 0));
+  side->horizon = raised(side->horizon, along, height, counts);
 #endif
 #endif
 }
@@ -135,9 +135,9 @@ static inline real covered_share(Slice slice, Side* right, Side* left) {
 #define BENT_STEPS 32
 // The open directions on one side, by angle from the line to the eye.
 static inline void add_open_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
+  // Half a step, then whole ones: cosine and sine of pi / 64 and pi / 32.
+  scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
   for (int k = 0; k < BENT_STEPS; ++k) {
-    real cosine, sine;
-    cosine_sine_of_turns((real)((k + (scalar)0.5f) * (scalar)(0.5f / BENT_STEPS)), &cosine, &sine);
     // Elevation above the tangent.
     const real up = cosine * slice.cosine + sign * sine * slice.sine;
     const real along = sine * slice.cosine - sign * cosine * slice.sine;
@@ -150,7 +150,10 @@ static inline void add_open_side(OpenDirections* open, Search search, Slice slic
     const real3 v = search.surface.to_eye, t = slice.tangent;
     const real across = sign * sine;
     add_open(open, make3(v.x * cosine + t.x * across, v.y * cosine + t.y * across, v.z * cosine + t.z * across),
-             choose(is_open, sine, (real)(0)));
+             choose(is_open, (real)(sine), (real)(0)));
+    const scalar next = cosine * (scalar)0.9951847267 - sine * (scalar)0.0980171403;
+    sine = sine * (scalar)0.9951847267 + cosine * (scalar)0.0980171403;
+    cosine = next;
   }
 }
 #endif
@@ -197,7 +200,8 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
     search.receiver = r;
     search.surface = surface_at(r.point, r.normal);
     const real radius = (scalar)params.radius * r.point.inverse_depth;
-    search.radius_square = radius * radius;
+    // Background is further away than any radius, an infinite one too.
+    search.radius_square = smaller(radius * radius, (real)(FARTHEST));
 #if BITMASK
     search.thickness = (scalar)params.thickness * radius;
 #else

@@ -1,8 +1,9 @@
 #include "shared/ambient_occlusion.h"
 
-#define SLICE_PARAMS(P)                                         \
-  REACH_PARAMS(P)                                               \
-  P(int, directions, 1, 1, 64, "", "slices searched per pixel") \
+#define SLICE_PARAMS(P)                                                                             \
+  REACH_PARAMS(P)                                                                                   \
+  P(int, directions, 1, 1, 64, "", "slices searched per pixel")                                     \
+  P(float, bias, 0.01f, 0, 1, "", "slope above the tangent below which an occluder does not count") \
   P(int, steps, 9, 1, 128, "", "samples on each side of a slice")
 
 #define GTAO_PARAMS(P)                                                                                               \

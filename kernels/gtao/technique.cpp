@@ -44,6 +44,9 @@ std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {bitmask_pass(
 std::vector<Pass> gtao_passes_over_layers(const GtaoParams& p) { return {over_layers(gtao_pass(p))}; }
 std::vector<Pass> bitmask_passes_over_layers(const BitmaskParams& p) { return {over_layers(bitmask_pass(p))}; }
 
+/// On both sides of each slice.
+int samples(const ParameterValues& values) { return int(2 * values.number("directions") * values.number("steps")); }
+
 Technique common(std::string name, std::string summary, std::string paper) {
   return {.name = std::move(name),
           .summary = std::move(summary),
@@ -59,7 +62,8 @@ Technique common(std::string name, std::string summary, std::string paper) {
                       {"medium", {{"directions", "1"}, {"steps", "9"}}},
                       {"high", {{"directions", "1"}, {"steps", "18"}}},
                       {"ultra", {{"directions", "4"}, {"steps", "18"}}}},
-          .converged = {{"directions", "32"}, {"steps", "64"}}};
+          .converged = {{"directions", "32"}, {"steps", "64"}},
+          .samples = samples};
 }
 
 Technique gtao_over_depth() {

@@ -77,6 +77,15 @@ static inline int any_lane(mask m) {
 }
 #endif
 
+// Per lane: all bits where a mask holds, else none.
+static inline natural bits_of(mask m) {
+#if LANES == 1
+  return m ? ~0u : 0u;
+#else
+  return JOIN(as_, N_LANES(uint))(JOIN(convert_, N_LANES(int))(m));
+#endif
+}
+
 // Per lane: m ? a : b.
 static inline real choose(mask m, real a, real b) { return m ? a : b; }
 

@@ -18,11 +18,11 @@ void HardCase::report(int row, const std::string& what, double worst, double bou
   EXPECT_LE(worst, bound) << line;
 }
 
-std::string opt_out(const Technique& technique, int row) {
+std::string opt_out(const Technique& technique, int row, const std::string& part) {
   const auto readme = std::filesystem::path(GLOAM_SOURCE_DIR) / "kernels" /
                       std::filesystem::path(technique.source).parent_path() / "README.md";
   if (!std::filesystem::exists(readme)) return "";
-  const std::string start = fmt::format("hard case {}: ", row);
+  const std::string start = fmt::format("hard case {}{}: ", row, part.empty() ? "" : ", " + part);
   std::istringstream lines(read_text(readme));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(start)) return line.substr(start.size());
@@ -67,7 +67,7 @@ double worst_distance_from_open(const Plan& plan, const Frame& outputs) {
     for (int y = 0; y < outputs.height(); ++y) {
       for (int x = 0; x < outputs.width(); ++x) {
         const double distance = std::abs(double(values.at(x, y)) - open);
-        worst = std::isfinite(distance) ? std::max(worst, distance) : INFINITY;
+ worst = std::isfinite(distance) ? std::max(worst, distance) : INFINITY;
       }
     }
   }

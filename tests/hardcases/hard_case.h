@@ -20,8 +20,9 @@ class HardCase : public testing::TestWithParam<std::string> {
   void report(int row, const std::string& what, double worst, double bound);
 };
 
-/// The reason of a line "hard case 3: reason" in the README.md of the technique's folder; empty where there is none.
-std::string opt_out(const Technique& technique, int row);
+/// The reason of a line "hard case 3: reason" in the README.md of the technique's folder; empty where there is none. With a
+/// `part`, of a line "hard case 13, fast: reason".
+std::string opt_out(const Technique& technique, int row, const std::string& part = "");
 
 /// The defaults, and each other value of each choice and switch by itself.
 std::vector<Settings> variants(const Technique& technique, Frame& frame);
