@@ -64,6 +64,8 @@ struct Technique {
   /// to be fast. Empty where there is no such thing.
   std::vector<std::pair<std::string, std::string>> converged;
   std::function<std::vector<Pass>(const ParameterValues&)> passes;
+  /// Samples per pixel over one layer. Empty where the technique has not said.
+  std::function<int(const ParameterValues&)> samples;
   /// What an occluder at `distance` (in radii, 0 to 1) and at an angle with the given `cosine` (above 0) to the normal
   /// takes away, in relation to the cosine-weighted integral: AO = 1 - mean over cosine-weighted directions of
   /// `contribution`. What is done to the mean afterwards, such as an exponent for contrast, is no part of it. Empty

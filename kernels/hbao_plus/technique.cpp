@@ -28,6 +28,8 @@ std::vector<Pass> passes_over_layers(const HbaoPlusParams& p) {
   return {estimate};
 }
 
+int samples(const ParameterValues& values) { return int(values.number("directions") * values.number("steps")); }
+
 /// The estimate's limit for many samples, as an integral over directions; `power` comes after it and is no part of it.
 double contribution(const HbaoPlusParams& p, double cosine, double distance) {
   if (distance >= 1 || cosine <= p.bias) return 0;
@@ -52,6 +54,7 @@ Technique over_depth() {
                   {"ultra", {{"directions", "16"}, {"steps", "16"}}}},
       .converged = {{"directions", "32"}, {"steps", "32"}},
       .passes = passes_of(passes),
+      .samples = samples,
       .contribution = contribution_of(contribution),
   };
 }
