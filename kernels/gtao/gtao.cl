@@ -30,6 +30,7 @@ typedef struct {
 // One side of a slice.
 typedef struct {
   real along, above;                // of a sample on the pixel's own depth (slice.h)
+  real least;                       // height above the tangent from which an occluder counts
   real slope, above_e;              // slice.h
   real deeper_along, deeper_above;  // from the front of an occluder to its back
   Scale scale;
@@ -51,7 +52,7 @@ static inline Side side_of(Slice slice, Search search, real sign) {
 
 static inline void take_point(Side* side, Params params, Search search, real along, real above, mask in_frame) {
   const real square = multiply_add(along, along, above * above);
-  const mask counts = in_frame & (square < search.radius_square) & (above > params.bias * along);
+  const mask counts = in_frame & (square < search.radius_square) & (above > side->least);
 #if BITMASK
   // What reaches down to the tangent only raises the horizon, which is cheap; few occluders float above it.
   const real back = above + side->deeper_above;
@@ -103,6 +104,8 @@ static inline __attribute__((always_inline)) void search_slice(Frame frame, Para
   for (int k = 0; k < STEPS; ++k) {
     const real even = (k + r.noise.shift) * (scalar)(1.0f / STEPS), t = even * ((scalar)0.4f + (scalar)0.6f * even);
     integer dx = nearest(reach_x * t), dy = nearest(reach_y * t), other_dx = -dx, other_dy = -dy;
+    // Of the sample's own place: at the border `along` may come down to rounding.
+    right->least = left->least = params.bias * (to_real(dx) * slice.along_x + to_real(dy) * slice.along_y);
     const mask in_frame = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     right->along = to_real(dx) * slice.along_x + to_real(dy) * slice.along_y;
     right->above = to_real(dx) * slice.above_x + to_real(dy) * slice.above_y;

@@ -98,7 +98,7 @@ TEST_P(HardCase, Row13SecondDevice) {
 }
 
 /// Stated rather than bounded by an argument: a sample that falls on the border of a pixel may be another pixel's in
-/// double, and one sample of many is then another one.
+/// double, and one sample of many is then another one; two pixels of 19200 by one of 31 sectors are 3.4e-6.
 TEST_P(HardCase, Row14FloatAgainstDouble) {
   SKIP_WHERE_OPTED_OUT(14);
   if (!device().info().has_double) GTEST_SKIP() << device().info().name << " has no double";
@@ -110,7 +110,7 @@ TEST_P(HardCase, Row14FloatAgainstDouble) {
       report(14,
              fmt::format("{}, {}: mean difference to double, largest {:.2g}", math == Math::fast ? "fast" : "precise",
                          with_normals ? "exact normals" : "normals from depth", d.max),
-             d.mean, 1e-6);
+             d.mean, 4e-6);
     }
   }
 }
