@@ -4,7 +4,7 @@
   REACH_PARAMS(P)                                                                                   \
   P(int, directions, 1, 1, 64, "", "slices searched per pixel")                                     \
   P(float, bias, 0.01f, 0, 1, "", "slope above the tangent below which an occluder does not count") \
-  P(int, steps, 9, 1, 128, "", "samples on each side of a slice")
+  P(int, steps, 9, 1, 1024, "", "samples on each side of a slice")
 
 #define GTAO_PARAMS(P)                                                                                               \
   SLICE_PARAMS(P)                                                                                                    \

@@ -1,0 +1,161 @@
+// gtao and bitmask against the integrals that their samples estimate, in double.
+//
+// About the line from the point to the eye the hemisphere is cut into slices. In each, what is seen along its line on the
+// screen and lies within the radius has an elevation above the tangent; gtao closes all below the highest on each side,
+// bitmask what lies between each one's elevation and that of the point `thickness` further from the eye. AO is the mass of
+// what is left,
+//   1/pi * integral over slices and angles of max(0, n.d) |sin(angle to the eye)|.
+//
+// Once over the surface that the pixels show, each as deep as its centre: the estimate converges to that everywhere, beside
+// outlines too. Once over the smooth surface itself: what looking at pixel centres costs is in it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "support/integral.h"
+
+namespace gloam::test {
+namespace {
+
+constexpr double radius = 0.8, pi = std::numbers::pi;
+
+/// The pixel at hand and a slice through its point: angles count from the line to the eye, positive towards `tangent`.
+struct Slice {
+  glm::dvec3 point, normal, ray, to_eye, tangent;
+  double depth;
+};
+
+/// Closed parts of -pi .. pi, by small bins.
+constexpr int bins = 4096;
+using Closed = std::vector<char>;
+
+void close(Closed& closed, double from, double to) {
+  const auto bin = [](double angle) { return int(std::floor((angle + pi) / (2 * pi) * bins)); };
+  for (int i = std::max(0, bin(std::min(from, to))); i <= std::min(bins - 1, bin(std::max(from, to))); ++i)
+    closed[size_t(i)] = 1;
+}
+
+/// Where something seen lies in the slice: towards the tangent, and towards the eye.
+using Place = std::function<std::optional<glm::dvec2>(const Slice&, double x, double y)>;
+
+/// On the smooth surface: on the slice exactly.
+Place on_surface(const IntegralCase& test) {
+  return [&test](const Slice& slice, double x, double y) -> std::optional<glm::dvec2> {
+    const EyeRay ray = ray_through(test.shot, x, y);
+    const auto seen = test.scene(ray);
+    if (!seen) return {};
+    const glm::dvec3 v = point_at(ray, seen->depth) - slice.point;
+    return glm::dvec2(glm::dot(v, slice.tangent), glm::dot(v, slice.to_eye));
+  };
+}
+
+/// On what the pixels show: a pixel's centre is beside the slice, and is moved into it along the tangent plane.
+Place on_pixels(const IntegralCase& test, const Channel& depths) {
+  return [&test, &depths](const Slice& slice, double x, double y) -> std::optional<glm::dvec2> {
+    const int px = int(std::floor(x)), py = int(std::floor(y));
+    if (px < 0 || py < 0 || px >= test.shot.width || py >= test.shot.height || is_background(depths.at(px, py)))
+      return {};
+    const EyeRay ray = ray_through(test.shot, px + 0.5, py + 0.5);
+    const glm::dvec3 v = point_at(ray, depths.at(px, py)) - slice.point;
+    // The pixel's centre in the plane of the point's depth, onto the slice's line there.
+    const glm::dvec3 line = slice.tangent - slice.to_eye * (slice.tangent.z / slice.to_eye.z);
+    const glm::dvec3 offset = point_at(ray, slice.depth) - slice.point;
+    const double grown = test.shot.camera.orthographic ? 1 : depths.at(px, py) / slice.depth;
+    const double along = grown * glm::dot(offset, line) / glm::dot(line, line);
+    const double height = glm::dot(slice.normal, v);
+    return glm::dvec2(along,
+                      (height - along * glm::dot(slice.normal, slice.tangent)) / glm::dot(slice.normal, slice.to_eye));
+  };
+}
+
+void look(Closed& closed, const IntegralCase& test, glm::ivec2 pixel, const Slice& slice, double side,
+          const Place& place, std::optional<double> thickness) {
+  // Along the line to the eye into the plane of the point's depth.
+  const glm::dvec3 line = slice.tangent - slice.to_eye * (slice.tangent.z / slice.to_eye.z);
+  const double per_pixel = (test.shot.camera.orthographic ? 1 : slice.depth) / test.shot.camera.fx;
+  const double tangent_part = glm::dot(slice.normal, slice.tangent), eye_part = glm::dot(slice.normal, slice.to_eye);
+  constexpr int steps = 1500;
+  for (int k = 0; k < steps; ++k) {
+    const double t = side * radius * (k + 0.5) / steps / per_pixel;
+    const auto v = place(slice, pixel.x + 0.5 + t * line.x, pixel.y + 0.5 - t * line.y);
+    if (!v || glm::length(*v) >= radius || v->x * tangent_part + v->y * eye_part <= 1e-6) continue;
+    const double front = std::atan2(v->x, v->y);
+    close(closed, front, thickness ? std::atan2(v->x, v->y - *thickness) : side * pi);
+  }
+}
+
+double integral(const IntegralCase& test, glm::ivec2 pixel, const Place& place, std::optional<double> thickness) {
+  const EyeRay ray = ray_through(test.shot, pixel.x + 0.5, pixel.y + 0.5);
+  const Surface here = test.scene(ray).value();
+  const glm::dvec3 to_eye = glm::normalize(-ray.direction);
+  const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), to_eye)), y = glm::cross(to_eye, x);
+  constexpr int slices = 128;
+  double sum = 0;
+  for (int i = 0; i < slices; ++i) {
+    const double turn = pi * (i + 0.5) / slices;
+    const Slice slice{point_at(ray, here.depth),
+                      here.normal,
+                      ray.direction,
+                      to_eye,
+                      std::cos(turn) * x + std::sin(turn) * y,
+                      here.depth};
+    Closed closed(bins, 0);
+    for (const double side : {1.0, -1.0}) look(closed, test, pixel, slice, side, place, thickness);
+    for (int k = 0; k < bins; ++k) {
+      if (closed[size_t(k)]) continue;
+      const double angle = -pi + 2 * pi * (k + 0.5) / bins;
+      const glm::dvec3 direction = std::cos(angle) * slice.to_eye + std::sin(angle) * slice.tangent;
+      sum += std::max(0.0, glm::dot(direction, here.normal)) * std::abs(std::sin(angle)) * 2 * pi / bins;
+    }
+  }
+  return sum / slices;
+}
+
+Settings converged(int steps) {
+  return {{"radius", "0.8"}, {"directions", "32"}, {"steps", std::to_string(steps)}, {"bias", "0"}};
+}
+
+/// A smaller image and half of the places to look at.
+IntegralCase coarse(IntegralCase test) {
+  test.shot = test.shot.camera.orthographic ? orthographic(110, 90, 4) : perspective(110, 90);
+  for (size_t i = 0; 2 * i < test.pixels.size(); ++i) test.pixels[i] = test.pixels[2 * i] / 4;
+  test.pixels.resize(test.pixels.size() / 2);
+  return test;
+}
+
+void expect_on_pixels(const std::string& technique, const Settings& more, std::optional<double> thickness) {
+  for (IntegralCase test : integral_cases()) {
+    test = coarse(test);
+    const Frame frame = shoot(test.shot, test.scene);
+    const Channel& depths = frame.views[0].planes.at("depth").channels[0];
+    Settings settings = converged(512);
+    settings.insert(settings.end(), more.begin(), more.end());
+    expect_integral(
+        test, technique, settings,
+        [&](const IntegralCase& c, glm::ivec2 pixel) { return integral(c, pixel, on_pixels(c, depths), thickness); },
+        1e-3, 8);
+  }
+}
+
+TEST(GtaoIntegral, HorizonsOfWhatPixelsShow) { expect_on_pixels("gtao", {}, {}); }
+
+TEST(GtaoIntegral, SectorsOfWhatPixelsShow) {
+  expect_on_pixels("bitmask", {{"thickness", "0.1"}}, 0.1 * radius);
+  expect_on_pixels("bitmask", {}, 0.4 * radius);
+}
+
+// Pixel centres lie up to half a pixel, 1/150 of the radius, beside the slice: what ends at the radius is off by that much.
+TEST(GtaoIntegral, HorizonsOverSmoothSurfaces) {
+  for (const IntegralCase& test : integral_cases()) {
+    if (test.name.find("corner") == std::string::npos) continue;
+    expect_integral(
+        test, "gtao", {{"radius", "0.8"}, {"directions", "8"}, {"steps", "512"}, {"bias", "0"}},
+        [&](const IntegralCase& c, glm::ivec2 pixel) { return integral(c, pixel, on_surface(c), {}); }, 3e-3, 4);
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test
