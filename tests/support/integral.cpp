@@ -87,7 +87,7 @@ void expect_integral(const IntegralCase& test, const std::string& technique, con
     noise += found[i].error * found[i].error;
     worst = std::max(worst, std::abs(off));
     lowest = std::min(lowest, expected);
-    EXPECT_NEAR(found[i].mean, expected, bound + 4 * found[i].error)
+    EXPECT_NEAR(found[i].mean, expected, 2 * bound + 4 * found[i].error)
         << test.name << " at " << test.pixels[i].x << ", " << test.pixels[i].y;
   }
   const double count = double(test.pixels.size()), mean = sum / count;

@@ -35,7 +35,7 @@ std::vector<IntegralCase> integral_cases();
 using Integral = std::function<double(const IntegralCase&, glm::ivec2 pixel)>;
 
 /// Runs a technique unfiltered with these settings, precise, with several seeds, and compares the mean with the integral: at
-/// each pixel within `bound` and four standard errors, and in the mean over pixels within `bound` and two. Prints what it finds.
+/// each pixel within twice `bound` and four standard errors, and in the mean over pixels within `bound` and two. Prints what it finds.
 void expect_integral(const IntegralCase& test, const std::string& technique, const Settings& settings,
                      const Integral& integral, double bound = 1e-3, int seeds = 12);
 
