@@ -18,7 +18,16 @@ static inline OpenDirections no_directions(void) {
   return d;
 }
 
-// `weight`: solid angle, 0 where the direction (unit) is closed.
+// All of the hemisphere about the normal (unit). What is closed is then taken away, so that few samples of what is closed
+// leave an open surface exact.
+static inline OpenDirections whole_hemisphere(real3 normal) {
+  OpenDirections d;
+  d.sum = scale3(normal, (real)((scalar)3.14159265358979));
+  d.weight = (real)((scalar)6.28318530717959);
+  return d;
+}
+
+// `weight`: solid angle, 0 where the direction (unit) is closed; negative to take away.
 static inline void add_open(OpenDirections* d, real3 direction, real weight) {
   d->sum.x += weight * direction.x;
   d->sum.y += weight * direction.y;

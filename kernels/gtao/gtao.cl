@@ -136,8 +136,9 @@ static inline real covered_share(Slice slice, Side* right, Side* left) {
 
 #if WITH_BENT_NORMAL || WITH_CONE
 #define BENT_STEPS 32
-// The open directions on one side, by angle from the line to the eye.
-static inline void add_open_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
+// Takes away the closed directions on one side, by angle from the line to the eye.
+static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
+  const scalar wedge = (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
   // Half a step, then whole ones: cosine and sine of pi / 64 and pi / 32.
   scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
   for (int k = 0; k < BENT_STEPS; ++k) {
@@ -146,14 +147,14 @@ static inline void add_open_side(OpenDirections* open, Search search, Slice slic
     const real along = sine * slice.cosine - sign * cosine * slice.sine;
 #if BITMASK
     const natural sector = to_natural(to_integer(sectors_below(along, larger(up, (real)(0)), side.scale)));
-    const mask is_open = to_mask(((side.covered >> sector) & 1u) == 0u) & (up > 0);
+    const mask is_closed = to_mask(((side.covered >> sector) & 1u) != 0u) & (up > 0);
 #else
-    const mask is_open = (along < side.horizon * up) & (up > 0);
+    const mask is_closed = (along > side.horizon * up) & (up > 0);
 #endif
     const real3 v = search.surface.to_eye, t = slice.tangent;
     const real across = sign * sine;
     add_open(open, make3(v.x * cosine + t.x * across, v.y * cosine + t.y * across, v.z * cosine + t.z * across),
-             choose(is_open, (real)(sine), (real)(0)));
+             choose(is_closed, (real)(-wedge * sine), (real)(0)));
     const scalar next = cosine * (scalar)0.9951847267 - sine * (scalar)0.0980171403;
     sine = sine * (scalar)0.9951847267 + cosine * (scalar)0.0980171403;
     cosine = next;
@@ -173,8 +174,8 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     search_slice(frame, params, occluders, search, slice, within, &right, &left);
     const real share = larger(1 - covered_share(slice, &right, &left), (real)(0));
 #if WITH_BENT_NORMAL || WITH_CONE
-    add_open_side(directions, search, slice, right, (real)(1));
-    add_open_side(directions, search, slice, left, (real)(-1));
+    take_closed_side(directions, search, slice, right, (real)(1));
+    take_closed_side(directions, search, slice, left, (real)(-1));
 #endif
     if (DIRECTIONS == 1) return share;
     open += slice.weight * share;
@@ -196,7 +197,7 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 ) {
   OCCLUDERS_FROM(depth)
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
-  OpenDirections directions = no_directions();
+  OpenDirections directions = whole_hemisphere(r.normal);
   real open = 1;
   if (ANY(!r.point.background)) {
     Search search;

@@ -87,13 +87,19 @@ void look(Closed& closed, const IntegralCase& test, glm::ivec2 pixel, const Slic
   }
 }
 
-double integral(const IntegralCase& test, glm::ivec2 pixel, const Place& place, std::optional<double> thickness) {
+/// Cosine-weighted share of the hemisphere that is open, and sum and weight of open directions by solid angle.
+struct Open {
+  double share = 0, weight = 0;
+  glm::dvec3 sum{0.0};
+};
+
+Open open_part(const IntegralCase& test, glm::ivec2 pixel, const Place& place, std::optional<double> thickness) {
   const EyeRay ray = ray_through(test.shot, pixel.x + 0.5, pixel.y + 0.5);
   const Surface here = test.scene(ray).value();
   const glm::dvec3 to_eye = glm::normalize(-ray.direction);
   const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), to_eye)), y = glm::cross(to_eye, x);
   constexpr int slices = 128;
-  double sum = 0;
+  Open open;
   for (int i = 0; i < slices; ++i) {
     const double turn = pi * (i + 0.5) / slices;
     const Slice slice{point_at(ray, here.depth),
@@ -108,10 +114,19 @@ double integral(const IntegralCase& test, glm::ivec2 pixel, const Place& place, 
       if (closed[size_t(k)]) continue;
       const double angle = -pi + 2 * pi * (k + 0.5) / bins;
       const glm::dvec3 direction = std::cos(angle) * slice.to_eye + std::sin(angle) * slice.tangent;
-      sum += std::max(0.0, glm::dot(direction, here.normal)) * std::abs(std::sin(angle)) * 2 * pi / bins;
+      const double cosine = glm::dot(direction, here.normal);
+      if (cosine <= 0) continue;
+      const double solid_angle = std::abs(std::sin(angle)) * 2 * pi / bins * pi / slices;
+      open.share += cosine * solid_angle / pi;
+      open.sum += solid_angle * direction;
+      open.weight += solid_angle;
     }
   }
-  return sum / slices;
+  return open;
+}
+
+double integral(const IntegralCase& test, glm::ivec2 pixel, const Place& place, std::optional<double> thickness) {
+  return open_part(test, pixel, place, thickness).share;
 }
 
 Settings converged(int steps) {
@@ -145,6 +160,59 @@ TEST(GtaoIntegral, HorizonsOfWhatPixelsShow) { expect_on_pixels("gtao", {}, {});
 TEST(GtaoIntegral, SectorsOfWhatPixelsShow) {
   expect_on_pixels("bitmask", {{"thickness", "0.1"}}, 0.1 * radius);
   expect_on_pixels("bitmask", {}, 0.4 * radius);
+}
+
+TEST(GtaoIntegral, BentNormalsAndCones) {
+  for (const bool bitmask : {false, true}) {
+    double worst_angle = 0, worst_cone = 0, most_bent = 0;
+    for (IntegralCase test : integral_cases()) {
+      test = coarse(test);
+      const Frame frame = shoot(test.shot, test.scene);
+      const Channel& depths = frame.views[0].planes.at("depth").channels[0];
+      const PlanRequest request{.outputs = {bitmask ? "bitmask" : "gtao"},
+                                .only = {"bent_normal", "cone"},
+                                .then = "none",
+                                .settings = converged(256)};
+      const Frame out = run(make_plan(request, {"depth", "normal"}, ""), frame, device(), {}).frame;
+      for (const glm::ivec2 p : test.pixels) {
+        const std::optional<double> thickness = bitmask ? std::optional(0.4 * radius) : std::nullopt;
+        const Open open = open_part(test, p, on_pixels(test, depths), thickness);
+        const std::vector<Channel>& bent = out.views[0].find("bent_normal")->channels;
+        const glm::dvec3 found(bent[0].at(p.x, p.y), bent[1].at(p.x, p.y), bent[2].at(p.x, p.y));
+        const glm::dvec3 normal = test.scene(ray_through(test.shot, p.x + 0.5, p.y + 0.5))->normal;
+        const double length = glm::length(open.sum);
+        const double cone = std::clamp(2 * length / open.weight - 1, 0.0, 1.0);
+        worst_angle = std::max(worst_angle, std::acos(std::min(1.0, glm::dot(found, open.sum) / length)));
+        most_bent = std::max(most_bent, std::acos(glm::dot(normal, open.sum) / length));
+        worst_cone = std::max(worst_cone, std::abs(out.views[0].find("cone")->channels[0].at(p.x, p.y) - cone));
+      }
+    }
+    std::printf("%s: bent normals up to %.1f degrees off the normal, within %.2f degrees; cones within %.3f\n",
+                bitmask ? "bitmask" : "gtao", most_bent * 180 / pi, worst_angle * 180 / pi, worst_cone);
+    EXPECT_GT(most_bent, 10 * pi / 180) << "the case tests nothing";
+    // 32 directions on each side of a slice, 5.6 degrees apart, and 31 sectors.
+    EXPECT_LT(worst_angle, 2.5 * pi / 180);
+    EXPECT_LT(worst_cone, 0.03);
+  }
+}
+
+TEST(GtaoIntegral, BentNormalOfAPlaneIsItsNormal) {
+  for (const char* technique : {"gtao", "bitmask"}) {
+    const Frame frame = shoot(perspective(160, 120), tilted_plane(3, 1.2, 0.4));
+    const PlanRequest request{.outputs = {technique}, .only = {"bent_normal", "cone"}};
+    const Frame out = run(make_plan(request, {"depth", "normal"}, ""), frame, device(), {}).frame;
+    Plane normal = frame.views[0].find("normal")->clone();
+    EXPECT_LE(difference(*out.views[0].find("bent_normal"), normal).max, 1e-6) << technique;
+    EXPECT_LE(difference(*out.views[0].find("cone"), Plane{"cone",
+                                                           [] {
+                                                             std::vector<Channel> zero;
+                                                             zero.emplace_back(Layout(160, 120), 0.0f);
+                                                             return zero;
+                                                           }()})
+                  .max,
+              1e-6)
+        << technique;
+  }
 }
 
 // Pixel centres lie up to half a pixel, 1/150 of the radius, beside the slice: what ends at the radius is off by that much.
