@@ -74,8 +74,9 @@ std::vector<Case> over_pixels(const Plan& plan, const Frame& frame) {
   return cases;
 }
 
-/// The product of the whole numbers that the presets of a technique set: its samples per pixel.
+/// Samples per pixel; for a technique that does not say, the product of the whole numbers that its presets set.
 double samples_of(const Technique& technique, const ParameterValues& values) {
+  if (technique.samples) return technique.samples(values);
   std::vector<std::string> counts;
   for (const Preset& preset : technique.presets) {
     for (const auto& [name, value] : preset.settings) {

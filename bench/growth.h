@@ -41,7 +41,7 @@ Frame with_layers(const Frame& frame, int layers);
 
 /// Times of a technique with its default settings and without its filter, over
 /// - pixels: a quarter to four times the frame's (the radius on the screen grows with the image's width),
-/// - samples: the technique's presets; x is the product of the whole numbers that they set,
+/// - samples: the technique's presets; x is `Technique::samples`, else the product of the whole numbers that they set,
 /// - radius: a quarter to four times; x is in pixels at the median depth,
 /// - layers: where it reads peeled layers, 1, 2, 4 ... of those in the frame,
 /// - views: 1, 2 and 4.

@@ -67,7 +67,7 @@ class Arena {
     } else {
       check(name, ao);
     }
-    auto timed = std::make_shared<TimedPlan>(plan_, frame_, device_, math);
+    auto timed = std::make_shared<TimedPlan>(plan_, frame_, device_, options);
     contenders_.push_back({name, [timed] { return timed->run(); }});
   }
 

@@ -2,6 +2,7 @@
 
 #include "gloam/error.h"
 #include "gloam/run.h"
+#include "storage.h"
 
 namespace gloam::bench {
 namespace {
@@ -17,14 +18,17 @@ std::string text_of(const Plan& plan) {
   return text;
 }
 
-/// As a step is meant to be: without rounding, as far as the device can; or as it is shipped.
-RunOptions options_for(const Device& device, bool shipped) {
+/// As a step is meant to be: without rounding, as far as the device can.
+RunOptions without_rounding(const Device& device) {
   RunOptions options;
-  if (shipped) return options;
   options.math = Math::precise;
   options.real = device.info().has_double ? Real::float64 : Real::float32;
   return options;
 }
+
+/// Of thousands of samples: float and fast are within RMSE 1.5e-4 of double and precise (docs/benchmarking.md), which
+/// take five times as long.
+RunOptions for_converged() { return {}; }
 
 Image take(Frame frame, const std::string& plane) {
   Image image;
@@ -60,12 +64,15 @@ Steps::Steps(const Frame& frame, const std::string& holds, Device& device, const
       foreground_(foreground(frame)),
       available_(planes_of(frame)) {}
 
-const Image& Steps::image(const Plan& plan, bool shipped) {
-  const std::string key = (shipped ? "shipped " : "") + text_of(plan);
+Image Steps::computed(const Plan& plan, const RunOptions& options) {
+  return take(run(plan, frame_, device_, options).frame, plan.outputs.front());
+}
+
+const Image& Steps::shared(const Plan& plan, const RunOptions& options) {
+  const std::string key = (options.real == Real::float64 ? "double " : "") + text_of(plan);
   const auto known = images_.find(key);
   if (known != images_.end()) return known->second;
-  RunResult result = run(plan, frame_, device_, options_for(device_, shipped));
-  return images_.emplace(key, take(std::move(result.frame), plan.outputs.front())).first->second;
+  return images_.emplace(key, computed(plan, options)).first->second;
 }
 
 const Image* Steps::own_truth(const Technique& technique, const ParameterValues& values) {
@@ -73,58 +80,90 @@ const Image* Steps::own_truth(const Technique& technique, const ParameterValues&
   return truths_ ? &truths_->truth(frame_, technique, values).ao : nullptr;
 }
 
-/// The filter by itself. Where it reads what an earlier technique makes (normals from depth) the frame does not have
-/// that, and it is computed first.
-Image Steps::filtered(const Plan& filter, const std::string& plane, const Image& raw) {
-  Frame frame = with_plane(frame_, filter, plane, raw);
-  for (const std::string& input : filter.inputs) {
-    if (frame.views.front().find(input)) continue;
-    const Image& made = image(make_plan({.outputs = {input}}, available_, holds_), false);
-    for (size_t i = 0; i < frame.views.size(); ++i) frame.views[i].planes.emplace(input, made[i].clone());
+/// Null where there is no such thing, or the frame has no layers.
+const Image* Steps::converged(const Technique& technique, const Variation& variation) {
+  if (technique.converged.empty()) return nullptr;
+  Variation full = variation;
+  full.technique = &technique;
+  full.resolution = 1;
+  try {
+    return &shared(unfiltered_plan(full, available_, holds_, technique.converged), for_converged());
+  } catch (const MissingPlanes&) {
+    return nullptr;
   }
-  return take(run(filter, frame, device_, options_for(device_, false)).frame, filter.outputs.front());
 }
 
-Ladder Steps::climb(const Variation& variation) {
-  const Technique& technique = *variation.technique;
+/// The filter by itself. Where it reads what an earlier technique makes (normals from depth) the frame does not have
+/// that, and it is computed first.
+Image Steps::filtered(const Frame& frame, const Plan& filter, const std::string& plane, const Image& raw,
+                      const RunOptions& options) {
+  Frame read = with_plane(frame, filter, plane, raw);
+  for (const std::string& input : filter.inputs) {
+    if (read.views.front().find(input)) continue;
+    const Image& made = shared(make_plan({.outputs = {input}}, available_, holds_), without_rounding(device_));
+    for (size_t i = 0; i < read.views.size(); ++i) read.views[i].planes.emplace(input, made[i].clone());
+  }
+  return take(run(filter, read, device_, options).frame, filter.outputs.front());
+}
+
+/// Rounded at the door, between estimate and filter, and at the end.
+Image Steps::kept_in_half(const Variation& variation, const Plan& whole) {
+  if (!frame_in_half_) frame_in_half_ = stored_in_half(frame_);
+  const RunOptions options = variation.run_options();
+  const Plan estimate = unfiltered_plan(variation, available_, holds_), filter = filter_of(whole, *variation.technique);
+  Image image = take(run(estimate, *frame_in_half_, device_, options).frame, estimate.outputs.front());
+  for (Plane& plane : image) store_in_half(plane);
+  if (filter.passes.empty()) return image;
+  image = filtered(*frame_in_half_, filter, own_plane(*variation.technique), image, options);
+  for (Plane& plane : image) store_in_half(plane);
+  return image;
+}
+
+Image Steps::shipped(const Variation& variation) {
   const Plan whole = whole_plan(variation, available_, holds_);
-  const ParameterValues& values = *values_of(whole, technique.name);
-  const Image* truth = truth_ ? &truth_->ao : nullptr;
-  const Image* own = own_truth(technique, values);
+  if (variation.storage == Storage::float16) return kept_in_half(variation, whole);
+  return computed(whole, variation.run_options());
+}
+
+Errors Steps::errors(const Image& shipped) const {
+  if (!truth_) return {};
+  return {rmse(shipped, truth_->ao, foreground_), bias(shipped, truth_->ao, foreground_)};
+}
+
+Ladder Steps::climb(const Variation& variation, const Image& shipped) {
+  const Technique& technique = *variation.technique;
+  const RunOptions options = without_rounding(device_);
   const auto distance = [&](const Image* a, const Image* b) -> std::optional<double> {
     if (!a || !b) return {};
     return rmse(*a, *b, foreground_);
   };
+  const Plan whole = whole_plan(variation, available_, holds_), filter = filter_of(whole, technique);
+  const Image* own = own_truth(technique, *values_of(whole, technique.name));
+  const Technique* over_layers = over_all_layers(technique);
+  const Image* all_layers = over_layers ? converged(*over_layers, variation) : nullptr;
+  const Image* given_layers = converged(technique, variation);
 
   Ladder ladder;
-  if (technique.contribution) ladder.t0w = distance(own, truth);
-  const Image *all_layers = nullptr, *converged = nullptr;
-  if (!technique.converged.empty()) {
-    converged = &image(unfiltered_plan(variation, available_, holds_, technique.converged), false);
-    const Technique* over_layers = over_all_layers(technique);
-    try {
-      if (over_layers)
-        all_layers = &image(unfiltered_plan({over_layers, variation.preset, variation.radius}, available_, holds_,
-                                            over_layers->converged),
-                            false);
-    } catch (const MissingPlanes&) {  // a frame without peeled layers
+  if (technique.contribution) ladder.t0w = distance(own, truth_ ? &truth_->ao : nullptr);
+  ladder.t1 = distance(all_layers, own);
+  ladder.t2 = distance(given_layers, all_layers);
+  const Image sampled = computed(unfiltered_plan(variation, available_, holds_), options);
+  ladder.t3 = distance(&sampled, given_layers);
+  if (filter.passes.empty()) {
+    ladder.t5 = distance(&shipped, &sampled);
+  } else if (variation.resolution > 1) {
+    const Image precise = computed(whole, options);
+    ladder.t5 = distance(&shipped, &precise);
+  } else {
+    const std::string plane = own_plane(technique);
+    const Image precise = filtered(frame_, filter, plane, sampled, options);
+    ladder.t5 = distance(&shipped, &precise);
+    if (given_layers) {
+      const Image smooth = filtered(frame_, filter, plane, *given_layers, options);
+      ladder.t4_bias = distance(&smooth, given_layers);
+      ladder.t4_noise = distance(&precise, &smooth);
     }
   }
-  ladder.t1 = distance(all_layers, own);
-  ladder.t2 = distance(converged, all_layers);
-  const Image& sampled = image(unfiltered_plan(variation, available_, holds_), false);
-  ladder.t3 = distance(&sampled, converged);
-
-  const Image& precise = image(whole, false);
-  const Plan filter = filter_of(whole, technique);
-  if (converged && !filter.passes.empty()) {
-    const Image smooth = filtered(filter, own_plane(technique), *converged);
-    ladder.t4_bias = distance(&smooth, converged);
-    ladder.t4_noise = distance(&precise, &smooth);
-  }
-  const Image& shipped = image(whole, true);
-  ladder.t5 = distance(&shipped, &precise);
-  ladder.truth = distance(&shipped, truth);
   return ladder;
 }
 

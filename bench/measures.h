@@ -17,8 +17,14 @@ std::vector<Mask> foreground(const Frame& frame);
 /// Root of the mean squared difference over the foreground of all views.
 double rmse(const Image& test, const Image& truth, const std::vector<Mask>& foreground);
 
+/// Mean of test - truth over the foreground of all views: above 0, the test is too bright.
+double bias(const Image& test, const Image& truth, const std::vector<Mask>& foreground);
+
 /// Mean absolute difference over all pixels.
 double mean_difference(const Channel& a, const Channel& b);
+
+/// The median depth of a view's surfaces, scene units; 0 where there are none.
+double median_depth(const View& view);
 
 /// The radius on the screen, in pixels, at the median depth of the first view's surfaces; 0 where there are none.
 double median_reach(const Frame& frame, double radius);

@@ -155,7 +155,7 @@ inline F where_infinite(F x, F yes, F no) { return _mm512_mask_blend_ps(infinite
 #endif
 
 template <bool tuned>
-Row row_function(Instructions instructions) {
+RowLoop row_function(Instructions instructions) {
 #ifdef GLOAM_X86
   if (instructions == Instructions::avx512) return avx512::row<tuned>;
   if (instructions == Instructions::avx2) return avx2::row<tuned>;

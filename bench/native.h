@@ -17,7 +17,7 @@ Instructions widest_instructions();
 const char* name_of(Instructions instructions);
 
 struct Job;
-using Row = void (*)(const Job&, int y);
+using RowLoop = void (*)(const Job&, int y);
 
 /// Plain, or tuned: without clamping where all samples of a block of pixels lie in the frame, as gloam's kernel does.
 class Native {
@@ -30,7 +30,7 @@ class Native {
   const View& view_;
   PixelCamera camera_;
   HbaoPlusParams params_;
-  Row row_;
+  RowLoop row_;
   Channel result_;
 };
 

@@ -15,13 +15,22 @@ bool reads_from(const Technique& reader, const Technique& writer) {
 
 /// The radius in the shortest form that reads back as the same float.
 PlanRequest request_for(const Variation& variation) {
-  PlanRequest request{.outputs = {variation.technique->name}, .preset = variation.preset};
+  PlanRequest request{
+      .outputs = {variation.technique->name}, .preset = variation.preset, .resolution = variation.resolution};
   if (ParameterValues(variation.technique->parameters).has("radius"))
     request.settings.emplace_back("radius", fmt::format("{}", float(variation.radius)));
+  request.settings.insert(request.settings.end(), variation.settings.begin(), variation.settings.end());
   return request;
 }
 
 }  // namespace
+
+RunOptions Variation::run_options() const {
+  RunOptions options;
+  options.math = math;
+  options.real = real;
+  return options;
+}
 
 const std::vector<std::string>& outputs_of(const Technique& technique) {
   return technique.outputs.empty() ? technique.writes : technique.outputs;

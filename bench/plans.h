@@ -7,6 +7,7 @@
 
 #include "gloam/frame.h"
 #include "gloam/plan.h"
+#include "gloam/run.h"
 
 namespace gloam::bench {
 
@@ -28,12 +29,23 @@ bool reads_layers(const Technique& technique);
 /// registry has none.
 const Technique* over_all_layers(const Technique& technique);
 
-/// How a technique is asked for.
+/// What planes are kept in between door, passes and result. Kernels read and write floats: half is what it would cost in
+/// accuracy (storage.h).
+enum class Storage { float32, float16 };
+
+/// How a technique is asked for and run.
 struct Variation {
   const Technique* technique = nullptr;
   std::string preset;  ///< empty: default settings
   double radius = 0.5;
+  std::string variant;  ///< what is other than in the preset, in words: "half", "steps=9"; empty: nothing is
+  int resolution = 1;   ///< as in `PlanRequest`
+  Math math = Math::fast;
+  Real real = Real::float32;
+  Storage storage = Storage::float32;
+  Settings settings;  ///< over those of the preset
   std::string name() const { return preset.empty() ? "default" : preset; }
+  RunOptions run_options() const;
 };
 
 /// The names of a frame's planes that every view has.

@@ -7,9 +7,13 @@ namespace gloam::bench {
 std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
                                 const std::function<void(int, int)>& progress) {
   std::vector<Series> ms(contenders.size());
+  const int of = rounds * int(contenders.size());
+  int done = 0;
   for (int round = 0; round < rounds; ++round) {
-    for (size_t i = 0; i < contenders.size(); ++i) ms[i].push_back(contenders[i].run());
-    if (progress) progress(round + 1, rounds);
+    for (size_t i = 0; i < contenders.size(); ++i) {
+      ms[i].push_back(contenders[i].run());
+      if (progress) progress(++done, of);
+    }
   }
   return ms;
 }
@@ -20,12 +24,12 @@ double ratio(const Series& a, const Series& b) {
   return median(std::move(ratios));
 }
 
-TimedPlan::TimedPlan(Plan plan, const Frame& frame, Device& device, Math math)
-    : plan_(std::move(plan)), frame_(frame), device_(device) {
+TimedPlan::TimedPlan(Plan plan, const Frame& frame, Device& device, const RunOptions& options)
+    : plan_(std::move(plan)), frame_(frame), device_(device), options_(options) {
   // Two timed runs, of which the last counts, follow an untimed one: fresh pages and cold caches are behind them. For
   // what takes long those are nothing.
-  constexpr double long_ms = 100;
-  options_.math = math;
+  constexpr double long_ms = 30;
+  options_.repeat = 1;
   const RunResult first = gloam::run(plan_, frame_, device_, options_);
   lanes_ = first.lanes;
   options_.repeat = first.total_ms.back() > long_ms ? 1 : 2;

@@ -22,7 +22,8 @@ struct Contender {
   std::function<double()> run;
 };
 
-/// Runs all in turn, `rounds` times, so that what else the machine does falls on all alike. `progress` may be empty.
+/// Runs all in turn, `rounds` times, so that what else the machine does falls on all alike. `progress` is told of single
+/// runs, and may be empty.
 std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
                                 const std::function<void(int done, int of)>& progress = {});
 
@@ -33,7 +34,7 @@ double ratio(const Series& a, const Series& b);
 class TimedPlan {
  public:
   /// Compiles and runs it once. Throws what `gloam::run` throws. Frame and device must outlive it.
-  TimedPlan(Plan plan, const Frame& frame, Device& device, Math math = Math::fast);
+  TimedPlan(Plan plan, const Frame& frame, Device& device, const RunOptions& options = {});
 
   /// The sum over passes and views, by the events of the device, when the device is warm.
   double run();

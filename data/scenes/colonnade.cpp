@@ -479,6 +479,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> colonnade() {
   return {{.name = "colonnade",
            .summary = "a nave between two storeys of arches and columns, with vaulted aisles, curtains and banners",
+           .kind = "architecture",
            .make = make}};
 }
 

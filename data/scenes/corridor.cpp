@@ -765,6 +765,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> corridor() {
   return {{.name = "corridor",
            .summary = "a corridor from inside: one connected shell with concave corners, doorways, recesses, furniture",
+           .kind = "architecture",
            .make = make}};
 }
 

@@ -703,6 +703,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> courtyard() {
   return {{.name = "courtyard",
            .summary = "a town courtyard with an arcade, a fountain, stairs, tables and tiled roofs",
+           .kind = "architecture",
            .make = make}};
 }
 

@@ -385,6 +385,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> fence() {
   return {{.name = "fence",
            .summary = "railings, chain link, pickets and lattices one behind the other, and a wall: many thin layers",
+           .kind = "thin",
            .parameters = {},
            .make = make}};
 }

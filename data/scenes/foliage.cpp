@@ -333,6 +333,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> foliage() {
   return {{.name = "foliage",
            .summary = "a glade with trees, bushes and ferns: every leaf is geometry",
+           .kind = "thin",
            .parameters = {},
            .make = make}};
 }

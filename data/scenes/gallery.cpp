@@ -569,6 +569,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> gallery() {
   return {{.name = "gallery",
            .summary = "a museum with skylights, a polished floor, framed pictures, sculptures and rope barriers",
+           .kind = "architecture",
            .make = make}};
 }
 

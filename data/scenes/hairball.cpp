@@ -75,6 +75,7 @@ Scene make(const ParameterValues& values) {
 std::vector<SceneRecipe> hairball() {
   return {{.name = "hairball",
            .summary = "a ball of thousands of long thin strands over a floor: many thin layers",
+           .kind = "thin",
            .parameters = {int_parameter("strands", 2500, 10, 20000, "", "number of strands, 330 triangles each")},
            .make = make}};
 }

@@ -27,6 +27,7 @@ Scene make(const ParameterValues& values) {
 std::vector<SceneRecipe> plane() {
   return {{.name = "plane",
            .summary = "one plane, 4 m away, tilted away from the camera",
+           .kind = "flat",
            .parameters = {float_parameter("tilt", 60, 0, 89.9, "degrees", "angle between the plane and the image")},
            .make = make}};
 }

@@ -561,6 +561,7 @@ Scene make(const ParameterValues& values) {
 std::vector<SceneRecipe> statue() {
   return {{.name = "statue",
            .summary = "a draped figure on a pedestal in a niche, at a chosen number of faces",
+           .kind = "object",
            .parameters = {int_parameter("faces", 200000, 1000, 5000000, "",
                                         "triangles of the whole scene; met within 2 % from 5000 on, 15 % below")},
            .make = make}};

@@ -553,6 +553,7 @@ Scene make(const ParameterValues&) {
 std::vector<SceneRecipe> temple() {
   return {{.name = "temple",
            .summary = "a half-fallen Doric temple with fluted columns, entablature, cella and drums in the grass",
+           .kind = "architecture",
            .make = make}};
 }
 

@@ -141,19 +141,21 @@ void list_scenes(const JsonFlag& json) {
   for (const SceneRecipe& recipe : builtin_scenes()) {
     Json parameters = Json::array();
     for (const Parameter& p : recipe.parameters) parameters.push_back(parameter_document(p));
-    document.push_back({{"name", recipe.name}, {"summary", recipe.summary}, {"parameters", parameters}});
+    document.push_back(
+        {{"name", recipe.name}, {"class", recipe.kind}, {"summary", recipe.summary}, {"parameters", parameters}});
   }
   json.write(document);
   if (json.only_json()) return;
   std::vector<std::vector<std::string>> rows;
   for (const SceneRecipe& recipe : builtin_scenes()) {
-    rows.push_back({recipe.name, recipe.summary});
+    rows.push_back({recipe.name, recipe.kind, recipe.summary});
     const ParameterValues initial(recipe.parameters);
     for (const Parameter& p : recipe.parameters) {
-      rows.push_back({"", fmt::format("--{} {}  ({}) {}", p.name, initial.text(p.name), allowed_values(p), p.help)});
+      rows.push_back(
+          {"", "", fmt::format("--{} {}  ({}) {}", p.name, initial.text(p.name), allowed_values(p), p.help)});
     }
   }
-  print_table(rows, 2);
+  print_table(rows, 3);
 }
 
 void list_metrics(const JsonFlag& json) {

@@ -99,6 +99,7 @@ Scene import_scene(const std::filesystem::path& path);
 struct SceneRecipe {
   std::string name;     ///< "courtyard"
   std::string summary;  ///< one line
+  std::string kind;     ///< what it stands for: "architecture", "thin", "object" or "flat"
   std::vector<Parameter> parameters;
   std::function<Scene(const ParameterValues&)> make;  ///< deterministic
 };

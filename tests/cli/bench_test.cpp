@@ -1,7 +1,10 @@
 // gloam bench: what its document holds. Never how long anything took.
 #include <cmath>
+#include <opencv2/core.hpp>
+#include <set>
 
 #include "gloam_process.h"
+#include "picture.h"
 
 namespace gloam::test {
 namespace {
@@ -9,9 +12,10 @@ namespace {
 using Json = nlohmann::json;
 
 /// A run on a small image of one plane takes seconds.
-Arguments small(const fs::path& folder, const Arguments& more = {}) {
-  Arguments arguments = {"bench",    "-o",    folder.string(), "--size", "96x54",    "--rays", "32",
-                         "--scenes", "plane", "--techniques",  "hbao+",  "--rounds", "3",      "--no-growth"};
+Arguments small(const fs::path& folder, const Arguments& more = {}, const std::string& scene = "plane") {
+  Arguments arguments = {"bench", "-o",          folder.string(), "--size",       "96x54", "--rays",
+                         "32",    "--scenes",    scene,           "--techniques", "hbao+", "--rounds",
+                         "3",     "--no-growth", "--variants",    "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -21,6 +25,29 @@ const Json* find(const Json& results, const std::string& preset) {
     if (result["preset"] == preset) return &result;
   }
   return nullptr;
+}
+
+/// The row of one variant of a technique.
+Json row_of(const Json& document, const std::string& technique, const std::string& variant) {
+  for (const Json& row : document["results"]) {
+    if (row["technique"] == technique && row["variant"] == variant) return row;
+  }
+  ADD_FAILURE() << "no row of " << technique << " in the variant '" << variant << "'";
+  return {};
+}
+
+std::set<std::string> variants_of(const Json& document, const std::string& technique) {
+  std::set<std::string> found;
+  for (const Json& row : document["results"]) {
+    if (row["technique"] == technique && row["variant"] != "") found.insert(row["variant"].get<std::string>());
+  }
+  return found;
+}
+
+std::vector<std::string> spent_on(const Json& row) {
+  std::vector<std::string> names;
+  for (const Json& share : row["spent_on"]) names.push_back(share["what"]);
+  return names;
 }
 
 void expect_ms(const Json& ms) {
@@ -33,7 +60,7 @@ void expect_ms(const Json& ms) {
 TEST_F(Cli, BenchWritesTheContractsDocument) {
   const Result result = gloam(small(path("out")));
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("RMSE to the truth"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("t0w model"), std::string::npos) << result.out;
   const Json document = Json::parse(slurp(path("out/bench.json")));
   for (const char* key : {"device", "cpu", "driver", "date", "commit"}) EXPECT_TRUE(document[key].is_string()) << key;
   EXPECT_EQ(document["date"].get<std::string>().size(), 10u);
@@ -46,15 +73,28 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
     EXPECT_EQ(row["scene"], "plane");
     EXPECT_EQ(row["width"], 96);
     EXPECT_EQ(row["height"], 54);
+    EXPECT_EQ(row["variant"], "");
     EXPECT_TRUE(row["settings"].is_object());
+    EXPECT_EQ(row["samples"], int(row["settings"]["directions"]) * int(row["settings"]["steps"]));
     expect_ms(row["ms"]);
     ASSERT_EQ(row["passes"].size(), 3u);
     for (const Json& pass : row["passes"]) expect_ms(pass["ms"]);
-    for (const char* key : {"ratio_to_gather_floor", "ratio_to_copy_floor", "ratio_to_hbao_plus"}) {
+    for (const char* key :
+         {"ratio_to_gather_floor", "ratio_to_copy_floor", "ratio_to_hbao_plus", "own_floor_ms", "ratio_to_own_floor"}) {
       ASSERT_TRUE(row[key].is_number()) << key;
       EXPECT_GT(row[key], 0) << key;
     }
+    EXPECT_LT(row["own_floor_ms"], row["ms"]["median"]);  // without the filter, it reads less
+    EXPECT_EQ(spent_on(row),
+              Arguments({"gathers", "arithmetic of the estimate", "bilateral/horizontal", "bilateral/vertical"}));
+    double spent = 0;
+    for (const Json& share : row["spent_on"]) {
+      EXPECT_GE(share["share"], 0) << share;
+      spent += share["share"].get<double>();
+    }
+    EXPECT_NEAR(spent, 1, 1e-9);
     EXPECT_TRUE(row["rmse_to_truth"].is_number());
+    EXPECT_LE(std::abs(row["bias"].get<double>()), row["rmse_to_truth"]);
     ASSERT_EQ(row["ladder"].size(), 7u);
     for (const char* key : {"t0w", "t1", "t2", "t3", "t4_bias", "t4_noise", "t5"}) {
       ASSERT_TRUE(row["ladder"][key].is_number()) << key;
@@ -67,6 +107,122 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
   }
   EXPECT_EQ((*find(document["results"], "low"))["settings"]["directions"], 4);
   EXPECT_EQ(files(), Arguments{"out"});
+  EXPECT_EQ(document["scenes"][0]["class"], "flat");
+}
+
+TEST_F(Cli, BenchMeasuresVariantsOfOnePreset) {
+  const Result result =
+      gloam({"bench",     "-o",           path("out"),   "--size",    "96x54",      "--rays",     "32",  "--scenes",
+             "courtyard", "--techniques", "hbao+",       "--presets", "low,medium", "--variants", "all", "--rounds",
+             "1",         "--no-growth",  "--no-images", "--json",    "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json(), plain = row_of(document, "hbao+", "");
+  std::set<std::string> expected = {"half", "quarter", "precise", "half storage"};
+  const bool has_double = variants_of(document, "hbao+").count("double") > 0;  // a device may have none
+  if (has_double) expected.insert("double");
+  EXPECT_EQ(variants_of(document, "hbao+"), expected);
+  EXPECT_EQ(document["results"].size(), 2 + expected.size());
+  EXPECT_EQ(document["scenes"][0]["class"], "architecture");
+  EXPECT_TRUE(document["scenes"][0]["truth_image"].is_null());
+  EXPECT_FALSE(fs::exists(path("out/images")));
+  for (const std::string& variant : expected) {
+    const Json row = row_of(document, "hbao+", variant);
+    EXPECT_EQ(row["preset"], "medium") << variant;
+    EXPECT_EQ(row["resolution"], variant == "half" || variant == "quarter" ? variant : "full") << variant;
+    EXPECT_EQ(row["math"], variant == "precise" || variant == "double" ? "precise" : "fast") << variant;
+    EXPECT_EQ(row["real"], variant == "double" ? "double" : "float") << variant;
+    EXPECT_EQ(row["storage"], variant == "half storage" ? "half" : "float") << variant;
+    EXPECT_TRUE(row["image"].is_null()) << variant;
+    EXPECT_TRUE(row["ladder"]["t3"].is_null()) << variant;
+  }
+  // What they change is seen: little of precision, much of resolution.
+  const double error = row_of(document, "hbao+", "half")["rmse_to_truth"], full = plain["rmse_to_truth"];
+  EXPECT_GT(std::abs(error - full), 1e-4);
+  const double rounded = row_of(document, "hbao+", "half storage")["rmse_to_truth"];
+  const double precise = row_of(document, "hbao+", "precise")["rmse_to_truth"];
+  EXPECT_NE(rounded, precise);
+  EXPECT_NEAR(rounded, precise, 1e-2);
+  const std::vector<std::string> half = spent_on(row_of(document, "hbao+", "half"));
+  EXPECT_TRUE(std::count(half.begin(), half.end(), "resample/upsample ao")) << Json(half);
+}
+
+TEST_F(Cli, BenchSweepsSettings) {
+  const auto run = [&](const Arguments& more) {
+    Arguments arguments = {"bench",        "-o",         path("out"), "--size",     "96x54",
+                           "--rays",       "32",         "--rounds",  "1",          "--scenes",
+                           "plane",        "--presets",  "low",       "--variants", "none",
+                           "--techniques", "hbao+,gtao", "--json",    "-",          "--no-growth"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  };
+  const Result result = run({"--sweep", "steps=4,9", "--sweep", "directions=1,2", "--ladder", "none"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  const std::set<std::string> product = {"steps=4, directions=1", "steps=4, directions=2", "steps=9, directions=1",
+                                         "steps=9, directions=2"};
+  EXPECT_EQ(variants_of(document, "hbao+"), product);
+  EXPECT_EQ(variants_of(document, "gtao"), product);
+  const Json row = row_of(document, "gtao", "steps=9, directions=2");
+  EXPECT_EQ(row["preset"], "low");
+  EXPECT_EQ(row["settings"]["steps"], 9);
+  EXPECT_EQ(row["settings"]["directions"], 2);
+  EXPECT_EQ(row["samples"], 36);  // on both sides
+  EXPECT_TRUE(row["ladder"]["t3"].is_null());
+  EXPECT_EQ(row["image"], "images/plane/gtao_low_steps-9-directions-2.png");
+  EXPECT_TRUE(fs::exists(path("out") / row["image"].get<std::string>()));
+
+  // What only some techniques have or allow is measured on those.
+  const Result some = run({"--sweep", "steps=4,64", "--ladder", "all"});
+  ASSERT_EQ(some.status, 0) << some.err;
+  const Json one = some.json();
+  EXPECT_EQ(variants_of(one, "hbao+"), std::set<std::string>{"steps=4"});
+  EXPECT_EQ(variants_of(one, "gtao"), (std::set<std::string>{"steps=4", "steps=64"}));
+  EXPECT_TRUE(row_of(one, "gtao", "steps=64")["ladder"]["t3"].is_number());
+  ASSERT_EQ(one["skipped"].size(), 1u);
+  EXPECT_EQ(one["skipped"][0]["technique"], "hbao+");
+  EXPECT_NE(one["skipped"][0]["why"].get<std::string>().find("64"), std::string::npos);
+}
+
+TEST_F(Cli, BenchDrawsWhatItMeasured) {
+  const Result result =
+      gloam(small(path("out"), {"--presets", "low,medium", "--ladder", "none", "--json", "-"}, "hairball"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  std::set<std::string> names = {document["scenes"][0]["truth_image"].get<std::string>()};
+  for (const Json& row : document["results"]) names.insert(row["image"].get<std::string>());
+  EXPECT_EQ(names, (std::set<std::string>{"images/hairball/truth.png", "images/hairball/hbaoplus_low.png",
+                                          "images/hairball/hbaoplus_medium.png"}));
+  const Frame frame = FrameFile(path("out/scenes/hairball.exr"), {}).read({"depth"});
+  const Channel& depth = frame.views[0].planes.at("depth").channels[0];
+  for (const std::string& name : names) {
+    const cv::Mat image = read_png(path("out") / name);
+    ASSERT_EQ(image.cols, 96) << name;
+    ASSERT_EQ(image.rows, 54) << name;
+    int transparent = 0, wrong = 0;
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const int alpha = image.at<cv::Vec2b>(y, x)[1];
+        transparent += alpha == 0;
+        wrong += alpha != (is_background(depth.at(x, y)) ? 0 : 255);
+      }
+    }
+    EXPECT_EQ(wrong, 0) << name;
+    EXPECT_GT(transparent, 0) << name;
+  }
+  // The picture's mean error is the row's bias, as far as 8 bits tell.
+  const cv::Mat truth = read_png(path("out/images/hairball/truth.png")),
+                test = read_png(path("out/images/hairball/hbaoplus_low.png"));
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < test.rows; ++y) {
+    for (int x = 0; x < test.cols; ++x) {
+      if (test.at<cv::Vec2b>(y, x)[1] == 0) continue;
+      sum += (test.at<cv::Vec2b>(y, x)[0] - truth.at<cv::Vec2b>(y, x)[0]) / 255.0;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum / count, (*find(document["results"], "low"))["bias"], 1e-3);
+  EXPECT_GT(std::abs(sum / count), 5e-3);  // else the line above says nothing
 }
 
 TEST_F(Cli, BenchNamesNoMachine) {
@@ -106,8 +262,9 @@ TEST_F(Cli, BenchUsesTruthsAgain) {
 
 TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
   const Result result =
-      gloam({"bench", "-o", path("out"), "--size", "96x54", "--rays", "64", "--scenes", "hairball", "--techniques",
-             "hbao+,dp-hbao+", "--presets", "low,high", "--rounds", "3", "--no-growth", "--json", "-"});
+      gloam({"bench",    "-o",           path("out"),      "--size",    "96x54",    "--rays",     "64",   "--scenes",
+             "hairball", "--techniques", "hbao+,dp-hbao+", "--presets", "low,high", "--variants", "none", "--rounds",
+             "3",        "--no-growth",  "--json",         "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   std::map<std::string, Json> ladders;
   const Json document = result.json();
@@ -124,29 +281,33 @@ TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
 }
 
 TEST_F(Cli, BenchOfOnesOwnFrameAgreesWithRunAndCompare) {
-  const Result result = gloam({"bench", "-o", path("out"), "--frame", loggia, "--truth", loggia_truth, "--techniques",
-                               "hbao+", "--presets", "low", "--rounds", "1", "--no-growth", "--json", "-"});
+  const Result result =
+      gloam({"bench", "-o", path("out"), "--frame", loggia, "--truth", loggia_truth, "--techniques", "hbao+",
+             "--presets", "low", "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json();
   ASSERT_EQ(document["results"].size(), 1u);
   const Json& row = document["results"][0];
   EXPECT_EQ(row["scene"], "loggia");
+  EXPECT_EQ(document["scenes"][0]["class"], "own");
   EXPECT_TRUE(row["ladder"]["t0w"].is_null());  // no scene to trace
   EXPECT_TRUE(row["ladder"]["t1"].is_null());   // one layer
   EXPECT_GT(row["ladder"]["t3"], 1e-3);
   ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--preset", "low", "--radius", "0.5"}).status, 0);
   const Json figures = gloam({"compare", path("ao.exr"), loggia_truth, "--json", "-"}).json();
   EXPECT_NEAR(row["rmse_to_truth"], figures["rmse"], 1e-7);
+  EXPECT_NEAR(row["bias"], figures["bias"], 1e-7);
 
   const Result without = gloam({"bench", "-o", path("out"), "--frame", loggia, "--techniques", "hbao+", "--presets",
-                                "low", "--rounds", "1", "--no-growth", "--json", "-"});
+                                "low", "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
   ASSERT_EQ(without.status, 0) << without.err;
   EXPECT_TRUE(without.json()["results"][0]["rmse_to_truth"].is_null());
 }
 
 TEST_F(Cli, BenchMeasuresGrowth) {
-  const Result result = gloam({"bench", "-o", path("out"), "--size", "64x36", "--rays", "32", "--scenes", "plane",
-                               "--techniques", "dp-hbao+", "--presets", "low", "--rounds", "1", "--json", "-"});
+  const Result result =
+      gloam({"bench", "-o", path("out"), "--size", "64x36", "--rays", "32", "--scenes", "plane", "--techniques",
+             "dp-hbao+", "--presets", "low", "--variants", "none", "--rounds", "1", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   std::map<std::string, size_t> points;
   const Json document = result.json();
@@ -170,8 +331,9 @@ TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
   write_frame(path("pair.exr"), pair);
   write_frame(path("plain.exr"), small_frame(48, 32, {"depth"}));
   const auto row = [&](const char* file) {
-    const Result result = gloam({"bench", "-o", path("out"), "--frame", path(file), "--techniques", "hbao+",
-                                 "--presets", "medium", "--rounds", "1", "--no-growth", "--json", "-"});
+    const Result result =
+        gloam({"bench", "-o", path("out"), "--frame", path(file), "--techniques", "hbao+", "--presets", "medium",
+               "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
     EXPECT_EQ(result.status, 0) << result.err;
     const Json document = result.json();
     return document["results"].at(0);
@@ -192,11 +354,19 @@ TEST_F(Cli, BenchSaysWhatIsWrong) {
     int status = 2;
   };
   const std::vector<Wrong> all = {
-      {{"--techniques", "hbao"}, "did you mean 'hbao+'?"},
+      {{"--techniques", "gtoa"}, "did you mean 'gtao'?"},
       {{"--techniques", "normals"}, "not ao"},
       {{"--scenes", "plan"}, "did you mean 'plane'?"},
       {{"--presets", "mediun"}, "did you mean 'medium'?"},
       {{"--rounds", "0"}, "--rounds 0"},
+      {{"--variants", "quater"}, "did you mean 'quarter'?"},
+      {{"--ladder", "some"}, "none, presets and all"},
+      {{"--sweep", "steps"}, "--sweep"},
+      {{"--sweep", "stepz=4"}, "did you mean 'steps'?"},
+      {{"--sweep", "steps=4,,8"}, "--sweep steps"},
+      {{"--sweep", "steps=0"}, "steps"},
+      {{"--techniques", "hbao+", "--sweep", "steps=99"}, "1 to 32"},
+      {{"--techniques", "gtao,bitmask", "--sweep", "thickness=0.1", "--sweep", "fade=0.5"}, "has all parameters"},
       {{"--size", "96"}, "--size 96"},
       {{"--truth", loggia_truth}, "--frame"},
       {{"--fov", "60"}, "--frame"},

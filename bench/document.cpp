@@ -1,0 +1,162 @@
+#include "document.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include "commit.h"
+
+namespace gloam::bench {
+namespace {
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json milliseconds(const Series& ms) {
+  const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
+  return {{"median", median(ms)}, {"min", *least}, {"max", *most}};
+}
+
+/// What can be given to --set: names without a dot are the technique's own.
+Json settings_of(const Plan& plan, const Technique& technique) {
+  Json settings = Json::object();
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Parameter& p : planned.values.table()) {
+      const std::string name = planned.technique == &technique ? p.name : planned.technique->name + "." + p.name;
+      const bool is_number = p.type == Parameter::Type::floating || p.type == Parameter::Type::integer;
+      const std::string text = planned.values.text(p.name);
+      settings[name] =
+          is_number && std::isfinite(planned.values.number(p.name)) ? Json::parse(text, nullptr, false) : Json(text);
+      if (settings[name].is_discarded()) settings[name] = text;
+    }
+  }
+  return settings;
+}
+
+Json samples_of(const Row& row) {
+  const Technique& technique = *row.variation.technique;
+  const ParameterValues* values = values_of(row.timed->plan(), technique.name);
+  return technique.samples && values ? Json(technique.samples(*values)) : Json(nullptr);
+}
+
+const char* resolution_name(int resolution) { return resolution == 1 ? "full" : resolution == 2 ? "half" : "quarter"; }
+
+Json document_of(const Ladder& l) {
+  return {{"t0w", number(l.t0w)}, {"t1", number(l.t1)},           {"t2", number(l.t2)},
+          {"t3", number(l.t3)},   {"t4_bias", number(l.t4_bias)}, {"t4_noise", number(l.t4_noise)},
+          {"t5", number(l.t5)}};
+}
+
+Json document_of(const Row& row) {
+  const Variation& v = row.variation;
+  Json passes = Json::array(), spent_on = Json::array();
+  for (const TimedPlan::Pass& pass : row.timed->passes())
+    passes.push_back({{"name", pass.name}, {"ms", milliseconds(pass.ms)}});
+  for (const Share& share : row.spent_on) spent_on.push_back({{"what", share.what}, {"share", share.share}});
+  return {{"technique", v.technique->name},
+          {"preset", v.name()},
+          {"variant", v.variant},
+          {"settings", settings_of(row.timed->plan(), *v.technique)},
+          {"samples", samples_of(row)},
+          {"resolution", resolution_name(v.resolution)},
+          {"math", v.math == Math::fast ? "fast" : "precise"},
+          {"real", v.real == Real::float32 ? "float" : "double"},
+          {"storage", v.storage == Storage::float32 ? "float" : "half"},
+          {"scene", row.scene},
+          {"width", row.width},
+          {"height", row.height},
+          {"lanes", row.timed->lanes()},
+          {"ms", milliseconds(row.ms)},
+          {"passes", passes},
+          {"own_floor_ms", median(row.own_floor_ms)},
+          {"ratio_to_own_floor", number(row.to_own_floor)},
+          {"spent_on", spent_on},
+          {"ratio_to_naive", number(row.to_naive)},
+          {"ratio_to_native", number(row.to_native)},
+          {"ratio_to_gather_floor", number(row.to_gather_floor)},
+          {"ratio_to_copy_floor", number(row.to_copy_floor)},
+          {"ratio_to_hbao_plus", number(row.to_hbao_plus)},
+          {"rmse_to_truth", number(row.errors.rmse)},
+          {"bias", number(row.errors.bias)},
+          {"ladder", document_of(row.ladder)},
+          {"image", text_or_null(row.image)}};
+}
+
+Json document_of(const SceneFacts& scene) {
+  Json document = {{"name", scene.name},
+                   {"class", scene.scene_class},
+                   {"size", {scene.width, scene.height}},
+                   {"radius", scene.radius},
+                   {"radius_pixels", scene.radius_pixels},
+                   {"truth_noise", number(scene.truth_noise)},
+                   {"truth_image", text_or_null(scene.truth_image)}};
+  if (scene.traced) {
+    document["made"] = scene.made;
+    document["reused"] = scene.reused;
+  }
+  return document;
+}
+
+Json document_of(const GrowthFacts& facts) {
+  Json points = Json::array();
+  for (const GrowthPoint& p : facts.growth.points) points.push_back({{"x", p.x}, {"ms", p.ms}});
+  return {{"technique", facts.technique},
+          {"over", facts.growth.over},
+          {"scene", facts.scene},
+          {"exponent", number(exponent(facts.growth.points))},
+          {"points", points}};
+}
+
+Json document_of(const Skipped& s) {
+  return {
+      {"technique", s.technique}, {"preset", text_or_null(s.preset)}, {"scene", text_or_null(s.scene)}, {"why", s.why}};
+}
+
+template <typename Thing>
+Json list_of(const std::vector<Thing>& things) {
+  Json list = Json::array();
+  for (const Thing& thing : things) list.push_back(document_of(thing));
+  return list;
+}
+
+std::string utc_day() {
+  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::chrono::year_month_day day(today);
+  return fmt::format("{:04}-{:02}-{:02}", int(day.year()), unsigned(day.month()), unsigned(day.day()));
+}
+
+}  // namespace
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+Json document_of(const Measurement& measurement, const MeasureOptions& options, int rays, const DeviceInfo& device) {
+  Json results = Json::array();
+  for (const auto& row : measurement.rows) results.push_back(document_of(*row));
+  return {{"device", device.name},
+          {"cpu", cpu_model()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"driver", fmt::format("{} {}", device.platform, device.driver)},
+          {"date", utc_day()},
+          {"commit", commit},
+          {"rounds", options.rounds},
+          {"rays", rays},
+          {"scenes", list_of(measurement.scenes)},
+          {"results", results},
+          {"growth", list_of(measurement.growth)},
+          {"skipped", list_of(measurement.skipped)},
+          {"paper", Json::array()}};
+}
+
+}  // namespace gloam::bench

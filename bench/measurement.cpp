@@ -1,0 +1,173 @@
+#include "measurement.h"
+
+#include "gloam/error.h"
+#include "lists.h"
+#include "pictures.h"
+
+namespace gloam::bench {
+namespace {
+
+constexpr int growth_rounds = 5;
+
+/// Everything that goes on on one frame.
+class Session {
+ public:
+  Session(Subject& subject, const MeasureOptions& options, Device& device, Measurement& result)
+      : subject_(subject),
+        options_(options),
+        device_(device),
+        result_(result),
+        race_(subject.frame, subject.holds, subject.radius, device),
+        steps_(subject.frame, subject.holds, device, subject.truth, subject.truths.get()) {}
+
+  void measure() {
+    for (const Technique* technique : options_.techniques) enter(*technique);
+    if (!rows_.empty()) race_.run(options_.rounds, [&](int done, int of) { tell("all plans in turn", done, of); });
+    for (auto& row : rows_) result_.rows.push_back(std::move(row));
+    const std::vector<std::string>& notes = race_.notes();
+    result_.notes.insert(result_.notes.end(), notes.begin(), notes.end());
+  }
+
+  void measure_growth() {
+    for (size_t i = 0; i < options_.growth.size(); ++i) {
+      const Technique& technique = *options_.growth[i];
+      if (!contains(measured_, technique.name)) continue;
+      tell("growth of " + technique.name, int(i), int(options_.growth.size()));
+      for (Growth& growth : bench::measure_growth(technique, subject_.frame, device_, {subject_.radius, growth_rounds}))
+        result_.growth.push_back({technique.name, subject_.name, std::move(growth)});
+    }
+  }
+
+  void add_scene() {
+    SceneFacts facts{subject_.name, subject_.scene_class, subject_.frame.width(), subject_.frame.height(),
+                     subject_.radius};
+    facts.radius_pixels = median_reach(subject_.frame, subject_.radius);
+    if (subject_.truth) {
+      facts.truth_noise = subject_.truth->noise;
+      facts.truth_image = picture("truth", subject_.truth->ao);
+    }
+    if (subject_.truths) {
+      facts.traced = true;
+      facts.made = subject_.truths->made();
+      facts.reused = subject_.truths->reused();
+      if (!facts.reused.empty())
+        result_.notes.push_back(fmt::format("{} of an earlier run used again", enumerate(facts.reused)));
+    }
+    result_.scenes.push_back(std::move(facts));
+  }
+
+ private:
+  void tell(const std::string& what, int done, int of) const {
+    if (options_.progress) options_.progress(subject_.name + ": " + what, double(done) / of);
+  }
+
+  void skip(const Technique& technique, const std::string& preset, const std::string& why) {
+    result_.skipped.push_back({technique.name, preset, subject_.name, why});
+  }
+
+  /// Enters what of a technique the frame and the device allow.
+  void enter(const Technique& technique) {
+    const std::vector<Variation> variations = variations_of(technique, subject_.radius, options_);
+    if (variations.empty()) skip(technique, "", "has none of these presets");
+    for (size_t i = 0; i < variations.size(); ++i) {
+      tell(fmt::format("images of {}", technique.name), int(i), int(variations.size()));
+      try {
+        rows_.push_back(row_of(variations[i]));
+        add_new(measured_, technique.name);
+      } catch (const UsageError&) {
+        throw;
+      } catch (const MissingPlanes& missing) {  // the same for all of it
+        skip(technique, "", without_name(technique, missing));
+        return;
+      } catch (const Error& error) {
+        const Variation& v = variations[i];
+        skip(technique, v.variant.empty() ? v.preset : v.name() + ", " + v.variant, without_name(technique, error));
+      }
+    }
+  }
+
+  std::unique_ptr<Row> row_of(const Variation& variation) {
+    auto row = std::make_unique<Row>();
+    row->variation = variation;
+    row->scene = subject_.name;
+    row->width = subject_.frame.width();
+    row->height = subject_.frame.height();
+    const Image shipped = steps_.shipped(variation);
+    row->errors = steps_.errors(shipped);
+    const bool with_ladder =
+        options_.ladder == LadderFor::all || (options_.ladder == LadderFor::presets && variation.variant.empty());
+    if (with_ladder) row->ladder = steps_.climb(variation, shipped);
+    race_.enter(*row);
+    std::string name = variation.technique->name + "_" + variation.name();
+    if (!variation.variant.empty()) name += "_" + variation.variant;
+    row->image = picture(name, shipped);
+    return row;
+  }
+
+  /// Draws the first view; the path below the folder, empty where there shall be no pictures.
+  std::string picture(const std::string& name, const Image& image) {
+    if (options_.folder.empty()) return "";
+    const std::string folder = "images/" + file_name(subject_.name);
+    std::string path = fmt::format("{}/{}.png", folder, file_name(name));
+    for (int number = 2; contains(pictures_, path); ++number)
+      path = fmt::format("{}/{}_{}.png", folder, file_name(name), number);
+    pictures_.push_back(path);
+    std::error_code error;
+    std::filesystem::create_directories(options_.folder / folder, error);
+    if (error) throw Error("{}: cannot be made ({})", (options_.folder / folder).string(), error.message());
+    const View& view = subject_.frame.views.front();
+    write_share(options_.folder / path, image.front().channels[0], view.planes.at("depth").channels[0]);
+    return path;
+  }
+
+  /// An error of a technique without the name that goes before it.
+  static std::string without_name(const Technique& technique, const Error& error) {
+    const std::string message = error.what(), prefix = technique.name + ": ";
+    return message.rfind(prefix, 0) == 0 ? message.substr(prefix.size()) : message;
+  }
+
+  Subject& subject_;
+  const MeasureOptions& options_;
+  Device& device_;
+  Measurement& result_;
+  std::vector<std::unique_ptr<Row>> rows_;
+  std::vector<std::string> measured_, pictures_;
+  Race race_;
+  Steps steps_;
+};
+
+}  // namespace
+
+std::vector<std::string> presets_of(const Technique& technique, const MeasureOptions& options) {
+  std::vector<std::string> names;
+  for (const Preset& preset : technique.presets) {
+    if (options.presets.empty() || contains(options.presets, preset.name)) names.push_back(preset.name);
+  }
+  if (technique.presets.empty() && options.presets.empty()) names.push_back("");
+  return names;
+}
+
+bool in_short(const Technique& technique, const MeasureOptions& options) {
+  return !options.layers_in_full && contains(technique.reads, "peel");
+}
+
+std::vector<Variation> variations_of(const Technique& technique, double radius, const MeasureOptions& options) {
+  const std::vector<std::string> presets = presets_of(technique, options);
+  std::vector<Variation> all;
+  if (in_short(technique, options) && !presets.empty()) return {{&technique, base_preset(presets), radius}};
+  for (const std::string& preset : presets) all.push_back({&technique, preset, radius});
+  if (presets.empty()) return all;
+  const Variation base{&technique, base_preset(presets), radius};
+  for (const std::string& name : options.variants) all.push_back(with_variant(base, name));
+  for (Variation& each : swept(base, options.sweeps)) all.push_back(std::move(each));
+  return all;
+}
+
+void measure(Subject& subject, const MeasureOptions& options, bool with_growth, Device& device, Measurement& result) {
+  Session session(subject, options, device, result);
+  session.measure();
+  if (with_growth) session.measure_growth();
+  session.add_scene();
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,146 @@
+#include "tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/front.h"
+
+namespace gloam::bench {
+namespace {
+
+/// With more variants than this a preset is not listed with all of them.
+constexpr size_t most_variants = 3;
+
+std::string cell(const std::optional<double>& value, const char* format = "{:.4f}") {
+  return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+/// A row, with what is known of it among the others of its scene.
+struct Entry {
+  const Row* row;
+  double ms = 0, time = 0;  ///< time: what rows are sorted by
+  bool on_front = false;
+};
+
+/// As in the report, time is the ratio, since ratios drift less; ms where a row has none.
+void set_times(std::vector<Entry>& entries) {
+  const bool with_ratio =
+      std::all_of(entries.begin(), entries.end(), [](const Entry& e) { return e.row->to_hbao_plus.has_value(); });
+  for (Entry& e : entries) e.time = with_ratio ? *e.row->to_hbao_plus : e.ms;
+}
+
+void mark_front(std::vector<Entry>& entries) {
+  std::vector<report::Cost> costs;
+  for (const Entry& e : entries) costs.push_back({e.time, e.row->errors.rmse.value_or(NAN)});
+  for (const size_t i : report::pareto_front(costs)) entries[i].on_front = true;
+}
+
+bool same_preset(const Entry& a, const Entry& b) {
+  return a.row->variation.technique == b.row->variation.technique && a.row->variation.preset == b.row->variation.preset;
+}
+
+bool is_variant(const Entry& e) { return !e.row->variation.variant.empty(); }
+
+std::vector<std::string> cells_of(const Entry& e) {
+  const Row& row = *e.row;
+  const Ladder& l = row.ladder;
+  const Variation& v = row.variation;
+  return {e.on_front ? "*" : "",
+          is_variant(e) ? "" : v.technique->name,
+          is_variant(e) ? "  " + v.variant : v.name(),
+          fmt::format("{:.2f}", e.ms),
+          cell(row.to_hbao_plus, "{:.2f}"),
+          cell(row.to_own_floor, "{:.2f}"),
+          cell(row.errors.rmse),
+          cell(row.errors.bias, "{:+.4f}"),
+          cell(l.t0w),
+          cell(l.t1),
+          cell(l.t2),
+          cell(l.t3),
+          cell(l.t4_bias),
+          cell(l.t4_noise),
+          cell(l.t5, "{:.0e}")};
+}
+
+/// "gtao medium: 12 more variants, 3.10 to 9.80 ms, RMSE 0.1500 to 0.1700".
+std::string folded(const std::vector<Entry>& variants) {
+  const auto by_time = [](const Entry& a, const Entry& b) { return a.ms < b.ms; };
+  const auto by_error = [](const Entry& a, const Entry& b) { return a.row->errors.rmse < b.row->errors.rmse; };
+  const auto [fast, slow] = std::minmax_element(variants.begin(), variants.end(), by_time);
+  const auto [good, bad] = std::minmax_element(variants.begin(), variants.end(), by_error);
+  const Variation& v = variants.front().row->variation;
+  const std::string errors =
+      good->row->errors.rmse ? fmt::format(", RMSE {:.4f} to {:.4f}", *good->row->errors.rmse, *bad->row->errors.rmse)
+                             : "";
+  return fmt::format("{} {}: {} more {}, {:.2f} to {:.2f} ms{}", v.technique->name, v.name(), variants.size(),
+                     variants.size() == 1 ? "variant" : "variants", fast->ms, slow->ms, errors);
+}
+
+/// A preset's variants: all of a few, of many those on the front.
+void add_variants(const std::vector<Entry>& variants, Table& table) {
+  std::vector<Entry> others;
+  for (const Entry& e : variants) {
+    if (variants.size() <= most_variants || e.on_front)
+      table.rows.push_back(cells_of(e));
+    else
+      others.push_back(e);
+  }
+  if (!others.empty()) table.below.push_back(folded(others));
+}
+
+void add_baselines(const Row& row, Table& table) {
+  std::vector<std::string> ratios;
+  if (row.to_naive) ratios.push_back(fmt::format("{:.3f} of the naive kernel's time", *row.to_naive));
+  if (row.to_native) ratios.push_back(fmt::format("{:.2f} of the native loop's", *row.to_native));
+  if (!ratios.empty())
+    table.below.push_back(fmt::format("{} {}, the estimate: {}", row.variation.technique->name, row.variation.name(),
+                                      fmt::join(ratios, ", ")));
+}
+
+std::vector<Entry> entries_of(const Measurement& measurement, const std::string& scene) {
+  std::vector<Entry> entries;
+  for (const auto& row : measurement.rows) {
+    if (row->scene == scene) entries.push_back({row.get(), median(row->ms)});
+  }
+  set_times(entries);
+  mark_front(entries);
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.time < b.time; });
+  return entries;
+}
+
+}  // namespace
+
+Table table_of_scene(const Measurement& measurement, const std::string& scene) {
+  Table table{scene, {}, 3, {}};
+  table.rows = {{"", "technique", "preset", "ms", "/hbao+", "/floor", "RMSE", "bias", "t0w model", "t1 screen",
+                 "t2 hidden", "t3 noise", "t4 bias", "t4 noise", "t5"}};
+  const std::vector<Entry> entries = entries_of(measurement, scene);
+  std::vector<Entry> heads;
+  for (const Entry& e : entries) {
+    if (!is_variant(e)) heads.push_back(e);
+  }
+  for (const Entry& head : heads) {
+    table.rows.push_back(cells_of(head));
+    std::vector<Entry> variants;
+    for (const Entry& e : entries) {
+      if (is_variant(e) && same_preset(e, head)) variants.push_back(e);
+    }
+    add_variants(variants, table);
+    add_baselines(*head.row, table);
+  }
+  return table;
+}
+
+Table table_of_growth(const Measurement& measurement) {
+  Table table{"Growth, without the filter: time is in proportion to x to the power of", {}, 2, {}};
+  table.rows = {{"technique", "x", "exponent", "x from", "to", "ms from", "to"}};
+  for (const GrowthFacts& facts : measurement.growth) {
+    const GrowthPoint &first = facts.growth.points.front(), &last = facts.growth.points.back();
+    table.rows.push_back({facts.technique, facts.growth.over, cell(exponent(facts.growth.points), "{:.2f}"),
+                          fmt::format("{:.0f}", first.x), fmt::format("{:.0f}", last.x),
+                          fmt::format("{:.2f}", first.ms), fmt::format("{:.2f}", last.ms)});
+  }
+  return table;
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,25 @@
+// What `gloam bench` prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measurement.h"
+
+namespace gloam::bench {
+
+struct Table {
+  std::string title;
+  std::vector<std::vector<std::string>> rows;  ///< the first is the heading
+  size_t first_number = 0;                     ///< columns from here on are numbers
+  std::vector<std::string> below;              ///< lines that belong to it
+};
+
+/// Time and error of everything on one scene, fastest preset first, variants under their preset. `*` marks the Pareto
+/// front over all rows of the scene. Of many variants of a preset only those on the front have a line; `below` has the
+/// range of the others, and the ratios to the baselines.
+Table table_of_scene(const Measurement& measurement, const std::string& scene);
+
+Table table_of_growth(const Measurement& measurement);
+
+}  // namespace gloam::bench
