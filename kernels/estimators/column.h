@@ -1,0 +1,32 @@
+// How much of a column of the half ball above a surface lies behind what the screen shows there (Loos, Sloan 2010, line
+// samples). Columns run along the line to the eye; places on them are told by their height above the surface's tangent
+// plane (ball.h), which grows evenly towards the eye.
+#ifndef GLOAM_COLUMN_H
+#define GLOAM_COLUMN_H
+
+#include "estimators/ball.h"
+
+// Heights, units of the pixel's depth.
+typedef struct {
+  real low, high;
+} Column;
+
+// The part above the tangent plane of a column whose middle has height `middle`, and which rises by `half` from there to
+// the sphere.
+static inline Column column_of(real middle, real half_rise) {
+  Column c;
+  c.low = larger(middle - half_rise, (real)(0));
+  c.high = larger(middle + half_rise, (real)(0));
+  return c;
+}
+
+// How much of it lies below a surface of that height.
+static inline real below(Column c, real height) { return smaller(larger(height, c.low), c.high) - c.low; }
+
+// Height of a surface at relative depth e, `there` and `fall` as in ball.h. A ray that does not come down to the plane
+// counts as one along the column.
+static inline real surface_height(real e, real fall, real there, Heights h) {
+  return multiply_add(e, choose(fall < 0, fall, h.fall), there);
+}
+
+#endif

@@ -1,0 +1,111 @@
+// SSAO: share of the points in a ball that the screen shows no surface before (Mittring 2007).
+//
+// in : depth      view-space z, scene units, +inf = background
+//      normal     unit, view space
+//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+// out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
+//      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
+//      cone         cosine of the half angle of the open cone about it (WITH_CONE)
+// -D SAMPLES, HEMISPHERE, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+#include "estimators/ball.h"
+#include "estimators/bent_normal.h"
+#include "shared/ball.h"
+#include "ssao/params.h"
+
+// What a row of pixels looks for.
+typedef struct {
+  Receiver receiver;
+  Surface surface;
+  Ball ball;
+  BallOnScreen on_screen;
+  Heights heights;
+  real per_range;
+  scalar bias;
+} Search;
+
+static inline Search search_of(Frame frame, SsaoParams params, Receiver r) {
+  Search s;
+  s.receiver = r;
+  s.surface = surface_at(r.point, r.normal);
+  const real3 n = normal_towards_eye(s.surface, r.normal), axis = scale3(n, (scalar)1 / sqrt(dot3(n, n)));
+  s.ball = ball_of(axis, params.inner, r.noise);
+  s.on_screen = ball_on_screen(frame, r.point, r.reach, s.ball.axes);
+  s.heights = heights_of(r.point, s.surface, axis, s.on_screen.pixels_x);
+  s.per_range = per_range_of(params.range, s.on_screen.radius);
+  s.bias = HEMISPHERE ? params.bias : 0;
+  return s;
+}
+
+// How much a point is occluded, 0 to 1: of all layers at its pixel the largest.
+static inline real occlusion_at(Frame frame, global const float* occluders, Search s, integer dx, integer dy,
+                                real height, int within) {
+  const Receiver r = s.receiver;
+  const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
+  real largest = 0;
+  for (int k = 0; k < LAYERS; ++k) {
+    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+#if GATHERS_ONLY
+    largest += depth;
+    continue;
+#endif
+    const real e = relative_depth(r.point, r.depth, depth);
+    const mask is_behind = stands_before(e, fall, there - height);
+    largest = larger(choose(is_behind, range_weight(e, s.per_range), (real)(0)), largest);
+  }
+  return largest;
+}
+
+static inline __attribute__((always_inline)) real occluded_points(Frame frame, global const float* occluders, Search s,
+                                                                  int within, OpenDirections* open) {
+  const Receiver r = s.receiver;
+  real sum = 0;
+// Unrolled it is no faster, and takes far longer to compile.
+#pragma unroll 1
+  for (int k = 0; k < SAMPLES; ++k) {
+    const BallPoint point = next_point(&s.ball, k);
+    integer dx, dy;
+    project(s.on_screen, point, &dx, &dy);
+    const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+    const real height = point.distance * ((point.axis + s.bias) * s.on_screen.radius) + s.heights.rounding;
+    real found = occlusion_at(frame, occluders, s, dx, dy, height, within);
+    if (OUTSIDE_OPEN) found = choose(counts, found, (real)(0));
+    sum += found;
+#if WITH_BENT_NORMAL || WITH_CONE
+    add_open(open, direction_of(point, s.ball.axes), 1 - found);
+#endif
+  }
+  return sum;
+}
+
+kernel void ssao_estimate(Frame frame, SsaoParams params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw
+#if WITH_BENT_NORMAL
+                          ,
+                          PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
+#endif
+#if WITH_CONE
+                          ,
+                          PLANE_OUT cone
+#endif
+) {
+  OCCLUDERS_FROM(depth)
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  OpenDirections open = no_directions();
+  real occluded = 0;
+  if (ANY(!r.point.background)) {
+    const Search s = search_of(frame, params, r);
+    const Reach widest = reach_of_ball(s.on_screen, s.surface);
+    LOOK_AROUND(occluded, frame, r, widest, occluded_points(frame, occluders, s, within, &open))
+  }
+  store_open(1 - occluded * ((scalar)1 / SAMPLES), r, ao_raw);
+#if WITH_BENT_NORMAL
+  const real3 bent = bent_normal_of(open, r.normal);
+  const real there = choose(r.point.background, (real)(0), (real)(1));
+  store(bent.x * there, bent_normal_x, r.here);
+  store(bent.y * there, bent_normal_y, r.here);
+  store(bent.z * there, bent_normal_z, r.here);
+#endif
+#if WITH_CONE
+  store(choose(r.point.background, (real)(0), cone_of(open)), cone, r.here);
+#endif
+}

@@ -1,0 +1,97 @@
+// Volumetric obscurance: share of the half ball above the surface that lies before what the screen shows (Loos, Sloan
+// 2010, line samples). Each sample on a disk is a column of the ball, clipped by the depth there.
+//
+// in : depth      view-space z, scene units, +inf = background
+//      normal     unit, view space
+//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+// out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
+// -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+#include "estimators/column.h"
+#include "shared/disk.h"
+#include "volumetric/params.h"
+
+// What a row of pixels looks for.
+typedef struct {
+  Receiver receiver;
+  Disk disk;
+  Heights heights;
+  real middle_x, middle_y;  // height of a column's middle, for each pixel to the right and down
+  real rise;                // of the column through the pixel's point, from there to the sphere
+  real bias;                // height up to which what is seen at the radius occludes nothing
+  real per_range;
+} Search;
+
+static inline Search search_of(Frame frame, VolumetricParams params, Receiver r, Surface surface) {
+  const Anchor a = r.point;
+  const real3 n = normal_towards_eye(surface, r.normal), v = surface.to_eye;
+  const real facing = dot3(n, v);
+  Search s;
+  s.receiver = r;
+  s.disk = disk_of(frame, a, surface, r.reach, r.noise);
+  s.heights = heights_of(a, surface, n, r.reach.pixels_x);
+  s.middle_x = a.across_x * (n.x - facing * v.x);
+  s.middle_y = -a.across_y * (n.y - facing * v.y);
+  s.rise = s.disk.radius * facing;
+  s.bias = s.disk.radius * params.bias;
+  s.per_range = per_range_of(params.range, s.disk.radius);
+  return s;
+}
+
+// How much of a column is occluded: of all layers at its pixel the largest.
+static inline real occlusion_at(Frame frame, global const float* occluders, Search s, integer dx, integer dy,
+                                Column column, real bias, int within) {
+  const Receiver r = s.receiver;
+  const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
+  const real counted = there - bias - s.heights.rounding;
+  real largest = 0;
+  for (int k = 0; k < LAYERS; ++k) {
+    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+#if GATHERS_ONLY
+    largest += depth;
+    continue;
+#endif
+    const real e = relative_depth(r.point, r.depth, depth);
+    const real found = below(column, surface_height(e, fall, counted, s.heights)) * range_weight(e, s.per_range);
+    largest = larger(found, largest);
+  }
+  return largest;
+}
+
+// Share of all columns together.
+static inline __attribute__((always_inline)) real occluded_share(Frame frame, global const float* occluders, Search s,
+                                                                 int within) {
+  const Receiver r = s.receiver;
+  real occluded = 0, whole = 0;
+// Unrolled it is no faster, and takes far longer to compile.
+#pragma unroll 1
+  for (int k = 0; k < SAMPLES; ++k) {
+    integer dx, dy;
+    real distance, square;
+    next_offset(&s.disk, k, &dx, &dy, &distance, &square);
+    const real middle = to_real(dx) * s.middle_x + to_real(dy) * s.middle_y;
+    const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+    const real left = 1 - square + (scalar)1e-20f;  // above 0
+    const Column column = column_of(middle, s.rise * (left * inverse_sqrt(left)));
+    const real found = occlusion_at(frame, occluders, s, dx, dy, column, distance * s.bias, within);
+    occluded += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    whole += column.high - column.low;
+  }
+  return choose(whole > 0, occluded / whole, (real)(0));
+}
+
+kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                                PLANE normal_z, OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+  OCCLUDERS_FROM(depth)
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  real occluded = 0;
+  if (ANY(!r.point.background)) {
+    const Surface surface = surface_at(r.point, r.normal);
+    const Search s = search_of(frame, params, r, surface);
+    // The disk is not square to the image's depth: it reaches further on the screen.
+    Reach widest = r.reach;
+    widest.pixels_x *= surface.length;
+    widest.pixels_y *= surface.length;
+    LOOK_AROUND(occluded, frame, r, widest, occluded_share(frame, occluders, s, within))
+  }
+  store_open(1 - occluded, r, ao_raw);
+}
