@@ -43,9 +43,8 @@ kernel void naive_hbao_plus(Camera camera, Settings settings, global const float
   }
   const float3 p = position(camera, x, y, z), n = (float3)(normal_x[here], normal_y[here], normal_z[here]);
 
-  const uint start = camera.seed * 0x9e3779b9u;
-  const float turn = unit_random(x * 0x8e42b7fdu + y * 0x4f2cbe3cu + start) / directions;
-  const float shift = unit_random(x * 0xc13fa9a9u + y * 0x91e10da6u + start);
+  const float turn = unit_random(x * 0x8e42b7fdu + y * 0x4f2cbe3cu + camera.seed * 0x9e3779b9u) / directions;
+  const float shift = unit_random(x * 0xc13fa9a9u + y * 0x91e10da6u + camera.seed * 0x6a09e667u);
   const float reach_x = fmin(settings.radius / (z * camera.scale_x), settings.max_pixels);
   const float reach_y = fmin(settings.radius / (z * camera.scale_y), settings.max_pixels);
   const float stride_x = fmax(reach_x - 1, 0.0f) / steps, stride_y = fmax(reach_y - 1, 0.0f) / steps;

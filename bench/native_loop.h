@@ -107,14 +107,14 @@ inline void row(const Job& job, int y) {
                        c.width - 1,
                        c.height - 1,
                        c.pitch};
-  const uint32_t start = uint32_t(c.seed) * 0x9e3779b9u;
+  const uint32_t seed = uint32_t(c.seed);
   for (int x = 0; x < c.pitch; x += width) {
     const size_t here = size_t(y) * size_t(c.pitch) + size_t(x);
     const F z = load(job.depth + here);
     F open = all(1);
     if (!all_infinite(z)) {
-      const uint32_t first_turn = uint32_t(x) * turn_across + uint32_t(y) * 0x4f2cbe3cu + start;
-      const uint32_t first_shift = uint32_t(x) * shift_across + uint32_t(y) * 0x91e10da6u + start;
+      const uint32_t first_turn = uint32_t(x) * turn_across + uint32_t(y) * 0x4f2cbe3cu + seed * 0x9e3779b9u;
+      const uint32_t first_shift = uint32_t(x) * shift_across + uint32_t(y) * 0x91e10da6u + seed * 0x6a09e667u;
       const bool inside = tuned && reaches_only_inside(job, x, y, z);
       const F share = inside ? open_share<true>(job, r, x, y, here, first_turn, first_shift, z)
                              : open_share<false>(job, r, x, y, here, first_turn, first_shift, z);

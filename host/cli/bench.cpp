@@ -9,7 +9,7 @@
 #include "gloam/error.h"
 #include "measurement.h"
 #include "native.h"
-#include "scene_flags.h"
+#include "subjects.h"
 #include "tables.h"
 
 namespace gloam::cli {
@@ -36,35 +36,7 @@ struct Options : MeasureOptions {
   SceneOptions scene;
 };
 
-// --- Showing what goes on
-
-void erase_status() {
-  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
-}
-
-/// On a terminal, what is being done; it is written over.
-void show(const std::string& what, double share) {
-  if (!isatty(STDERR_FILENO)) return;
-  fmt::print(stderr, "\r\033[K{} {:.0f} %", printable(what), 100 * share);
-  std::fflush(stderr);
-}
-
 // --- What is asked for
-
-std::vector<std::string> techniques_with_ao() {
-  std::vector<std::string> names;
-  for (const Technique& t : registry()) {
-    if (contains(outputs_of(t), "ao") && !is_filter(t)) names.push_back(t.name);
-  }
-  return names;
-}
-
-/// Empty, or why a technique has no place in the table.
-std::string no_ao(const Technique& technique) {
-  if (is_filter(technique)) return "is a filter: its time is part of the techniques that it follows";
-  if (!contains(outputs_of(technique), "ao")) return fmt::format("makes {}, not ao", enumerate(technique.writes));
-  return "";
-}
 
 void choose_techniques(Options& options, const std::string& list, Measurement& result) {
   for (const Technique& t : registry()) {
@@ -209,7 +181,7 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   options.scene.rays = parse_whole_number(flags.rays, "--rays", 1, 1 << 24);
   if (!flags.radius.empty()) options.scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
   options.scene.folder = std::filesystem::path(flags.folder) / "scenes";
-  options.scene.progress = options.progress = show;
+  options.scene.progress = options.progress = show_status;
   options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
   options.ladder = parse_ladder(flags.ladder);
   if (!flags.no_images) options.folder = flags.folder;
@@ -220,90 +192,6 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error("-o {}: cannot be made ({})", folder.string(), error.message());
-}
-
-// --- Frames
-
-/// What any technique takes of a file, and what the baselines and the figures need.
-std::vector<std::string> planes_to_read(const FrameFile& file, const Options& options) {
-  const std::vector<std::string> available = file.common_planes();
-  std::vector<std::string> planes;
-  for (const char* plane : {"depth", "normal"}) {
-    if (contains(available, plane)) planes.push_back(plane);
-  }
-  for (const Technique* t : options.techniques) {
-    for (const Technique* each : {t, over_all_layers(*t)}) {
-      if (!each) continue;
-      try {
-        for (const std::string& plane : whole_plan({each, "", 0.5}, available, "").inputs) add_new(planes, plane);
-      } catch (const MissingPlanes&) {  // said where it is skipped
-      }
-    }
-  }
-  return planes;
-}
-
-void read_frame(Subject& subject, FrameFile& file, const Options& options) {
-  if (!contains(file.common_planes(), "depth"))
-    throw Error("{}: has no depth to measure on; {}", file.path().string(), holdings(file));
-  subject.holds = holdings(file);
-  subject.frame = file.read(planes_to_read(file, options));
-  note(subject.frame.assumed);
-}
-
-void trace_truth(Subject& subject) {
-  try {
-    subject.truth = &subject.truths->truth(subject.frame);
-  } catch (const UsageError&) {
-    throw;
-  } catch (const Error& error) {  // another camera, another scene: then there is no truth
-    note({fmt::format("{}: no truth: {}", subject.name, error.what())});
-    subject.truths.reset();
-  }
-}
-
-Subject builtin_subject(const SceneRecipe& recipe, const Options& options) {
-  Subject subject;
-  subject.name = recipe.name;
-  subject.scene_class = recipe.kind;
-  show(recipe.name + ": scene", 0);
-  subject.truths = std::make_unique<Truths>(recipe.name, load_scene(recipe.name, {}), options.scene);
-  subject.radius = subject.truths->radius();
-  FrameFile file(subject.truths->frame_file(), {});
-  read_frame(subject, file, options);
-  subject.truth = &subject.truths->truth(subject.frame);
-  return subject;
-}
-
-/// The user's frame. Its scene is at hand where the header names a built-in one.
-Subject own_subject(const BenchCommand& flags, const Options& options) {
-  Subject subject;
-  FrameFile file(flags.frame, flags.frame_flags.read_options());
-  subject.name = file.path().stem().string();
-  subject.scene_class = "own";
-  read_frame(subject, file, options);
-  std::optional<double> radius = options.scene.radius;
-  if (!flags.truth.empty()) {
-    subject.given = read_truth(flags.truth, subject.frame);
-    subject.truth = &*subject.given;
-    const std::optional<double> traced = subject.given->radius;
-    if (radius && traced && std::abs(*traced - *radius) > 1e-6 * *traced)
-      throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth", *radius,
-                       *traced);
-    if (!radius) radius = traced;
-  }
-  const SceneFlags scene = scene_named_by(file.text_attribute("gloamScene"));
-  if (find_builtin_scene(scene.scene)) {
-    SceneOptions with_radius = options.scene;
-    with_radius.radius = radius;
-    subject.truths = std::make_unique<Truths>(subject.name, scene.load(), with_radius);
-    radius = subject.truths->radius();
-    if (!subject.truth) trace_truth(subject);
-  }
-  subject.radius = radius.value_or(subject.radius);
-  if (!std::isfinite(subject.radius) || !(subject.radius > 0))
-    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", flags.truth, subject.radius);
-  return subject;
 }
 
 // --- What is printed
@@ -366,11 +254,11 @@ void bench_command(const BenchCommand& flags) {
                {"-o", (options.scene.folder / "scene.exr").string()},
                {"--json", flags.json.file()}});
   if (!flags.frame.empty()) {
-    Subject subject = own_subject(flags, options);
+    Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, options.scene);
     measure(subject, options, true, device, result);
   }
   for (size_t i = 0; i < options.scenes.size(); ++i) {
-    Subject subject = builtin_subject(*options.scenes[i], options);
+    Subject subject = builtin_subject(*options.scenes[i], options.techniques, options.scene);
     measure(subject, options, i == 0, device, result);
   }
   erase_status();

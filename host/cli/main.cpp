@@ -137,6 +137,7 @@ int run_command(int argc, char** argv) {
   add_capture(app);
   add_reference(app);
   add_bench(app);
+  add_pick(app);
   add_report(app);
   try {
     app.parse(with_parameter_flags(argc, argv));

@@ -33,9 +33,9 @@ static inline Noise noise_at(integer x, int y, int seed) {
   Noise n;
 #if JITTER
   const natural column = to_natural(x);
-  const uint row = (uint)y, start = (uint)seed * 0x9e3779b9u;
-  n.turn = unit_random(column * 0x8e42b7fdu + (row * 0x4f2cbe3cu + start));
-  n.shift = unit_random(column * 0xc13fa9a9u + (row * 0x91e10da6u + start));
+  const uint row = (uint)y, first_turn = (uint)seed * 0x9e3779b9u, first_shift = (uint)seed * 0x6a09e667u;
+  n.turn = unit_random(column * 0x8e42b7fdu + (row * 0x4f2cbe3cu + first_turn));
+  n.shift = unit_random(column * 0xc13fa9a9u + (row * 0x91e10da6u + first_shift));
 #else
   n.turn = (real)(0);
   n.shift = (real)(0.5f);

@@ -1,0 +1,181 @@
+#include "pick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "gloam/error.h"
+
+namespace gloam::bench {
+namespace {
+
+/// Nearest to ray-traced truth on the built-in scenes, with a single layer (docs/accuracy.md).
+const std::string stand_in = "bitmask";
+/// Timed in turn at the end.
+constexpr size_t most_finalists = 12;
+/// A first time may be this much too long before a setting is given up.
+constexpr double doubt = 1.5;
+
+std::string name_of(const Variation& v) {
+  return v.technique->name + " " + v.name() + (v.variant.empty() ? "" : ", " + v.variant);
+}
+
+/// Something tried: its plan and what one run of it gave.
+struct Try : Choice {
+  std::unique_ptr<TimedPlan> timed;
+};
+
+class Search {
+ public:
+  Search(const Subject& subject, const PickOptions& options, Device& device)
+      : subject_(subject), options_(options), device_(device), available_(planes_of(subject.frame)) {}
+
+  Picked run() {
+    find_truth();
+    try_all();
+    keep_finalists();
+    time_finalists();
+    choose();
+    return std::move(picked_);
+  }
+
+ private:
+  void tell(const std::string& what, size_t done, size_t of) const {
+    if (options_.progress) options_.progress(what, double(done) / double(std::max<size_t>(of, 1)));
+  }
+
+  Image image_of(const Plan& plan, const RunOptions& run_options) const {
+    RunResult result = gloam::run(plan, subject_.frame, device_, run_options);
+    Image image;
+    for (View& view : result.frame.views) image.push_back(std::move(view.planes.at("ao")));
+    return image;
+  }
+
+  void find_truth() {
+    foreground_ = foreground(subject_.frame);
+    if (subject_.truth) {
+      for (const Plane& plane : subject_.truth->ao) truth_.push_back(plane.clone());
+      picked_.truth = "the truth";
+      return;
+    }
+    const Technique* technique = &find_technique(stand_in);
+    if (const Technique* layers = over_all_layers(*technique); layers && has_layers()) technique = layers;
+    tell("converged " + technique->name, 0, 1);
+    Variation converged{.technique = technique, .radius = subject_.radius};
+    converged.settings = technique->converged;
+    truth_ = image_of(whole_plan(converged, available_, subject_.holds), {});
+    picked_.truth = "converged " + technique->name + ", as no truth is at hand";
+  }
+
+  bool has_layers() const {
+    return std::any_of(available_.begin(), available_.end(),
+                       [](const std::string& plane) { return plane.rfind("peel.", 0) == 0; });
+  }
+
+  std::vector<Variation> candidates() const {
+    std::vector<Variation> all;
+    for (const Technique* technique : options_.techniques) {
+      std::vector<std::string> presets;
+      for (const Preset& preset : technique->presets) presets.push_back(preset.name);
+      if (presets.empty()) presets.push_back("");
+      for (const std::string& preset : presets) {
+        Variation v{.technique = technique, .preset = preset, .radius = subject_.radius};
+        all.push_back(v);
+        all.push_back(with_variant(v, "half"));
+      }
+    }
+    return all;
+  }
+
+  void try_all() {
+    const std::vector<Variation> all = candidates();
+    for (size_t i = 0; i < all.size(); ++i) {
+      tell("trying " + name_of(all[i]), i, all.size());
+      try {
+        add(all[i]);
+      } catch (const UsageError&) {
+        throw;
+      } catch (const Error& error) {  // planes that the frame lacks, a device without the memory
+        picked_.skipped.push_back({all[i].technique->name, all[i].name(), "", error.what()});
+      }
+    }
+    if (tries_.empty()) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
+  }
+
+  void add(const Variation& variation) {
+    const Plan plan = whole_plan(variation, available_, subject_.holds);
+    auto tried = std::make_unique<Try>();
+    tried->variation = variation;
+    tried->timed = std::make_unique<TimedPlan>(plan, subject_.frame, device_, variation.run_options());
+    tried->ms = tried->timed->run();
+    tried->rmse = rmse(image_of(plan, variation.run_options()), truth_, foreground_);
+    tries_.push_back(std::move(tried));
+  }
+
+  /// Those that may be within the bound, the most promising first; at least one, to tell by how much it is missed.
+  void keep_finalists() {
+    const auto better = [&](const auto& a, const auto& b) {
+      return options_.budget ? a->rmse < b->rmse : a->ms < b->ms;
+    };
+    const auto hopeless = [&](const auto& t) {
+      return options_.budget ? t->ms > *options_.budget * doubt : t->rmse > *options_.error;
+    };
+    const auto nearest = [&](const auto& a, const auto& b) {
+      return options_.budget ? a->ms < b->ms : a->rmse < b->rmse;
+    };
+    std::iter_swap(tries_.begin(), std::min_element(tries_.begin(), tries_.end(), nearest));
+    const auto end = std::remove_if(tries_.begin() + 1, tries_.end(), hopeless);
+    tries_.erase(end, tries_.end());
+    std::sort(tries_.begin() + 1, tries_.end(), better);
+    if (tries_.size() > most_finalists) tries_.resize(most_finalists);
+  }
+
+  void time_finalists() {
+    std::vector<Contender> contenders;
+    for (const auto& t : tries_)
+      contenders.push_back({name_of(t->variation), [&timed = *t->timed] { return timed.run(); }});
+    const std::vector<Series> times =
+        interleaved(contenders, options_.rounds, [&](int done, int of) { tell("timing", size_t(done), size_t(of)); });
+    for (size_t i = 0; i < tries_.size(); ++i) tries_[i]->ms = median(times[i]);
+    std::sort(tries_.begin(), tries_.end(), [](const auto& a, const auto& b) { return a->ms < b->ms; });
+    for (const auto& t : tries_) picked_.finalists.push_back({t->variation, t->ms, t->rmse});
+  }
+
+  void choose() {
+    const std::vector<Choice>& all = picked_.finalists;
+    bool found = false;
+    for (size_t i = 0; i < all.size(); ++i) {
+      const bool fits = options_.budget ? all[i].ms <= *options_.budget : all[i].rmse <= *options_.error;
+      const bool is_better = options_.budget ? all[i].rmse < all[picked_.best].rmse : false;  // they are by time
+      if (!fits || (found && !is_better)) continue;
+      picked_.best = i;
+      found = true;
+    }
+    if (found) return;
+    if (options_.budget) {
+      throw Error("--budget {:g}ms: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
+                  *options_.budget, name_of(all.front().variation), all.front().ms);
+    }
+    const Choice& nearest =
+        *std::min_element(all.begin(), all.end(), [](const Choice& a, const Choice& b) { return a.rmse < b.rmse; });
+    throw Error("--error {:g}: nothing comes that near to {}; the nearest is {} with {:.4f}", *options_.error,
+                picked_.truth, name_of(nearest.variation), nearest.rmse);
+  }
+
+  const Subject& subject_;
+  const PickOptions& options_;
+  Device& device_;
+  const std::vector<std::string> available_;
+  std::vector<Mask> foreground_;
+  Image truth_;
+  std::vector<std::unique_ptr<Try>> tries_;
+  Picked picked_;
+};
+
+}  // namespace
+
+Picked pick(const Subject& subject, const PickOptions& options, Device& device) {
+  return Search(subject, options, device).run();
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,39 @@
+// Which setting to take on one frame and device: measured, not assumed.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measurement.h"
+
+namespace gloam::bench {
+
+struct PickOptions {
+  std::vector<const Technique*> techniques;
+  std::optional<double> budget;  ///< milliseconds; the most accurate within it is picked
+  std::optional<double> error;   ///< RMSE; the cheapest within it is picked
+  int rounds = 9;
+  std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
+};
+
+struct Choice {
+  Variation variation;
+  double ms = 0;    ///< median, the filter included
+  double rmse = 0;  ///< to the truth
+};
+
+struct Picked {
+  std::vector<Choice> finalists;  ///< by time
+  size_t best = 0;                ///< of these
+  std::string truth;              ///< what errors are to: "the truth", or what stood in for it
+  std::vector<Skipped> skipped;
+};
+
+/// Tries every preset of the techniques at full and at half resolution, once; then times those that may win in turn. Where
+/// the subject has no truth, errors are to the converged image of the technique that comes nearest to ray-traced truth on
+/// the built-in scenes. Throws Error that names the nearest miss where nothing is within the bound.
+Picked pick(const Subject& subject, const PickOptions& options, Device& device);
+
+}  // namespace gloam::bench

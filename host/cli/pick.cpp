@@ -1,0 +1,196 @@
+// gloam pick FRAME.exr --budget 20ms | --error 0.02: which setting to take
+#include "pick.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "gloam/error.h"
+#include "subjects.h"
+
+namespace gloam::cli {
+namespace {
+
+using namespace gloam::bench;
+
+struct PickCommand {
+  std::string frame, truth, budget, error, techniques, radius, rays = "256", rounds = "9", device;
+  FrameFlags frame_flags;
+  JsonFlag json;
+  const CLI::App* app = nullptr;
+};
+
+/// "20ms", "0.02s" or "20", which is in milliseconds.
+double parse_budget(const std::string& text) {
+  std::string number = text;
+  double per_unit = 1;
+  if (number.ends_with("ms")) {
+    number.resize(number.size() - 2);
+  } else if (number.ends_with("s")) {
+    number.resize(number.size() - 1);
+    per_unit = 1000;
+  }
+  try {
+    return per_unit * parse_number(number, "--budget", 1e-6, 1e9);
+  } catch (const UsageError&) {
+    throw UsageError("--budget {} is not allowed; a time above 0 such as 20ms or 0.02s is", text);
+  }
+}
+
+PickOptions options_of(const PickCommand& flags) {
+  if (flags.budget.empty() == flags.error.empty())
+    throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (an RMSE, such as 0.02)");
+  PickOptions options;
+  if (!flags.budget.empty()) options.budget = parse_budget(flags.budget);
+  if (!flags.error.empty()) options.error = parse_number(flags.error, "--error", 0, 1);
+  options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
+  options.progress = show_status;
+  const bool all = flags.techniques.empty();
+  for (const std::string& name : all ? techniques_with_ao() : split_list(flags.techniques, "--techniques")) {
+    const Technique& technique = find_technique(name);
+    if (const std::string why = no_ao(technique); !why.empty())
+      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_with_ao()));
+    if (std::find(options.techniques.begin(), options.techniques.end(), &technique) == options.techniques.end())
+      options.techniques.push_back(&technique);
+  }
+  return options;
+}
+
+/// As a shell takes it.
+std::string quoted(const std::string& text) {
+  const bool plain = !text.empty() && text.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_./+-=:,@%") == std::string::npos;
+  if (plain) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// The flags on how to read the frame, as they were given.
+std::string reading_flags(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() != "Reading the frame") continue;
+    for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted(value);
+  }
+  return text;
+}
+
+std::string run_line(const PickCommand& flags, const Variation& v) {
+  std::string line = fmt::format("gloam run {} {} -o ao.exr", v.technique->name, quoted(flags.frame));
+  if (!v.preset.empty()) line += " --preset " + v.preset;
+  if (ParameterValues(v.technique->parameters).has("radius")) line += fmt::format(" --radius {}", float(v.radius));
+  if (v.resolution > 1) line += " --resolution " + v.variant;
+  if (!flags.device.empty()) line += " --device " + quoted(flags.device);
+  return line + reading_flags(*flags.app);
+}
+
+Json entry_of(const Choice& choice) {
+  return {{"technique", choice.variation.technique->name},
+          {"preset", choice.variation.name()},
+          {"resolution", choice.variation.resolution == 1 ? "full" : choice.variation.variant},
+          {"ms", choice.ms},
+          {"rmse", choice.rmse}};
+}
+
+Json document_of(const Picked& picked, const std::string& command, const DeviceInfo& device) {
+  Json document = {{"command", command}};
+  document.update(entry_of(picked.finalists[picked.best]));
+  document["device"] = device.name;
+  document["error_to"] = picked.truth;
+  document["finalists"] = Json::array();
+  for (const Choice& choice : picked.finalists) document["finalists"].push_back(entry_of(choice));
+  document["skipped"] = Json::array();
+  for (const Skipped& s : picked.skipped)
+    document["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
+  return document;
+}
+
+void print(const Picked& picked, const DeviceInfo& device) {
+  std::vector<std::vector<std::string>> rows = {{"", "technique", "preset", "resolution", "ms", "RMSE"}};
+  for (size_t i = 0; i < picked.finalists.size(); ++i) {
+    const Choice& c = picked.finalists[i];
+    rows.push_back({i == picked.best ? ">" : "", c.variation.technique->name, c.variation.name(),
+                    c.variation.resolution == 1 ? "full" : c.variation.variant, fmt::format("{:.2f}", c.ms),
+                    fmt::format("{:.4f}", c.rmse)});
+  }
+  print_table(rows, 4);
+  fmt::print("{}; errors to {}\n", printable(device.name), picked.truth);
+}
+
+/// A folder of its own for a truth that is traced; gone with it.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("gloam-pick-{}", getpid())) {
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() {
+    std::error_code unknown;
+    std::filesystem::remove_all(path_, unknown);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void pick_command(const PickCommand& flags) {
+  const PickOptions options = options_of(flags);
+  check_paths({{"the frame", flags.frame}, {"--truth", flags.truth}, {"--camera", flags.frame_flags.camera}},
+              {{"--json", flags.json.file()}});
+  const ScratchFolder scratch;
+  SceneOptions scene;
+  scene.folder = scratch.path();
+  scene.rays = parse_whole_number(flags.rays, "--rays", 1, 1 << 24);
+  if (!flags.radius.empty()) scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
+  scene.progress = show_status;
+  Device device(flags.device);
+  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, scene);
+  const Picked picked = pick(subject, options, device);
+  erase_status();
+  const std::string command = run_line(flags, picked.finalists[picked.best].variation);
+  flags.json.write(document_of(picked, command, device.info()));
+  if (flags.json.only_json()) return;
+  print(picked, device.info());
+  fmt::print("{}\n", printable(command));
+}
+
+}  // namespace
+
+void add_pick(CLI::App& app) {
+  auto flags = std::make_shared<PickCommand>();
+  CLI::App* command = app.add_subcommand(
+      "pick", "the most accurate setting within a time on this device, or the cheapest within an error");
+  flags->app = command;
+  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  command->add_option("--budget", flags->budget, "time for the whole of ao, its filter included")->type_name("20ms");
+  command->add_option("--error", flags->error, "RMSE to the truth")->type_name("RMSE");
+  command
+      ->add_option("--truth", flags->truth,
+                   "ambient occlusion as gloam reference makes it; default: traced where the frame shows a built-in "
+                   "scene, else a converged estimate")
+      ->type_name("REF.exr");
+  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao")->type_name("A,B");
+  command
+      ->add_option("--radius", flags->radius,
+                   "scene units; default: the truth's, else a built-in scene's own, else 0.5")
+      ->type_name("R");
+  command->add_option("--rays", flags->rays, "per pixel, for a truth that is traced; default 256")->type_name("N");
+  command->add_option("--rounds", flags->rounds, "each times every finalist once, in turn; default 9")->type_name("N");
+  command->add_option("--device", flags->device, "part of a device's or platform's name (gloam list devices)")
+      ->type_name("TEXT");
+  flags->frame_flags.add_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Tries every preset at full and at half resolution on the frame, and prints the choice as a gloam run line.\n"
+      "Examples:\n"
+      "  gloam pick frame.exr --budget 20ms --truth ao_ref.exr\n"
+      "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -");
+  command->callback([flags] { pick_command(*flags); });
+}
+
+}  // namespace gloam::cli

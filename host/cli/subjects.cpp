@@ -1,0 +1,127 @@
+#include "subjects.h"
+
+#include <unistd.h>
+
+#include <cmath>
+
+#include "gloam/error.h"
+
+namespace gloam::cli {
+
+using namespace gloam::bench;
+
+void erase_status() {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+}
+
+/// On a terminal, what is being done; it is written over.
+void show_status(const std::string& what, double share) {
+  if (!isatty(STDERR_FILENO)) return;
+  fmt::print(stderr, "\r\033[K{} {:.0f} %", printable(what), 100 * share);
+  std::fflush(stderr);
+}
+
+std::vector<std::string> techniques_with_ao() {
+  std::vector<std::string> names;
+  for (const Technique& t : registry()) {
+    if (contains(outputs_of(t), "ao") && !is_filter(t)) names.push_back(t.name);
+  }
+  return names;
+}
+
+/// Empty, or why a technique has no place in the table.
+std::string no_ao(const Technique& technique) {
+  if (is_filter(technique)) return "is a filter: its time is part of the techniques that it follows";
+  if (!contains(outputs_of(technique), "ao")) return fmt::format("makes {}, not ao", enumerate(technique.writes));
+  return "";
+}
+
+namespace {
+
+/// What any technique takes of a file, and what the baselines and the figures need.
+std::vector<std::string> planes_to_read(const FrameFile& file, const std::vector<const Technique*>& techniques) {
+  const std::vector<std::string> available = file.common_planes();
+  std::vector<std::string> planes;
+  for (const char* plane : {"depth", "normal"}) {
+    if (contains(available, plane)) planes.push_back(plane);
+  }
+  for (const Technique* t : techniques) {
+    for (const Technique* each : {t, over_all_layers(*t)}) {
+      if (!each) continue;
+      try {
+        for (const std::string& plane : whole_plan({each, "", 0.5}, available, "").inputs) add_new(planes, plane);
+      } catch (const MissingPlanes&) {  // said where it is skipped
+      }
+    }
+  }
+  return planes;
+}
+
+void read_frame(Subject& subject, FrameFile& file, const std::vector<const Technique*>& techniques) {
+  if (!contains(file.common_planes(), "depth"))
+    throw Error("{}: has no depth to measure on; {}", file.path().string(), holdings(file));
+  subject.holds = holdings(file);
+  subject.frame = file.read(planes_to_read(file, techniques));
+  note(subject.frame.assumed);
+}
+
+void trace_truth(Subject& subject) {
+  try {
+    subject.truth = &subject.truths->truth(subject.frame);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {  // another camera, another scene: then there is no truth
+    note({fmt::format("{}: no truth: {}", subject.name, error.what())});
+    subject.truths.reset();
+  }
+}
+
+}  // namespace
+
+Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
+                        const SceneOptions& options) {
+  Subject subject;
+  subject.name = recipe.name;
+  subject.scene_class = recipe.kind;
+  show_status(recipe.name + ": scene", 0);
+  subject.truths = std::make_unique<Truths>(recipe.name, load_scene(recipe.name, {}), options);
+  subject.radius = subject.truths->radius();
+  FrameFile file(subject.truths->frame_file(), {});
+  read_frame(subject, file, techniques);
+  subject.truth = &subject.truths->truth(subject.frame);
+  return subject;
+}
+
+/// The user's frame. Its scene is at hand where the header names a built-in one.
+Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::string& truth,
+                    const std::vector<const Technique*>& techniques, const SceneOptions& options) {
+  Subject subject;
+  FrameFile file(frame, flags.read_options());
+  subject.name = file.path().stem().string();
+  subject.scene_class = "own";
+  read_frame(subject, file, techniques);
+  std::optional<double> radius = options.radius;
+  if (!truth.empty()) {
+    subject.given = read_truth(truth, subject.frame);
+    subject.truth = &*subject.given;
+    const std::optional<double> traced = subject.given->radius;
+    if (radius && traced && std::abs(*traced - *radius) > 1e-6 * *traced)
+      throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth", *radius,
+                       *traced);
+    if (!radius) radius = traced;
+  }
+  const SceneFlags scene = scene_named_by(file.text_attribute("gloamScene"));
+  if (find_builtin_scene(scene.scene)) {
+    SceneOptions with_radius = options;
+    with_radius.radius = radius;
+    subject.truths = std::make_unique<Truths>(subject.name, scene.load(), with_radius);
+    radius = subject.truths->radius();
+    if (!subject.truth) trace_truth(subject);
+  }
+  subject.radius = radius.value_or(subject.radius);
+  if (!std::isfinite(subject.radius) || !(subject.radius > 0))
+    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", truth, subject.radius);
+  return subject;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,30 @@
+// Frames to measure on, for the commands that measure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measurement.h"
+#include "scene_flags.h"
+
+namespace gloam::cli {
+
+/// On a terminal, what is being done; it is written over.
+void show_status(const std::string& what, double share);
+void erase_status();
+
+/// Techniques that make `ao`, filters left out.
+std::vector<std::string> techniques_with_ao();
+/// Empty, or why a technique is none of them.
+std::string no_ao(const Technique& technique);
+
+/// A built-in scene from its first camera, with its truth.
+bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
+                               const bench::SceneOptions& options);
+
+/// The user's frame, with what the techniques read of it. Its scene is at hand where the header names a built-in one. The
+/// radius is that of the options, else the truth's, else the scene's own, else 0.5. `truth`: a file, or empty.
+bench::Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::string& truth,
+                           const std::vector<const Technique*>& techniques, const bench::SceneOptions& options);
+
+}  // namespace gloam::cli
