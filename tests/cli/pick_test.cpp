@@ -1,0 +1,79 @@
+// gloam pick: that the choice is what it says, and runs. Never how long anything took.
+#include <sstream>
+
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Arguments pick(const Arguments& more) {
+  Arguments arguments = {"pick", loggia, "--truth", loggia_truth, "--rounds", "2", "--techniques", "gtao,hbao+"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// The printed line as arguments, with another output.
+Arguments arguments_of(const std::string& command, const fs::path& out) {
+  Arguments arguments;
+  std::istringstream words(command);
+  for (std::string word; words >> word;) arguments.push_back(word);
+  EXPECT_EQ(arguments.front(), "gloam");
+  arguments.erase(arguments.begin());
+  for (std::string& argument : arguments) {
+    if (argument == "ao.exr") argument = out.string();
+  }
+  return arguments;
+}
+
+TEST_F(Cli, PickWithinABudgetIsTheMostAccurateAndRuns) {
+  const Json document = gloam(pick({"--budget", "100s", "--json", "-"})).json();
+  for (const Json& finalist : document["finalists"]) EXPECT_GE(finalist["rmse"], document["rmse"]);
+  EXPECT_EQ(document["technique"], "gtao");  // hbao+ fades occluders, and so is far from the truth (docs/accuracy.md)
+  EXPECT_EQ(document["error_to"], "the truth");
+  const fs::path out = folder / "ao.exr";
+  ASSERT_EQ(gloam(arguments_of(document["command"], out)).status, 0);
+  const Json compared = gloam({"compare", out.string(), loggia_truth, "--json", "-"}).json();
+  EXPECT_NEAR(compared["rmse"].get<double>(), document["rmse"].get<double>(), 1e-4);
+}
+
+TEST_F(Cli, PickWithinAnErrorIsTheCheapest) {
+  const Json document = gloam(pick({"--error", "0.15", "--json", "-"})).json();
+  EXPECT_LE(document["rmse"], 0.15);
+  for (const Json& finalist : document["finalists"]) {
+    if (finalist["rmse"] <= 0.15) {
+      EXPECT_GE(finalist["ms"], document["ms"]);
+    }
+  }
+}
+
+TEST_F(Cli, PickWithoutATruthSaysWhatErrorsAreTo) {
+  const Result result = gloam({"pick", loggia, "--budget", "100s", "--rounds", "1", "--techniques", "gtao"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("as no truth is at hand"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("gloam run gtao "), std::string::npos) << result.out;
+}
+
+TEST_F(Cli, PickRefusesInOneLine) {
+  const auto expect_refused = [&](const Arguments& arguments, const std::string& part) {
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+  };
+  expect_refused(pick({}), "--budget");
+  expect_refused(pick({"--budget", "20ms", "--error", "0.1"}), "either");
+  expect_refused(pick({"--budget", "3parsecs"}), "3parsecs");
+  expect_refused(pick({"--error", "-1"}), "--error");
+  expect_refused({"pick", loggia, "--budget", "20ms", "--techniques", "bilateral"}, "filter");
+  const Result fast = gloam(pick({"--budget", "0.0001ms"}));
+  EXPECT_EQ(fast.status, 1);
+  EXPECT_NE(fast.err.find("nothing is that fast"), std::string::npos) << fast.err;
+  const Result near = gloam(pick({"--error", "0.0001"}));
+  EXPECT_EQ(near.status, 1);
+  EXPECT_NE(near.err.find("nothing comes that near"), std::string::npos) << near.err;
+}
+
+}  // namespace
+}  // namespace gloam::test
