@@ -41,17 +41,25 @@ struct Wanted {
   std::vector<const Technique*> makers;  ///< in order of preference
 };
 
-/// The technique that makes a plane: one of the makers, else the one of the registry that reads the fewest planes (the
-/// first by name of these), so that the simplest is the default; never the one that asks.
+/// Whether some technique leaves its outputs to this one.
+bool follows_by_default(const Technique& technique) {
+  return std::any_of(registry().begin(), registry().end(),
+                     [&](const Technique& other) { return other.then == technique.name; });
+}
+
+/// The technique that makes a plane: one of the makers, else the one of the registry that follows others by default or,
+/// of several or none such, reads the fewest planes (the first by name of these), so that the simplest is the default;
+/// never the one that asks.
 const Technique* maker_of(const std::string& plane, const Technique* asking,
                           const std::vector<const Technique*>& makers) {
   for (const Technique* t : makers) {
     if (t != asking && makes(*t, plane)) return t;
   }
+  const auto rank = [](const Technique& t) { return std::pair(!follows_by_default(t), t.reads.size()); };
   const Technique* simplest = nullptr;
   for (const Technique& t : registry()) {
     if (&t == asking || !makes(t, plane)) continue;
-    if (!simplest || t.reads.size() < simplest->reads.size()) simplest = &t;
+    if (!simplest || rank(t) < rank(*simplest)) simplest = &t;
   }
   return simplest;
 }

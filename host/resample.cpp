@@ -71,7 +71,11 @@ class Reduction {
   void add_outputs() {
     for (const std::string& output : plan_.outputs) {
       if (made_.count(output) == 0) continue;
-      for (const char* guide : {"depth", "normal"}) need(guide);
+      if (contains(resampling().reads, output))
+        throw UsageError(
+            "{}: '{}' is what guides upsampling, so it has to be made of every pixel; use --resolution full",
+            plan_.technique, output);
+      for (const std::string& guide : resampling().reads) need(guide);
       passes.push_back({&resampling(), upsample(output, plan_.resolution), values_});
     }
   }

@@ -1,44 +1,49 @@
-// Separable cross-bilateral filter, one axis (Petschnigg et al. 2004, Eisemann and Durand 2004; separable in spite of
-// the range weights as in Pham and van Vliet 2005). A tap counts by its distance on the screen (biweight window), by
-// its distance from the pixel's tangent plane and by the angle between the normals; each weight ends at 0.
+// Cross-bilateral filter (Petschnigg et al. 2004, Eisemann and Durand 2004), along one axis or over both at once. A tap
+// counts by its distance on the screen, by its distance from the pixel's tangent plane and by the angle between the
+// normals; each weight ends at 0.
 //
 // in : source  to be filtered      depth  view-space z, scene units, +inf = background      normal  unit, view space
 // out: result  filtered; 1 on background
-// -D HALF_WIDTH, VERTICAL
+// -D COLUMNS, ROWS: taps to the left and to the right, above and below
 #include "bilateral/params.h"
 #include "shared/surface.h"
 
+// Biweight: 1 at the pixel, 0 one pixel beyond the last tap.
+static inline scalar window_at(int k, int taps) {
+  const scalar t = (scalar)k * ((scalar)1 / (taps + 1));
+  return (1 - t * t) * (1 - t * t);
+}
+
 kernel void bilateral(Frame frame, BilateralParams params, PLANE source, PLANE depth, PLANE normal_x, PLANE normal_y,
                       PLANE normal_z, PLANE_OUT result) {
-  const int x0 = FIRST_X, y = ROW_Y, here = index_of(frame, x0, y);
-  const integer x = x0 + IOTA;
-  const real z = load(depth, here), own = load(source, here);
-  const real3 n = load3(normal_x, normal_y, normal_z, here);
-  const Anchor p = anchor_at(frame, to_real(x), (real)(y), z);
-  const Tolerance tolerance = tolerance_of(p, params.depth_tolerance * params.radius, params.normal_tolerance);
-
-#if VERTICAL
-  const int from = -min(HALF_WIDTH, y), to = min(HALF_WIDTH, frame.height - 1 - y);
-#else
-  const int from = -HALF_WIDTH, to = HALF_WIDTH;
+  const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
+  const integer x = FIRST_X + IOTA;
+  const real z = load(depth, here);
+  const TangentPlane plane =
+      tangent_plane_at(frame, to_real(x), (real)(y), z, load3(normal_x, normal_y, normal_z, here),
+                       params.depth_tolerance * params.radius, params.normal_tolerance);
+  real sum = load(source, here), weights = 1;
+#if COLUMNS == 0
+#pragma unroll
 #endif
-  real sum = own, weights = 1;
-  for (int k = from; k <= to; ++k) {
-    const scalar t = (scalar)k / (HALF_WIDTH + 1), window = (1 - t * t) * (1 - t * t);
-#if VERTICAL
-    const int there = here + k * frame.pitch;
-    const real3 v = towards(frame, p, p.x, p.y + k, relative_depth(p, z, load(depth, there)));
-#else
-    const int there = here + k;
-    const real3 v = towards(frame, p, p.x + k, p.y, relative_depth(p, z, load(depth, there)));
-#endif
-    const real same = same_surface(tolerance, v, n, load3(normal_x, normal_y, normal_z, there));
-    real weight = k == 0 ? (real)(0) : window * same;
-#if !VERTICAL
-    weight = choose(to_mask((x + k >= 0) & (x + k < frame.width)), weight, (real)(0));
-#endif
-    sum += weight * load(source, there);
-    weights += weight;
+  for (int j = -ROWS; j <= ROWS; ++j) {
+    if (y + j < 0 || y + j >= frame.height) continue;
+#pragma unroll
+    for (int i = -COLUMNS; i <= COLUMNS; ++i) {
+      if (i == 0 && j == 0) continue;
+      const int there = here + j * frame.pitch + i;
+      const real step = ROWS == 0      ? (scalar)i * plane.per_column
+                        : COLUMNS == 0 ? (scalar)j * plane.per_row
+                                       : (scalar)i * plane.per_column + (scalar)j * plane.per_row;
+      const real weight =
+          window_at(i, COLUMNS) * window_at(j, ROWS) *
+          same_surface(plane, frame, step, load(depth, there), load3(normal_x, normal_y, normal_z, there));
+      const mask in_row = COLUMNS == 0 ? EVERY_LANE : to_mask(to_natural(x + i) < (natural)((uint)frame.width));
+      const real counts = choose(in_row, weight, (real)(0));
+      sum = multiply_add(counts, load(source, there), sum);
+      weights += counts;
+    }
   }
-  store(choose(p.background, (real)(1), sum / weights), result, here);
+  // Divided exactly, so that what is open all around stays just that.
+  store(choose(is_background(z), (real)(1), sum / weights), result, here);
 }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <random>
 
 #include "gloam/exr.h"
@@ -28,10 +30,22 @@ std::function<float(int, int)> noise(uint32_t seed) {
   return [random = std::mt19937(seed)](int, int) mutable { return float(random() >> 8) * 0x1p-24f; };
 }
 
-TEST(Bilateral, ConstantStaysConstant) {
+const char* const forms[] = {"separable", "square"};
+
+class BilateralForm : public testing::TestWithParam<const char*> {
+ protected:
+  Settings settings(const Settings& more = {}) const {
+    Settings all = {{"form", GetParam()}};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, BilateralForm, testing::ValuesIn(forms));
+
+TEST_P(BilateralForm, ConstantStaysConstant) {
   Frame frame = shoot(perspective(90, 70), room());
   set_raw(frame, [](int, int) { return 0.37f; });
-  const Channel out = filtered(frame);
+  const Channel out = filtered(frame, settings());
   double worst = 0;
   for (int y = 0; y < 70; ++y) {
     for (int x = 0; x < 90; ++x) {
@@ -43,7 +57,7 @@ TEST(Bilateral, ConstantStaysConstant) {
   EXPECT_LE(worst, 1e-6);
 }
 
-TEST(Bilateral, DoesNotBleedOverADepthEdge) {
+TEST_P(BilateralForm, DoesNotBleedOverADepthEdge) {
   for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 3)}) {
     const Scene steps = [](const EyeRay& ray) -> std::optional<Surface> {
       const bool near = ray.origin.x + ray.direction.x < 0.01;
@@ -51,7 +65,7 @@ TEST(Bilateral, DoesNotBleedOverADepthEdge) {
     };
     Frame frame = shoot(shot, steps);
     set_raw(frame, [&](int x, int y) { return plane_of(frame, "depth").channels[0].at(x, y) < 2.1f ? 0.2f : 0.9f; });
-    const Channel out = filtered(frame);
+    const Channel out = filtered(frame, settings());
     double worst = 0;
     for (int y = 0; y < 60; ++y) {
       for (int x = 0; x < 80; ++x)
@@ -61,6 +75,84 @@ TEST(Bilateral, DoesNotBleedOverADepthEdge) {
                 shot.camera.orthographic ? "orthographic" : "perspective", worst);
     EXPECT_LE(worst, 1e-6);
   }
+}
+
+/// What the pixel shows, view space.
+glm::dvec3 point_at(const Frame& frame, int x, int y) {
+  const EyeRay ray = ray_through({*frame.views[0].camera, frame.width(), frame.height()}, x + 0.5, y + 0.5);
+  return ray.origin + double(frame.views[0].find("depth")->channels[0].at(x, y)) * ray.direction;
+}
+
+glm::dvec3 normal_at(const Frame& frame, int x, int y) {
+  const Plane& n = *frame.views[0].find("normal");
+  return {n.channels[0].at(x, y), n.channels[1].at(x, y), n.channels[2].at(x, y)};
+}
+
+struct Tolerances {
+  double distance, angle;
+};
+
+/// The sum over the square of taps that the filter is defined by.
+double expected(const Frame& frame, int half_width, const Tolerances& tolerances, int x, int y) {
+  const Channel& depth = frame.views[0].find("depth")->channels[0];
+  const Channel& raw = frame.views[0].find("ao_raw")->channels[0];
+  const glm::dvec3 point = point_at(frame, x, y), normal = normal_at(frame, x, y);
+  const auto window = [&](int k) { return std::pow(1 - std::pow(double(k) / (half_width + 1), 2), 2); };
+  double sum = raw.at(x, y), weights = 1;
+  for (int j = -half_width; j <= half_width; ++j) {
+    for (int i = -half_width; i <= half_width; ++i) {
+      const int column = x + i, row = y + j;
+      if (column < 0 || column >= frame.width() || row < 0 || row >= frame.height() || (i == 0 && j == 0)) continue;
+      if (is_background(depth.at(column, row))) continue;
+      const double distance = std::abs(glm::dot(normal, point_at(frame, column, row) - point));
+      const double apart = 1 - glm::dot(normal, normal_at(frame, column, row));
+      const double weight = window(i) * window(j) * std::max(0.0, 1 - distance / tolerances.distance) *
+                            std::max(0.0, 1 - apart / (1 - std::cos(tolerances.angle)));
+      sum += weight * double(raw.at(column, row));
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+// Rounding of depths near 3 (1e-7 of them) over a tolerance of 0.02 moves a weight by 1e-5, and their mean by less.
+TEST(Bilateral, SquareIsTheSumThatDefinesIt) {
+  const Tolerances all[] = {{0.02, 0.5}, {0.2, 1.2}, {1000, std::numbers::pi}};
+  for (Shot shot : {perspective(90, 70), orthographic(90, 70, 4)}) {
+    shot.camera.cx += 11.5;
+    Frame frame = shoot(shot, room());
+    set_raw(frame, noise(4));
+    for (const Tolerances& tolerances : all) {
+      const Channel out = filtered(frame, {{"form", "square"},
+                                           {"half_width", "3"},
+                                           {"radius", "1"},
+                                           {"depth_tolerance", fmt::format("{}", tolerances.distance)},
+                                           {"normal_tolerance", fmt::format("{:.9g}", tolerances.angle - 1e-7)}});
+      double worst = 0;
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+          if (is_background(plane_of(frame, "depth").channels[0].at(x, y))) continue;
+          worst = std::max(worst, std::abs(double(out.at(x, y)) - expected(frame, 3, tolerances, x, y)));
+        }
+      }
+      std::printf("bilateral, square, %s, tolerances %g and %.3g: within %.2g of the sum in double\n",
+                  shot.camera.orthographic ? "orthographic" : "perspective", tolerances.distance, tolerances.angle,
+                  worst);
+      EXPECT_LE(worst, 2e-6);
+    }
+  }
+}
+
+TEST(Bilateral, SeparableIsTheSquareOnAPlane) {
+  Frame frame = shoot(perspective(90, 70), tilted_plane(2, 0.8, 0.5));
+  set_raw(frame, noise(6));
+  const Channel a = filtered(frame, {{"form", "separable"}}), b = filtered(frame, {{"form", "square"}});
+  double worst = 0;
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 90; ++x) worst = std::max(worst, std::abs(double(a.at(x, y)) - b.at(x, y)));
+  }
+  std::printf("bilateral, separable against square on a tilted plane: %.2g\n", worst);
+  EXPECT_LE(worst, 2e-6);
 }
 
 double variance(const Channel& channel, int border) {

@@ -1,0 +1,88 @@
+// What an occluder adds as the highest one so far in its direction: horizon-based ambient occlusion (Bavoil, Sainz,
+// Dimitrov 2008; Vermeer, Scandolo, Eisemann 2021, Algorithm 2).
+// -D COSINE_WEIGHTED, NO_FALLOFF, LINEAR_FALLOFF
+#ifndef GLOAM_HORIZON_H
+#define GLOAM_HORIZON_H
+
+#include "estimators/bent_normal.h"
+#include "shared/slice.h"
+
+// Heights are elevations above the tangent plane, kept as the share of a direction's wedge that lies below: the sine, by
+// which all directions count alike; or its square, by which they count by their cosine to the normal.
+#if COSINE_WEIGHTED
+#define HEIGHT_OF_SINE(s) ((s) * (s))
+#define SINE_OF_HEIGHT(h) sqrt(h)
+#else
+#define HEIGHT_OF_SINE(s) (s)
+#define SINE_OF_HEIGHT(h) (h)
+#endif
+
+typedef struct {
+  real height, taken;  // both 0 to 1: of the highest occluder; of the wedge, less what distance spares
+} Horizon;
+
+// What one sample does to a horizon: how high it stands, 0 or less if out of reach; and what that takes away.
+typedef struct {
+  real height, taken;
+} Rise;
+
+static inline Horizon horizon_from(scalar height) {
+  Horizon h;
+  h.height = (real)(height);
+  h.taken = (real)(0);
+  return h;
+}
+
+// Weight of an occluder by its squared distance in radii: 0 from the radius on.
+static inline real attenuation(real square) {
+#if NO_FALLOFF
+  return choose(square < 1, (real)(1), (real)(0));
+#elif LINEAR_FALLOFF
+  return larger(1 - sqrt(square), (real)(0));
+#else
+  return larger(1 - square, (real)(0));
+#endif
+}
+
+// The rise to the point at v, where it `counts`. n: unit normal; `inverse_square`: 1 / radius^2 in the units of v.
+static inline Rise rise_to(Horizon horizon, real3 v, real3 n, real inverse_square, mask counts) {
+  // The point itself is 0 away: what is far below its square (1e-15 depths) keeps 0/0 away.
+  const real vv = multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
+#if COSINE_WEIGHTED
+  const real above = larger(fused_dot3(n, v), (real)(0));
+  const real height = above * above * quick_inverse(vv);
+#else
+  const real height = fused_dot3(scale3(n, (scalar)0.5), v) * twice_inverse_sqrt(vv);
+#endif
+  const real weight = attenuation(vv * inverse_square);
+  Rise r;
+  r.height = choose(counts & (weight > 0), height, (real)(0));
+  // One sample waits for another only here.
+  r.taken = (larger(r.height, horizon.height) - horizon.height) * weight;
+  return r;
+}
+
+// Of several layers at a sample the one that takes most, all measured from the same horizon.
+static inline Rise greater_rise(Rise a, Rise b) {
+  const mask second = b.taken > a.taken;
+  a.height = choose(second, b.height, a.height);
+  a.taken = choose(second, b.taken, a.taken);
+  return a;
+}
+
+static inline void raise_by(Horizon* horizon, Rise rise) {
+  horizon->height = larger(rise.height, horizon->height);
+  horizon->taken += rise.taken;
+}
+
+// Takes away the directions of a narrow wedge about the normal n up to a horizon. t: unit, along the tangent plane; `sine`
+// of the horizon's elevation; `width`: the wedge's, radians. In closed form: cosine * (t cosine + n sine) over elevations.
+static inline void take_closed_wedge(OpenDirections* open, real3 t, real3 n, real sine, real width) {
+  const real along = width * ((scalar)0.5 * arc_mass(sine)), up = width * ((scalar)0.5 * sine * sine);
+  open->sum.x -= t.x * along + n.x * up;
+  open->sum.y -= t.y * along + n.y * up;
+  open->sum.z -= t.z * along + n.z * up;
+  open->weight -= width * sine;
+}
+
+#endif

@@ -1,0 +1,70 @@
+// Gaussian filter of raw AO without regard to edges, along one axis and then along the other. Background and what lies
+// beyond the border have no weight; both sums are carried from pass to pass, so that the result is that of the filter
+// in two dimensions everywhere (normalised convolution: Knutsson, Westin 1993).
+//
+// gaussian_horizontal
+// in : source  to be filtered      depth  +inf = background
+// out: sum, weight  of the taps in the row
+// gaussian_vertical
+// in : sum, weight      depth
+// out: result  filtered; 1 on background
+// -D HALF_WIDTH
+#include "gaussian/params.h"
+#include "shared/camera.h"
+
+// exp(-x) for x >= 0, relative error below 3e-7. In plain operations: the same bits everywhere.
+static inline scalar exp_of_minus(scalar x) {
+  // exp(-x) = 2^-n exp(-r) with |r| <= ln(2) / 2; ln(2) in two parts, the first of which has few bits.
+  const scalar n = floor(x * (scalar)1.4426950408889634 + (scalar)0.5);
+  if (n > 120) return 0;
+  const scalar r = (x - n * (scalar)0.693359375) + n * (scalar)2.12194440054690583e-4;
+  const scalar series =
+      1 - r * (1 - r * ((scalar)(1.0 / 2) -
+                        r * ((scalar)(1.0 / 6) -
+                             r * ((scalar)(1.0 / 24) -
+                                  r * ((scalar)(1.0 / 120) - r * ((scalar)(1.0 / 720) - r * (scalar)(1.0 / 5040)))))));
+  return ldexp(series, -(int)n);
+}
+
+// 1 at the pixel itself. Narrower than a hundredth of a pixel, the others have none.
+static inline scalar weight_of(int k, scalar sigma) {
+  const scalar narrow = (scalar)0.01f, t = (scalar)k / (sigma > narrow ? sigma : narrow);
+  return exp_of_minus((scalar)0.5 * t * t);
+}
+
+kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source, PLANE depth, PLANE_OUT sum,
+                                PLANE_OUT weight) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const integer x = FIRST_X + IOTA;
+  real values = 0, weights = 0;
+#pragma unroll
+  for (int k = -HALF_WIDTH; k <= HALF_WIDTH; ++k) {
+    const mask inside = to_mask(to_natural(x + k) < (natural)((uint)frame.width));
+    const mask counts = inside & !is_background(load(depth, here + k));
+    // Chosen before it is multiplied: what lies beside the image may hold anything.
+    const real value = choose(counts, load(source, here + k), (real)(0));
+    const scalar w = weight_of(k, params.sigma);
+    values = multiply_add((real)(w), value, values);
+    weights += choose(counts, (real)(w), (real)(0));
+  }
+  store(values, sum, here);
+  store(weights, weight, here);
+}
+
+kernel void gaussian_vertical(Frame frame, GaussianParams params, PLANE sum, PLANE weight, PLANE depth,
+                              PLANE_OUT result) {
+  const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
+  const mask background = is_background(load(depth, here));
+  real values = 0, weights = 0;
+#pragma unroll
+  for (int k = -HALF_WIDTH; k <= HALF_WIDTH; ++k) {
+    if (y + k < 0 || y + k >= frame.height) continue;
+    const int there = here + k * frame.pitch;
+    const scalar w = weight_of(k, params.sigma);
+    values = multiply_add((real)(w), load(sum, there), values);
+    weights = multiply_add((real)(w), load(weight, there), weights);
+  }
+  // The pixel itself has a weight of 1 unless it is background.
+  const real filtered = values / choose(background, (real)(1), weights);
+  store(choose(background, (real)(1), filtered), result, here);
+}

@@ -1,0 +1,7 @@
+#include "shared/params.h"
+
+#define GAUSSIAN_PARAMS(P)                                                             \
+  P(float, sigma, 1.5f, 0, 64, "pixels", "standard deviation; 0: nothing is filtered") \
+  P(int, half_width, 4, 0, 32, "pixels", "taps on either side of the pixel, along each axis")
+
+PARAMS(GaussianParams, GAUSSIAN_PARAMS)

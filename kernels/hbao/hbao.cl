@@ -1,0 +1,130 @@
+// Horizon-based ambient occlusion (Bavoil, Sainz, Dimitrov 2008; written out in Vermeer, Scandolo, Eisemann 2021,
+// Algorithm 2, here without its stochastic branch). Along each direction the horizon only rises; each rise takes
+// W(|v|) (sin h_new - sin h_old), and AO = 1 - mean over directions of what was taken. Of all layers at a sample the one
+// that takes most counts.
+//
+// in : depth      view-space z, scene units, +inf = background
+//      normal     unit, view space
+//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+// out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
+//      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
+//      cone         cosine of the half angle of the open cone about it (WITH_CONE)
+// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+#include "estimators/horizon.h"
+#include "hbao/params.h"
+#include "shared/fan.h"
+
+// What the layers at an offset in pixels do to a horizon.
+static inline __attribute__((always_inline)) Rise rise_near(Frame frame, global const float* occluders, Receiver r,
+                                                            Horizon horizon, integer dx, integer dy, mask counts,
+                                                            int within) {
+  Rise rise;
+  for (int k = 0; k < LAYERS; ++k) {
+    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+#if GATHERS_ONLY
+    rise.height = depth;
+    rise.taken = k == 0 ? depth : rise.taken + depth;
+    continue;
+#endif
+    const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, depth));
+    const Rise found = rise_to(horizon, v, r.normal, r.reach.inverse_square, counts);
+    rise = k == 0 ? found : greater_rise(rise, found);
+  }
+  return rise;
+}
+
+static inline __attribute__((always_inline)) Horizon sweep(Frame frame, global const float* occluders, Receiver r,
+                                                           Fan fan, scalar lowest, int within) {
+  Horizon horizon = horizon_from(lowest);
+#pragma unroll 8
+  for (int k = 0; k < STEPS; ++k) {
+    integer dx, dy;
+    step_at(fan, k, &dx, &dy);
+    const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+    raise_by(&horizon, rise_near(frame, occluders, r, horizon, dx, dy, counts, within));
+  }
+  return horizon;
+}
+
+#if WITH_BENT_NORMAL || WITH_CONE
+// Takes away the closed part of the wedge about a direction of the fan. Directions are even on the screen, so the wedge is
+// as wide as their turn about the normal is for one on the screen.
+static inline void take_closed_direction(OpenDirections* open, Receiver r, Surface surface, Fan fan, Horizon horizon,
+                                         scalar lowest) {
+  const Anchor p = r.point;
+  const real pixel_x = (1 + fan.stride_x) * p.across_x, pixel_y = -(1 + fan.stride_y) * p.across_y;
+  const real x = fan.cosine * pixel_x, y = fan.sine * pixel_y;
+  const real inverse_away = (scalar)1 / surface.away;
+  // Along the pixel's ray onto the tangent plane.
+  const real e = -(surface.normal.x * x + surface.normal.y * y) * inverse_away;
+  const real3 tangent = make3(x + p.ray_x * e, y + p.ray_y * e, -e);
+  const real square = larger(dot3(tangent, tangent), (real)(1e-30f));
+  const real width = (scalar)(6.28318530717959 / DIRECTIONS) * (pixel_x * pixel_y * inverse_away / square);
+  const mask is_open = horizon.height <= lowest;
+  const real sine = choose(is_open, (real)(0), SINE_OF_HEIGHT(larger(horizon.height, (real)(0))));
+  take_closed_wedge(open, scale3(tangent, inverse_sqrt(square)), surface.normal, sine, width);
+}
+#endif
+
+// Sum over directions of what is taken from each.
+static inline __attribute__((always_inline)) real taken_around(Frame frame, global const float* occluders, Receiver r,
+                                                               Fan fan, scalar lowest, int within,
+                                                               OpenDirections* directions) {
+#if WITH_BENT_NORMAL || WITH_CONE
+  const Surface surface = surface_at(r.point, r.normal);
+#endif
+  real taken = 0;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+    const Horizon horizon = sweep(frame, occluders, r, fan, lowest, within);
+    taken += horizon.taken;
+#if WITH_BENT_NORMAL || WITH_CONE
+    take_closed_direction(directions, r, surface, fan, horizon, lowest);
+#endif
+    turn(&fan);
+  }
+  return taken;
+}
+
+// Height of the bias: an angle in radians.
+static inline scalar lowest_height(HbaoParams params) {
+  real cosine, sine;
+  cosine_sine_of_turns((real)((scalar)params.bias * (scalar)0.15915494309189535), &cosine, &sine);
+#if LANES == 1
+  return HEIGHT_OF_SINE(sine);
+#else
+  return HEIGHT_OF_SINE(sine.s0);
+#endif
+}
+
+kernel void hbao_estimate(Frame frame, HbaoParams params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw
+#if WITH_BENT_NORMAL
+                          ,
+                          PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
+#endif
+#if WITH_CONE
+                          ,
+                          PLANE_OUT cone
+#endif
+) {
+  OCCLUDERS_FROM(depth)
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  OpenDirections directions = whole_hemisphere(r.normal);
+  real taken = 0;
+  if (ANY(!r.point.background)) {
+    const Fan fan = fan_of(r.reach, r.noise);
+    const scalar lowest = lowest_height(params);
+    LOOK_AROUND(taken, frame, r, r.reach, taken_around(frame, occluders, r, fan, lowest, within, &directions))
+  }
+  store_open(1 - taken * (scalar)(1.0f / DIRECTIONS), r, ao_raw);
+#if WITH_BENT_NORMAL
+  const real3 bent = bent_normal_of(directions, r.normal);
+  const real there = choose(r.point.background, (real)(0), (real)(1));
+  store(bent.x * there, bent_normal_x, r.here);
+  store(bent.y * there, bent_normal_y, r.here);
+  store(bent.z * there, bent_normal_z, r.here);
+#endif
+#if WITH_CONE
+  store(choose(r.point.background, (real)(0), cone_of(directions)), cone, r.here);
+#endif
+}

@@ -1,0 +1,12 @@
+#include "shared/ambient_occlusion.h"
+
+#define HBAO_PARAMS(P)                                                                                             \
+  REACH_PARAMS(P)                                                                                                  \
+  P(float, bias, 0.1f, 0, 1.5f, "radians", "angle above the tangent plane below which an occluder does not count") \
+  P(int, directions, 2, 1, 64, "", "directions searched per pixel")                                                \
+  P(int, steps, 9, 1, 256, "", "samples along each direction")                                                     \
+  P(choice, falloff, quadratic, (quadratic, linear, none), "how an occluder fades towards the radius")             \
+  P(choice, weighting, uniform, (uniform, cosine),                                                                 \
+    "whether all directions count alike, or by their cosine to the normal")
+
+PARAMS(HbaoParams, HBAO_PARAMS)

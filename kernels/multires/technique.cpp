@@ -1,0 +1,88 @@
+#include "gloam/technique.h"
+
+#include "multires/params.h"
+
+namespace gloam::techniques {
+namespace {
+
+/// The name of a plane at a level: what it means is told by what stands before the @ (planes.h).
+std::string at(const std::string& plane, int level) {
+  return level == 0 ? plane : plane + "@multires" + std::to_string(level);
+}
+
+Pass subsample_to(int level) {
+  return {.name = "subsample " + std::to_string(level),
+          .kernel = "multires_subsample",
+          .reads = {{"depth", at("depth", level - 1)}, {"normal", at("normal", level - 1)}},
+          .writes = {{"low_depth", at("depth", level)}, {"low_normal", at("normal", level)}},
+          .defines = {{"SCALE", 2}},
+          .scale = 1 << level};
+}
+
+Pass estimate_at(int level, const MultiresParams& p) {
+  const bool has_coarser = level < p.levels - 1;
+  const bool has_mean = p.combine == MultiresParams::combine_values::maximum_and_mean;
+  Pass pass{.name = "estimate " + std::to_string(level),
+            .kernel = "multires_estimate",
+            .defines = {{"LEVEL", level},
+                        {"LEVELS", p.levels},
+                        {"COARSER", has_coarser},
+                        {"SAMPLES", p.samples},
+                        {"WITH_MEAN", has_mean},
+                        {"JITTER", p.jitter},
+                        {"OUTSIDE_OPEN", p.outside == MultiresParams::outside_values::open},
+                        {"SCALE", 2}},
+            .scale = 1 << level};
+  if (p.falloff == MultiresParams::falloff_values::none) pass.defines.push_back({"NO_FALLOFF", 1});
+  if (has_coarser) {
+    pass.reads.push_back({"low_most", at("multires_most", level + 1)});
+    if (has_mean) pass.reads.push_back({"low_sum", at("multires_sum", level + 1)});
+    pass.reads.push_back({"low_depth", at("depth", level + 1)});
+    pass.reads.push_back({"low_normal", at("normal", level + 1)});
+  }
+  pass.reads.push_back({"depth", at("depth", level)});
+  pass.reads.push_back({"normal", at("normal", level)});
+  if (level == 0) {
+    pass.writes.push_back("ao_raw");
+  } else {
+    pass.writes.push_back({"most_found", at("multires_most", level)});
+    if (has_mean) pass.writes.push_back({"sum_found", at("multires_sum", level)});
+  }
+  return pass;
+}
+
+std::vector<Pass> passes(const MultiresParams& p) {
+  std::vector<Pass> all;
+  for (int level = 1; level < p.levels; ++level) all.push_back(subsample_to(level));
+  for (int level = p.levels - 1; level >= 0; --level) all.push_back(estimate_at(level, p));
+  return all;
+}
+
+/// Of the whole image; the lower resolutions add at most a third.
+int samples(const ParameterValues& values) { return int(values.number("samples")); }
+
+}  // namespace
+
+std::vector<Technique> multires() {
+  return {{
+      .name = "multires",
+      .summary = "ambient occlusion from few samples at each of several resolutions",
+      .paper = "Hoang, Low 2012",
+      .source = "multires/multires.cl",
+      .reads = {"depth", "normal"},
+      .writes = {"ao_raw"},
+      .outputs = {"ao", "ao_raw"},
+      .then = "bilateral",
+      .then_with = {{"half_width", "2"}},
+      .parameters = MultiresParams::table(),
+      .presets = {{"low", {{"samples", "5"}}},
+                  {"medium", {{"samples", "10"}}},
+                  {"high", {{"samples", "20"}}},
+                  {"ultra", {{"samples", "40"}}}},
+      .converged = {{"samples", "512"}},
+      .passes = passes_of(passes),
+      .samples = samples,
+  }};
+}
+
+}  // namespace gloam::techniques

@@ -1,0 +1,86 @@
+// --resolution and --with at the command line: what is planned, written and refused.
+#include "gloam/error.h"
+#include "gloam_process.h"
+#include "support/frames.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class CliResolution : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    write_frame(path("frame.exr"), shoot(perspective(49, 33), room()));
+  }
+  Result run(const Arguments& more) const {
+    Arguments arguments = {"run", "gtao", path("frame.exr"), "-o", path("ao.exr"), "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  }
+};
+
+TEST_F(CliResolution, ThePlanIsToldAsJson) {
+  const Result result =
+      gloam({"plan", "gtao", path("frame.exr"), "--resolution", "quarter", "--with", "bent_normal", "--json", "-"},
+            {{"OCL_ICD_VENDORS", "/nonexistent"}});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json plan = result.json();
+  std::vector<std::string> names;
+  for (const Json& pass : plan["passes"]) names.push_back(pass["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"resample/subsample depth", "resample/subsample normal", "gtao/estimate",
+                                             "bilateral/horizontal", "bilateral/vertical", "resample/upsample ao",
+                                             "resample/upsample ao_raw", "resample/upsample bent_normal"}));
+  EXPECT_EQ(plan["outputs"], Json({"ao", "ao_raw", "bent_normal"}));
+  EXPECT_EQ(plan["passes"][2]["writes"], Json({"ao_raw@4", "bent_normal@4"}));
+}
+
+TEST_F(CliResolution, WhatComesBackHasTheSizeOfTheFrame) {
+  for (const char* resolution : {"full", "half", "quarter"}) {
+    const Result result = run({"--resolution", resolution, "--with", "bent_normal,cone"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    FrameFile file(path("ao.exr"), {});
+    const Frame out = file.read({"ao", "ao_raw", "bent_normal", "cone"});
+    EXPECT_EQ(out.width(), 49);
+    EXPECT_EQ(out.height(), 33);
+    const bool is_reduced = std::string(resolution) != "full";
+    EXPECT_EQ(result.json()["passes"][0]["name"], is_reduced ? "resample/subsample depth" : "gtao/estimate");
+  }
+}
+
+TEST_F(CliResolution, OtherNamesAreWrongUsage) {
+  for (const char* resolution : {"third", "2", "1/2"}) {
+    const Result result = run({"--resolution", resolution});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.err,
+              fmt::format("gloam: --resolution {} is not allowed; full, half and quarter are\n", resolution));
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"frame.exr"});
+}
+
+TEST_F(CliResolution, WhatGuidesUpsamplingIsNotReduced) {
+  const Result result = gloam({"run", "normals", path("frame.exr"), "-o", path("normals.exr"), "--resolution", "half"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("'normal' is what guides upsampling"), std::string::npos) << result.err;
+}
+
+TEST_F(CliResolution, ExtrasThatThereAreNot) {
+  const std::pair<const char*, const char*> refused[] = {
+      {"bent",
+       "gloam: --with bent: gtao does not make it (did you mean 'bent_normal'?); it has bent_normal and cone\n"},
+      {"cone,ao_noise", "gloam: --with ao_noise: gtao does not make it; it has bent_normal and cone\n"}};
+  for (const auto& [extras, message] : refused) {
+    const Result result = run({"--with", extras});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.err, message);
+  }
+  const Result none = gloam({"run", "hbao+", path("frame.exr"), "-o", path("ao.exr"), "--with", "cone"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(none.err, "gloam: --with cone: hbao+ does not make it; it has no extras\n");
+  EXPECT_EQ(files(), std::vector<std::string>{"frame.exr"});
+}
+
+}  // namespace
+}  // namespace gloam::test
