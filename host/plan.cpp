@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <tuple>
 
 #include "gloam/planes.h"
 #include "lists.h"
@@ -47,15 +48,17 @@ bool follows_by_default(const Technique& technique) {
                      [&](const Technique& other) { return other.then == technique.name; });
 }
 
-/// The technique that makes a plane: one of the makers, else the one of the registry that follows others by default or,
-/// of several or none such, reads the fewest planes (the first by name of these), so that the simplest is the default;
-/// never the one that asks.
+/// The technique that makes a plane: one of the makers, else the one of the registry that says it is the default for it, else
+/// one that follows others by default, else the one that reads the fewest planes (the first by name of these); never the
+/// one that asks.
 const Technique* maker_of(const std::string& plane, const Technique* asking,
                           const std::vector<const Technique*>& makers) {
   for (const Technique* t : makers) {
     if (t != asking && makes(*t, plane)) return t;
   }
-  const auto rank = [](const Technique& t) { return std::pair(!follows_by_default(t), t.reads.size()); };
+  const auto rank = [&](const Technique& t) {
+    return std::tuple(!contains(t.default_for, plane), !follows_by_default(t), t.reads.size());
+  };
   const Technique* simplest = nullptr;
   for (const Technique& t : registry()) {
     if (&t == asking || !makes(t, plane)) continue;
@@ -149,7 +152,10 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
     throw UsageError("{}: no output '{}'{}; there are {}", request.outputs.front(), plane,
                      suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
   }
-  if (!request.only.empty()) wanted.outputs = request.only;
+  if (!request.only.empty()) {
+    wanted.outputs = request.only;
+    for (const std::string& plane : request.with) add_new(wanted.outputs, plane);
+  }
   return wanted;
 }
 

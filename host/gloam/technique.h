@@ -57,7 +57,8 @@ struct Technique {
   std::string then;                  ///< technique that follows by default, such as a filter; inherits parameters of
                                      ///< the same name
   std::vector<std::pair<std::string, std::string>> then_with;  ///< settings that the follower has by default
-  std::vector<std::string> extras;  ///< planes made beside `writes` where they are asked for by name
+  std::vector<std::string> default_for;  ///< planes that it makes where they are asked for by name and several could
+  std::vector<std::string> extras;       ///< planes made beside `writes` where they are asked for by name
   std::vector<Parameter> parameters;
   std::vector<Preset> presets;
   /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant

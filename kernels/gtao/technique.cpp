@@ -77,6 +77,7 @@ Technique gtao_over_depth() {
 Technique bitmask_over_depth() {
   Technique t = common("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
                        "Therrien, Levesque, Gilet 2023");
+  t.default_for = {"ao_raw", "bent_normal", "cone"};
   t.parameters = BitmaskParams::table();
   t.passes = passes_of(bitmask_passes);
   return t;
@@ -85,6 +86,7 @@ Technique bitmask_over_depth() {
 Technique over_layers(Technique technique, std::function<std::vector<Pass>(const ParameterValues&)> passes) {
   technique.summary = technique.name + " over all peeled depth layers: the upper bound of what more layers can give";
   technique.name = "dp-" + technique.name;
+  technique.default_for.clear();
   technique.reads.push_back("peel");
   technique.passes = std::move(passes);
   return technique;

@@ -165,8 +165,12 @@ TEST(Multires, NoDistanceIsMissed) {
   const double pixel = 4.0 / 480;
   for (int x = 246; x < 480; ++x) {
     const double distance = (x + 0.5 - 240) * pixel - 0.02;
-    if (std::hypot(distance, height) < 0.8 - 5 * pixel) EXPECT_LT(raw_at(out, x, 60), 0.995) << x;
-    if (std::hypot(distance, height) > 0.8 + 8 * pixel) EXPECT_EQ(raw_at(out, x, 60), 1) << x;
+    if (std::hypot(distance, height) < 0.8 - 5 * pixel) {
+      EXPECT_LT(raw_at(out, x, 60), 0.995) << x;
+    }
+    if (std::hypot(distance, height) > 0.8 + 8 * pixel) {
+      EXPECT_EQ(raw_at(out, x, 60), 1) << x;
+    }
   }
 }
 

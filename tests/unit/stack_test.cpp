@@ -70,7 +70,7 @@ TEST(Stacks, OnePlaneAmongTheSkipped) {
 
 TEST(Stacks, PeeledLayersDoNotChangeWhatMakesAoByDefault) {
   const Plan plan = plan_of("ao_raw", {"depth", "normal", "peel.00"});
-  EXPECT_EQ(plan.technique, "hbao+");
+  EXPECT_EQ(plan.technique, "bitmask");
 }
 
 TEST(Stacks, WhatIsMissingIsNamed) {
