@@ -1,0 +1,174 @@
+// Alchemy ambient obscurance (McGuire, Osman, Bukowski, Hennessy 2011) and with SCALABLE Scalable Ambient Obscurance
+// (McGuire, Mara, Luebke 2012): mean obscurance over samples on a spiral on the screen.
+//   AO = max(0, 1 - 2 strength / n * sum max(0, v.n - bias) / (v.v + epsilon))^power
+//   AO = max(0, 1 - 5 strength / n * sum (1 - v.v)^3 max(0, v.n - bias) / (v.v + epsilon))^power   with SCALABLE
+// v in radii, from the pixel to an occluder; of all layers at a sample the largest counts.
+//
+// in : depth         view-space z, scene units, +inf = background
+//      normal        unit, view space
+//      occluders     stack of depth layers, in any order; without it the depth is the only layer
+//      depth_levels  what sao_level makes, for levels 1 to LEVELS (LEVELS > 0, without occluders)
+// out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
+// -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS; LEVEL (sao_level)
+#include "alchemy/params.h"
+#include "estimators/alchemy.h"
+#ifndef LEVEL
+#include "shared/spiral.h"
+#endif
+
+#if SCALABLE
+typedef SaoParams Params;
+#define FACTOR 5
+#else
+typedef AlchemyParams Params;
+#define FACTOR 2
+#endif
+
+#if LEVELS && !defined(OCCLUDERS_LAYERS)
+#define READS_LEVELS
+#define DEPTH_LEVELS_ARGUMENT PLANE depth_levels,
+#define DEPTH_LEVELS_FROM(depth)
+#else
+#define DEPTH_LEVELS_ARGUMENT
+#define DEPTH_LEVELS_FROM(depth) PLANE depth_levels = depth;
+#endif
+
+static inline real obscurance(real3 v, real3 n, Params params, Falloff falloff) {
+#if SCALABLE
+  return obscurance_scalable(v, n, params.bias, falloff);
+#else
+  return obscurance_alchemy(v, n, params.bias, falloff);
+#endif
+}
+
+// --- Levels of the depth, after the second paper. Level 0 is the depth itself. Level k has one pixel for 2^k x 2^k
+// of the image: of each 2 x 2 pixels of the level below it is (2x + (y & 1), 2y + (x & 1)), a rotated grid. The next step
+// down then starts with the bits of x and y exchanged, so that the lowest bits of both alternate all the way down: which
+// pixel of the image was picked is known without the levels between, and its position is exact.
+#if LEVELS
+
+// Every second bit from bit 29 down.
+#define ALTERNATING ((integer)(0x2AAAAAAA))
+
+// Column and row in the image of pixel (x, y) of a level. A block over the border has its pixel on the border.
+static inline void picked_pixel(Frame image, integer level, integer x, integer y, integer* column, integer* row) {
+  const integer first = ALTERNATING >> (30 - level), second = ALTERNATING >> (31 - level);
+  const integer odd_x = -(x & 1), odd_y = -(y & 1);
+  *column = min((x << level) | (odd_y & first) | (odd_x & second), image.width - 1);
+  *row = min((y << level) | (odd_x & first) | (odd_y & second), image.height - 1);
+}
+
+// The level for a sample so many pixels away: floor(log2(distance)) - level_offset. A frame of more than 2^31 / LEVELS
+// pixels has only those that an int can index.
+static inline integer level_of(Frame frame, Params params, real distance) {
+  const integer exponent = (JOIN(as_, N_LANES(int))(to_stored(distance)) >> 23) - 127;
+  const int highest = min(LEVELS, 0x7fffffff / (2 * FRAME_GUARD + frame.pitch * frame.height));
+  return clamp(exponent - params.level_offset, (integer)(0), (integer)(highest));
+}
+
+#ifdef LEVEL
+// `frame` is the level, `other` the image. Makes layer LEVEL - 1, of the image's layout, in its left top part.
+kernel void sao_level(Frame frame, Frame other, SaoParams params, PLANE depth, PLANE_OUT depth_levels) {
+  integer column, row;
+  picked_pixel(other, (integer)(LEVEL), FIRST_X + IOTA, (integer)(ROW_Y), &column, &row);
+  const real picked = gather(depth, FRAME_GUARD + row * other.pitch + column);
+  store(picked, layer_of_out(depth_levels, other, LEVEL - 1), index_of(other, FIRST_X, ROW_Y));
+}
+#endif
+#endif
+
+#ifndef LEVEL
+// Where a sample is read.
+typedef struct {
+  integer dx, dy;  // offset in pixels
+  mask coarse;     // from a level above 0
+  integer index;   // in depth_levels
+} Place;
+
+static inline Place place_at(Frame frame, Params params, Receiver r, integer dx, integer dy, real distance) {
+  Place p;
+#if LEVELS
+  const integer level = level_of(frame, params, distance);
+  const integer x = (r.x + dx) >> level, y = (r.y + dy) >> level, layer = max(level - 1, 0);
+  integer column, row;
+  picked_pixel(frame, level, x, y, &column, &row);
+  p.dx = column - r.x;
+  p.dy = row - r.y;
+  p.coarse = to_mask(level > 0);
+  p.index = layer * (2 * FRAME_GUARD + frame.pitch * frame.height) + FRAME_GUARD + y * frame.pitch + x;
+#else
+  p.dx = dx;
+  p.dy = dy;
+#endif
+  return p;
+}
+
+// The depth there in one layer of the occluders. The layers themselves hold every pixel that a level would.
+static inline real depth_at(Frame frame, global const float* occluders, global const float* depth_levels, Receiver r,
+                            int layer, Place p, int within) {
+#ifdef READS_LEVELS
+  if (ANY(p.coarse)) {
+    const real coarse = gather(depth_levels, p.index);
+    if (!ANY(!p.coarse)) return coarse;
+    return choose(p.coarse, coarse, sample_near(occluders, frame, r.here, within, p.dx, p.dy));
+  }
+#endif
+  return sample_near(layer_of(occluders, frame, layer), frame, r.here, within, p.dx, p.dy);
+}
+
+// The largest contribution of all layers.
+static inline real obscurance_near(Frame frame, Params params, global const float* occluders,
+                                   global const float* depth_levels, Receiver r, Falloff falloff, Place p, int within) {
+  real largest = 0;
+  for (int k = 0; k < LAYERS; ++k) {
+    const real depth = depth_at(frame, occluders, depth_levels, r, k, p, within);
+#if GATHERS_ONLY
+    largest += depth;
+    continue;
+#endif
+    const real3 v = towards_near(frame, r.point, to_real(p.dx), to_real(p.dy), relative_depth(r.point, r.depth, depth));
+    const real found = obscurance(v, r.normal, params, falloff);
+    largest = k == 0 ? found : larger(found, largest);
+  }
+  return largest;
+}
+
+static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params,
+                                                                    global const float* occluders,
+                                                                    global const float* depth_levels, Receiver r,
+                                                                    Falloff falloff, Spiral spiral, int within) {
+  real sum = 0;
+#pragma unroll 4
+  for (int k = 0; k < SAMPLES; ++k) {
+    integer dx, dy;
+    sample_at(spiral, &dx, &dy);
+    const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+    const Place p = place_at(frame, params, r, dx, dy, larger(spiral.distance_x, spiral.distance_y));
+    const real found = obscurance_near(frame, params, occluders, depth_levels, r, falloff, p, within);
+    sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    next_sample(&spiral);
+  }
+  return sum;
+}
+
+kernel void alchemy_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                             OCCLUDERS_ARGUMENT DEPTH_LEVELS_ARGUMENT PLANE_OUT ao_raw) {
+  OCCLUDERS_FROM(depth)
+  DEPTH_LEVELS_FROM(depth)
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  if (!ANY(!r.point.background)) {
+    store((real)(1), ao_raw, r.here);
+    return;
+  }
+  const Falloff falloff = falloff_of(r.reach, params.epsilon);
+  const Spiral spiral = spiral_of(r.reach, r.noise);
+  real sum;
+  LOOK_AROUND(sum, frame, r, r.reach,
+              sum_of_obscurance(frame, params, occluders, depth_levels, r, falloff, spiral, within))
+  const real mean = sum * falloff.radius * (params.strength * FACTOR / SAMPLES);
+  const real open = smaller(larger(1 - mean, (real)(0)), (real)(1));
+  real ao = open;
+  for (int k = 1; k < POWER; ++k) ao *= open;
+  store_open(ao, r, ao_raw);
+}
+#endif

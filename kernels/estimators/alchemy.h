@@ -1,0 +1,58 @@
+// What one occluder contributes in Alchemy (McGuire, Osman, Bukowski, Hennessy 2011) and in Scalable Ambient Obscurance
+// (McGuire, Mara, Luebke 2012): its height above the tangent plane over its squared distance, so that neither a square
+// root nor a direction is needed.
+#ifndef GLOAM_ALCHEMY_H
+#define GLOAM_ALCHEMY_H
+
+#include "shared/sample.h"
+
+// What the contributions need of the radius at a pixel. Lengths are in units of the pixel's depth.
+typedef struct {
+  real radius;
+  real epsilon;         // what is added to squared distances
+  real limit;           // the squared radius, with epsilon
+  real inverse_square;  // 1 / radius^2
+  scalar beginning;     // of the fade: 1, with epsilon
+} Falloff;
+
+// `epsilon`: squared radii.
+static inline Falloff falloff_of(Reach reach, scalar epsilon) {
+  Falloff f;
+  const real square = quick_inverse(reach.inverse_square);
+  f.inverse_square = reach.inverse_square;
+  f.radius = square * sqrt(reach.inverse_square);
+  // What is far below any squared distance keeps 0/0 away on the point itself.
+  f.epsilon = multiply_add((real)(epsilon), square, (real)(1e-30f));
+  f.limit = square + f.epsilon;
+  f.beginning = 1 + epsilon;
+  return f;
+}
+
+// v.v + epsilon
+static inline real padded_square(real3 v, Falloff f) {
+  return multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, f.epsilon)));
+}
+
+// max(0, v.n - bias) / square. `bias`: units of the depth.
+static inline real height_over(real square, real3 v, real3 n, scalar bias) {
+  const real height = multiply_add(n.x, v.x, multiply_add(n.y, v.y, multiply_add(n.z, v.z, (real)(-bias))));
+  return larger(height, (real)(0)) * quick_inverse(square);
+}
+
+// Both are to be multiplied by the radius.
+
+// Alchemy's: occluders within the radius count in full.
+static inline real obscurance_alchemy(real3 v, real3 n, scalar bias, Falloff f) {
+  const real square = padded_square(v, f);
+  return choose(square < f.limit, height_over(square, v, n, bias), (real)(0));
+}
+
+// Of the contributions in the source that the authors of Scalable Ambient Obscurance published the one that they
+// recommend: fading to 0 at the radius by (1 - v.v / radius^2)^3.
+static inline real obscurance_scalable(real3 v, real3 n, scalar bias, Falloff f) {
+  const real square = padded_square(v, f);
+  const real fade = larger(multiply_add(-square, f.inverse_square, (real)(f.beginning)), (real)(0));
+  return fade * fade * fade * height_over(square, v, n, bias);
+}
+
+#endif
