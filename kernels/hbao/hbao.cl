@@ -14,10 +14,11 @@
 #include "hbao/params.h"
 #include "shared/fan.h"
 
-// What the layers at an offset in pixels do to a horizon.
-static inline __attribute__((always_inline)) Rise rise_near(Frame frame, global const float* occluders, Receiver r,
-                                                            Horizon horizon, integer dx, integer dy, mask counts,
-                                                            int within) {
+// Lifts a horizon by what the layers at an offset in pixels do to it. Inlined by order, and returns no struct: oclgrind
+// does not know what becomes of that.
+static inline __attribute__((always_inline)) void rise_near(Frame frame, global const float* occluders, Receiver r,
+                                                            integer dx, integer dy, mask counts, int within,
+                                                            Horizon* horizon) {
   Rise rise;
   for (int k = 0; k < LAYERS; ++k) {
     const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
@@ -27,23 +28,22 @@ static inline __attribute__((always_inline)) Rise rise_near(Frame frame, global 
     continue;
 #endif
     const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, depth));
-    const Rise found = rise_to(horizon, v, r.normal, r.reach.inverse_square, counts);
+    const Rise found = rise_to(*horizon, v, r.normal, r.reach.inverse_square, counts);
     rise = k == 0 ? found : greater_rise(rise, found);
   }
-  return rise;
+  raise_by(horizon, rise);
 }
 
-static inline __attribute__((always_inline)) Horizon sweep(Frame frame, global const float* occluders, Receiver r,
-                                                           Fan fan, scalar lowest, int within) {
-  Horizon horizon = horizon_from(lowest);
+static inline __attribute__((always_inline)) void sweep(Frame frame, global const float* occluders, Receiver r, Fan fan,
+                                                        scalar lowest, int within, Horizon* horizon) {
+  *horizon = horizon_from(lowest);
 #pragma unroll 8
   for (int k = 0; k < STEPS; ++k) {
     integer dx, dy;
     step_at(fan, k, &dx, &dy);
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
-    raise_by(&horizon, rise_near(frame, occluders, r, horizon, dx, dy, counts, within));
+    rise_near(frame, occluders, r, dx, dy, counts, within, horizon);
   }
-  return horizon;
 }
 
 #if WITH_BENT_NORMAL || WITH_CONE
@@ -75,7 +75,8 @@ static inline __attribute__((always_inline)) real taken_around(Frame frame, glob
 #endif
   real taken = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
-    const Horizon horizon = sweep(frame, occluders, r, fan, lowest, within);
+    Horizon horizon;
+    sweep(frame, occluders, r, fan, lowest, within, &horizon);
     taken += horizon.taken;
 #if WITH_BENT_NORMAL || WITH_CONE
     take_closed_direction(directions, r, surface, fan, horizon, lowest);

@@ -2,6 +2,7 @@
 // out of bounds.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "gloam/error.h"
 #include "support/frames.h"
@@ -10,13 +11,17 @@
 namespace gloam::test {
 namespace {
 
+/// Loops of more turns than this read nothing else, and take minutes to interpret.
+constexpr double most_turns = 20;
+
 /// The defaults, and each choice, switch and count at both its ends by itself.
 std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
   std::vector<Settings> all = {{}};
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
     for (const Parameter& p : planned.technique->parameters) {
       if (p.type == Parameter::Type::floating || planned.technique != &technique) continue;
-      for (const double end : {p.min, p.max}) {
+      const bool is_count = p.type == Parameter::Type::integer;
+      for (const double end : {p.min, is_count ? std::min(p.max, most_turns) : p.max}) {
         const std::string text = p.type == Parameter::Type::choice    ? p.choices[size_t(end)]
                                  : p.type == Parameter::Type::boolean ? (end != 0 ? "on" : "off")
                                                                       : fmt::format("{}", int(end));
@@ -28,7 +33,7 @@ std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
   return all;
 }
 
-/// On frames that are smaller still: oclgrind interprets every sample, and there are up to 32 x 4 x 3 of them per pixel.
+/// On frames that are smaller still: oclgrind interprets every sample, and there are hundreds of them per pixel.
 int run_variants(const Technique& technique) {
   int passes = 0;
   for (const Shot& shot : {perspective(17, 9), orthographic(17, 9, 2)}) {
@@ -42,9 +47,11 @@ int run_variants(const Technique& technique) {
   return passes;
 }
 
-int run_all() {
+/// Every `parts`-th technique, from `part` on.
+int run_all(size_t part, size_t parts) {
   int passes = 0;
-  for (const Technique& technique : registry()) {
+  for (size_t i = part; i < registry().size(); i += parts) {
+    const Technique& technique = registry()[i];
     for (const Shot& shot : {perspective(33, 17), perspective(1, 1)}) {
       for (const bool with_normals : {true, false}) {
         Frame frame = shoot(shot, room(), with_normals);
@@ -63,9 +70,11 @@ int run_all() {
 }  // namespace
 }  // namespace gloam::test
 
-int main() {
+/// Two numbers: which part of the techniques, and of how many parts.
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
   try {
-    return gloam::test::run_all();
+    return gloam::test::run_all(size_t(std::atoi(argv[1])), size_t(std::atoi(argv[2])));
   } catch (const gloam::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
