@@ -89,8 +89,8 @@ void check_follower(const Technique& technique, const Technique& follower) {
   }
   if (fitting.empty())
     throw UsageError("--filter {}: {} leaves nothing to a filter; only none fits", follower.name, technique.name);
-  throw UsageError("--filter {}: is no filter for {}; there are {} and none", follower.name, technique.name,
-                   enumerate(fitting));
+  fitting.push_back("none");
+  throw UsageError("--filter {}: is no filter for {}; there are {}", follower.name, technique.name, enumerate(fitting));
 }
 
 /// A technique asked for brings its follower: its own, or the one that the request names.

@@ -198,8 +198,8 @@ TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
   expect_refused({"reference", "shadow", loggia, "-o", out}, 2, "no 'shadow'");
   expect_refused({"reference", "ao", loggia, "-o", out}, 2, "--scene");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out}, 1, "is not what the frame shows");
-  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--falloff", "hbao"}, 2,
-                 "did you mean 'hbao+'");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--falloff", "hbaos"}, 2,
+                 "did you mean 'hbao");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "0"}, 2, "--radius");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--samples", "0"}, 2, "--samples");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--set", "hbao+.bias=0.3"}, 2,

@@ -94,7 +94,7 @@ TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {
   EXPECT_EQ(plan["decoded"], Json({"Z"}));
   std::vector<std::string> names;
   for (const Json& pass : plan["passes"]) names.push_back(pass["name"]);
-  EXPECT_EQ(names, (std::vector<std::string>{"normals/differences", "hbao+/estimate", "bilateral/horizontal",
+  EXPECT_EQ(names, (std::vector<std::string>{"normals/differences", "bitmask/estimate", "bilateral/horizontal",
                                              "bilateral/vertical"}));
   const bool color_skipped =
       std::any_of(plan["skipped"].begin(), plan["skipped"].end(), [](const Json& s) { return s["what"] == "color"; });
@@ -128,7 +128,7 @@ TEST_F(Cli, RunWritesFilteredAndRawAo) {
   FrameFile written(path("ao.exr"), {});
   EXPECT_EQ(written.common_planes(), (std::vector<std::string>{"depth", "ao", "ao_raw"}));
   EXPECT_EQ(written.text_attribute("gloamTechnique"), "hbao+");
-  EXPECT_NE(written.text_attribute("gloamParameters").find("hbao+: radius=0.5 bias=0.1"), std::string::npos);
+  EXPECT_NE(written.text_attribute("gloamParameters").find("hbao+: radius=0.5 max_reach=0.25"), std::string::npos);
   const Frame frame = written.read({"ao", "ao_raw", "depth"});
   const View& view = frame.views[0];
   ASSERT_TRUE(view.camera.has_value());
