@@ -12,7 +12,7 @@ static inline real obscurance(real3 v, real3 n, scalar bias, real inverse_square
   const real vv = multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
   // The cosine less the bias.
   const real above = multiply_add(fused_dot3(scale3(n, (scalar)0.5), v), twice_inverse_sqrt(vv), (real)(-bias));
-#ifdef NO_FALLOFF
+#if NO_FALLOFF
   const real weight = choose(vv * inverse_square < 1, (real)(1), (real)(0));
 #else
   const real weight = larger(multiply_add(-vv, inverse_square, (real)(1)), (real)(0));

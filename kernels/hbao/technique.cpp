@@ -1,7 +1,6 @@
-#include "gloam/technique.h"
-
 #include <cmath>
 
+#include "gloam/ambient_occlusion.h"
 #include "hbao/params.h"
 
 namespace gloam::techniques {
@@ -10,27 +9,14 @@ namespace {
 using Falloff = HbaoParams::falloff_values;
 using Weighting = HbaoParams::weighting_values;
 
-Pass estimate_of(const HbaoParams& p) {
-  return {.name = "estimate",
-          .kernel = "hbao_estimate",
-          .reads = {"depth", "normal"},
-          .writes = {"ao_raw"},
-          .defines = {{"DIRECTIONS", p.directions},
-                      {"STEPS", p.steps},
-                      {"JITTER", p.jitter},
-                      {"NO_FALLOFF", p.falloff == Falloff::none},
-                      {"LINEAR_FALLOFF", p.falloff == Falloff::linear},
-                      {"COSINE_WEIGHTED", p.weighting == Weighting::cosine},
-                      {"OUTSIDE_OPEN", p.outside == HbaoParams::outside_values::open}},
-          .extras = {"bent_normal", "cone"}};
-}
-
-std::vector<Pass> passes(const HbaoParams& p) { return {estimate_of(p)}; }
-
-/// The same with every layer of the peeled depth as an occluder.
-std::vector<Pass> passes_over_layers(const HbaoParams& p) {
-  Pass estimate = estimate_of(p);
-  estimate.reads.push_back({"occluders", "peel"});
+std::vector<Pass> passes(const HbaoParams& p) {
+  Pass estimate = ambient_occlusion_estimate(p, "hbao_estimate",
+                                             {{"DIRECTIONS", p.directions},
+                                              {"STEPS", p.steps},
+                                              {"NO_FALLOFF", p.falloff == Falloff::none},
+                                              {"LINEAR_FALLOFF", p.falloff == Falloff::linear},
+                                              {"COSINE_WEIGHTED", p.weighting == Weighting::cosine}});
+  estimate.extras = {"bent_normal", "cone"};
   return {estimate};
 }
 
@@ -49,41 +35,23 @@ double contribution(const HbaoParams& p, double cosine, double distance) {
 }
 
 Technique over_depth() {
-  return {
-      .name = "hbao",
-      .summary = "ambient occlusion from the horizon along directions on the screen",
-      .paper = "Bavoil, Sainz, Dimitrov 2008",
-      .source = "hbao/hbao.cl",
-      .reads = {"depth", "normal"},
-      .writes = {"ao_raw"},
-      .outputs = {"ao", "ao_raw"},
-      .then = "bilateral",
-      .then_with = {{"half_width", "2"}},
-      .extras = {"bent_normal", "cone"},
-      .parameters = HbaoParams::table(),
-      .presets = {{"low", {{"directions", "2"}, {"steps", "4"}}},
-                  {"medium", {{"directions", "2"}, {"steps", "9"}}},
-                  {"high", {{"directions", "2"}, {"steps", "18"}}},
-                  {"ultra", {{"directions", "4"}, {"steps", "18"}}}},
-      .converged = {{"directions", "16"}, {"steps", "128"}},
-      .passes = passes_of(passes),
-      .samples = samples,
-      .contribution = contribution_of(contribution),
-  };
-}
-
-Technique over_layers() {
-  Technique technique = over_depth();
-  technique.name = "dp-hbao";
-  technique.summary = "hbao over all peeled depth layers: the upper bound of what more layers can give";
-  technique.paper = "Vermeer, Scandolo, Eisemann 2021";
-  technique.reads.push_back("peel");
-  technique.passes = passes_of(passes_over_layers);
-  return technique;
+  Technique t = ambient_occlusion("hbao", "ambient occlusion from the horizon along directions on the screen",
+                                  "Bavoil, Sainz, Dimitrov 2008", "hbao/hbao.cl");
+  t.extras = {"bent_normal", "cone"};
+  t.parameters = HbaoParams::table();
+  t.presets = {{"low", {{"directions", "2"}, {"steps", "4"}}},
+               {"medium", {{"directions", "2"}, {"steps", "9"}}},
+               {"high", {{"directions", "2"}, {"steps", "18"}}},
+               {"ultra", {{"directions", "4"}, {"steps", "18"}}}};
+  t.converged = {{"directions", "16"}, {"steps", "128"}};
+  t.passes = passes_of(passes);
+  t.samples = samples;
+  t.contribution = contribution_of(contribution);
+  return t;
 }
 
 }  // namespace
 
-std::vector<Technique> hbao() { return {over_depth(), over_layers()}; }
+std::vector<Technique> hbao() { return {over_depth(), over_peeled_layers(over_depth())}; }
 
 }  // namespace gloam::techniques

@@ -1,5 +1,4 @@
-#include "gloam/technique.h"
-
+#include "gloam/ambient_occlusion.h"
 #include "multires/params.h"
 
 namespace gloam::techniques {
@@ -29,11 +28,11 @@ Pass estimate_at(int level, const MultiresParams& p) {
                         {"COARSER", has_coarser},
                         {"SAMPLES", p.samples},
                         {"WITH_MEAN", has_mean},
+                        {"NO_FALLOFF", p.falloff == MultiresParams::falloff_values::none},
                         {"JITTER", p.jitter},
                         {"OUTSIDE_OPEN", p.outside == MultiresParams::outside_values::open},
                         {"SCALE", 2}},
             .scale = 1 << level};
-  if (p.falloff == MultiresParams::falloff_values::none) pass.defines.push_back({"NO_FALLOFF", 1});
   if (has_coarser) {
     pass.reads.push_back({"low_most", at("multires_most", level + 1)});
     if (has_mean) pass.reads.push_back({"low_sum", at("multires_sum", level + 1)});
@@ -58,31 +57,21 @@ std::vector<Pass> passes(const MultiresParams& p) {
   return all;
 }
 
-/// Of the whole image; the lower resolutions add at most a third.
-int samples(const ParameterValues& values) { return int(values.number("samples")); }
-
 }  // namespace
 
 std::vector<Technique> multires() {
-  return {{
-      .name = "multires",
-      .summary = "ambient occlusion from few samples at each of several resolutions",
-      .paper = "Hoang, Low 2012",
-      .source = "multires/multires.cl",
-      .reads = {"depth", "normal"},
-      .writes = {"ao_raw"},
-      .outputs = {"ao", "ao_raw"},
-      .then = "bilateral",
-      .then_with = {{"half_width", "2"}},
-      .parameters = MultiresParams::table(),
-      .presets = {{"low", {{"samples", "5"}}},
-                  {"medium", {{"samples", "10"}}},
-                  {"high", {{"samples", "20"}}},
-                  {"ultra", {{"samples", "40"}}}},
-      .converged = {{"samples", "512"}},
-      .passes = passes_of(passes),
-      .samples = samples,
-  }};
+  Technique t = ambient_occlusion("multires", "ambient occlusion from few samples at each of several resolutions",
+                                  "Hoang, Low 2012", "multires/multires.cl");
+  t.parameters = MultiresParams::table();
+  t.presets = {{"low", {{"samples", "5"}}},
+               {"medium", {{"samples", "10"}}},
+               {"high", {{"samples", "20"}}},
+               {"ultra", {{"samples", "40"}}}};
+  t.converged = {{"samples", "512"}};
+  t.passes = passes_of(passes);
+  // Of the whole image; the lower resolutions add at most a third.
+  t.samples = value_of_samples;
+  return {t};
 }
 
 }  // namespace gloam::techniques

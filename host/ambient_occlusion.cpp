@@ -1,0 +1,42 @@
+#include "gloam/ambient_occlusion.h"
+
+namespace gloam {
+
+Technique ambient_occlusion(std::string name, std::string summary, std::string paper, std::string source) {
+  return {.name = std::move(name),
+          .summary = std::move(summary),
+          .paper = std::move(paper),
+          .source = std::move(source),
+          .reads = {"depth", "normal"},
+          .writes = {"ao_raw"},
+          .outputs = {"ao", "ao_raw"},
+          .then = "bilateral",
+          .then_with = {{"half_width", "2"}}};
+}
+
+std::vector<Preset> presets_of_samples() {
+  return {{"low", {{"samples", "8"}}},
+          {"medium", {{"samples", "18"}}},
+          {"high", {{"samples", "36"}}},
+          {"ultra", {{"samples", "72"}}}};
+}
+
+int value_of_samples(const ParameterValues& values) { return int(values.number("samples")); }
+
+Technique over_peeled_layers(Technique technique) {
+  technique.summary = technique.name + " over all peeled depth layers: the upper bound of what more layers can give";
+  technique.name = "dp-" + technique.name;
+  technique.paper += "; over layers Vermeer, Scandolo, Eisemann 2021";
+  technique.default_for.clear();
+  technique.reads.push_back("peel");
+  technique.passes = [over_depth = technique.passes](const ParameterValues& values) {
+    std::vector<Pass> passes = over_depth(values);
+    for (Pass& pass : passes) {
+      if (pass.name == "estimate") pass.reads.push_back({"occluders", "peel"});
+    }
+    return passes;
+  };
+  return technique;
+}
+
+}  // namespace gloam

@@ -1,0 +1,38 @@
+// Rows of the registry that techniques for ambient occlusion share: what such a technique is, its estimate, and the same
+// over all peeled layers.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gloam/technique.h"
+
+namespace gloam {
+
+/// An estimate from depth and normals that a bilateral filter of 5 x 5 pixels follows. The rest is the technique's own:
+/// parameters, passes, presets.
+Technique ambient_occlusion(std::string name, std::string summary, std::string paper, std::string source);
+
+/// Presets of 8, 18, 36 and 72 samples, for a technique with a parameter `samples`.
+std::vector<Preset> presets_of_samples();
+
+/// The value of the parameter `samples`.
+int value_of_samples(const ParameterValues& values);
+
+/// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/ambient_occlusion.h) beside `defines`.
+template <typename Params>
+Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector<std::pair<std::string, int>> defines) {
+  defines.insert(defines.end(), {{"JITTER", p.jitter}, {"OUTSIDE_OPEN", p.outside == Params::outside_values::open}});
+  return {.name = "estimate",
+          .kernel = std::move(kernel),
+          .reads = {"depth", "normal"},
+          .writes = {"ao_raw"},
+          .defines = std::move(defines)};
+}
+
+/// The same technique with every layer of the peeled depth as an occluder: "dp-" before its name, and its estimate reads
+/// the stack `occluders`.
+Technique over_peeled_layers(Technique technique);
+
+}  // namespace gloam
