@@ -61,7 +61,7 @@ static inline void picked_pixel(Frame image, integer level, integer x, integer y
 // The level for a sample so many pixels away: floor(log2(distance)) - level_offset. A frame of more than 2^31 / LEVELS
 // pixels has only those that an int can index.
 static inline integer level_of(Frame frame, Params params, real distance) {
-  const integer exponent = (JOIN(as_, N_LANES(int))(to_stored(distance)) >> 23) - 127;
+  const integer exponent = (as_integer(to_stored(distance)) >> 23) - 127;
   const int highest = min(LEVELS, 0x7fffffff / (2 * FRAME_GUARD + frame.pitch * frame.height));
   return clamp(exponent - params.level_offset, (integer)(0), (integer)(highest));
 }

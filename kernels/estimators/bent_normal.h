@@ -1,10 +1,14 @@
 // Bent normal and cone: the mean of the directions that are open, each of them counting by its solid angle, and the cone
 // about it that is as open (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
+// -D WITH_BENT_NORMAL, WITH_CONE: a kernel's last arguments and last line are
+//   ... PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
+//   STORE_OPEN_DIRECTIONS(directions, receiver)
 #ifndef GLOAM_BENT_NORMAL_H
 #define GLOAM_BENT_NORMAL_H
 
-#include "shared/load.h"
-#include "shared/math.h"
+#include "shared/ambient_occlusion.h"
+
+#define WITH_OPEN_DIRECTIONS (WITH_BENT_NORMAL || WITH_CONE)
 
 typedef struct {
   real3 sum;
@@ -47,6 +51,32 @@ static inline real3 bent_normal_of(OpenDirections d, real3 normal) {
 static inline real cone_of(OpenDirections d) {
   const real length = sqrt(dot3(d.sum, d.sum)), cosine = 2 * length / larger(d.weight, (real)(1e-12f)) - 1;
   return choose(d.weight > (scalar)1e-6f, smaller(larger(cosine, (real)(0)), (real)(1)), (real)(1));
+}
+
+#if WITH_BENT_NORMAL
+#define BENT_NORMAL_ARGUMENTS , PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
+#define STORE_BENT_NORMAL(d, r) store_bent_normal(d, r, bent_normal_x, bent_normal_y, bent_normal_z);
+#else
+#define BENT_NORMAL_ARGUMENTS
+#define STORE_BENT_NORMAL(d, r)
+#endif
+#if WITH_CONE
+#define CONE_ARGUMENT , PLANE_OUT cone
+#define STORE_CONE(d, r) store(choose((r).point.background, (real)(0), cone_of(d)), cone, (r).here);
+#else
+#define CONE_ARGUMENT
+#define STORE_CONE(d, r)
+#endif
+#define OPEN_DIRECTIONS_ARGUMENTS BENT_NORMAL_ARGUMENTS CONE_ARGUMENT
+#define STORE_OPEN_DIRECTIONS(d, r) STORE_BENT_NORMAL(d, r) STORE_CONE(d, r)
+
+// Zero on background.
+static inline void store_bent_normal(OpenDirections d, Receiver r, PLANE_OUT x, PLANE_OUT y, PLANE_OUT z) {
+  const real3 bent = bent_normal_of(d, r.normal);
+  const real there = choose(r.point.background, (real)(0), (real)(1));
+  store(bent.x * there, x, r.here);
+  store(bent.y * there, y, r.here);
+  store(bent.z * there, z, r.here);
 }
 
 #endif

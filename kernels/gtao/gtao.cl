@@ -134,7 +134,7 @@ static inline real covered_share(Slice slice, Side* right, Side* left) {
 #endif
 }
 
-#if WITH_BENT_NORMAL || WITH_CONE
+#if WITH_OPEN_DIRECTIONS
 #define BENT_STEPS 32
 // Takes away the closed directions on one side, by angle from the line to the eye.
 static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
@@ -173,7 +173,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     Side right = side_of(slice, search, (real)(1)), left = side_of(slice, search, (real)(-1));
     search_slice(frame, params, occluders, search, slice, within, &right, &left);
     const real share = larger(1 - covered_share(slice, &right, &left), (real)(0));
-#if WITH_BENT_NORMAL || WITH_CONE
+#if WITH_OPEN_DIRECTIONS
     take_closed_side(directions, search, slice, right, (real)(1));
     take_closed_side(directions, search, slice, left, (real)(-1));
 #endif
@@ -185,16 +185,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
 }
 
 kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw
-#if WITH_BENT_NORMAL
-                          ,
-                          PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
-#endif
-#if WITH_CONE
-                          ,
-                          PLANE_OUT cone
-#endif
-) {
+                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
   OCCLUDERS_FROM(depth)
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   OpenDirections directions = whole_hemisphere(r.normal);
@@ -212,20 +203,9 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
     search.thickness = 0;
 #endif
     // Along a slice that is not square to the view the radius reaches further on the screen.
-    Reach widest = r.reach;
-    widest.pixels_x *= search.surface.length;
-    widest.pixels_y *= search.surface.length;
+    const Reach widest = longer(r.reach, search.surface.length);
     LOOK_AROUND(open, frame, r, widest, open_share(frame, params, occluders, search, within, &directions))
   }
   store_open(open, r, ao_raw);
-#if WITH_BENT_NORMAL
-  const real3 bent = bent_normal_of(directions, r.normal);
-  const real there = choose(r.point.background, (real)(0), (real)(1));
-  store(bent.x * there, bent_normal_x, r.here);
-  store(bent.y * there, bent_normal_y, r.here);
-  store(bent.z * there, bent_normal_z, r.here);
-#endif
-#if WITH_CONE
-  store(choose(r.point.background, (real)(0), cone_of(directions)), cone, r.here);
-#endif
+  STORE_OPEN_DIRECTIONS(directions, r)
 }

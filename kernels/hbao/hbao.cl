@@ -46,7 +46,7 @@ static inline __attribute__((always_inline)) void sweep(Frame frame, global cons
   }
 }
 
-#if WITH_BENT_NORMAL || WITH_CONE
+#if WITH_OPEN_DIRECTIONS
 // Takes away the closed part of the wedge about a direction of the fan. Directions are even on the screen, so the wedge is
 // as wide as their turn about the normal is for one on the screen.
 static inline void take_closed_direction(OpenDirections* open, Receiver r, Surface surface, Fan fan, Horizon horizon,
@@ -70,7 +70,7 @@ static inline void take_closed_direction(OpenDirections* open, Receiver r, Surfa
 static inline __attribute__((always_inline)) real taken_around(Frame frame, global const float* occluders, Receiver r,
                                                                Fan fan, scalar lowest, int within,
                                                                OpenDirections* directions) {
-#if WITH_BENT_NORMAL || WITH_CONE
+#if WITH_OPEN_DIRECTIONS
   const Surface surface = surface_at(r.point, r.normal);
 #endif
   real taken = 0;
@@ -78,7 +78,7 @@ static inline __attribute__((always_inline)) real taken_around(Frame frame, glob
     Horizon horizon;
     sweep(frame, occluders, r, fan, lowest, within, &horizon);
     taken += horizon.taken;
-#if WITH_BENT_NORMAL || WITH_CONE
+#if WITH_OPEN_DIRECTIONS
     take_closed_direction(directions, r, surface, fan, horizon, lowest);
 #endif
     turn(&fan);
@@ -98,16 +98,7 @@ static inline scalar lowest_height(HbaoParams params) {
 }
 
 kernel void hbao_estimate(Frame frame, HbaoParams params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw
-#if WITH_BENT_NORMAL
-                          ,
-                          PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
-#endif
-#if WITH_CONE
-                          ,
-                          PLANE_OUT cone
-#endif
-) {
+                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
   OCCLUDERS_FROM(depth)
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   OpenDirections directions = whole_hemisphere(r.normal);
@@ -118,14 +109,5 @@ kernel void hbao_estimate(Frame frame, HbaoParams params, PLANE depth, PLANE nor
     LOOK_AROUND(taken, frame, r, r.reach, taken_around(frame, occluders, r, fan, lowest, within, &directions))
   }
   store_open(1 - taken * (scalar)(1.0f / DIRECTIONS), r, ao_raw);
-#if WITH_BENT_NORMAL
-  const real3 bent = bent_normal_of(directions, r.normal);
-  const real there = choose(r.point.background, (real)(0), (real)(1));
-  store(bent.x * there, bent_normal_x, r.here);
-  store(bent.y * there, bent_normal_y, r.here);
-  store(bent.z * there, bent_normal_z, r.here);
-#endif
-#if WITH_CONE
-  store(choose(r.point.background, (real)(0), cone_of(directions)), cone, r.here);
-#endif
+  STORE_OPEN_DIRECTIONS(directions, r)
 }

@@ -8,10 +8,8 @@
 #include "shared/ambient_occlusion.h"
 #include "shared/slice.h"
 
-// From point to point: cosine and sine of the golden angle; sqrt(3) - 1, times 2^32. Of the pairs of irrational numbers
-// tried, the one with the least error over random half spaces, for 8 to 1024 points.
-#define GOLDEN_COSINE ((scalar)-0.7373688780783197)
-#define GOLDEN_SINE ((scalar)0.6754902942615238)
+// From point to point: sqrt(3) - 1, times 2^32. Of the irrational numbers tried beside the golden angle, the one with the
+// least error over random half spaces, for 8 to 1024 points.
 #define DISTANCE_STEP 0xbb67ae85u
 
 // Three vectors, of which points are made: unit and at right angles in space, or what the screen makes of those.
@@ -51,29 +49,6 @@ static inline Ball ball_of(real3 axis, scalar inner, Noise noise) {
   return ball;
 }
 
-// The next two are off by a little, which moves a point and is no error of what is found there; they have the same bits
-// everywhere. A guess from the exponent, then a step or two (Moroz et al. 2021).
-#define bits_of(x) JOIN(as_, N_LANES(int))(x)
-#define of_bits(i) JOIN(as_, N_LANES(float))(i)
-
-// For 0 to 1: relative error below 6e-5.
-static inline real cube_root(real u) {
-  const stored x = to_stored(u);
-  const integer third = to_integer(JOIN(convert_, N_LANES(float))(bits_of(x)) * 0.33333334f);
-  const stored guess = of_bits((integer)0x548c2b4b - third);  // of 1 / cube root
-  const stored c = x * guess * guess * guess;
-  const stored inverse = guess * (1.752319676f - c * (1.2509524245f - 0.5093818292f * c));
-  return to_real(x * inverse * inverse);
-}
-
-// 1 / q for q > 0: relative error below 2e-4.
-static inline real inverse_of(real q) {
-  const stored x = to_stored(q);
-  stored inverse = of_bits((integer)0x7ef311c7 - bits_of(x));
-  inverse *= 2.0f - x * inverse;
-  return to_real(inverse * (2.0f - x * inverse));
-}
-
 // Point k of SAMPLES, to be asked for in order.
 static inline BallPoint next_point(Ball* ball, int k) {
   BallPoint p;
@@ -83,10 +58,8 @@ static inline BallPoint next_point(Ball* ball, int k) {
   p.y = sine * ball->sine;
   const real sum = ball->shift + (scalar)(((uint)k * DISTANCE_STEP) >> 8) * (scalar)0x1p-24f;
   const real fraction = choose(sum >= 1, sum - 1, sum);
-  p.distance = cube_root(ball->inner_cubed + (1 - ball->inner_cubed) * fraction);
-  const scalar next = ball->cosine * GOLDEN_COSINE - ball->sine * GOLDEN_SINE;
-  ball->sine = ball->sine * GOLDEN_COSINE + ball->cosine * GOLDEN_SINE;
-  ball->cosine = next;
+  p.distance = rough_cube_root(ball->inner_cubed + (1 - ball->inner_cubed) * fraction);
+  turn_golden(&ball->cosine, &ball->sine);
   return p;
 }
 
@@ -127,19 +100,18 @@ static inline BallOnScreen ball_on_screen(Frame f, Anchor a, Reach reach, Axes a
 // Where the screen shows a point, in pixels from the pixel.
 static inline void project(BallOnScreen b, BallPoint p, integer* dx, integer* dy) {
   const real3 v = direction_of(p, b.axes);
-  const real scale = p.distance * inverse_of(1 - p.distance * v.z);
+  const real scale = p.distance * rough_inverse(1 - p.distance * v.z);
   *dx = nearest(v.x * scale);
   *dy = nearest(v.y * scale);
 }
 
 // What bounds the offsets of all points; a little more for the axes' rounding.
 static inline Reach reach_of_ball(BallOnScreen b, Surface s) {
-  const real factor = (scalar)1.01 * s.length / (1 - b.nearer);
-  Reach widest;
-  widest.pixels_x = b.pixels_x * factor;
-  widest.pixels_y = b.pixels_y * factor;
-  widest.inverse_square = 0;
-  return widest;
+  Reach reach;
+  reach.pixels_x = b.pixels_x;
+  reach.pixels_y = b.pixels_y;
+  reach.inverse_square = 0;
+  return longer(reach, (scalar)1.01 * s.length / (1 - b.nearer));
 }
 
 #endif

@@ -35,24 +35,13 @@ static inline Disk disk_of(Frame f, Anchor a, Surface s, Reach reach, Noise nois
   return d;
 }
 
-// For 0 to 1: relative error below 7e-4, which moves a point and is no error of what is found there; the same bits
-// everywhere. A guess from the exponent and one step (Lomont 2003; constants of Kadlec 2010).
-static inline real square_root(real u) {
-  const stored x = to_stored(u);
-  const stored guess = JOIN(as_, N_LANES(float))((integer)0x5f1ffff9 - (JOIN(as_, N_LANES(int))(x) >> 1));
-  return to_real(x * guess * (0.703952253f * (2.38924456f - x * guess * guess)));
-}
-
 // Offset of point k in pixels, to be asked for in order, and its distance in radii and the square of that.
 static inline void next_offset(Disk* d, int k, integer* dx, integer* dy, real* distance, real* square) {
   *square = (d->shift + k) * ((scalar)1 / SAMPLES);
-  *distance = square_root(*square);
+  *distance = rough_square_root(*square);
   *dx = nearest(*distance * (d->cosine * d->right_x + d->sine * d->up_x));
   *dy = nearest(*distance * (d->cosine * d->right_y + d->sine * d->up_y));
-  // The golden angle.
-  const scalar next = d->cosine * (scalar)-0.7373688780783197 - d->sine * (scalar)0.6754902942615238;
-  d->sine = d->sine * (scalar)-0.7373688780783197 + d->cosine * (scalar)0.6754902942615238;
-  d->cosine = next;
+  turn_golden(&d->cosine, &d->sine);
 }
 
 #endif

@@ -48,6 +48,8 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 #define to_integer JOIN(convert_, N_LANES(int))
 #define to_natural JOIN(convert_, N_LANES(uint))
 #define to_stored JOIN(convert_, N_LANES(float))
+#define as_integer JOIN(as_, N_LANES(int))  // the bits of `stored`, and back
+#define as_stored JOIN(as_, N_LANES(float))
 
 // A comparison of integers as a mask for reals.
 #if LANES == 1

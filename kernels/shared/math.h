@@ -52,7 +52,7 @@ static inline real twice_inverse_sqrt(real x) {
 #ifdef X86_INVERSE_SQRT
   const real y = X86_INVERSE_SQRT(x);
 #else
-  real y = JOIN(as_, N_LANES(float))((integer)0x5F1FFFF9 - (JOIN(as_, N_LANES(int))(x) >> 1));
+  real y = as_stored((integer)0x5F1FFFF9 - (as_integer(x) >> 1));
   y *= 0.703952253f * (2.38924456f - x * y * y);
 #endif
   return y * multiply_add(-x * y, y, (real)(3));
@@ -71,22 +71,33 @@ static inline real quick_inverse(real x) {
 #endif
 }
 
-// The same to 7e-5 where that is fast.
-static inline real rough_inverse(real x) {
-#if defined(MATH_FAST) && defined(X86_INVERSE) && !defined(REAL_DOUBLE)
-  return X86_INVERSE(x);
-#else
-  return (scalar)1 / x;
-#endif
+// The rough functions are off by a little in every mode, which may move a sample and must be no error of what is found
+// there; they have the same bits everywhere. A guess from the exponent, then a step or two (Lomont 2003; Moroz et al.
+// 2021; constants of Kadlec 2010).
+
+// For 0 to 1: relative error below 7e-4.
+static inline real rough_square_root(real u) {
+  const stored x = to_stored(u);
+  const stored guess = as_stored((integer)0x5f1ffff9 - (as_integer(x) >> 1));
+  return to_real(x * guess * (0.703952253f * (2.38924456f - x * guess * guess)));
 }
 
-// 1 / sqrt(x) for x > 0. Fast: relative error below 7e-5 on lanes of AVX-512, 4e-4 on other lanes of x86, 7e-7 elsewhere.
-static inline real rough_inverse_sqrt(real x) {
-#if defined(MATH_FAST) && defined(X86_INVERSE_SQRT) && !defined(REAL_DOUBLE)
-  return X86_INVERSE_SQRT(x);
-#else
-  return inverse_sqrt(x);
-#endif
+// For 0 to 1: relative error below 6e-5.
+static inline real rough_cube_root(real u) {
+  const stored x = to_stored(u);
+  const integer third = to_integer(to_stored(as_integer(x)) * 0.33333334f);
+  const stored guess = as_stored((integer)0x548c2b4b - third);  // of 1 / cube root
+  const stored c = x * guess * guess * guess;
+  const stored inverse = guess * (1.752319676f - c * (1.2509524245f - 0.5093818292f * c));
+  return to_real(x * inverse * inverse);
+}
+
+// 1 / q for q > 0: relative error below 2e-4.
+static inline real rough_inverse(real q) {
+  const stored x = to_stored(q);
+  stored inverse = as_stored((integer)0x7ef311c7 - as_integer(x));
+  inverse *= 2.0f - x * inverse;
+  return to_real(inverse * (2.0f - x * inverse));
 }
 
 static inline real3 normalise3(real3 v) { return scale3(v, inverse_sqrt(dot3(v, v))); }

@@ -1,26 +1,13 @@
-// Where to look, and with which random numbers: a counter-based hash of (pixel, sample, seed), so that the same seed
-// gives the same image on every device and lane width.
+// Where to look, and with which noise from pixel to pixel: the same seed gives the same image on every device and lane
+// width.
 #ifndef GLOAM_SAMPLE_H
 #define GLOAM_SAMPLE_H
 
 #include "shared/camera.h"
 #include "shared/math.h"
 
-// lowbias32 (Wellons 2018).
-static inline natural hash(natural h) {
-  h ^= h >> 16;
-  h *= 0x7feb352du;
-  h ^= h >> 15;
-  h *= 0x846ca68bu;
-  return h ^ (h >> 16);
-}
-
-static inline natural pixel_hash(integer x, int y, int seed) {
-  return hash(to_natural(x) + hash((natural)((uint)y) + hash((natural)((uint)seed))));
-}
-
-// 24 bits of a hash as 0 <= u < 1: exact in float.
-static inline real unit_random(natural h) { return to_real(h >> 8) * (scalar)0x1p-24; }
+// The upper 24 bits as 0 <= u < 1: exact in float.
+static inline real unit_random(natural bits) { return to_real(bits >> 8) * (scalar)0x1p-24; }
 
 // Two numbers for each pixel, 0 <= each < 1, spread evenly over any few neighbouring pixels, so that a small filter sees all
 // directions: rank-1 lattices. `turn` has the steps of interleaved gradient noise (Jimenez 2014), `shift` those of the R2
@@ -43,6 +30,14 @@ static inline Noise noise_at(integer x, int y, int seed) {
   return n;
 }
 
+// Turns by the golden angle, from point to point of a Fibonacci spiral.
+static inline void turn_golden(scalar* cosine, scalar* sine) {
+  const scalar step_cosine = (scalar)-0.7373688780783197, step_sine = (scalar)0.6754902942615238;
+  const scalar next = *cosine * step_cosine - *sine * step_sine;
+  *sine = *sine * step_cosine + *cosine * step_sine;
+  *cosine = next;
+}
+
 // How far a radius in scene units reaches on the screen, in pixels of each axis, capped; and in units of the depth.
 typedef struct {
   real pixels_x, pixels_y;
@@ -59,6 +54,12 @@ static inline Reach reach_of(Frame f, Anchor a, scalar radius, scalar most_pixel
   r.pixels_y = smaller(((scalar)radius / f.scale_y) * per_depth, (real)(most_pixels));
   const real inverse = larger(quick_inverse(larger(relative, (real)(1e-18f))), (real)(1e-15f));
   r.inverse_square = inverse * inverse;
+  return r;
+}
+
+static inline Reach longer(Reach r, real factor) {
+  r.pixels_x *= factor;
+  r.pixels_y *= factor;
   return r;
 }
 

@@ -70,7 +70,7 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, g
     real found = occlusion_at(frame, occluders, s, dx, dy, height, within);
     if (OUTSIDE_OPEN) found = choose(counts, found, (real)(0));
     sum += found;
-#if WITH_BENT_NORMAL || WITH_CONE
+#if WITH_OPEN_DIRECTIONS
     add_open(open, direction_of(point, s.ball.axes), 1 - found);
 #endif
   }
@@ -78,16 +78,7 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, g
 }
 
 kernel void ssao_estimate(Frame frame, SsaoParams params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw
-#if WITH_BENT_NORMAL
-                          ,
-                          PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
-#endif
-#if WITH_CONE
-                          ,
-                          PLANE_OUT cone
-#endif
-) {
+                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
   OCCLUDERS_FROM(depth)
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   OpenDirections open = no_directions();
@@ -98,14 +89,5 @@ kernel void ssao_estimate(Frame frame, SsaoParams params, PLANE depth, PLANE nor
     LOOK_AROUND(occluded, frame, r, widest, occluded_points(frame, occluders, s, within, &open))
   }
   store_open(1 - occluded * ((scalar)1 / SAMPLES), r, ao_raw);
-#if WITH_BENT_NORMAL
-  const real3 bent = bent_normal_of(open, r.normal);
-  const real there = choose(r.point.background, (real)(0), (real)(1));
-  store(bent.x * there, bent_normal_x, r.here);
-  store(bent.y * there, bent_normal_y, r.here);
-  store(bent.z * there, bent_normal_z, r.here);
-#endif
-#if WITH_CONE
-  store(choose(r.point.background, (real)(0), cone_of(open)), cone, r.here);
-#endif
+  STORE_OPEN_DIRECTIONS(open, r)
 }

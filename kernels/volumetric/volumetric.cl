@@ -88,9 +88,7 @@ kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE dept
     const Surface surface = surface_at(r.point, r.normal);
     const Search s = search_of(frame, params, r, surface);
     // The disk is not square to the image's depth: it reaches further on the screen.
-    Reach widest = r.reach;
-    widest.pixels_x *= surface.length;
-    widest.pixels_y *= surface.length;
+    const Reach widest = longer(r.reach, surface.length);
     LOOK_AROUND(occluded, frame, r, widest, occluded_share(frame, occluders, s, within))
   }
   store_open(1 - occluded, r, ao_raw);
