@@ -52,12 +52,26 @@ Json document_of(const Ladder& l) {
           {"t5", number(l.t5)}};
 }
 
+Json document_of(const AgainstNaive& part) {
+  return {{"part", part.part},
+          {"ms", milliseconds(part.ms)},
+          {"naive_ms", milliseconds(part.naive_ms)},
+          {"ratio", part.ratio},
+          {"mean_difference", number(part.mean_difference)},
+          {"max_difference", number(part.greatest_difference)}};
+}
+
+std::optional<double> ratio_to_naive(const Row& row) {
+  return row.against_naive.empty() ? std::optional<double>() : row.against_naive.front().ratio;
+}
+
 Json document_of(const Row& row) {
   const Variation& v = row.variation;
-  Json passes = Json::array(), spent_on = Json::array();
+  Json passes = Json::array(), spent_on = Json::array(), naive = Json::array();
   for (const TimedPlan::Pass& pass : row.timed->passes())
     passes.push_back({{"name", pass.name}, {"ms", milliseconds(pass.ms)}});
   for (const Share& share : row.spent_on) spent_on.push_back({{"what", share.what}, {"share", share.share}});
+  for (const AgainstNaive& part : row.against_naive) naive.push_back(document_of(part));
   return {{"technique", v.technique->name},
           {"preset", v.name()},
           {"variant", v.variant},
@@ -76,10 +90,12 @@ Json document_of(const Row& row) {
           {"own_floor_ms", median(row.own_floor_ms)},
           {"ratio_to_own_floor", number(row.to_own_floor)},
           {"spent_on", spent_on},
-          {"ratio_to_naive", number(row.to_naive)},
+          {"ratio_to_naive", number(ratio_to_naive(row))},
+          {"naive", naive},
           {"ratio_to_native", number(row.to_native)},
           {"ratio_to_gather_floor", number(row.to_gather_floor)},
           {"ratio_to_copy_floor", number(row.to_copy_floor)},
+          {"copy_floor_ms", number(row.copy_floor_ms)},
           {"ratio_to_hbao_plus", number(row.to_hbao_plus)},
           {"rmse_to_truth", number(row.errors.rmse)},
           {"bias", number(row.errors.bias)},

@@ -48,13 +48,13 @@ GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& plane
   kernel_.setArg(1, params.radius);
   kernel_.setArg(2, params.max_reach);
   kernel_.setArg(3, planes.depth);
-  kernel_.setArg(4, planes.result);
+  kernel_.setArg(4, planes.result().buffer);
 }
 
 CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)
     : Floor(device, frame, "shared/load.h", copy_floor_cl, "copy_floor") {
   kernel_.setArg(1, planes.depth);
-  kernel_.setArg(2, planes.result);
+  kernel_.setArg(2, planes.result().buffer);
 }
 
 }  // namespace gloam::bench

@@ -72,9 +72,8 @@ class Arena {
   }
 
   void add_naive(const std::string& name, Counts counts) {
-    auto naive = std::make_shared<Naive>(device_, frame_, planes_, params_, counts);
-    naive->run();
-    check(name, planes_.download());
+    auto naive = std::make_shared<Naive>(plan_, frame_, planes_, device_, counts);
+    check(name, naive->result(0));
     contenders_.push_back({name, [naive] { return naive->run(); }});
   }
 

@@ -1,5 +1,6 @@
 #include "measures.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "timing.h"
@@ -56,6 +57,16 @@ double mean_difference(const Channel& a, const Channel& b) {
     for (int x = 0; x < layout.width; ++x) sum += std::abs(double(a.at(x, y)) - double(b.at(x, y)));
   }
   return sum / (double(layout.width) * layout.height);
+}
+
+double greatest_difference(const Channel& a, const Channel& b) {
+  const Layout& layout = a.layout();
+  double greatest = 0;
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x)
+      greatest = std::max(greatest, std::abs(double(a.at(x, y)) - double(b.at(x, y))));
+  }
+  return greatest;
 }
 
 double median_depth(const View& view) {

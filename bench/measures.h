@@ -23,6 +23,9 @@ double bias(const Image& test, const Image& truth, const std::vector<Mask>& fore
 /// Mean absolute difference over all pixels.
 double mean_difference(const Channel& a, const Channel& b);
 
+/// The greatest absolute difference of all pixels.
+double greatest_difference(const Channel& a, const Channel& b);
+
 /// The median depth of a view's surfaces, scene units; 0 where there are none.
 double median_depth(const View& view);
 

@@ -1,22 +1,62 @@
-// The naive baseline: HBAO+ as a plain port of a GPU kernel, one pixel per work-item.
+// The naive baselines: techniques as plain ports of GPU kernels, one pixel per work-item.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "estimate.h"
+#include "gloam/plan.h"
 #include "opencl_bench.h"
+#include "timing.h"
 
 namespace gloam::bench {
 
 /// Loop counts as arguments, or known to the compiler.
 enum class Counts { at_run_time, unrolled };
 
+/// A naive kernel, and what of a technique it computes.
+struct NaiveKernel {
+  std::string technique;
+  const char* text;  ///< comes after naive.cl
+  const char* kernel;
+  bool filters = false;  ///< reads the plane that the pass before has made
+  int samples = 0;       ///< per pixel with which it is compared; 0: any
+  double tolerance = 0;  ///< of an estimate: mean absolute difference from gloam above which it computes something else
+  std::vector<std::pair<std::string, std::string>> knows = {};  ///< settings that must have these values
+};
+
+const std::vector<NaiveKernel>& naive_kernels();
+
+/// Null where there is none, or none that computes the same with the technique's settings.
+const NaiveKernel* naive_kernel_for(const PlannedPass& planned);
+
+/// Whether there is one for every pass of a plan.
+bool has_naive(const Plan& plan);
+
+/// A plan's passes as naive kernels, one after another, each of which may read the plane made by the one before.
 class Naive {
  public:
-  Naive(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params, Counts counts);
-  double run();  ///< milliseconds; the result is in the planes
+  /// For `has_naive(plan)`, and one view with a perspective camera. Compiles and runs it once. Device and planes must
+  /// outlive it.
+  Naive(const Plan& plan, const Frame& frame, DevicePlanes& planes, Device& device,
+        Counts counts = Counts::at_run_time);
+
+  double run();  ///< milliseconds, the sum over passes
+
+  size_t passes() const { return passes_.size(); }
+  const Series& ms(size_t pass) const { return passes_[pass].ms; }  ///< one per call of `run`
+  /// What a pass has made, until another naive baseline runs on the same planes.
+  const Channel& result(size_t pass) { return planes_.result(pass).download(); }
 
  private:
+  struct Pass {
+    cl::Kernel kernel;
+    Series ms;
+  };
   Device& device_;
-  cl::Kernel kernel_;
+  DevicePlanes& planes_;
+  std::vector<Pass> passes_;
   cl::NDRange global_;
 };
 

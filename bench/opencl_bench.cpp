@@ -15,22 +15,30 @@ cl::Buffer upload(Device::Impl& device, const Channel& channel) {
 
 }  // namespace
 
-DevicePlanes::DevicePlanes(Device& device, const Frame& frame) : device_(device.impl()) {
-  const View& view = frame.views[0];
-  const Plane &depth_plane = view.planes.at("depth"), &normal = view.planes.at("normal");
-  depth = upload(device_, depth_plane.channels[0]);
-  normal_x = upload(device_, normal.channels[0]);
-  normal_y = upload(device_, normal.channels[1]);
-  normal_z = upload(device_, normal.channels[2]);
-  host_ = Channel(depth_plane.channels[0].layout(), 0.0f);
+ResultPlane::ResultPlane(Device& device, const Layout& layout) : device_(&device.impl()), host_(layout, 0.0f) {
   const cl_mem_flags flags =
-      CL_MEM_READ_WRITE | (device_.info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
-  result = cl::Buffer(device_.context, flags, host_.layout().bytes(), host_.data());
+      CL_MEM_READ_WRITE | (device_->info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
+  buffer = cl::Buffer(device_->context, flags, host_.layout().bytes(), host_.data());
 }
 
-const Channel& DevicePlanes::download() {
-  device_.queue.enqueueReadBuffer(result, CL_TRUE, 0, host_.layout().bytes(), host_.data());
+const Channel& ResultPlane::download() {
+  device_->queue.enqueueReadBuffer(buffer, CL_TRUE, 0, host_.layout().bytes(), host_.data());
   return host_;
+}
+
+DevicePlanes::DevicePlanes(Device& device, const Frame& frame)
+    : device_(device), layout_(frame.views[0].planes.at("depth").channels[0].layout()) {
+  const View& view = frame.views[0];
+  const Plane& normal = view.planes.at("normal");
+  depth = upload(device.impl(), view.planes.at("depth").channels[0]);
+  normal_x = upload(device.impl(), normal.channels[0]);
+  normal_y = upload(device.impl(), normal.channels[1]);
+  normal_z = upload(device.impl(), normal.channels[2]);
+}
+
+ResultPlane& DevicePlanes::result(size_t number) {
+  while (results_.size() <= number) results_.emplace_back(device_, layout_);
+  return results_[number];
 }
 
 cl::Kernel build(Device& device, const std::string& text, const std::string& options, const char* kernel) {

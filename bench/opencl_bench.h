@@ -1,6 +1,7 @@
 // The OpenCL side of the baselines: planes on the device, a kernel with its arguments, and its time.
 #pragma once
 
+#include <deque>
 #include <string>
 
 #include "device_impl.h"
@@ -10,20 +11,39 @@ namespace gloam::bench {
 
 /// Texts of bench/*.cl.
 extern const char* const naive_cl;
+extern const char* const naive_bilateral_cl;
+extern const char* const naive_gtao_cl;
+extern const char* const naive_hbao_plus_cl;
 extern const char* const gather_floor_cl;
 extern const char* const copy_floor_cl;
 
-/// What HBAO+ reads, on the device as gloam::run puts it there, and room for one plane of results.
-class DevicePlanes {
+/// Room on the device for one plane that is computed.
+class ResultPlane {
  public:
-  DevicePlanes(Device& device, const Frame& frame);
-  cl::Buffer depth, normal_x, normal_y, normal_z, result;
-  /// Takes the result to the host. It stays valid until the next launch.
+  ResultPlane(Device& device, const Layout& layout);
+  /// Takes it to the host. It stays valid until the next launch.
   const Channel& download();
 
  private:
-  Device::Impl& device_;
-  Channel host_;
+  Device::Impl* device_;
+  Channel host_;  // outlives the buffer, whose memory it may be
+
+ public:
+  cl::Buffer buffer;
+};
+
+/// What ambient occlusion reads, on the device as gloam::run puts it there, and room for results.
+class DevicePlanes {
+ public:
+  DevicePlanes(Device& device, const Frame& frame);
+  cl::Buffer depth, normal_x, normal_y, normal_z;
+  /// Made when first asked for, and shared by all that ask for the same number.
+  ResultPlane& result(size_t number = 0);
+
+ private:
+  Device& device_;
+  Layout layout_;
+  std::deque<ResultPlane> results_;
 };
 
 /// Builds a kernel from text. Throws Error with the compiler's log.

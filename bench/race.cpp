@@ -11,11 +11,11 @@
 namespace gloam::bench {
 namespace {
 
-/// Above this mean absolute difference a baseline computes something else than gloam.
-constexpr double baseline_tolerance = 1e-4;
+/// Above this mean absolute difference the native loop computes something else than gloam.
+constexpr double native_tolerance = 1e-4;
 
-/// What the baselines compute, and the preset with their number of samples.
-constexpr const char *reference_technique = "hbao+", *reference_pass = "hbao+/estimate", *reference_preset = "medium";
+/// What the native loop computes, and the preset with its number of samples.
+constexpr const char *reference_technique = "hbao+", *reference_preset = "medium";
 
 /// So many rows share one run of what all are compared with, so that the two of a ratio are close in time.
 constexpr size_t group_size = 4;
@@ -30,7 +30,7 @@ Frame depth_and_normals(const Frame& frame, Device& device) {
   return out;
 }
 
-/// HBAO+ as the baselines compute it; null where a plan does otherwise.
+/// HBAO+ as the native loop computes it; null where a plan does otherwise.
 const ParameterValues* as_baseline(const Plan& plan) {
   const ParameterValues* values = values_of(plan, reference_technique);
   if (!values) return nullptr;
@@ -40,19 +40,25 @@ const ParameterValues* as_baseline(const Plan& plan) {
   return same ? values : nullptr;
 }
 
+std::string differs(const char* baseline, const std::string& technique, double difference) {
+  return fmt::format("the {} differs from {} by {:.2g} on average: no ratio to it", baseline, technique, difference);
+}
+
 bool is_own(const TimedPlan& timed, size_t pass) {
   const std::vector<PlannedPass>& passes = timed.plan().passes;
   return passes[pass].technique->name == timed.plan().technique;
+}
+
+void add(Series& sum, const Series& ms) {
+  sum.resize(ms.size());
+  for (size_t round = 0; round < ms.size(); ++round) sum[round] += ms[round];
 }
 
 /// A technique's own passes, without what prepares, filters or resamples: their time in each round.
 Series own_passes(const TimedPlan& timed) {
   Series sum;
   for (size_t i = 0; i < timed.passes().size(); ++i) {
-    if (!is_own(timed, i)) continue;
-    const Series& ms = timed.passes()[i].ms;
-    sum.resize(ms.size());
-    for (size_t round = 0; round < ms.size(); ++round) sum[round] += ms[round];
+    if (is_own(timed, i)) add(sum, timed.passes()[i].ms);
   }
   return sum;
 }
@@ -82,32 +88,67 @@ std::vector<Share> spent_on(const Racer& racer) {
   return shares;
 }
 
+/// Whether a racer is run as the baselines are: at full resolution, in float, fast.
+bool runs_as_baseline(const Variation& v) {
+  return v.resolution == 1 && v.math == Math::fast && v.real == Real::float32 && v.storage == Storage::float32;
+}
+
+/// Whether a racer computes what the native loop computes, as it does.
+bool is_native(const Racer& racer) {
+  const Variation& v = racer.variation;
+  return v.technique->name == reference_technique && v.settings.empty() && runs_as_baseline(v) &&
+         as_baseline(racer.timed->plan());
+}
+
+/// Whether all of a racer's own passes have naive kernels. Of a sweep over anything but numbers of samples nothing has:
+/// they take long.
+bool has_naive_estimate(const Racer& racer) {
+  const TimedPlan& timed = *racer.timed;
+  for (const auto& [name, value] : racer.variation.settings) {
+    if (name != "directions" && name != "steps") return false;
+  }
+  for (size_t i = 0; i < timed.passes().size(); ++i) {
+    if (is_own(timed, i) && !naive_kernel_for(timed.plan().passes[i])) return false;
+  }
+  return runs_as_baseline(racer.variation);
+}
+
+size_t own_passes_in(const Plan& plan) {
+  return size_t(std::count_if(plan.passes.begin(), plan.passes.end(),
+                              [&](const PlannedPass& planned) { return planned.technique->name == plan.technique; }));
+}
+
+/// A part of what the naive kernels and gloam make, with how much they differ there.
+AgainstNaive part_of(const char* name, const Channel& naive, const Plan& plan, const Frame& frame, Device& device) {
+  const RunResult run = gloam::run(plan, frame, device);
+  const Channel& ours = run.frame.views[0].planes.at(plan.outputs.front()).channels[0];
+  return {.part = name,
+          .mean_difference = mean_difference(naive, ours),
+          .greatest_difference = greatest_difference(naive, ours)};
+}
+
 }  // namespace
 
-/// Whether a racer computes what the baselines compute, as they do.
-bool is_baseline(const Racer& racer) {
-  const Variation& v = racer.variation;
-  return v.technique->name == reference_technique && v.settings.empty() && v.resolution == 1 && v.math == Math::fast &&
-         v.real == Real::float32 && v.storage == Storage::float32 && as_baseline(racer.timed->plan());
-}
+struct Race::Plain {
+  Plain(const Frame& given, Device& device) : frame(depth_and_normals(given, device)), planes(device, frame) {}
+  Frame frame;
+  DevicePlanes planes;
+};
 
 /// What HBAO+ with 8 x 4 samples is measured against, and floors of the device.
 class Race::Baselines {
  public:
-  /// `estimate`: what gloam makes; a baseline that makes something else takes no part.
-  Baselines(Device& device, const Frame& frame, const HbaoPlusParams& params, const Channel& estimate,
+  /// `estimate`: what gloam makes; a loop that makes something else takes no part.
+  Baselines(Device& device, Plain& plain, const HbaoPlusParams& params, const Channel& estimate,
             std::vector<std::string>& notes)
-      : notes_(notes),
-        planes_(device, frame),
-        gathers_(device, frame, planes_, params),
-        copy_(device, frame, planes_),
-        naive_(device, frame, planes_, params, Counts::at_run_time),
-        native_(frame, params, widest_instructions()) {
-    if (frame.views[0].camera->orthographic) return;
-    naive_.run();
-    has_naive_ = fits("naive", planes_.download(), estimate);
+      : gathers_(device, plain.frame, plain.planes, params),
+        copy_(device, plain.frame, plain.planes),
+        native_(plain.frame, params, widest_instructions()) {
+    if (plain.frame.views[0].camera->orthographic) return;
     native_.run();
-    has_native_ = fits("native", native_.result(), estimate);
+    const double difference = mean_difference(native_.result(), estimate);
+    has_native_ = difference <= native_tolerance;
+    if (!has_native_) notes.push_back(differs("native loop", reference_technique, difference));
   }
 
   std::vector<Contender> floors() {
@@ -115,34 +156,26 @@ class Race::Baselines {
   }
 
   std::vector<Contender> loops() {
-    std::vector<Contender> list;
-    if (has_naive_) list.push_back({"naive", [this] { return naive_.run(); }});
-    if (has_native_) list.push_back({"native", [this] { return native_.run(); }});
-    return list;
+    if (!has_native_) return {};
+    return {{"native", [this] { return native_.run(); }}};
   }
 
  private:
-  bool fits(const char* name, const Channel& ao, const Channel& estimate) {
-    const double difference = mean_difference(ao, estimate);
-    if (difference <= baseline_tolerance) return true;
-    notes_.push_back(fmt::format("the {} loop differs from {} by {:.2g} on average: no ratio to it", name,
-                                 reference_technique, difference));
-    return false;
-  }
-
-  std::vector<std::string>& notes_;
-  DevicePlanes planes_;
   GatherFloor gathers_;
   CopyFloor copy_;
-  Naive naive_;
   Native native_;
-  bool has_naive_ = false, has_native_ = false;
+  bool has_native_ = false;
 };
 
 Race::Race(const Frame& frame, const std::string& holds, double radius, Device& device)
     : frame_(frame), holds_(holds), radius_(radius), device_(device) {}
 
 Race::~Race() = default;
+
+Race::Plain& Race::plain() {
+  if (!plain_) plain_ = std::make_unique<Plain>(frame_, device_);
+  return *plain_;
+}
 
 void Race::enter(Racer& racer) {
   const std::vector<std::string> available = planes_of(frame_);
@@ -156,6 +189,8 @@ void Race::enter(Racer& racer) {
 
 void Race::run(int rounds, const std::function<void(int done, int of)>& progress) {
   enter_reference();
+  naives_.resize(racers_.size());
+  for (size_t i = 0; i < racers_.size(); ++i) enter_naive(i);
   std::vector<Contender> contenders;
   std::vector<size_t> group_of;
   for (size_t first = 0; first < racers_.size(); first += group_size) {
@@ -169,14 +204,15 @@ void Race::run(int rounds, const std::function<void(int done, int of)>& progress
 }
 
 void Race::add_group(size_t first, std::vector<Contender>& contenders) {
-  bool with_baselines = false;
+  bool with_native = false;
   for (size_t i = first; i < std::min(first + group_size, racers_.size()); ++i) {
     contenders.push_back({name_of(i), [timed = racers_[i]->timed.get()] { return timed->run(); }});
     contenders.push_back({"", [timed = racers_[i]->gathers.get()] { return timed->run(); }});
-    with_baselines |= is_baseline(*racers_[i]);
+    if (naives_[i]) contenders.push_back({"", [naive = naives_[i].get()] { return naive->run(); }});
+    with_native |= is_native(*racers_[i]);
   }
   contenders.insert(contenders.end(), common_.begin(), common_.end());
-  if (with_baselines) contenders.insert(contenders.end(), loops_.begin(), loops_.end());
+  if (with_native) contenders.insert(contenders.end(), loops_.begin(), loops_.end());
 }
 
 void Race::enter_reference() {
@@ -195,13 +231,38 @@ void Race::enter_reference() {
 
 void Race::enter_baselines(const HbaoPlusParams& params) {
   if (frame_.views.size() != 1) return;
-  plain_ = depth_and_normals(frame_, device_);
-  const Plan estimate = unfiltered_plan(reference_variation_, planes_of(plain_), holds_);
-  const RunResult result = gloam::run(estimate, plain_, device_);
+  const Frame& frame = plain().frame;
+  const Plan estimate = unfiltered_plan(reference_variation_, planes_of(frame), holds_);
+  const RunResult result = gloam::run(estimate, frame, device_);
   baselines_ = std::make_unique<Baselines>(
-      device_, plain_, params, result.frame.views[0].planes.at(estimate.outputs.front()).channels[0], notes_);
+      device_, plain(), params, result.frame.views[0].planes.at(estimate.outputs.front()).channels[0], notes_);
   common_ = baselines_->floors();
   loops_ = baselines_->loops();
+}
+
+void Race::enter_naive(size_t index) {
+  Racer& racer = *racers_[index];
+  if (frame_.views.size() != 1 || frame_.views[0].camera->orthographic || !has_naive_estimate(racer)) return;
+  const Frame& frame = plain().frame;
+  const std::vector<std::string> available = planes_of(frame);
+  const Plan whole = whole_plan(racer.variation, available, holds_);
+  if (!has_naive(whole)) return;
+  auto naive = std::make_unique<Naive>(whole, frame, plain().planes, device_);
+  std::vector<AgainstNaive> parts;
+  parts.push_back(part_of("estimate", naive->result(own_passes_in(whole) - 1),
+                          unfiltered_plan(racer.variation, available, holds_), frame, device_));
+  if (naive->passes() > own_passes_in(whole)) {
+    parts.push_back({.part = "filter"});
+    parts.push_back(part_of("both", naive->result(naive->passes() - 1), whole, frame, device_));
+  }
+  const double tolerance = naive_kernel_for(whole.passes.front())->tolerance;
+  for (const AgainstNaive& part : parts) {
+    if (!part.mean_difference || *part.mean_difference <= tolerance) continue;
+    notes_.push_back(differs("naive kernel", racer.variation.technique->name, *part.mean_difference));
+    return;
+  }
+  racer.against_naive = std::move(parts);
+  naives_[index] = std::move(naive);
 }
 
 void Race::add_ratios(size_t index) {
@@ -219,11 +280,24 @@ void Race::add_ratios(size_t index) {
   racer.to_gather_floor = ratio_to(racer.ms, "gather floor");
   racer.to_copy_floor = ratio_to(racer.ms, "copy floor");
   racer.to_hbao_plus = ratio_to(racer.ms, reference_technique);
-  if (!is_baseline(racer)) return;
-  for (const TimedPlan::Pass& pass : racer.timed->passes()) {
-    if (pass.name != reference_pass) continue;
-    racer.to_naive = ratio_to(pass.ms, "naive");
-    racer.to_native = ratio_to(pass.ms, "native");
+  if (const auto copy = series.find("copy floor"); copy != series.end()) racer.copy_floor_ms = median(copy->second);
+  if (naives_[index]) add_naive_ratios(index);
+  if (is_native(racer)) racer.to_native = ratio_to(own_passes(*racer.timed), "native");
+}
+
+void Race::add_naive_ratios(size_t index) {
+  Racer& racer = *racers_[index];
+  const Naive& naive = *naives_[index];
+  const std::vector<TimedPlan::Pass>& passes = racer.timed->passes();
+  // The plan may have more passes before, which make normals.
+  const size_t before = passes.size() - naive.passes(), own = own_passes_in(racer.timed->plan());
+  for (AgainstNaive& part : racer.against_naive) {
+    const size_t first = part.part == "filter" ? own : 0, end = part.part == "estimate" ? own : naive.passes();
+    for (size_t i = first; i < end; ++i) {
+      add(part.ms, passes[before + i].ms);
+      add(part.naive_ms, naive.ms(i));
+    }
+    part.ratio = ratio(part.ms, part.naive_ms);
   }
 }
 

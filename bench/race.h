@@ -14,10 +14,21 @@
 
 namespace gloam::bench {
 
+class Naive;
+
 /// A part of a plan's time.
 struct Share {
   std::string what;  ///< "gathers", "arithmetic of the estimate", or a pass: "bilateral/horizontal"
   double share = 0;  ///< of 1
+};
+
+/// A part of a plan, and the naive kernels that compute the same.
+struct AgainstNaive {
+  std::string part;  ///< "estimate", "filter" or "both"
+  Series ms, naive_ms;
+  double ratio = 0;
+  /// Absolute, between what the two have made up to here, mean and greatest over all pixels; none for the filter alone.
+  std::optional<double> mean_difference, greatest_difference;
 };
 
 /// What takes part, and how it did; ratios are its time over the other's, none where the other takes no part.
@@ -26,13 +37,15 @@ struct Racer {
   std::unique_ptr<TimedPlan> timed;
   std::unique_ptr<TimedPlan> gathers;  ///< the same without its filter, adding up what it reads and nothing else
   Series ms, own_floor_ms;             ///< of the whole plan; of the technique's own passes in `gathers`
-  std::optional<double> to_naive, to_native, to_gather_floor, to_copy_floor, to_hbao_plus;
+  std::optional<double> to_native, to_gather_floor, to_copy_floor, to_hbao_plus;
   double to_own_floor = 0;
-  std::vector<Share> spent_on;  ///< adds up to 1
+  std::optional<double> copy_floor_ms;      ///< of the run that `to_copy_floor` was made with
+  std::vector<AgainstNaive> against_naive;  ///< empty where no naive kernels compute the same
+  std::vector<Share> spent_on;              ///< adds up to 1
 };
 
 /// All that runs in turn on one frame: what is entered, and after every few of it HBAO+ with 8 x 4 samples and the floors
-/// of the device; the loops that compute the same once (docs/benchmarking.md).
+/// of the device; loops that compute the same after what they are compared with (docs/benchmarking.md).
 class Race {
  public:
   /// `holds`: words for messages on what the frame has. Frame and device must outlive it.
@@ -50,12 +63,18 @@ class Race {
 
  private:
   class Baselines;
+  /// One view's depth and normals on the device.
+  struct Plain;
+  Plain& plain();
   /// HBAO+ 8 x 4, and what goes with it: only where the frame has what it reads.
   void enter_reference();
   void enter_baselines(const HbaoPlusParams& params);
+  /// Naive kernels, where there are some that compute what the racer does.
+  void enter_naive(size_t index);
   /// Some racers, and after them what they are compared with.
   void add_group(size_t first, std::vector<Contender>& contenders);
   void add_ratios(size_t index);
+  void add_naive_ratios(size_t index);
 
   const Frame& frame_;
   std::string holds_;
@@ -64,11 +83,12 @@ class Race {
   std::vector<std::string> notes_;
   std::vector<Racer*> racers_;
   std::vector<Contender> common_;  ///< what every racer is compared with
-  std::vector<Contender> loops_;   ///< naive and native: what computes the same is
+  std::vector<Contender> loops_;   ///< native: what computes the same is
   Variation reference_variation_;
-  Frame plain_;
+  std::unique_ptr<Plain> plain_;
   std::unique_ptr<TimedPlan> reference_;
   std::unique_ptr<Baselines> baselines_;
+  std::vector<std::unique_ptr<Naive>> naives_;         ///< by racer; null: none
   std::vector<std::map<std::string, Series>> series_;  ///< by group, by name
 };
 

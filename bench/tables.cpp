@@ -88,15 +88,6 @@ void add_variants(const std::vector<Entry>& variants, Table& table) {
   if (!others.empty()) table.below.push_back(folded(others));
 }
 
-void add_baselines(const Row& row, Table& table) {
-  std::vector<std::string> ratios;
-  if (row.to_naive) ratios.push_back(fmt::format("{:.3f} of the naive kernel's time", *row.to_naive));
-  if (row.to_native) ratios.push_back(fmt::format("{:.2f} of the native loop's", *row.to_native));
-  if (!ratios.empty())
-    table.below.push_back(fmt::format("{} {}, the estimate: {}", row.variation.technique->name, row.variation.name(),
-                                      fmt::join(ratios, ", ")));
-}
-
 std::vector<Entry> entries_of(const Measurement& measurement, const std::string& scene) {
   std::vector<Entry> entries;
   for (const auto& row : measurement.rows) {
@@ -126,7 +117,25 @@ Table table_of_scene(const Measurement& measurement, const std::string& scene) {
       if (is_variant(e) && same_preset(e, head)) variants.push_back(e);
     }
     add_variants(variants, table);
-    add_baselines(*head.row, table);
+  }
+  return table;
+}
+
+Table table_of_baselines(const Measurement& measurement, const std::string& scene) {
+  Table table{scene + ": what else computes the same, in ms", {}, 3, {}};
+  table.rows = {{"technique", "preset", "part", "gloam", "naive", "ratio", "mean difference", "maximum", "copy floor"}};
+  for (const Entry& e : entries_of(measurement, scene)) {
+    const Row& row = *e.row;
+    const Variation& v = row.variation;
+    for (const AgainstNaive& part : row.against_naive) {
+      table.rows.push_back({v.technique->name, v.variant.empty() ? v.name() : v.name() + ", " + v.variant, part.part,
+                            fmt::format("{:.2f}", median(part.ms)), fmt::format("{:.2f}", median(part.naive_ms)),
+                            fmt::format("{:.3f}", part.ratio), cell(part.mean_difference, "{:.1e}"),
+                            cell(part.greatest_difference, "{:.1e}"), cell(row.copy_floor_ms, "{:.2f}")});
+    }
+    if (row.to_native)
+      table.below.push_back(fmt::format("{} {}, the estimate: {:.2f} of the native loop's time", v.technique->name,
+                                        v.name(), *row.to_native));
   }
   return table;
 }

@@ -17,8 +17,11 @@ struct Table {
 
 /// Time and error of everything on one scene, fastest preset first, variants under their preset. `*` marks the Pareto
 /// front over all rows of the scene. Of many variants of a preset only those on the front have a line; `below` has the
-/// range of the others, and the ratios to the baselines.
+/// range of the others.
 Table table_of_scene(const Measurement& measurement, const std::string& scene);
+
+/// Rows against the naive kernels and the native loop; no rows but the heading where there are none.
+Table table_of_baselines(const Measurement& measurement, const std::string& scene);
 
 Table table_of_growth(const Measurement& measurement);
 

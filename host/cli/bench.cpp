@@ -226,7 +226,11 @@ void print(const Measurement& result, const Options& options, const DeviceInfo& 
   fmt::print(
       "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
       "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: none is both faster and closer.\n");
-  for (const SceneFacts& scene : result.scenes) print(table_of_scene(result, scene.name));
+  for (const SceneFacts& scene : result.scenes) {
+    print(table_of_scene(result, scene.name));
+    if (const Table table = table_of_baselines(result, scene.name); table.rows.size() > 1 || !table.below.empty())
+      print(table);
+  }
   if (const std::vector<std::string> names = measured_in_short(result, options); !names.empty())
     fmt::print("\nof {} one preset: --techniques measures those that it names in full\n", enumerate(names));
   if (!result.growth.empty()) {

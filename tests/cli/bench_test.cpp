@@ -395,5 +395,40 @@ TEST_F(Cli, BenchNeedsAFolderThatCanBeWritten) {
   EXPECT_EQ(slurp(path("file")), "not a folder");
 }
 
+TEST_F(Cli, BenchComparesGtaoWithNaiveKernelsThatComputeTheSame) {
+  const Result result = gloam({"bench",      "-o",       path("out"),    "--size",      "192x108",
+                               "--rays",     "1",        "--scenes",     "courtyard",   "--rounds",
+                               "1",          "--ladder", "none",         "--no-growth", "--presets",
+                               "medium",     "--sweep",  "steps=3",      "--sweep",     "directions=2,3",
+                               "--variants", "none",     "--techniques", "gtao",        "--no-images",
+                               "--json",     "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json(), row = row_of(document, "gtao", "steps=3, directions=3"), naive = row["naive"];
+  ASSERT_EQ(naive.size(), 3u) << result.err;
+  const std::vector<std::string> parts = {"estimate", "filter", "both"};
+  for (size_t i = 0; i < parts.size(); ++i) {
+    EXPECT_EQ(naive[i]["part"], parts[i]);
+    expect_ms(naive[i]["ms"]);
+    expect_ms(naive[i]["naive_ms"]);
+    EXPECT_NEAR(naive[i]["ratio"], double(naive[i]["ms"]["median"]) / double(naive[i]["naive_ms"]["median"]), 1e-9);
+  }
+  // They agree, and not because something was compared with itself.
+  for (const size_t i : {0, 2}) {
+    EXPECT_LT(naive[i]["mean_difference"], 2e-4) << parts[i];
+    EXPECT_GT(naive[i]["mean_difference"], 1e-7) << parts[i];
+    EXPECT_GE(naive[i]["max_difference"], naive[i]["mean_difference"]) << parts[i];
+  }
+  EXPECT_NE(naive[0]["mean_difference"], naive[2]["mean_difference"]);  // the filter took part
+  for (const char* key : {"ms", "naive_ms"}) {
+    const double estimate = naive[0][key]["median"], filter = naive[1][key]["median"];
+    EXPECT_NEAR(estimate + filter, naive[2][key]["median"], 1e-9) << key;
+  }
+  EXPECT_NEAR(naive[2]["ms"]["median"], row["ms"]["median"], 1e-9);
+  EXPECT_EQ(row["ratio_to_naive"], naive[0]["ratio"]);
+  EXPECT_NEAR(row["ratio_to_copy_floor"], double(row["ms"]["median"]) / double(row["copy_floor_ms"]), 1e-6);
+  // 2 x 3 samples on both sides are not 18.
+  EXPECT_TRUE(row_of(document, "gtao", "steps=3, directions=2")["naive"].empty());
+}
+
 }  // namespace
 }  // namespace gloam::test

@@ -1,0 +1,84 @@
+// GTAO (Jimenez, Wu, Pesce, Jarabo 2016, Algorithm 1 and equations 7 to 10): per slice the two horizons as angles from the
+// line to the eye, and the cosine-weighted integral between them in closed form. Comes after naive.cl.
+//
+// As in kernels/gtao and other than in the paper: where slices and samples lie, no falloff up to the radius and nothing
+// beyond, samples moved into the slice along the surface's tangent plane, and each pixel's mean is over its own slices.
+
+// Equation 7 without the 1/4, of one side: from the line to the eye to the horizon h; n: the projected normal's angle.
+float inner_integral(float h, float n, float cosine_n, float sine_n) {
+  return -native_cos(2 * h - n) + cosine_n + 2 * h * sine_n;
+}
+
+kernel void naive_gtao(Camera camera, Settings settings, global const float* restrict depth,
+                       global const float* restrict normal_x, global const float* restrict normal_y,
+                       global const float* restrict normal_z, global float* restrict ao) {
+  const int slices = DIRECTIONS, steps = STEPS;
+  const int x = get_global_id(0), y = get_global_id(1), here = index_of(camera, x, y);
+  const float z = depth[here];
+  if (isinf(z)) {
+    ao[here] = 1;
+    return;
+  }
+  const float3 p = position(camera, x, y, z), to_eye = normalize(-p);
+  float3 normal = (float3)(normal_x[here], normal_y[here], normal_z[here]);
+  normal += fmax(1e-4f - dot(normal, to_eye), 0.0f) * to_eye;  // not turned away
+  const float3 right = normalize(cross((float3)(0, 1, 0), to_eye)), up = cross(to_eye, right);
+
+  const float turn = turn_at(camera, x, y), shift = shift_at(camera, x, y);
+  const float reach_x = fmin(settings.radius / (z * camera.scale_x), settings.max_pixels);
+  const float reach_y = fmin(settings.radius / (z * camera.scale_y), settings.max_pixels);
+  const float radius_square = settings.radius * settings.radius;
+
+  float open = 0, all = 0;
+#ifdef UNROLLED
+#pragma unroll
+#endif
+  for (int d = 0; d < slices; ++d) {
+    const float angle = M_PI_F * (d + turn) / slices;
+    const float3 tangent = native_cos(angle) * right + native_sin(angle) * up;
+    // Along the line to the eye into the image plane: where the slice leads on the screen.
+    const float3 screen = tangent - tangent.z / to_eye.z * to_eye;
+    const float per_screen = 1 / dot(screen, screen);
+
+    // The normal's projection onto the slice: length, and angle from the line to the eye.
+    const float facing = dot(normal, to_eye), across = dot(normal, tangent);
+    const float length = sqrt(facing * facing + across * across), cosine = facing / length, sine = across / length;
+    const float inverse_cosine = 1 / cosine;
+    const float3 upright = normal / length;
+    const float n = copysign(acos(fmin(cosine, 1.0f)), sine);
+
+    float horizon[2];
+#ifdef UNROLLED
+#pragma unroll
+#endif
+    for (int side = 0; side < 2; ++side) {
+      const float sign = side == 0 ? -1 : 1;
+      float highest = -1;  // cosine
+#ifdef UNROLLED
+#pragma unroll
+#endif
+      for (int k = 0; k < steps; ++k) {
+        const float even = (k + shift) / steps, t = sign * even * (0.4f + 0.6f * even);
+        const int wanted_x = (int)(x + 0.5f + screen.x * reach_x * t),
+                  wanted_y = (int)(y + 0.5f - screen.y * reach_y * t);
+        const int sx = clamp(wanted_x, 0, camera.width - 1), sy = clamp(wanted_y, 0, camera.height - 1);
+        const float there = depth[index_of(camera, sx, sy)];
+        const float3 v = position(camera, sx, sy, there) - p;
+        // In the slice: along its tangent, and towards the eye, at the same height above the surface's tangent plane.
+        const float along =
+            ((sx - x) * camera.scale_x * screen.x - (sy - y) * camera.scale_y * screen.y) * per_screen * there;
+        const float height = dot(upright, v), towards = (height - sine * along) * inverse_cosine;
+        const float square = along * along + towards * towards;
+        const float place =
+            ((wanted_x - x) * camera.scale_x * screen.x - (wanted_y - y) * camera.scale_y * screen.y) * per_screen * z;
+        if (height > settings.bias * sign * place * inverse_cosine && square < radius_square)
+          highest = fmax(highest, towards * native_rsqrt(square));
+      }
+      horizon[side] = sign * acos(fmin(highest, 1.0f));
+    }
+    const float h1 = n + fmax(horizon[0] - n, -M_PI_2_F), h2 = n + fmin(horizon[1] - n, M_PI_2_F);
+    open += length * 0.25f * (inner_integral(h1, n, cosine, sine) + inner_integral(h2, n, cosine, sine));
+    all += length * (cosine + n * sine);  // the same with nothing in the way
+  }
+  ao[here] = clamp(open / all, 0.0f, 1.0f);
+}
