@@ -1,17 +1,21 @@
-// gloam report DIR: what gloam bench measured, as one page
+// gloam report DIR: what gloam bench measured, as one page for a browser or as a page of documentation
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <memory>
 
 #include "gloam/error.h"
 #include "gloam/files.h"
 #include "options.h"
+#include "report/markdown.h"
 #include "report/page.h"
 
 namespace gloam::cli {
 namespace {
 
 struct ReportCommand {
-  std::string folder, picture_width = "640";
+  std::vector<std::string> sources;
+  std::string picture_width, markdown, pictures;
   JsonFlag json;
 };
 
@@ -43,50 +47,174 @@ Json document_of(const report::Measurements& measurements, const std::string& pa
   return {{"report", path}, {"scenes", scenes}, {"classes", classes}};
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
+void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
+    stream << bytes;
     stream.close();
     if (!stream) throw Error("{}: cannot be written", path.string());
   });
 }
 
-void report_command(const ReportCommand& flags) {
-  const std::filesystem::path folder = flags.folder, path = folder / "report.html";
+std::string counted(size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// --- For a browser
+
+void write_page(const ReportCommand& flags) {
+  const std::filesystem::path folder = flags.sources.front(), path = folder / "report.html";
   report::PageOptions options;
-  options.picture_width = parse_whole_number(flags.picture_width, "--picture-width", 0, 65536);
+  if (!flags.picture_width.empty())
+    options.picture_width = parse_whole_number(flags.picture_width, "--picture-width", 0, 65536);
   const report::Measurements measurements = report::read_measurements(folder);
   check_paths({{"bench.json", (folder / "bench.json").string()}},
               {{"report.html", path.string()}, {"--json", flags.json.file()}});
   options.progress = progress_bar();
   const report::Page page = report::make_page(measurements, folder, options);
   note(page.notes);
-  write_text(path, page.html);
+  write_bytes(path, page.html);
   flags.json.write(document_of(measurements, path.string()));
   if (flags.json.only_json()) return;
-  const auto counted = [](size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
   fmt::print("wrote {}: {}, {}, {}, {:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
              counted(measurements.scenes.size(), "scene"), counted(size_t(page.pictures), "picture"),
              double(page.html.size()) / 1e6);
+}
+
+// --- Of documentation
+
+/// As given; of an absolute path the last folder and the name, since a page is for other machines.
+std::string shown_path(const std::filesystem::path& path) {
+  if (path.is_relative()) return path.lexically_normal().generic_string();
+  const std::filesystem::path normal = (path / "").lexically_normal().parent_path();  // without a slash at the end
+  return (normal.parent_path().filename() / normal.filename()).generic_string();
+}
+
+/// As a shell takes it.
+std::string quoted(const std::string& word) {
+  const bool is_plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) || std::string("/._-+=,:@%").find(char(c)) != std::string::npos;
+  });
+  return is_plain ? word : "'" + word + "'";
+}
+
+std::string command_of(const ReportCommand& flags) {
+  std::string command = "gloam report";
+  for (const std::string& source : flags.sources) command += " " + quoted(shown_path(source));
+  command += " --markdown " + quoted(shown_path(flags.markdown));
+  if (!flags.pictures.empty()) command += " --pictures " + quoted(shown_path(flags.pictures));
+  return command;
+}
+
+std::vector<report::Source> read_sources(const ReportCommand& flags) {
+  std::vector<report::Source> sources;
+  for (const std::string& given : flags.sources) {
+    const std::filesystem::path file = report::measurements_file(given);
+    sources.push_back({shown_path(file), file, report::read_measurements_file(file)});
+  }
+  return sources;
+}
+
+/// Before anything is written: no output is an input, and each can be written where it is to go.
+void check_outputs(const ReportCommand& flags, const report::MarkdownPage& page) {
+  std::vector<NamedPath> inputs, outputs{{"--markdown", flags.markdown}, {"--json", flags.json.file()}};
+  for (const std::string& given : flags.sources) inputs.push_back({given, report::measurements_file(given).string()});
+  for (const report::PictureFile& picture : page.pictures) outputs.push_back({"--pictures", picture.path.string()});
+  check_paths(inputs, outputs);
+  for (const auto& [flag, path] : outputs) {
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown))
+      throw Error("{} {}: cannot be written, it is a folder; name a file in it", flag, path);
+  }
+}
+
+Json document_of(const report::MarkdownPage& page, const std::string& path) {
+  Json pictures = Json::array(), groups = Json::array();
+  for (const report::PictureFile& picture : page.pictures) pictures.push_back(picture.path.string());
+  for (const report::GroupChoices& group : page.groups) {
+    Json needs = Json::array();
+    for (const report::Choice& choice : group.choices) {
+      Json need = {{"need", choice.need}, {"setting", nullptr}};
+      if (const auto& p = choice.best) {
+        need["setting"] = {{"technique", p->technique}, {"preset", p->preset}, {"variant", p->variant}};
+        need["rmse"] = p->error;
+        need["bias"] = p->bias ? Json(*p->bias) : Json(nullptr);
+        need["ratio"] = p->ratio;
+      }
+      needs.push_back(need);
+    }
+    groups.push_back({{"name", group.name}, {"scenes", group.scenes}, {"needs", needs}});
+  }
+  return {{"markdown", path}, {"pictures", pictures}, {"groups", groups}};
+}
+
+void write_markdown(const ReportCommand& flags) {
+  if (!flags.picture_width.empty())
+    throw UsageError("--picture-width {}: is for report.html and not allowed beside --markdown; leave it out",
+                     flags.picture_width);
+  std::error_code unknown;
+  if (!flags.pictures.empty() && !std::filesystem::is_directory(flags.pictures, unknown))
+    throw Error("--pictures {}: is not a folder; make it first", flags.pictures);
+  const std::vector<report::Source> sources = read_sources(flags);
+  const report::MarkdownPage page = report::make_markdown(sources, {command_of(flags), flags.markdown, flags.pictures});
+  check_outputs(flags, page);
+  note(page.notes);
+  // The page last: it never links to a picture that is not there.
+  for (const report::PictureFile& picture : page.pictures) write_bytes(picture.path, picture.png);
+  write_bytes(flags.markdown, page.text);
+  flags.json.write(document_of(page, flags.markdown));
+  if (flags.json.only_json()) return;
+  fmt::print("wrote {}: from {}, {}\n", printable(flags.markdown), counted(sources.size(), "file"),
+             counted(page.pictures.size(), "picture"));
+}
+
+void report_command(const ReportCommand& flags) {
+  if (!flags.markdown.empty()) return write_markdown(flags);
+  if (!flags.pictures.empty())
+    throw UsageError("--pictures {}: needs --markdown FILE.md; report.html has its pictures in itself", flags.pictures);
+  if (flags.sources.size() > 1)
+    throw UsageError(
+        "{} folders: report.html is made of one; of several a page of documentation is, with --markdown FILE.md",
+        flags.sources.size());
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(flags.sources.front(), unknown))
+    throw UsageError(
+        "{}: is a file; report.html is made of the folder that gloam bench -o wrote, a file does for --markdown",
+        flags.sources.front());
+  write_page(flags);
 }
 
 }  // namespace
 
 void add_report(CLI::App& app) {
   auto flags = std::make_shared<ReportCommand>();
-  CLI::App* command = app.add_subcommand("report", "what gloam bench measured, as one page for a browser");
-  command->add_option("folder", flags->folder, "folder that gloam bench -o wrote")->required()->type_name("DIR");
+  CLI::App* command =
+      app.add_subcommand("report", "what gloam bench measured, as one page for a browser or for documentation");
+  command
+      ->add_option(
+          "source", flags->sources,
+          "folder that gloam bench -o wrote; with --markdown also a bench.json by itself, and several of either")
+      ->required()
+      ->type_name("DIR|JSON");
   command
       ->add_option("--picture-width", flags->picture_width, "reduce wider pictures to this; 0: as stored; default: 640")
       ->type_name("PIXELS");
+  command
+      ->add_option("--markdown", flags->markdown,
+                   "write a page of documentation instead: which technique for which need, and all figures")
+      ->type_name("FILE.md")
+      ->group("Writing");
+  command
+      ->add_option("--pictures", flags->pictures,
+                   "with --markdown: folder for pictures of up to three scenes, which the page shows")
+      ->type_name("DIR")
+      ->group("Writing");
   flags->json.add_to(*command);
   command->footer(
       "Writes DIR/report.html, one file that needs no other and no network. Examples:\n"
       "  gloam report out/bench\n"
-      "  gloam report out/bench --picture-width 0 --json -");
+      "  gloam report out/bench --picture-width 0 --json -\n"
+      "  gloam report out/bench out/mine/bench.json --markdown page.md --pictures images");
   command->callback([flags] { report_command(*flags); });
 }
 

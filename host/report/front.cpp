@@ -44,9 +44,13 @@ ClassPoint mean_point(const Setting& setting, const std::map<std::string, size_t
                       const std::vector<Row>& rows) {
   ClassPoint point;
   std::tie(point.technique, point.preset, point.variant) = setting;
+  const double scenes = double(rows_of_scenes.size());
+  point.bias = 0;
   for (const auto& [scene, index] : rows_of_scenes) {
-    point.error += *rows[index].rmse_to_truth / double(rows_of_scenes.size());
-    point.ratio += *rows[index].ratio_to_hbao_plus / double(rows_of_scenes.size());
+    const Row& row = rows[index];
+    point.error += *row.rmse_to_truth / scenes;
+    point.ratio += *row.ratio_to_hbao_plus / scenes;
+    point.bias = point.bias && row.bias ? Number(*point.bias + *row.bias / scenes) : Number();
   }
   return point;
 }

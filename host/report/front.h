@@ -35,6 +35,7 @@ SceneFront front_of_scene(const std::vector<Row>& rows, const std::string& scene
 struct ClassPoint {
   std::string technique, preset, variant;
   double error = 0, ratio = 0;      ///< means over the scenes
+  Number bias;                      ///< the same; empty where a scene has none
   bool on_front = false;            ///< of the means, over all settings
   bool on_plain_front = false;      ///< of the means, over those whose variant is ""
   std::vector<std::string> fronts;  ///< scenes of the class on whose own front it is, over all settings

@@ -129,6 +129,7 @@ Row row_of(const Object& o) {
   row.own_floor_ms = o.number("own_floor_ms");
   row.ratio_to_own_floor = o.number("ratio_to_own_floor");
   row.ladder = ladder_of(o.object("ladder"));
+  for (const Object& n : o.list("naive")) row.naive.push_back({n.needed_text("part"), n.needed_number("ratio")});
   for (const Object& s : o.list("spent_on")) row.spent_on.push_back({s.needed_text("what"), s.needed_number("share")});
   for (const Object& p : o.list("passes"))
     row.passes.push_back({p.needed_text("name"), milliseconds_of(p.needed_object("ms"))});
@@ -172,6 +173,21 @@ PaperFigure paper_figure_of(const Object& o) {
           o.number("ms"),  o.number("ratio"), o.number("paper_ratio")};
 }
 
+Converged converged_of(const Object& o) {
+  return {o.needed_text("technique"), o.needed_text("scene"), o.number("rmse_to_truth"), o.number("bias")};
+}
+
+ScaleChange scale_change_of(const Object& o) {
+  return {o.needed_text("technique"), o.needed_text("scene"),  o.needed_text("from"),
+          o.needed_text("to"),        o.number("mean_change"), o.number("mae")};
+}
+
+PlaneReading plane_reading_of(const Object& o) {
+  return {o.needed_text("technique"), o.needed_text("plane"), o.needed_number("least"),
+          o.number("mean"),           o.number("tilt"),       o.number("direction"),
+          o.text("camera"),           o.number("x"),          o.number("y")};
+}
+
 Measurements measurements_of(const Object& o) {
   Measurements m;
   m.device = o.text("device");
@@ -188,6 +204,9 @@ Measurements measurements_of(const Object& o) {
   for (const Object& each : o.list("skipped"))
     m.skipped.push_back({each.text("technique"), each.text("preset"), each.text("scene"), each.text("why")});
   for (const Object& each : o.list("paper")) m.paper.push_back(paper_figure_of(each));
+  for (const Object& each : o.list("converged")) m.converged.push_back(converged_of(each));
+  for (const Object& each : o.list("scales")) m.scales.push_back(scale_change_of(each));
+  for (const Object& each : o.list("planes")) m.planes.push_back(plane_reading_of(each));
   return m;
 }
 
@@ -214,21 +233,46 @@ Json parsed(const std::filesystem::path& file) {
   }
 }
 
+Measurements read_file(const std::filesystem::path& file) {
+  const Json document = parsed(file);
+  Measurements m = measurements_of(Object(document, file.string(), ""));
+  add_scenes_of_rows(m);
+  return m;
+}
+
+[[noreturn]] void nothing_to_show(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  throw Error("{}: results is empty, there is nothing to show; 'gloam bench -o {}' measures", file.string(),
+              folder.empty() ? "." : folder.string());
+}
+
 }  // namespace
 
 Measurements read_measurements(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "bench.json";
   std::error_code unknown;
   if (!std::filesystem::is_directory(folder, unknown))
     throw Error("{}: is not a folder; 'gloam bench -o {}' makes one to report on", folder.string(), folder.string());
+  const std::filesystem::path file = measurements_file(folder);
+  const Measurements m = read_file(file);
+  if (m.rows.empty()) nothing_to_show(file);
+  return m;
+}
+
+std::filesystem::path measurements_file(const std::filesystem::path& folder_or_file) {
+  std::error_code unknown;
+  const std::string name = folder_or_file.string();
+  if (std::filesystem::is_regular_file(folder_or_file, unknown)) return folder_or_file;
+  if (!std::filesystem::is_directory(folder_or_file, unknown))
+    throw Error("{}: is neither a folder nor a file; 'gloam bench -o DIR' makes DIR/bench.json", name);
+  const std::filesystem::path file = folder_or_file / "bench.json";
   if (!std::filesystem::exists(file, unknown))
-    throw Error("{}: has no bench.json; 'gloam bench -o {}' makes one", folder.string(), folder.string());
-  const Json document = parsed(file);
-  Measurements m = measurements_of(Object(document, file.string(), ""));
-  if (m.rows.empty())
-    throw Error("{}: results is empty, there is nothing to show; 'gloam bench -o {}' measures", file.string(),
-                folder.string());
-  add_scenes_of_rows(m);
+    throw Error("{}: has no bench.json; 'gloam bench -o {}' makes one", name, name);
+  return file;
+}
+
+Measurements read_measurements_file(const std::filesystem::path& file) {
+  const Measurements m = read_file(file);
+  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty()) nothing_to_show(file);
   return m;
 }
 

@@ -11,6 +11,7 @@
 #include "gloam/error.h"
 #include "gloam/files.h"
 #include "picture.h"
+#include "pictures.h"
 
 namespace gloam::report {
 namespace {
@@ -49,12 +50,7 @@ cv::Mat reduced(const cv::Mat& grey_alpha, int width) {
 
 /// A picture below the folder, not wider than `width`, as grey and alpha. Throws Error.
 cv::Mat picture(const fs::path& folder, const std::string& name, int width) {
-  const fs::path relative = fs::path(name).lexically_normal();
-  // A bench.json from elsewhere does not choose which files of this machine go into a page that is passed on.
-  if (relative.is_absolute() || *relative.begin() == "..") throw Error("{}: is not below {}", name, folder.string());
-  std::error_code unknown;
-  if (!fs::is_regular_file(folder / relative, unknown)) throw Error("{}: is no file", (folder / relative).string());
-  const cv::Mat stored = read_png(folder / relative);
+  const cv::Mat stored = stored_picture(folder, name);
   return width > 0 && stored.cols > width ? reduced(stored, width) : stored;
 }
 

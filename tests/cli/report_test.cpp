@@ -1,4 +1,5 @@
-// gloam report: what the page holds, and that it works in a browser that opens it from disk.
+// gloam report: what the page holds, and that it works in a browser that opens it from disk; and the page of
+// documentation.
 #include <cmath>
 #include <opencv2/core.hpp>
 
@@ -413,6 +414,410 @@ TEST_F(ReportInBrowser, BearsHundredsOfRows) {
       "result.needs = document.documentElement.scrollWidth;");
   EXPECT_EQ(result["points"], 404);
   EXPECT_LE(result["needs"], 1280);
+}
+
+// --- The page of documentation
+
+/// Two halls, whose means decide, and a frame of its own.
+Json documented() {
+  Json document = {{"device", "a device"}, {"cpu", "a CPU"},      {"cores", 2},  {"driver", "a driver 1.0"},
+                   {"date", "2026-01-31"}, {"commit", "0123abc"}, {"rounds", 9}, {"rays", 64}};
+  document["results"] = Json::array();
+  for (const char* scene : {"hall", "nave"}) {
+    document["scenes"].push_back(
+        {{"name", scene}, {"size", {48, 32}}, {"radius", 0.5}, {"class", "architecture"}, {"truth_noise", 0.003}});
+    const bool is_hall = scene == std::string("hall");
+    const auto add = [&](const char* technique, const char* preset, double ratio, double error,
+                         const char* variant = "") {
+      Json made = row(scene, technique, preset, ratio, error);
+      made["variant"] = variant;
+      made["bias"] = is_hall ? 0.03 : -0.01;
+      document["results"].push_back(made);
+    };
+    add("hbao+", "low", 0.6, 0.21);
+    add("hbao+", "medium", 1, 0.2);
+    add("quick", "medium", 0.3, 0.25);
+    add("even", "medium", is_hall ? 0.7 : 1.1, is_hall ? 0.15 : 0.17);
+    add("even", "ultra", 4, 0.12);
+    add("lucky", "medium", 0.2, is_hall ? 0.01 : 0.9);  // the best and fastest on the hall only
+    add("dp-even", "medium", 9, 0.1);
+    add("even", "medium", 0.4, 0.22, "half");
+    add("even", "medium", 0.2, 0.24, "quarter");
+    if (is_hall) add("partial", "medium", 0.1, 0.001);
+  }
+  return document;
+}
+
+Json with_all_sections() {
+  Json document = documented();
+  for (const char* scene : {"hall", "nave"}) {
+    document["converged"].push_back({{"technique", "even"}, {"scene", scene}, {"rmse_to_truth", 0.11}, {"bias", 0.02}});
+    document["converged"].push_back(
+        {{"technique", "dp-even"}, {"scene", scene}, {"rmse_to_truth", 0.09}, {"bias", 0.01}});
+    document["converged"].push_back(
+        {{"technique", "quick"}, {"scene", scene}, {"rmse_to_truth", 0.24}, {"bias", -0.1}});
+    document["scales"].push_back({{"technique", "even"},
+                                  {"scene", scene},
+                                  {"from", "480x270"},
+                                  {"to", "960x540"},
+                                  {"mean_change", scene == std::string("hall") ? -0.012 : 0.003},
+                                  {"mae", 0.02}});
+  }
+  document["planes"] = {{{"technique", "even"}, {"plane", "ao_raw"}, {"least", 0.9956}, {"tilt", 0.0}},
+                        {{"technique", "even"},
+                         {"plane", "ao_raw"},
+                         {"least", 0.9712},
+                         {"tilt", 80.0},
+                         {"direction", 45.0},
+                         {"camera", "perspective"},
+                         {"x", 3},
+                         {"y", 0}},
+                        {{"technique", "even"}, {"plane", "ao"}, {"least", 0.9912}, {"tilt", 60.0}}};
+  for (Json& result : document["results"]) {
+    if (result["technique"] == "even" && result["variant"] == "") {
+      const bool is_medium = result["preset"] == "medium";
+      result["ratio_to_own_floor"] = is_medium ? 2.5 : 9.0;
+      result["spent_on"] = {{{"what", "gathers"}, {"share", 0.3}},
+                            {{"what", "arithmetic of the estimate"}, {"share", 0.6}},
+                            {{"what", "smooth/horizontal"}, {"share", 0.04}},
+                            {{"what", "smooth/vertical"}, {"share", 0.06}}};
+    }
+    if (result["technique"] == "quick") result["ratio_to_own_floor"] = 1.2;
+    if (result["technique"] == "hbao+" && result["preset"] == "medium") {
+      result["naive"] = {{{"part", "estimate"}, {"ratio", result["scene"] == "hall" ? 0.05 : 0.07}},
+                         {{"part", "both"}, {"ratio", 0.1}}};
+      result["ratio_to_native"] = 1.1;
+    }
+  }
+  return document;
+}
+
+class Documentation : public Report {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    fs::create_directory(path("out"));
+    fs::create_directory(path("pictures"));
+    write(documented());
+  }
+
+  Result documentation(const Arguments& sources, const Arguments& more = {}) const {
+    Arguments arguments = {"report"};
+    arguments.insert(arguments.end(), sources.begin(), sources.end());
+    arguments.insert(arguments.end(), {"--markdown", path("page.md")});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  }
+
+  std::string page_of(const Json& document) const {
+    write(document);
+    const Result result = documentation({path("out")});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return slurp(path("page.md"));
+  }
+
+  /// Pictures of the truth and two settings on the hall.
+  Json with_pictures() const {
+    Json document = documented();
+    fs::create_directories(path("out/images/hall"));
+    write_grey(path("out/images/hall/truth.png"), 200);
+    write_grey(path("out/images/hall/medium.png"), 100);
+    write_grey(path("out/images/hall/even.png"), 150);
+    document["scenes"][0]["truth_image"] = "images/hall/truth.png";
+    document["results"][1]["image"] = "images/hall/medium.png";
+    document["results"][3]["image"] = "images/hall/even.png";
+    return document;
+  }
+};
+
+/// From the heading to the next of its rank.
+std::string section(const std::string& page, const std::string& heading) {
+  const size_t from = page.find("\n" + heading + "\n");
+  if (from == std::string::npos) return "";
+  const std::string rank = heading.substr(0, heading.find(' ') + 1);
+  return page.substr(from, page.find("\n" + rank, from + 1) - from);
+}
+
+std::vector<std::string> headings(const std::string& page) {
+  std::vector<std::string> found;
+  std::istringstream stream(page);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("## ")) found.push_back(line.substr(3));
+  }
+  return found;
+}
+
+/// The rows of a table, without its heading.
+std::string rows_of(const std::string& text) {
+  std::string found;
+  std::istringstream stream(text);
+  bool below = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with("|")) below = false;
+    if (below) found += line + "\n";
+    if (line.starts_with("| ---")) below = true;
+  }
+  return found;
+}
+
+TEST_F(Documentation, SaysWhereItComesFrom) {
+  const std::string page = page_of(documented());
+  std::istringstream lines(page);
+  std::string title, empty, all;
+  std::getline(lines, title);
+  std::getline(lines, empty);
+  for (std::string line; std::getline(lines, line) && !line.empty();) all += line + " ";
+  EXPECT_EQ(title, "# How near to the truth");
+  EXPECT_EQ(empty, "");
+  const std::string folder = path("").parent_path().filename().string();
+  for (const std::string& words :
+       {std::string("generated from `out/bench.json`"),
+        "`gloam report " + folder + "/out --markdown " + folder + "/page.md`",
+        std::string(
+            "a device (a CPU, 2 cores; a driver 1.0), commit 0123abc, 2026-01-31, 9 rounds, 64 rays per pixel")})
+    EXPECT_NE(all.find(words), std::string::npos) << words << "\n" << all;
+  EXPECT_EQ(page.find(path("").parent_path().parent_path().string() + "/"),
+            std::string::npos);  // of this machine
+  EXPECT_EQ(rows_of(page.substr(0, page.find("\n## "))),
+            "| hall | architecture | 48x32 | 0.5 | - | .003 |\n"
+            "| nave | architecture | 48x32 | 0.5 | - | .003 |\n");
+}
+
+TEST_F(Documentation, NamesTheSettingForEachNeed) {
+  const std::string needs = section(page_of(documented()), "## Which technique for which need");
+  EXPECT_EQ(
+      rows_of(needs),
+      "| least time | lucky medium | .455 (+.010) | 0.20 |\n"
+      "| at most the time of HBAO+ medium | even medium | .160 (+.010) | 0.90 |\n"
+      "| at most 2 times that | even medium | .160 (+.010) | 0.90 |\n"
+      "| at most 5 times that | even ultra | .120 (+.010) | 4.0 |\n"
+      "| nearest to the truth at any price, one layer | even ultra | .120 (+.010) | 4.0 |\n"
+      "| nearest to the truth with peeled layers | dp-even medium | .100 (+.010) | 9.0 |\n"
+      "| less than half the time of HBAO+ medium, at a lower resolution | even medium, half | .220 (+.010) | 0.40 |\n");
+  EXPECT_NE(needs.find("Over 2 scenes: hall and nave. Left out: 1 setting measured on some"), std::string::npos)
+      << needs;
+}
+
+TEST_F(Documentation, CountsTheScenesOfAFront) {
+  const std::string fronts = section(page_of(documented()), "## The fronts");
+  EXPECT_EQ(rows_of(fronts),
+            "| lucky medium | .455 (+.010) | 0.20 | 1 of 2 |\n"  // on the hall "partial" beats it
+            "| quick medium | .250 (+.010) | 0.30 | 1 of 2 |\n"
+            "| hbao+ low | .210 (+.010) | 0.60 | 1 of 2 |\n"
+            "| even medium | .160 (+.010) | 0.90 | 1 of 2 |\n"
+            "| even ultra | .120 (+.010) | 4.0 | 1 of 2 |\n");
+  EXPECT_NE(fronts.find("but not of their mean: hbao+ medium (nave)."), std::string::npos) << fronts;
+}
+
+TEST_F(Documentation, ShowsEveryPresetOfAScene) {
+  Json document = documented();
+  document["results"][4]["samples"] = 72;
+  const std::string scenes = section(page_of(document), "## Scene by scene");
+  EXPECT_NE(scenes.find("\n| technique | low | medium | ultra |\n"), std::string::npos) << scenes;
+  EXPECT_EQ(rows_of(section(scenes, "### hall")),
+            "| hbao+ | .210 (+.030), 0.60 | .200 (+.030), 1.0 |  |\n"
+            "| quick |  | .250 (+.030), 0.30 |  |\n"
+            "| even |  | .150 (+.030), 0.70 | .120 (+.030), 4.0, 72 |\n"
+            "| lucky |  | .010 (+.030), 0.20 |  |\n"
+            "| partial |  | \\* .001 (+.030), 0.10 |  |\n"
+            "| dp-even |  | .100 (+.030), 9.0 |  |\n");
+  EXPECT_NE(scenes.find("\n| even |  | \\* .170 (-.010), 1.1 | \\* .120 (-.010), 4.0 |\n"), std::string::npos)
+      << scenes;
+}
+
+TEST_F(Documentation, LeavesOutWhatWasNotMeasured) {
+  const std::vector<std::string> least = {"Which technique for which need", "The fronts", "Scene by scene",
+                                          "Where the errors come from"};
+  EXPECT_EQ(headings(page_of(documented())), least);
+  // Without a truth and without a ratio there is nothing to choose by.
+  EXPECT_EQ(headings(page_of({{"results", {{{"technique", "t"}, {"scene", "s"}, {"ms", {{"median", 1}}}}}}})),
+            (std::vector<std::string>{"Scene by scene"}));
+  EXPECT_EQ(headings(page_of({{"results", Json::array()}, {"planes", with_all_sections()["planes"]}})),
+            (std::vector<std::string>{"Does a plane read open?"}));
+}
+
+TEST_F(Documentation, HasASectionForEachMeasurement) {
+  const std::string page = page_of(with_all_sections());
+  EXPECT_EQ(headings(page),
+            (std::vector<std::string>{"Which technique for which need", "The fronts", "Scene by scene", "Converged",
+                                      "Where the errors come from", "Time beside the floor",
+                                      "Does the look change with the resolution?", "Does a plane read open?",
+                                      "Beside other ways to compute it"}));
+  EXPECT_EQ(rows_of(section(page, "## Converged")),
+            "| hall | **.110** / .090 | .240 |\n"
+            "| nave | **.110** / .090 | .240 |\n"
+            "| mean | .110 / .090 | .240 |\n"
+            "| bias, mean | +.020 / +.010 | -.100 |\n");
+  const std::string ladder = rows_of(section(page, "## Where the errors come from"));
+  EXPECT_NE(ladder.find("| even medium | - | .050 | .020 | .010 | .010 | - | <.001 | .160 |\n"), std::string::npos)
+      << ladder;
+  EXPECT_EQ(count_of(ladder, "| even "), 1) << ladder;  // neither its other preset nor its variants
+  EXPECT_EQ(rows_of(section(page, "## Time beside the floor")),
+            "| quick medium | 1.2 |  |\n"
+            "| even medium | 2.5 | arithmetic of the estimate 60 %, gathers 30 %, smooth 10 % |\n");
+  EXPECT_EQ(rows_of(section(page, "## Does the look change with the resolution?")),
+            "| even | -.012 | hall, 480x270 to 960x540 | .020 |\n");
+  EXPECT_EQ(rows_of(section(page, "## Does a plane read open?")),
+            "| even | **.9712** | tilt 80, direction 45, perspective, pixel (3, 0) | .9912 | tilt 60 |\n");
+  const std::string others = section(page, "## Beside other ways to compute it");
+  EXPECT_NE(others.find("\n| setting | naive kernel, estimate | naive kernel, both | native loop, estimate |\n"),
+            std::string::npos)
+      << others;
+  EXPECT_EQ(rows_of(others), "| hbao+ medium | 0.060 (0.050 to 0.070) | 0.10 | 1.1 |\n");
+}
+
+TEST_F(Documentation, IsMadeOfSeveralFiles) {
+  Json kitchen = {{"device", "another device"}, {"results", Json::array()}};
+  kitchen["scenes"] = {{{"name", "kitchen"}, {"size", {64, 48}}, {"class", "own"}}};
+  kitchen["results"] = {row("kitchen", "hbao+", "medium", 1, 0.3), row("kitchen", "even", "medium", 0.8, 0.2)};
+  write_text("kitchen.json", kitchen.dump());
+  const Result result = documentation({path("out"), path("kitchen.json")}, {"--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string page = slurp(path("page.md"));
+  EXPECT_NE(page.find("kitchen.json` (measured on another device)"), std::string::npos) << page.substr(0, 600);
+  EXPECT_NE(section(page, "## Scene by scene").find("### kitchen"), std::string::npos);
+  const std::string needs = section(page, "## Which technique for which need");
+  EXPECT_NE(needs.find("\n| need | architecture | own frame kitchen |\n"), std::string::npos) << needs;
+  EXPECT_NE(needs.find("\n| least time | lucky medium | even medium |\n"), std::string::npos) << needs;
+  EXPECT_NE(rows_of(section(needs, "### own frame kitchen")).find("| least time | even medium | .200 | 0.80 |"),
+            std::string::npos)
+      << needs;
+  const Json document = result.json();
+  ASSERT_EQ(document["groups"].size(), 2u);
+  EXPECT_EQ(document["groups"][1]["scenes"], Json({"kitchen"}));
+  EXPECT_EQ(document["groups"][0]["needs"][3]["setting"],
+            Json({{"technique", "even"}, {"preset", "ultra"}, {"variant", ""}}));
+}
+
+TEST_F(Documentation, DrawsASheetOfPictures) {
+  write(with_pictures());
+  const Result result = documentation({path("out")}, {"--pictures", path("pictures")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("1 picture\n"), std::string::npos) << result.out;
+  const std::string page = slurp(path("page.md"));
+  EXPECT_EQ(count_of(page, "!["), 1);
+  EXPECT_NE(page.find("](pictures/techniques_hall.png)"), std::string::npos);
+  const std::string file = slurp(path("pictures/techniques_hall.png"));
+  EXPECT_EQ(int(file.at(24)), 8);  // bits
+  EXPECT_EQ(int(file.at(25)), 0);  // grey
+  // Tiles of 48x32 at four times their size: the truth, then the nearest first. The left quarter is background.
+  const cv::Mat sheet = read_png(path("pictures/techniques_hall.png"));
+  const auto grey = [&](int tile, int x) { return int(sheet.at<cv::Vec2b>(84 + 60, 16 + tile * 204 + x)[0]); };
+  EXPECT_EQ(grey(0, 120), 200);
+  EXPECT_EQ(grey(1, 120), 150);
+  EXPECT_EQ(grey(2, 120), 100);
+  for (const int tile : {0, 1, 2}) EXPECT_TRUE(grey(tile, 20) == 214 || grey(tile, 20) == 186) << grey(tile, 20);
+}
+
+TEST_F(Documentation, KeepsSheetsSmall) {
+  Json document = with_pictures();
+  for (int i = 0; i < 14; ++i) {
+    // Noise of its own for each: equal tiles would compress.
+    const std::string image = "images/hall/" + std::to_string(i) + ".png";
+    cv::Mat noise(180, 320, CV_8UC2);
+    cv::randu(noise, cv::Scalar::all(0), cv::Scalar::all(256));
+    cv::insertChannel(cv::Mat(180, 320, CV_8UC1, cv::Scalar(255)), noise, 1);
+    write_png(path("out/" + image), noise);
+    document["results"].push_back(row("hall", "t" + std::to_string(i), "medium", 1, 0.2));
+    document["results"].back()["image"] = image;
+  }
+  document["scenes"][0]["truth_image"] = "images/hall/0.png";
+  write(document);
+  ASSERT_EQ(documentation({path("out")}, {"--pictures", path("pictures")}).status, 0);
+  EXPECT_LE(fs::file_size(path("pictures/techniques_hall.png")), 600'000u);
+  EXPECT_GT(fs::file_size(path("pictures/techniques_hall.png")), 200'000u);  // and not smaller than need be
+}
+
+TEST_F(Documentation, GoesWithoutPicturesThatCannotBeHad) {
+  Json document = with_pictures();
+  fs::remove(path("out/images/hall/even.png"));
+  document["results"][2]["image"] = "../secret.png";
+  write_grey(path("secret.png"), 7);
+  write(document);
+  Result result = documentation({path("out")}, {"--pictures", path("pictures")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.lines_of_error(), 2) << result.err;
+  EXPECT_NE(result.err.find("even.png: is no file"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("../secret.png: is not below"), std::string::npos) << result.err;
+  // From the file alone: the sheet of the run before stays.
+  const std::string before = slurp(path("pictures/techniques_hall.png"));
+  fs::remove_all(path("out/images"));
+  result = documentation({path("out")}, {"--pictures", path("pictures")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("techniques_hall.png: its pictures are not beside bench.json; kept as it is"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(slurp(path("page.md")).find("](pictures/techniques_hall.png)"), std::string::npos);
+  EXPECT_EQ(slurp(path("pictures/techniques_hall.png")), before);
+  fs::remove(path("pictures/techniques_hall.png"));
+  result = documentation({path("out")}, {"--pictures", path("pictures")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("the page goes without pictures"), std::string::npos) << result.err;
+  EXPECT_EQ(section(slurp(path("page.md")), "## Pictures"), "");
+}
+
+TEST_F(Documentation, LetsNoNameLeaveItsCellOrItsFolder) {
+  Json document = with_pictures();
+  document["scenes"][0]["name"] = "../../a|b <i>\nx";
+  for (Json& result : document["results"]) {
+    if (result["scene"] == "hall") result["scene"] = document["scenes"][0]["name"];
+  }
+  write(document);
+  ASSERT_EQ(documentation({path("out")}, {"--pictures", path("pictures")}).status, 0);
+  const std::string page = slurp(path("page.md"));
+  EXPECT_EQ(page.find("a|b"), std::string::npos);
+  EXPECT_EQ(count_of(page, "<i>"), 0);
+  std::istringstream stream(rows_of(page));
+  for (std::string line; std::getline(stream, line);) EXPECT_TRUE(line.ends_with(" |")) << line;
+  EXPECT_EQ(files(), (Arguments{"out", "page.md", "pictures"}));
+  EXPECT_TRUE(fs::exists(path("pictures/techniques_______a_b__i__x.png")));
+}
+
+TEST_F(Documentation, SaysWhatIsWrongAndWritesNothing) {
+  const auto says = [&](const Result& result, int status, const std::string& words) {
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  write(with_pictures());
+  write_text("other.json", "{\"device\": \"x\"}");
+  write_text("no.json", "no JSON");
+  fs::create_directory(path("empty"));
+  const std::string out = path("out"), page = path("page.md"), bench = path("out/bench.json");
+  says(gloam({"report", out, out}), 2, "2 folders: report.html is made of one");
+  says(gloam({"report", bench}), 2, "bench.json: is a file; report.html is made of the folder");
+  says(gloam({"report", out, "--pictures", path("pictures")}), 2, "needs --markdown FILE.md");
+  says(documentation({out}, {"--picture-width", "100"}), 2, "--picture-width 100");
+  says(documentation({path("nowhere")}), 1, "nowhere: is neither a folder nor a file; 'gloam bench -o DIR'");
+  says(documentation({path("empty")}), 1, "empty: has no bench.json");
+  says(documentation({out, path("other.json")}), 1, "other.json: results is missing");
+  says(documentation({path("no.json")}), 1, "no.json: is not JSON");
+  says(documentation({out, bench}), 1, "hbao+ low on the scene 'hall' is also in");
+  says(documentation({out}, {"--pictures", path("nowhere")}), 1, "is not a folder; make it first");
+  says(documentation({out}, {"--pictures", bench}), 1, "is not a folder; make it first");
+  says(documentation({out}, {"--pictures", path("pictures"), "--json", path("pictures/techniques_hall.png")}), 2,
+       "name another file");
+  says(gloam({"report", out, "--markdown", path("nowhere/page.md")}), 1, "is not a folder");
+  says(gloam({"report", out, "--markdown", bench}), 2, "--markdown");
+  says(gloam({"report", out, "--pictures", path("pictures"), "--markdown", path("empty")}), 1, "it is a folder");
+  Json document = documented();
+  document["planes"] = {{{"technique", "even"}, {"plane", "ao"}, {"least", "much"}}};
+  write(document);
+  says(documentation({out}), 1, "planes[0].least is \"much\", not a number");
+  document["planes"] = Json::array();
+  document["converged"] = {{{"technique", "even"}}};
+  write(document);
+  says(documentation({out}), 1, "converged[0].scene is missing");
+  document["converged"] = Json::array();
+  document["results"] = Json::array();
+  write(document);
+  says(documentation({out}), 1, "results is empty");
+  EXPECT_FALSE(fs::exists(page));
+  EXPECT_FALSE(fs::exists(path("out/report.html")));
+  EXPECT_TRUE(fs::is_empty(path("pictures")));
 }
 
 }  // namespace

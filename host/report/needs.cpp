@@ -1,0 +1,84 @@
+#include "needs.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+#include <tuple>
+
+#include "markdown_text.h"
+
+namespace gloam::report {
+namespace {
+
+/// What `over_peeled_layers` puts before a technique's name.
+constexpr std::string_view peeled = "dp-";
+
+enum class Kind { one_layer, peeled, lower_resolution };
+enum class Best { time, error };
+
+struct Need {
+  const char* words;
+  Kind kind;
+  double most;  ///< time over that of the reference setting, at most
+  Best best;
+};
+
+constexpr double any = std::numeric_limits<double>::infinity();
+/// HBAO+ medium is what gloam bench takes every time in relation to.
+constexpr std::array<Need, 7> needs{
+    {{"least time", Kind::one_layer, any, Best::time},
+     {"at most the time of HBAO+ medium", Kind::one_layer, 1, Best::error},
+     {"at most 2 times that", Kind::one_layer, 2, Best::error},
+     {"at most 5 times that", Kind::one_layer, 5, Best::error},
+     {"nearest to the truth at any price, one layer", Kind::one_layer, any, Best::error},
+     {"nearest to the truth with peeled layers", Kind::peeled, any, Best::error},
+     {"less than half the time of HBAO+ medium, at a lower resolution", Kind::lower_resolution, 0.49, Best::error}}};
+
+bool is_of(Kind kind, const ClassPoint& point) {
+  const bool all_layers = reads_peeled_layers(point.technique);
+  if (kind == Kind::peeled) return all_layers && point.variant.empty();
+  if (kind == Kind::lower_resolution) return !all_layers && (point.variant == "half" || point.variant == "quarter");
+  return !all_layers && point.variant.empty();
+}
+
+/// Smaller is better: what is printed first, then what it was rounded from.
+std::tuple<double, double, double, double> order(const ClassPoint& p, Best best) {
+  const double time = as_printed(ratio_text(p.ratio)), error = as_printed(error_text(p.error));
+  if (best == Best::time) return {time, error, p.ratio, p.error};
+  return {error, p.ratio, p.error, 0};
+}
+
+}  // namespace
+
+bool reads_peeled_layers(const std::string& technique) { return technique.starts_with(peeled); }
+
+std::string one_layer_name(const std::string& technique) {
+  return reads_peeled_layers(technique) ? technique.substr(peeled.size()) : technique;
+}
+
+std::string all_layers_name(const std::string& technique) {
+  return reads_peeled_layers(technique) ? technique : std::string(peeled) + technique;
+}
+
+bool is_plain_over_one_layer(const Row& row) { return row.variant.empty() && !reads_peeled_layers(row.technique); }
+
+std::vector<Choice> choices(const ClassFront& measured) {
+  std::vector<Choice> found;
+  for (const Need& need : needs) {
+    std::vector<ClassPoint> of_kind;
+    for (const ClassPoint& point : measured.points) {
+      if (is_of(need.kind, point)) of_kind.push_back(point);
+    }
+    if (of_kind.empty()) continue;
+    Choice choice{need.words, {}};
+    for (const ClassPoint& point : of_kind) {
+      const bool meets = as_printed(ratio_text(point.ratio)) <= need.most;
+      if (meets && (!choice.best || order(point, need.best) < order(*choice.best, need.best))) choice.best = point;
+    }
+    found.push_back(std::move(choice));
+  }
+  return found;
+}
+
+}  // namespace gloam::report

@@ -1,0 +1,271 @@
+// How near to the truth, and what keeps it from being nearer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "gloam/error.h"
+#include "lists.h"
+#include "markdown_text.h"
+#include "sections.h"
+#include "statistics.h"
+
+namespace gloam::report {
+namespace {
+
+/// Of some numbers; empty where there are none.
+Number median_of(const std::vector<double>& values) { return values.empty() ? Number() : Number(median(values)); }
+
+// --- Converged
+
+const Converged* find(const std::vector<Converged>& list, const std::string& scene, const std::string& technique) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Converged& each) {
+    return each.scene == scene && each.technique == technique;
+  });
+  return found == list.end() ? nullptr : &*found;
+}
+
+/// A technique over one layer and over all of them; either may be missing.
+struct Pair {
+  std::string one_layer, all_layers;
+};
+
+std::vector<Pair> pairs_of(const std::vector<Converged>& list) {
+  std::vector<std::string> names;
+  for (const Converged& each : list) add_new(names, one_layer_name(each.technique));
+  std::vector<Pair> pairs;
+  for (const std::string& name : names) pairs.push_back({name, all_layers_name(name)});
+  return pairs;
+}
+
+std::vector<std::string> scenes_of(const Material& material) {
+  std::vector<std::string> scenes;
+  const auto is_there = [&](const std::string& scene) {
+    const std::vector<Converged>& list = material.all.converged;
+    return std::any_of(list.begin(), list.end(), [&](const Converged& each) { return each.scene == scene; });
+  };
+  for (const Scene& scene : material.all.scenes) {
+    if (is_there(scene.name)) add_new(scenes, scene.name);
+  }
+  for (const Converged& each : material.all.converged) add_new(scenes, each.scene);
+  return scenes;
+}
+
+std::string side_by_side(const std::string& one, const std::string& all) {
+  if (one == "-" && all == "-") return "";
+  return all == "-" ? one : one + " / " + all;
+}
+
+/// Mean over the scenes; empty where one of them lacks it, since the mean would be over others than its neighbours'.
+Number mean_of(const std::vector<Converged>& list, const std::vector<std::string>& scenes, const std::string& technique,
+               Number Converged::*figure) {
+  double sum = 0;
+  for (const std::string& scene : scenes) {
+    const Converged* each = find(list, scene, technique);
+    if (!each || !(each->*figure)) return {};
+    sum += *(each->*figure);
+  }
+  return sum / double(scenes.size());
+}
+
+std::vector<std::string> converged_row(const std::vector<Converged>& list, const std::string& scene,
+                                       const std::vector<Pair>& pairs) {
+  const auto error = [&](const std::string& technique) {
+    const Converged* each = find(list, scene, technique);
+    return each ? error_text(each->rmse_to_truth) : "-";
+  };
+  std::string least = "-";
+  for (const Pair& pair : pairs) {
+    const std::string text = error(pair.one_layer);
+    if (text != "-" && (least == "-" || as_printed(text) < as_printed(least))) least = text;
+  }
+  std::vector<std::string> cells{plain_text(scene)};
+  for (const Pair& pair : pairs) {
+    const std::string one = error(pair.one_layer);
+    cells.push_back(side_by_side(one != "-" && one == least ? "**" + one + "**" : one, error(pair.all_layers)));
+  }
+  return cells;
+}
+
+// --- The ladder
+
+struct Step {
+  const char* heading;
+  const char* says;
+  Number Ladder::*figure;
+};
+
+constexpr std::array<Step, 7> steps{
+    {{"model",
+      "the integral of the technique's own contribution and falloff, traced, against the truth: what the method "
+      "chooses to compute instead",
+      &Ladder::t0w},
+     {"screen",
+      "the converged technique over all peeled layers against that (against the truth where the technique has no "
+      "model of its own): what estimating on the screen costs",
+      &Ladder::t1},
+     {"hidden", "the converged technique on the layers that it is given against all layers: geometry that is hidden",
+      &Ladder::t2},
+     {"noise", "its own number of samples against the converged image, unfiltered", &Ladder::t3},
+     {"filter", "the filter on the converged image: what it blurs away", &Ladder::t4_bias},
+     {"noise left", "samples and filter against the filter on the converged image", &Ladder::t4_noise},
+     {"rounding", "float and fast mathematics, as it is shipped, against double", &Ladder::t5}}};
+
+// --- Scales and planes
+
+std::string steps_of(const ScaleChange& change) {
+  return fmt::format("{}, {} to {}", plain_text(change.scene), plain_text(change.from), plain_text(change.to));
+}
+
+/// "tilt 80 degrees, direction 45, perspective, pixel (3, 0)": as far as it is known.
+std::string place_of(const PlaneReading& reading) {
+  std::vector<std::string> parts;
+  if (reading.tilt) parts.push_back(fmt::format("tilt {:g}", *reading.tilt));
+  if (reading.direction) parts.push_back(fmt::format("direction {:g}", *reading.direction));
+  if (!reading.camera.empty()) parts.push_back(plain_text(reading.camera));
+  if (reading.x && reading.y) parts.push_back(fmt::format("pixel ({:g}, {:g})", *reading.x, *reading.y));
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+/// What reads less than this is bold: a plane is seen to be shaded.
+constexpr double open = 0.99;
+
+std::string openness(double least) {
+  std::string digits = fmt::format("{:.4f}", least);
+  if (digits.starts_with("0.")) digits = digits.substr(1);
+  return least < open ? "**" + digits + "**" : digits;
+}
+
+const PlaneReading* least_of(const std::vector<PlaneReading>& readings, const std::string& technique,
+                             const std::string& plane) {
+  const PlaneReading* least = nullptr;
+  for (const PlaneReading& each : readings) {
+    if (each.technique == technique && each.plane == plane && (!least || each.least < least->least)) least = &each;
+  }
+  return least;
+}
+
+}  // namespace
+
+std::string converged_section(const Material& material) {
+  const std::vector<Converged>& list = material.all.converged;
+  if (list.empty()) return "";
+  const std::vector<Pair> pairs = pairs_of(list);
+  const std::vector<std::string> scenes = scenes_of(material);
+  std::vector<std::string> heading{"scene"}, means{"mean"}, biases{"bias, mean"};
+  for (const Pair& pair : pairs) {
+    heading.push_back(plain_text(pair.one_layer));
+    means.push_back(side_by_side(error_text(mean_of(list, scenes, pair.one_layer, &Converged::rmse_to_truth)),
+                                 error_text(mean_of(list, scenes, pair.all_layers, &Converged::rmse_to_truth))));
+    biases.push_back(side_by_side(bias_text(mean_of(list, scenes, pair.one_layer, &Converged::bias)),
+                                  bias_text(mean_of(list, scenes, pair.all_layers, &Converged::bias))));
+  }
+  Table table(heading, "lr");
+  for (const std::string& scene : scenes) table.add(converged_row(list, scene, pairs));
+  if (scenes.size() > 1) {
+    table.add(means);
+    table.add(biases);
+  }
+  return "## Converged\n\n" +
+         paragraph(
+             "RMSE to the truth with so many samples that more change nothing, unfiltered: what no time buys. Two "
+             "figures are one layer / all peeled layers of the same technique; their difference is what hidden "
+             "surfaces are worth. The least over one layer is bold.") +
+         table.text();
+}
+
+std::string ladder_section(const Material& material) {
+  std::vector<std::string> heading{"setting"};
+  for (const Step& step : steps) heading.push_back(step.heading);
+  heading.push_back("in all");
+  Table table(heading, "lr");
+  for (const std::string& technique : techniques_of(material.all.rows)) {
+    const std::vector<Row> rows = default_rows(material.all.rows, technique);
+    std::vector<std::string> cells{setting_text(technique, rows.empty() ? "" : rows.front().preset)};
+    bool known = false;
+    for (const Step& step : steps) {
+      std::vector<double> values;
+      for (const Row& row : rows) {
+        if (const Number& value = row.ladder.*step.figure) values.push_back(*value);
+      }
+      known |= !values.empty();
+      cells.push_back(error_text(median_of(values)));
+    }
+    std::vector<double> totals;
+    for (const Row& row : rows) {
+      if (row.rmse_to_truth) totals.push_back(*row.rmse_to_truth);
+    }
+    cells.push_back(error_text(median_of(totals)));
+    if (known) table.add(cells);
+  }
+  if (table.empty()) return "";
+  std::string text = "## Where the errors come from\n\n";
+  text += paragraph(
+      "Each column is the RMSE between two images that differ in one thing; medians over the scenes. They do not add "
+      "up; the last column is the whole way to the truth.");
+  for (const Step& step : steps) text += list_item(fmt::format("*{}*: {}.", step.heading, step.says));
+  return text + "\n" + table.text();
+}
+
+std::string scales_section(const Material& material) {
+  const std::vector<ScaleChange>& scales = material.all.scales;
+  Table table({"technique", "largest mean change", "where", "median of the mean absolute difference"}, "lrlr");
+  std::vector<std::string> techniques;
+  for (const ScaleChange& each : scales) add_new(techniques, each.technique);
+  for (const std::string& technique : techniques) {
+    const ScaleChange* largest = nullptr;
+    std::vector<double> differences;
+    for (const ScaleChange& each : scales) {
+      if (each.technique != technique) continue;
+      if (each.mae) differences.push_back(*each.mae);
+      if (each.mean_change && (!largest || std::abs(*each.mean_change) > std::abs(*largest->mean_change)))
+        largest = &each;
+    }
+    if (!largest && differences.empty()) continue;
+    table.add({plain_text(technique), largest ? bias_text(largest->mean_change) : "-",
+               largest ? steps_of(*largest) : "", error_text(median_of(differences))});
+  }
+  if (table.empty()) return "";
+  return "## Does the look change with the resolution?\n\n" +
+         paragraph(
+             "The same view at two sizes: by how much the mean of the image changes at most, over scenes and steps "
+             "(+ is brighter at the second size), and how far pixels are apart.") +
+         table.text();
+}
+
+std::string planes_section(const Material& material) {
+  const std::vector<PlaneReading>& readings = material.all.planes;
+  if (readings.empty()) return "";
+  std::vector<std::string> techniques, planes, heading{"technique"};
+  std::string alignment = "l";
+  for (const PlaneReading& each : readings) {
+    add_new(techniques, each.technique);
+    add_new(planes, each.plane);
+  }
+  for (const std::string& plane : planes) {
+    heading.insert(heading.end(), {"least " + code(plane), "where"});
+    alignment += "rl";
+  }
+  Table table(heading, alignment);
+  for (const std::string& technique : techniques) {
+    std::vector<std::string> cells{plain_text(technique)};
+    for (const std::string& plane : planes) {
+      const PlaneReading* least = least_of(readings, technique, plane);
+      cells.insert(cells.end(), {least ? openness(least->least) : "", least ? place_of(*least) : ""});
+    }
+    table.add(cells);
+  }
+  return "## Does a plane read open?\n\n" +
+         paragraph(fmt::format(
+             "Nothing stands above a plane, so every pixel of it should be 1, however it is tilted to the camera. The "
+             "least value over all planes that were tried, and where (tilt and direction in degrees); below {:g} it "
+             "is bold.",
+             open)) +
+         table.text();
+}
+
+}  // namespace gloam::report
