@@ -146,6 +146,21 @@ class Buffers {
 
   std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
 
+  /// Layers of a computed stack, as planes of their own.
+  std::vector<Plane> download_stack(const std::string& name, const Layout& layout, size_t layers) {
+    std::vector<Plane> planes;
+    const PlaneKind kind = plane_kind(name);
+    for (size_t i = 0; i < layers; ++i) {
+      Plane plane{layer_name(name, int(i)), {}};
+      Channel& channel = plane.channels.emplace_back(layout);
+      device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, i * layout.bytes(), layout.bytes(),
+                                      channel.data());
+      channel.fill_padding(kind.outside);
+      planes.push_back(std::move(plane));
+    }
+    return planes;
+  }
+
   /// Takes a computed plane back to the host; it is no longer on the device then.
   Plane download(const std::string& name, const Layout& layout) {
     const PlaneKind kind = plane_kind(name);
@@ -387,6 +402,11 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
     }
   }
   for (const std::string& name : plan.outputs) {
+    if (is_stack(name)) {
+      for (Plane& plane : buffers.download_stack(name, image.layouts.of(name), layers_in_buffer(plan, name)))
+        out.planes.emplace(plane.name, std::move(plane));
+      continue;
+    }
     const Plane* given = view.find(name);
     const bool is_input = std::find(plan.inputs.begin(), plan.inputs.end(), name) != plan.inputs.end();
     out.planes.emplace(name, is_input ? given->clone() : buffers.download(name, image.layouts.of(name)));
