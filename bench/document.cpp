@@ -128,6 +128,24 @@ Json document_of(const GrowthFacts& facts) {
           {"points", points}};
 }
 
+Json document_of(const ConvergedFacts& facts) {
+  return {{"technique", facts.technique},
+          {"scene", facts.scene},
+          {"rmse_to_truth", number(facts.errors.rmse)},
+          {"bias", number(facts.errors.bias)}};
+}
+
+Json document_of(const ScaleFacts& facts) {
+  return {{"technique", facts.technique},     {"scene", facts.scene},      {"from", facts.from}, {"to", facts.to},
+          {"mean_change", facts.mean_change}, {"mae", facts.mean_absolute}};
+}
+
+Json document_of(const PlaneFacts& facts) {
+  return {{"technique", facts.technique}, {"plane", facts.plane}, {"least", facts.least},
+          {"mean", facts.mean},           {"tilt", facts.tilt},   {"direction", facts.direction},
+          {"camera", facts.camera},       {"x", facts.x},         {"y", facts.y}};
+}
+
 Json document_of(const Skipped& s) {
   return {
       {"technique", s.technique}, {"preset", text_or_null(s.preset)}, {"scene", text_or_null(s.scene)}, {"why", s.why}};
@@ -171,6 +189,9 @@ Json document_of(const Measurement& measurement, const MeasureOptions& options, 
           {"scenes", list_of(measurement.scenes)},
           {"results", results},
           {"growth", list_of(measurement.growth)},
+          {"converged", list_of(measurement.converged)},
+          {"scales", list_of(measurement.scales)},
+          {"planes", list_of(measurement.planes)},
           {"skipped", list_of(measurement.skipped)},
           {"paper", Json::array()}};
 }

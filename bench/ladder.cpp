@@ -130,6 +130,11 @@ Errors Steps::errors(const Image& shipped) const {
   return {rmse(shipped, truth_->ao, foreground_), bias(shipped, truth_->ao, foreground_)};
 }
 
+Errors Steps::converged_errors(const Variation& variation) {
+  const Image* image = truth_ ? converged(*variation.technique, variation) : nullptr;
+  return image ? errors(*image) : Errors{};
+}
+
 Ladder Steps::climb(const Variation& variation, const Image& shipped) {
   const Technique& technique = *variation.technique;
   const RunOptions options = without_rounding(device_);

@@ -42,6 +42,10 @@ class Steps {
 
   Errors errors(const Image& shipped) const;
 
+  /// Of the technique's own plane, converged and unfiltered, on the layers it is given; none without a truth, or where
+  /// there is no such thing.
+  Errors converged_errors(const Variation& variation);
+
   /// `shipped`: of the same variation. At a lower resolution there is no `t4_bias` and no `t4_noise`: the filter does not
   /// see the converged image then.
   Ladder climb(const Variation& variation, const Image& shipped);

@@ -8,6 +8,7 @@ namespace gloam::bench {
 namespace {
 
 constexpr int growth_rounds = 5;
+constexpr int most_pixels_across = 8192;  // of a frame that is captured to have one twice as large
 
 /// Everything that goes on on one frame.
 class Session {
@@ -38,6 +39,25 @@ class Session {
     }
   }
 
+  /// On twice as many pixels each way of a built-in scene, so that the frame itself is the middle of three.
+  void measure_scales() {
+    tell("other resolutions", 0, 1);
+    const int width = 2 * subject_.frame.width(), height = 2 * subject_.frame.height();
+    const std::vector<const Technique*> techniques = those_measured();
+    const bool is_known =
+        subject_.truths && subject_.scene_class != "own" && std::max(width, height) <= most_pixels_across;
+    const std::vector<ScaleFacts> found =
+        is_known ? bench::measure_scales(techniques, subject_.truths->captured(width, height), subject_.name,
+                                         subject_.radius, device_)
+                 : bench::measure_scales(techniques, subject_.frame, subject_.name, subject_.radius, device_);
+    result_.scales.insert(result_.scales.end(), found.begin(), found.end());
+  }
+
+  void measure_planes() {
+    tell("bare planes", 0, 1);
+    result_.planes = bench::measure_planes(those_measured(), subject_.frame.width(), subject_.frame.height(), device_);
+  }
+
   void add_scene() {
     SceneFacts facts{subject_.name, subject_.scene_class, subject_.frame.width(), subject_.frame.height(),
                      subject_.radius};
@@ -57,6 +77,14 @@ class Session {
   }
 
  private:
+  std::vector<const Technique*> those_measured() const {
+    std::vector<const Technique*> techniques;
+    for (const Technique* t : options_.techniques) {
+      if (contains(measured_, t->name)) techniques.push_back(t);
+    }
+    return techniques;
+  }
+
   void tell(const std::string& what, int done, int of) const {
     if (options_.progress) options_.progress(subject_.name + ": " + what, double(done) / of);
   }
@@ -97,11 +125,17 @@ class Session {
     const bool with_ladder =
         options_.ladder == LadderFor::all || (options_.ladder == LadderFor::presets && variation.variant.empty());
     if (with_ladder) row->ladder = steps_.climb(variation, shipped);
+    if (with_ladder && !contains(measured_, variation.technique->name)) add_converged(variation);
     race_.enter(*row);
     std::string name = variation.technique->name + "_" + variation.name();
     if (!variation.variant.empty()) name += "_" + variation.variant;
     row->image = picture(name, shipped);
     return row;
+  }
+
+  void add_converged(const Variation& variation) {
+    const Errors errors = steps_.converged_errors(variation);
+    if (errors.rmse) result_.converged.push_back({variation.technique->name, subject_.name, errors});
   }
 
   /// Draws the first view; the path below the folder, empty where there shall be no pictures.
@@ -163,10 +197,12 @@ std::vector<Variation> variations_of(const Technique& technique, double radius, 
   return all;
 }
 
-void measure(Subject& subject, const MeasureOptions& options, bool with_growth, Device& device, Measurement& result) {
+void measure(Subject& subject, const MeasureOptions& options, bool is_first, Device& device, Measurement& result) {
   Session session(subject, options, device, result);
   session.measure();
-  if (with_growth) session.measure_growth();
+  if (is_first) session.measure_growth();
+  if (options.checks) session.measure_scales();
+  if (options.checks && is_first) session.measure_planes();
   session.add_scene();
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "checks.h"
 #include "growth.h"
 #include "ladder.h"
 #include "race.h"
@@ -28,6 +29,7 @@ struct MeasureOptions {
   bool layers_in_full = true;
   LadderFor ladder = LadderFor::presets;
   int rounds = 9;
+  bool checks = true;                    ///< other resolutions, and on the first frame bare planes (checks.h)
   std::vector<const Technique*> growth;  ///< techniques whose growth is measured, on the first frame
   std::filesystem::path folder;          ///< where images/ goes; empty: no pictures
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
@@ -72,10 +74,19 @@ struct GrowthFacts {
   Growth growth;
 };
 
+/// What more samples would lead to, without a filter.
+struct ConvergedFacts {
+  std::string technique, scene;
+  Errors errors;
+};
+
 struct Measurement {
   std::vector<std::unique_ptr<Row>> rows;
   std::vector<Skipped> skipped;
   std::vector<GrowthFacts> growth;
+  std::vector<ConvergedFacts> converged;
+  std::vector<ScaleFacts> scales;
+  std::vector<PlaneFacts> planes;
   std::vector<SceneFacts> scenes;
   std::vector<std::string> notes;  ///< one sentence each
 };
@@ -89,7 +100,7 @@ bool in_short(const Technique& technique, const MeasureOptions& options);
 /// Everything of one technique: its presets, and variants of one of them.
 std::vector<Variation> variations_of(const Technique& technique, double radius, const MeasureOptions& options);
 
-/// Measures everything on one frame. What a frame or a device does not allow is skipped, and said.
-void measure(Subject& subject, const MeasureOptions& options, bool with_growth, Device& device, Measurement& result);
+/// Measures everything on one frame; what is measured once, on the first. What a frame or a device does not allow is skipped, and said.
+void measure(Subject& subject, const MeasureOptions& options, bool is_first, Device& device, Measurement& result);
 
 }  // namespace gloam::bench

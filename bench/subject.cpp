@@ -98,6 +98,15 @@ std::filesystem::path Truths::frame_file() {
   return path;
 }
 
+Frame Truths::captured(int width, int height) {
+  CaptureOptions capturing;
+  capturing.width = width;
+  capturing.height = height;
+  capturing.views = {{"", camera_for(scene_.cameras.front(), width, height), {}}};
+  capturing.planes = {"depth", "normal"};
+  return capture(tracer(), capturing).frame;
+}
+
 const Truth& Truths::traced(const Frame& frame, const std::string& file, const Contribution& contribution,
                             const std::string& falloff) {
   const std::string recipe = fmt::format("{} {} {}x{} radius={} rays={} contribution={}", name_, recipe_, frame.width(),

@@ -48,6 +48,9 @@ class Truths {
   /// where it is not there or shows something else.
   std::filesystem::path frame_file();
 
+  /// Depth and normals of the scene from its first camera, in another size.
+  Frame captured(int width, int height);
+
   /// Ambient occlusion without falloff (NAME_ao_ref.exr). Throws as `ao_reference` does.
   const Truth& truth(const Frame& frame);
 

@@ -39,4 +39,16 @@ Technique over_peeled_layers(Technique technique) {
   return technique;
 }
 
+Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,
+                                std::function<std::vector<Pass>(const ParameterValues&)> passes) {
+  technique.summary = technique.name + " with stochastic depths behind what is seen";
+  technique.name = "sd-" + technique.name;
+  technique.paper += "; over stochastic depth Vermeer, Scandolo, Eisemann 2021";
+  technique.default_for.clear();
+  technique.reads.push_back("stochastic");
+  technique.parameters = std::move(parameters);
+  technique.passes = std::move(passes);
+  return technique;
+}
+
 }  // namespace gloam

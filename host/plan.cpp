@@ -267,12 +267,51 @@ void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
   }
 }
 
-/// What the pass's kernel has to know of the stacks that it reads.
-void define_layers(Pass& pass, const Plan& plan) {
-  for (const Binding& binding : pass.reads) {
-    if (is_stack(binding.plane))
-      pass.defines.emplace_back(layer_count_define(binding), int(plan.stacks.at(binding.plane).size()));
+/// Layers of a stack that the frame has, or that an earlier pass writes.
+int layers_at_hand(const Plan& plan, const std::string& stack) {
+  if (const auto known = plan.stacks.find(stack); known != plan.stacks.end()) return int(known->second.size());
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& written : planned.pass.writes) {
+      if (written.plane == stack) return written.layers;
+    }
   }
+  return 0;
+}
+
+[[noreturn]] void throw_too_few_layers(const Plan& plan, const Technique& technique, const Binding& binding, int layers,
+                                       const std::string& holds) {
+  const std::string source = stack_kind(binding.plane).source;
+  const bool is_given = plan.stacks.count(binding.plane) > 0;
+  throw MissingPlanes(
+      fmt::format("{}: needs {} layers of '{}', and {} {}; {} makes them", technique.name, binding.layers,
+                  binding.plane, is_given ? holds + "; it has" : "the technique that makes them makes", layers, source),
+      {layer_name(binding.plane, layers)});
+}
+
+/// What the pass's kernel has to know of the stacks that it reads.
+void define_layers(Pass& pass, const Plan& plan, const Technique& technique, const std::string& holds) {
+  for (const Binding& binding : pass.reads) {
+    if (!is_stack(binding.plane)) continue;
+    const int layers = layers_at_hand(plan, binding.plane);
+    if (binding.layers > layers) throw_too_few_layers(plan, technique, binding, layers, holds);
+    pass.defines.emplace_back(layer_count_define(binding), binding.layers > 0 ? binding.layers : layers);
+  }
+}
+
+/// Leaves out the layers at the end of a stack that no pass reads.
+void trim_stacks(Plan& plan) {
+  for (auto& [stack, layers] : plan.stacks) {
+    size_t needed = 0;
+    for (const PlannedPass& planned : plan.passes) {
+      for (const Binding& binding : planned.pass.reads) {
+        if (binding.plane == stack)
+          needed = std::max(needed, binding.layers > 0 ? size_t(binding.layers) : layers.size());
+      }
+    }
+    for (size_t i = needed; i < layers.size(); ++i) std::erase(plan.inputs, layers[i]);
+    layers.resize(needed);
+  }
+  std::erase_if(plan.stacks, [](const auto& stack) { return stack.second.empty(); });
 }
 
 /// What of the frame is not taken, and why. Layers are told as one, by the name of their stack.
@@ -381,10 +420,11 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
       add_extras(pass, wanted.outputs);
-      define_layers(pass, plan);
+      define_layers(pass, plan, *walk.order[i], holds);
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
     }
   }
+  trim_stacks(plan);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;
   if (is_reduced) reduce(plan, wanted.makers, values.back());

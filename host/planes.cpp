@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <stdexcept>
 
 #include "gloam/error.h"
 
@@ -67,7 +68,8 @@ PlaneKind plane_kind(std::string_view name) {
 const std::vector<StackKind>& stack_kinds() {
   static const std::vector<StackKind> kinds = {
       {"peel", "all surfaces under the pixel centre, front to back", "gloam capture --peel N"},
-      {"stochastic", "stochastic depth: each layer is the nearest of a random choice of surfaces", ""},
+      {"stochastic", "stochastic depth: each layer is the nearest of a random choice of surfaces",
+       "gloam capture --stochastic S"},
   };
   return kinds;
 }
@@ -75,6 +77,12 @@ const std::vector<StackKind>& stack_kinds() {
 bool is_stack(std::string_view name) {
   return std::any_of(stack_kinds().begin(), stack_kinds().end(),
                      [&](const StackKind& stack) { return stack.name == name; });
+}
+
+const StackKind& stack_kind(std::string_view name) {
+  for (const StackKind& stack : stack_kinds())
+    if (stack.name == name) return stack;
+  throw std::out_of_range(fmt::format("'{}' is no stack", name));
 }
 
 std::optional<StackLayer> stack_layer(std::string_view plane) {

@@ -99,6 +99,12 @@ class Reduction {
   std::set<std::string> made_;  ///< at the low resolution
 };
 
+/// Layers that nobody asked for are there for who did: made at the same resolution.
+bool makes_stack(const Technique& technique) {
+  return std::any_of(technique.writes.begin(), technique.writes.end(),
+                     [](const std::string& plane) { return is_stack(plane); });
+}
+
 }  // namespace
 
 const Technique& resampling() {
@@ -114,10 +120,11 @@ const Technique& resampling() {
 void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const ParameterValues& values) {
   Reduction reduction(plan, values);
   for (PlannedPass& planned : plan.passes) {
-    if (std::find(techniques.begin(), techniques.end(), planned.technique) == techniques.end())
-      reduction.add(planned);
-    else
+    const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
+    if (is_asked_for || makes_stack(*planned.technique))
       reduction.add_reduced(std::move(planned));
+    else
+      reduction.add(planned);
   }
   reduction.add_outputs();
   plan.passes = std::move(reduction.passes);

@@ -146,6 +146,21 @@ class Buffers {
 
   std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
 
+  /// Layers of a computed stack, as planes of their own.
+  std::vector<Plane> download_stack(const std::string& name, const Layout& layout, size_t layers) {
+    std::vector<Plane> planes;
+    const PlaneKind kind = plane_kind(name);
+    for (size_t i = 0; i < layers; ++i) {
+      Plane plane{layer_name(name, int(i)), {}};
+      Channel& channel = plane.channels.emplace_back(layout);
+      device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, i * layout.bytes(), layout.bytes(),
+                                      channel.data());
+      channel.fill_padding(kind.outside);
+      planes.push_back(std::move(plane));
+    }
+    return planes;
+  }
+
   /// Takes a computed plane back to the host; it is no longer on the device then.
   Plane download(const std::string& name, const Layout& layout) {
     const PlaneKind kind = plane_kind(name);
@@ -263,13 +278,29 @@ void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, const Image& 
   }
 }
 
+size_t largest_divisor(size_t number, size_t most) {
+  while (number % most != 0) --most;
+  return most;
+}
+
+/// A CPU's driver compiles a kernel anew for every size of work-group, and left alone takes a size for each size of image,
+/// for small ones the whole of it: that costs seconds, and what each item keeps overflows the stack. So there is one size
+/// for all small images, and few for large ones. Other devices choose for themselves.
+cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows) {
+  if (info.type != "cpu") return cl::NullRange;
+  constexpr size_t few_items = 1 << 14, most_per_group = 16;
+  if (columns * rows < few_items) return cl::NDRange(1, 1);
+  const size_t width = largest_divisor(columns, most_per_group);
+  return cl::NDRange(width, largest_divisor(rows, most_per_group / width));
+}
+
 /// Milliseconds that a launch took, by its event; by the wall clock where the device has no timestamps.
 double launch(Device::Impl& device, cl::Kernel& kernel, const Layout& layout, int lanes) {
   const auto start = std::chrono::steady_clock::now();
   cl::Event event;
-  device.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
-                                    cl::NDRange(size_t(layout.pitch / lanes), size_t(layout.height)), cl::NullRange,
-                                    nullptr, &event);
+  const size_t columns = size_t(layout.pitch / lanes), rows = size_t(layout.height);
+  device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(columns, rows),
+                                    group_size(device.info, columns, rows), nullptr, &event);
   event.wait();
   const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
@@ -334,7 +365,7 @@ void fill(Buffers& buffers, const Plan& plan, const View& view, const Image& ima
       buffers.upload_stack(name, layers);
     } else if (const auto input = inputs.find(name); input != inputs.end()) {
       buffers.upload(*input->second);
-    } else if (const size_t layers = layers_in_buffer(plan, name); layers > 1) {
+    } else if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name)) {
       buffers.allocate_stack(name, image.layouts.of(name), layers);
     } else {
       buffers.allocate(name, image.layouts.of(name));
@@ -371,6 +402,11 @@ void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Im
     }
   }
   for (const std::string& name : plan.outputs) {
+    if (is_stack(name)) {
+      for (Plane& plane : buffers.download_stack(name, image.layouts.of(name), layers_in_buffer(plan, name)))
+        out.planes.emplace(plane.name, std::move(plane));
+      continue;
+    }
     const Plane* given = view.find(name);
     const bool is_input = std::find(plan.inputs.begin(), plan.inputs.end(), name) != plan.inputs.end();
     out.planes.emplace(name, is_input ? given->clone() : buffers.download(name, image.layouts.of(name)));

@@ -25,7 +25,7 @@ struct BenchCommand {
   std::string folder, techniques, scenes, presets, frame, truth, size = "960x540", rays = "256", radius, rounds = "9",
                                                                  device, variants, ladder = "presets";
   std::vector<std::string> sweeps;
-  bool no_growth = false, no_images = false;
+  bool no_growth = false, no_checks = false, no_images = false;
   FrameFlags frame_flags;
   JsonFlag json;
 };
@@ -174,6 +174,7 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   choose_variants(options, flags.variants, device);
   if (!flags.sweeps.empty()) choose_sweeps(options, flags.sweeps, result);
   choose_growth(options, flags);
+  options.checks = !flags.no_checks;
   options.layers_in_full = !flags.techniques.empty();
   if (flags.frame.empty()) choose_scenes(options, flags.scenes);
   std::tie(options.scene.width, options.scene.height) = parse_size(flags.size, "--size");
@@ -327,6 +328,8 @@ void add_bench(CLI::App& app) {
       ->type_name("WHICH");
   command->add_option("--rounds", flags->rounds, "each runs everything once, in turn; default 9")->type_name("N");
   command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");
+  command->add_flag("--no-checks", flags->no_checks,
+                    "leave out what changes with the resolution and what bare planes read");
   command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
   command->add_option("--device", flags->device, "part of a device's or platform's name (gloam list devices)")
       ->type_name("TEXT");

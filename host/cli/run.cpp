@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "gloam/error.h"
+#include "gloam/planes.h"
 #include "gloam/visualise.h"
 #include "options.h"
 #include "statistics.h"
@@ -126,6 +127,12 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
   return left;
 }
 
+/// The plane that a picture shows: of a stack the first layer.
+std::string pictured(const Plan& plan) {
+  const std::string& first = plan.outputs.front();
+  return is_stack(first) ? layer_name(first, 0) : first;
+}
+
 /// What the output carries besides the results: depth and cameras, so that `compare` knows the background by itself.
 void carry_over(Frame& from, Frame& to, bool bare) {
   for (View& view : to.views) {
@@ -221,7 +228,7 @@ void run_command(const RunCommand& flags) {
   carry_over(frame, result.frame, flags.bare);
   result.frame.attributes = provenance(plan, flags.run_flags);
   write_frame(flags.out, result.frame, writing);
-  const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, plan.outputs.front());
+  const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, pictured(plan));
   watch.lap("write");
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
   if (flags.json.only_json()) return;

@@ -2,6 +2,7 @@
 // over all peeled layers.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,5 +35,19 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
 /// The same technique with every layer of the peeled depth as an occluder: "dp-" before its name, and its estimate reads
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);
+
+/// The pass with `p.samples` stochastic depths behind the depth as occluders too: the choices of STOCHASTIC_PARAMS.
+template <typename Params>
+Pass behind_depth(Pass estimate, const Params& p) {
+  estimate.reads.push_back({"occluders", "stochastic", p.samples});
+  estimate.defines.insert(estimate.defines.end(),
+                          {{"STOCHASTIC", 1}, {"EARLY_OUT", p.early_out}, {"COMPENSATED", p.compensation != 1}});
+  return estimate;
+}
+
+/// The same technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its
+/// own.
+Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,
+                                std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
 }  // namespace gloam

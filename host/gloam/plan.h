@@ -59,7 +59,8 @@ class MissingPlanes : public Error {
 /// R, G, B").
 /// A stack (planes.h) is at hand when its first layer is, and has all layers up to the last one available: one that is
 /// missing in between is a missing plane. A pass that reads a stack gets a define with the number of layers, named after
-/// the argument: PEEL_LAYERS.
+/// the argument: PEEL_LAYERS. A binding that says how many layers it reads gets the first so many; where there are fewer,
+/// the last of them is a missing plane.
 /// Where `resolution` is above 1, planes of that size have names that end in it: "depth@2".
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds);
 

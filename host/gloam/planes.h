@@ -36,6 +36,8 @@ struct StackKind {
 const std::vector<StackKind>& stack_kinds();
 
 bool is_stack(std::string_view name);
+/// Throws std::out_of_range for a name that is none.
+const StackKind& stack_kind(std::string_view name);
 
 /// A plane that is one layer of a stack.
 struct StackLayer {

@@ -16,7 +16,7 @@ namespace gloam {
 ///
 /// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
 /// the technique's own resolution whatever the pass's. A pass that reads and writes such a stack names it once, as
-/// written.
+/// written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
 struct Binding {
   std::string argument, plane;
   int layers = 0;

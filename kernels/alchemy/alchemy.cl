@@ -6,7 +6,7 @@
 //
 // in : depth         view-space z, scene units, +inf = background
 //      normal        unit, view space
-//      occluders     stack of depth layers, in any order; without it the depth is the only layer
+//      occluders     further depth layers (ambient_occlusion.h); without them the depth is the only one
 //      depth_levels  what sao_level makes, for levels 1 to LEVELS (LEVELS > 0, without occluders)
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS; LEVEL (sao_level)
@@ -104,24 +104,24 @@ static inline Place place_at(Frame frame, Params params, Receiver r, integer dx,
 }
 
 // The depth there in one layer of the occluders. The layers themselves hold every pixel that a level would.
-static inline real depth_at(Frame frame, global const float* occluders, global const float* depth_levels, Receiver r,
-                            int layer, Place p, int within) {
+static inline real depth_at(Frame frame, DepthLayers layers, global const float* depth_levels, Receiver r, int layer,
+                            Place p, int within) {
 #ifdef READS_LEVELS
   if (ANY(p.coarse)) {
     const real coarse = gather(depth_levels, p.index);
     if (!ANY(!p.coarse)) return coarse;
-    return choose(p.coarse, coarse, sample_near(occluders, frame, r.here, within, p.dx, p.dy));
+    return choose(p.coarse, coarse, sample_near(layers.first, frame, r.here, within, p.dx, p.dy));
   }
 #endif
-  return sample_near(layer_of(occluders, frame, layer), frame, r.here, within, p.dx, p.dy);
+  return sample_near(layer_at(layers, frame, layer), frame, r.here, within, p.dx, p.dy);
 }
 
 // The largest contribution of all layers.
-static inline real obscurance_near(Frame frame, Params params, global const float* occluders,
-                                   global const float* depth_levels, Receiver r, Falloff falloff, Place p, int within) {
+static inline real obscurance_near(Frame frame, Params params, DepthLayers layers, global const float* depth_levels,
+                                   Receiver r, Falloff falloff, Place p, int within) {
   real largest = 0;
   for (int k = 0; k < LAYERS; ++k) {
-    const real depth = depth_at(frame, occluders, depth_levels, r, k, p, within);
+    const real depth = depth_at(frame, layers, depth_levels, r, k, p, within);
 #if GATHERS_ONLY
     largest += depth;
     continue;
@@ -133,8 +133,7 @@ static inline real obscurance_near(Frame frame, Params params, global const floa
   return largest;
 }
 
-static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params,
-                                                                    global const float* occluders,
+static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params, DepthLayers layers,
                                                                     global const float* depth_levels, Receiver r,
                                                                     Falloff falloff, Spiral spiral, int within) {
   real sum = 0;
@@ -144,7 +143,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
     sample_at(spiral, &dx, &dy);
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     const Place p = place_at(frame, params, r, dx, dy, larger(spiral.distance_x, spiral.distance_y));
-    const real found = obscurance_near(frame, params, occluders, depth_levels, r, falloff, p, within);
+    const real found = obscurance_near(frame, params, layers, depth_levels, r, falloff, p, within);
     sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
     next_sample(&spiral);
   }
@@ -153,7 +152,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
 
 kernel void alchemy_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                              OCCLUDERS_ARGUMENT DEPTH_LEVELS_ARGUMENT PLANE_OUT ao_raw) {
-  OCCLUDERS_FROM(depth)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
   DEPTH_LEVELS_FROM(depth)
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   if (!ANY(!r.point.background)) {
@@ -164,7 +163,7 @@ kernel void alchemy_estimate(Frame frame, Params params, PLANE depth, PLANE norm
   const Spiral spiral = spiral_of(r.reach, r.noise);
   real sum;
   LOOK_AROUND(sum, frame, r, r.reach,
-              sum_of_obscurance(frame, params, occluders, depth_levels, r, falloff, spiral, within))
+              sum_of_obscurance(frame, params, layers, depth_levels, r, falloff, spiral, within))
   const real mean = sum * falloff.radius * (params.strength * FACTOR / SAMPLES);
   const real open = smaller(larger(1 - mean, (real)(0)), (real)(1));
   real ao = open;

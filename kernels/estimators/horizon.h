@@ -21,9 +21,11 @@ typedef struct {
   real height, taken;  // both 0 to 1: of the highest occluder; of the wedge, less what distance spares
 } Horizon;
 
-// What one sample does to a horizon: how high it stands, 0 or less if out of reach; and what that takes away.
+// What one sample does to a horizon: how high it stands, 0 or less if out of reach; what that takes away; and whether it
+// stands above the horizon, in reach or not.
 typedef struct {
   real height, taken;
+  mask rises;
 } Rise;
 
 static inline Horizon horizon_from(scalar height) {
@@ -59,6 +61,7 @@ static inline Rise rise_to(Horizon horizon, real3 v, real3 n, real inverse_squar
   r.height = choose(counts & (weight > 0), height, (real)(0));
   // One sample waits for another only here.
   r.taken = (larger(r.height, horizon.height) - horizon.height) * weight;
+  r.rises = height > horizon.height;
   return r;
 }
 

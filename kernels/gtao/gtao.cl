@@ -4,18 +4,22 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/arc.h"
 #include "estimators/bent_normal.h"
 #include "estimators/sectors.h"
 #include "gtao/params.h"
 
-#if BITMASK
+#if BITMASK && STOCHASTIC
+typedef SdBitmaskParams Params;
+#elif BITMASK
 typedef BitmaskParams Params;
+#elif STOCHASTIC
+typedef SdGtaoParams Params;
 #else
 typedef GtaoParams Params;
 #endif
@@ -27,6 +31,12 @@ typedef struct {
   real radius_square, thickness;  // units of the pixel's depth
 } Search;
 
+// What is closed of one side of a slice.
+typedef struct {
+  real horizon;     // of what has no back that matters (arc.h)
+  natural covered;  // sectors.h
+} Closed;
+
 // One side of a slice.
 typedef struct {
   real along, above;                // of a sample on the pixel's own depth (slice.h)
@@ -34,8 +44,8 @@ typedef struct {
   real slope, above_e;              // slice.h
   real deeper_along, deeper_above;  // from the front of an occluder to its back
   Scale scale;
-  real horizon;     // of what has no back that matters (arc.h)
-  natural covered;  // sectors.h
+  Closed closed;
+  Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
 } Side;
 
 static inline Side side_of(Slice slice, Search search, real sign) {
@@ -45,23 +55,24 @@ static inline Side side_of(Slice slice, Search search, real sign) {
   s.deeper_along = sign * slice.sine * search.thickness;
   s.deeper_above = -slice.cosine * search.thickness;
   s.scale = scale_of(slice.cosine, sign * slice.sine, slice.mass, search.receiver.noise.shift);
-  s.horizon = (real)(NO_HORIZON);
-  s.covered = (natural)(0u);
+  s.closed.horizon = (real)(NO_HORIZON);
+  s.closed.covered = (natural)(0u);
+  s.closed_by_depth = s.closed;
   return s;
 }
 
-static inline void take_point(Side* side, Params params, Search search, real along, real above, mask in_frame) {
-  const real square = multiply_add(along, along, above * above);
+static inline void take_point(Closed* closed, const Side* side, Params params, Search search, real along, real above,
+                              real square, mask in_frame) {
   const mask counts = in_frame & (square < search.radius_square) & (above > side->least);
 #if BITMASK
   // What reaches down to the tangent only raises the horizon, which is cheap; few occluders float above it.
   const real back = above + side->deeper_above;
   const mask floats = counts & (back > 0);
-  side->horizon = raised(side->horizon, along, above, counts & (back <= 0));
+  closed->horizon = raised(closed->horizon, along, above, counts & (back <= 0));
   if (ANY(floats)) {
     const real low = sectors_below(along + side->deeper_along, back, side->scale);
     const natural covered = sectors_between(low, sectors_below(along, above, side->scale));
-    side->covered |= covered & bits_of(floats);
+    closed->covered |= covered & bits_of(floats);
   }
 #else
   real height = above;
@@ -69,36 +80,44 @@ static inline void take_point(Side* side, Params params, Search search, real alo
   height *= smaller((1 - square * search.receiver.reach.inverse_square) / params.fade, (real)(1));
 #endif
 #if THICKNESS_HEURISTIC
-  side->horizon = raised_or_lowered(side->horizon, along, height, params.thickness_heuristic, counts);
+  closed->horizon = raised_or_lowered(closed->horizon, along, height, params.thickness_heuristic, counts);
 #else
-  side->horizon = raised(side->horizon, along, height, counts);
+  closed->horizon = raised(closed->horizon, along, height, counts);
 #endif
 #endif
 }
 
 // Every layer at an offset in pixels.
-static inline __attribute__((always_inline)) void look(Frame frame, Params params, global const float* occluders,
-                                                       Search search, integer dx, integer dy, mask in_frame, int within,
-                                                       Side* side) {
+static inline __attribute__((always_inline)) void look(Frame frame, Params params, DepthLayers layers, Search search,
+                                                       integer dx, integer dy, mask in_frame, int within, Side* side) {
   const Receiver r = search.receiver;
+  mask asked = in_frame;
   for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
 #if GATHERS_ONLY
-    side->horizon = smaller(side->horizon, depth);
+    side->closed.horizon = smaller(side->closed.horizon, depth);
     continue;
 #endif
     const real e = relative_depth(r.point, r.depth, depth);
     const real q = multiply_add((real)(frame.perspective), e, (real)(1));
     const real above = multiply_add(e, side->above_e, q * side->above);
     const real along = multiply_add(-side->slope, above, q * side->along);
-    take_point(side, params, search, along, above, in_frame);
+    const real square = multiply_add(along, along, above * above);
+    take_point(&side->closed, side, params, search, along, above, square, asked);
+    if (k > 0) continue;
+#if COMPENSATED
+    take_point(&side->closed_by_depth, side, params, search, along, above, square, asked);
+#endif
+    if (LAYERS == 1) break;
+    asked &= asks_further(above > side->least, e < 0, square >= search.radius_square);
+    if (EARLY_OUT && !ANY(asked)) break;
   }
 }
 
 // Samples on both sides, denser towards the pixel.
-static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params,
-                                                               global const float* occluders, Search search,
-                                                               Slice slice, int within, Side* right, Side* left) {
+static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params, DepthLayers layers,
+                                                               Search search, Slice slice, int within, Side* right,
+                                                               Side* left) {
   const Receiver r = search.receiver;
   const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
   for (int k = 0; k < STEPS; ++k) {
@@ -117,21 +136,24 @@ static inline __attribute__((always_inline)) void search_slice(Frame frame, Para
       left->along = -(to_real(other_dx) * slice.along_x + to_real(other_dy) * slice.along_y);
       left->above = to_real(other_dx) * slice.above_x + to_real(other_dy) * slice.above_y;
     }
-    look(frame, params, occluders, search, dx, dy, in_frame, within, right);
-    look(frame, params, occluders, search, other_dx, other_dy, other_in_frame, within, left);
+    look(frame, params, layers, search, dx, dy, in_frame, within, right);
+    look(frame, params, layers, search, other_dx, other_dy, other_in_frame, within, left);
   }
 }
 
-// Share of a slice's mass.
-static inline real covered_share(Slice slice, Side* right, Side* left) {
+// Share of a slice's mass on one side; `sine` is the normal's lean towards it. Horizons become sectors.
+static inline real closed_share(Slice slice, real sine, Scale scale, Closed* closed) {
 #if BITMASK
-  right->covered |= sectors_between((real)(0), sectors_below_horizon(right->horizon, right->scale));
-  left->covered |= sectors_between((real)(0), sectors_below_horizon(left->horizon, left->scale));
-  return (count_of(right->covered) + count_of(left->covered)) * (1 / SECTORS);
+  closed->covered |= sectors_between((real)(0), sectors_below_horizon(closed->horizon, scale));
+  return count_of(closed->covered) * (1 / SECTORS);
 #else
-  return share_below(right->horizon, slice.cosine, slice.sine, slice.mass) +
-         share_below(left->horizon, slice.cosine, -slice.sine, slice.mass);
+  return share_below(closed->horizon, slice.cosine, sine, slice.mass);
 #endif
+}
+
+static inline real closed_side(Params params, Slice slice, real sine, Side* side) {
+  const real all = closed_share(slice, sine, side->scale, &side->closed);
+  return COMPENSATE(params, all, closed_share(slice, sine, side->scale, &side->closed_by_depth));
 }
 
 #if WITH_OPEN_DIRECTIONS
@@ -147,9 +169,9 @@ static inline void take_closed_side(OpenDirections* open, Search search, Slice s
     const real along = sine * slice.cosine - sign * cosine * slice.sine;
 #if BITMASK
     const natural sector = to_natural(to_integer(sectors_below(along, larger(up, (real)(0)), side.scale)));
-    const mask is_closed = to_mask(((side.covered >> sector) & 1u) != 0u) & (up > 0);
+    const mask is_closed = to_mask(((side.closed.covered >> sector) & 1u) != 0u) & (up > 0);
 #else
-    const mask is_closed = (along > side.horizon * up) & (up > 0);
+    const mask is_closed = (along > side.closed.horizon * up) & (up > 0);
 #endif
     const real3 v = search.surface.to_eye, t = slice.tangent;
     const real across = sign * sine;
@@ -162,7 +184,7 @@ static inline void take_closed_side(OpenDirections* open, Search search, Slice s
 }
 #endif
 
-static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, global const float* occluders,
+static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, DepthLayers layers,
                                                              Search search, int within, OpenDirections* directions) {
   const Receiver r = search.receiver;
   real open = 0, weights = 0;
@@ -171,8 +193,9 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     cosine_sine_of_turns(((scalar)d + r.noise.turn) * (scalar)(0.5f / DIRECTIONS), &cosine, &sine);
     const Slice slice = slice_at(r.point, search.surface, cosine, sine);
     Side right = side_of(slice, search, (real)(1)), left = side_of(slice, search, (real)(-1));
-    search_slice(frame, params, occluders, search, slice, within, &right, &left);
-    const real share = larger(1 - covered_share(slice, &right, &left), (real)(0));
+    search_slice(frame, params, layers, search, slice, within, &right, &left);
+    const real closed = closed_side(params, slice, slice.sine, &right) + closed_side(params, slice, -slice.sine, &left);
+    const real share = larger(1 - closed, (real)(0));
 #if WITH_OPEN_DIRECTIONS
     take_closed_side(directions, search, slice, right, (real)(1));
     take_closed_side(directions, search, slice, left, (real)(-1));
@@ -186,7 +209,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
 
 kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                           OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
-  OCCLUDERS_FROM(depth)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   OpenDirections directions = whole_hemisphere(r.normal);
   real open = 1;
@@ -204,7 +227,7 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 #endif
     // Along a slice that is not square to the view the radius reaches further on the screen.
     const Reach widest = longer(r.reach, search.surface.length);
-    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, occluders, search, within, &directions))
+    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, layers, search, within, &directions))
   }
   store_open(open, r, ao_raw);
   STORE_OPEN_DIRECTIONS(directions, r)

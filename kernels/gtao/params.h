@@ -17,5 +17,15 @@
   SLICE_PARAMS(P)         \
   P(float, thickness, 0.4f, 0, INFINITY, "radii", "how far an occluder reaches behind what is seen of it")
 
+#define SD_GTAO_PARAMS(P) \
+  GTAO_PARAMS(P)          \
+  STOCHASTIC_PARAMS(P)
+
+#define SD_BITMASK_PARAMS(P) \
+  BITMASK_PARAMS(P)          \
+  STOCHASTIC_PARAMS(P)
+
 PARAMS(GtaoParams, GTAO_PARAMS)
 PARAMS(BitmaskParams, BITMASK_PARAMS)
+PARAMS(SdGtaoParams, SD_GTAO_PARAMS)
+PARAMS(SdBitmaskParams, SD_BITMASK_PARAMS)

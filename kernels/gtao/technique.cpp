@@ -12,11 +12,20 @@ Pass estimate_of(const Params& p, std::vector<std::pair<std::string, int>> defin
   return estimate;
 }
 
-std::vector<Pass> gtao_passes(const GtaoParams& p) {
-  return {estimate_of(p, {{"BITMASK", 0}, {"FADE", p.fade > 0}, {"THICKNESS_HEURISTIC", p.thickness_heuristic > 0}})};
+template <typename Params>
+Pass gtao_pass(const Params& p) {
+  return estimate_of(p, {{"BITMASK", 0}, {"FADE", p.fade > 0}, {"THICKNESS_HEURISTIC", p.thickness_heuristic > 0}});
 }
 
-std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {estimate_of(p, {{"BITMASK", 1}})}; }
+template <typename Params>
+Pass bitmask_pass(const Params& p) {
+  return estimate_of(p, {{"BITMASK", 1}});
+}
+
+std::vector<Pass> gtao_passes(const GtaoParams& p) { return {gtao_pass(p)}; }
+std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {bitmask_pass(p)}; }
+std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return {behind_depth(gtao_pass(p), p)}; }
+std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return {behind_depth(bitmask_pass(p), p)}; }
 
 /// On both sides of each slice.
 int samples(const ParameterValues& values) { return int(2 * values.number("directions") * values.number("steps")); }
@@ -53,8 +62,12 @@ Technique bitmask_over_depth() {
 }  // namespace
 
 std::vector<Technique> gtao() {
-  return {gtao_over_depth(), bitmask_over_depth(), over_peeled_layers(gtao_over_depth()),
-          over_peeled_layers(bitmask_over_depth())};
+  return {gtao_over_depth(),
+          bitmask_over_depth(),
+          over_peeled_layers(gtao_over_depth()),
+          over_peeled_layers(bitmask_over_depth()),
+          over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
+          over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes))};
 }
 
 }  // namespace gloam::techniques

@@ -5,44 +5,61 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/horizon.h"
 #include "hbao/params.h"
 #include "shared/fan.h"
 
+#if STOCHASTIC
+typedef SdHbaoParams Params;
+#else
+typedef HbaoParams Params;
+#endif
+
 // Lifts a horizon by what the layers at an offset in pixels do to it. Inlined by order, and returns no struct: oclgrind
 // does not know what becomes of that.
-static inline __attribute__((always_inline)) void rise_near(Frame frame, global const float* occluders, Receiver r,
+static inline __attribute__((always_inline)) void rise_near(Frame frame, Params params, DepthLayers layers, Receiver r,
                                                             integer dx, integer dy, mask counts, int within,
                                                             Horizon* horizon) {
   Rise rise;
+  real by_first;
+  mask asked = counts;
   for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
 #if GATHERS_ONLY
     rise.height = depth;
     rise.taken = k == 0 ? depth : rise.taken + depth;
     continue;
 #endif
     const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, depth));
-    const Rise found = rise_to(*horizon, v, r.normal, r.reach.inverse_square, counts);
-    rise = k == 0 ? found : greater_rise(rise, found);
+    const Rise found = rise_to(*horizon, v, r.normal, r.reach.inverse_square, asked);
+    if (k == 0) {
+      rise = found;
+      by_first = found.taken;
+      if (LAYERS == 1) break;
+      asked &= asks_further(found.rises, v.z > 0, dot3(v, v) * r.reach.inverse_square >= 1);
+      if (EARLY_OUT && !ANY(asked)) break;
+    } else {
+      rise = greater_rise(rise, found);
+    }
   }
+  rise.taken = COMPENSATE(params, rise.taken, by_first);
   raise_by(horizon, rise);
 }
 
-static inline __attribute__((always_inline)) void sweep(Frame frame, global const float* occluders, Receiver r, Fan fan,
-                                                        scalar lowest, int within, Horizon* horizon) {
+static inline __attribute__((always_inline)) void sweep(Frame frame, Params params, DepthLayers layers, Receiver r,
+                                                        Fan fan, scalar lowest, int within, Horizon* horizon) {
   *horizon = horizon_from(lowest);
 #pragma unroll 8
   for (int k = 0; k < STEPS; ++k) {
     integer dx, dy;
     step_at(fan, k, &dx, &dy);
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
-    rise_near(frame, occluders, r, dx, dy, counts, within, horizon);
+    rise_near(frame, params, layers, r, dx, dy, counts, within, horizon);
   }
 }
 
@@ -67,8 +84,8 @@ static inline void take_closed_direction(OpenDirections* open, Receiver r, Surfa
 #endif
 
 // Sum over directions of what is taken from each.
-static inline __attribute__((always_inline)) real taken_around(Frame frame, global const float* occluders, Receiver r,
-                                                               Fan fan, scalar lowest, int within,
+static inline __attribute__((always_inline)) real taken_around(Frame frame, Params params, DepthLayers layers,
+                                                               Receiver r, Fan fan, scalar lowest, int within,
                                                                OpenDirections* directions) {
 #if WITH_OPEN_DIRECTIONS
   const Surface surface = surface_at(r.point, r.normal);
@@ -76,7 +93,7 @@ static inline __attribute__((always_inline)) real taken_around(Frame frame, glob
   real taken = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
     Horizon horizon;
-    sweep(frame, occluders, r, fan, lowest, within, &horizon);
+    sweep(frame, params, layers, r, fan, lowest, within, &horizon);
     taken += horizon.taken;
 #if WITH_OPEN_DIRECTIONS
     take_closed_direction(directions, r, surface, fan, horizon, lowest);
@@ -87,7 +104,7 @@ static inline __attribute__((always_inline)) real taken_around(Frame frame, glob
 }
 
 // Height of the bias: an angle in radians.
-static inline scalar lowest_height(HbaoParams params) {
+static inline scalar lowest_height(Params params) {
   real cosine, sine;
   cosine_sine_of_turns((real)((scalar)params.bias * (scalar)0.15915494309189535), &cosine, &sine);
 #if LANES == 1
@@ -97,16 +114,16 @@ static inline scalar lowest_height(HbaoParams params) {
 #endif
 }
 
-kernel void hbao_estimate(Frame frame, HbaoParams params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+kernel void hbao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                           OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
-  OCCLUDERS_FROM(depth)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   OpenDirections directions = whole_hemisphere(r.normal);
   real taken = 0;
   if (ANY(!r.point.background)) {
     const Fan fan = fan_of(r.reach, r.noise);
     const scalar lowest = lowest_height(params);
-    LOOK_AROUND(taken, frame, r, r.reach, taken_around(frame, occluders, r, fan, lowest, within, &directions))
+    LOOK_AROUND(taken, frame, r, r.reach, taken_around(frame, params, layers, r, fan, lowest, within, &directions))
   }
   store_open(1 - taken * (scalar)(1.0f / DIRECTIONS), r, ao_raw);
   STORE_OPEN_DIRECTIONS(directions, r)

@@ -9,4 +9,9 @@
   P(choice, weighting, uniform, (uniform, cosine),                                                                 \
     "whether all directions count alike, or by their cosine to the normal")
 
+#define SD_HBAO_PARAMS(P) \
+  HBAO_PARAMS(P)          \
+  STOCHASTIC_PARAMS(P)
+
 PARAMS(HbaoParams, HBAO_PARAMS)
+PARAMS(SdHbaoParams, SD_HBAO_PARAMS)

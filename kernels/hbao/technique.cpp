@@ -9,7 +9,8 @@ namespace {
 using Falloff = HbaoParams::falloff_values;
 using Weighting = HbaoParams::weighting_values;
 
-std::vector<Pass> passes(const HbaoParams& p) {
+template <typename Params>
+Pass estimate_of(const Params& p) {
   Pass estimate = ambient_occlusion_estimate(p, "hbao_estimate",
                                              {{"DIRECTIONS", p.directions},
                                               {"STEPS", p.steps},
@@ -17,8 +18,11 @@ std::vector<Pass> passes(const HbaoParams& p) {
                                               {"LINEAR_FALLOFF", p.falloff == Falloff::linear},
                                               {"COSINE_WEIGHTED", p.weighting == Weighting::cosine}});
   estimate.extras = {"bent_normal", "cone"};
-  return {estimate};
+  return estimate;
 }
+
+std::vector<Pass> passes(const HbaoParams& p) { return {estimate_of(p)}; }
+std::vector<Pass> sd_passes(const SdHbaoParams& p) { return {behind_depth(estimate_of(p), p)}; }
 
 int samples(const ParameterValues& values) { return int(values.number("directions") * values.number("steps")); }
 
@@ -52,6 +56,9 @@ Technique over_depth() {
 
 }  // namespace
 
-std::vector<Technique> hbao() { return {over_depth(), over_peeled_layers(over_depth())}; }
+std::vector<Technique> hbao() {
+  return {over_depth(), over_peeled_layers(over_depth()),
+          over_stochastic_depth(over_depth(), SdHbaoParams::table(), passes_of(sd_passes))};
+}
 
 }  // namespace gloam::techniques

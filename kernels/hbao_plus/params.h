@@ -9,4 +9,9 @@
   P(int, power, 1, 1, 4, "", "exponent on the result: NVIDIA's library uses 2 for contrast")                  \
   P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")
 
+#define SD_HBAO_PLUS_PARAMS(P) \
+  HBAO_PLUS_PARAMS(P)          \
+  STOCHASTIC_PARAMS(P)
+
 PARAMS(HbaoPlusParams, HBAO_PLUS_PARAMS)
+PARAMS(SdHbaoPlusParams, SD_HBAO_PLUS_PARAMS)

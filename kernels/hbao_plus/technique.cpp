@@ -6,13 +6,17 @@ namespace {
 
 using Falloff = HbaoPlusParams::falloff_values;
 
-std::vector<Pass> passes(const HbaoPlusParams& p) {
-  return {ambient_occlusion_estimate(p, "hbao_plus_estimate",
-                                     {{"DIRECTIONS", p.directions},
-                                      {"STEPS", p.steps},
-                                      {"POWER", p.power},
-                                      {"NO_FALLOFF", p.falloff == Falloff::none}})};
+template <typename Params>
+Pass estimate_of(const Params& p) {
+  return ambient_occlusion_estimate(p, "hbao_plus_estimate",
+                                    {{"DIRECTIONS", p.directions},
+                                     {"STEPS", p.steps},
+                                     {"POWER", p.power},
+                                     {"NO_FALLOFF", p.falloff == Falloff::none}});
 }
+
+std::vector<Pass> passes(const HbaoPlusParams& p) { return {estimate_of(p)}; }
+std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return {behind_depth(estimate_of(p), p)}; }
 
 int samples(const ParameterValues& values) { return int(values.number("directions") * values.number("steps")); }
 
@@ -42,6 +46,9 @@ Technique over_depth() {
 
 }  // namespace
 
-std::vector<Technique> hbao_plus() { return {over_depth(), over_peeled_layers(over_depth())}; }
+std::vector<Technique> hbao_plus() {
+  return {over_depth(), over_peeled_layers(over_depth()),
+          over_stochastic_depth(over_depth(), SdHbaoPlusParams::table(), passes_of(sd_passes))};
+}
 
 }  // namespace gloam::techniques

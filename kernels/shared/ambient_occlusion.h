@@ -12,21 +12,76 @@
     "what lies beyond the border of the image: the surface at the border, or nothing that occludes") \
   P(bool, jitter, on, "turn and shift the samples from pixel to pixel")
 
+// Those of every technique that looks at stochastic depths behind the depth (Vermeer, Scandolo, Eisemann 2021).
+#define STOCHASTIC_PARAMS(P)                                                                                       \
+  P(int, samples, 4, 1, 16, "", "stochastic depths per pixel")                                                     \
+  P(choice, early_out, below, (off, below, on),                                                                    \
+    "where they are not looked at: nowhere; where the depth lies below the surface, since what is behind it lies " \
+    "lower; on: nor where it is within reach, as in the paper")                                                    \
+  P(float, compensation, 1, 0, 8, "", "factor on what they take away: they miss some of what is hidden")
+
 #ifdef __OPENCL_VERSION__
 #include "shared/camera.h"
 #include "shared/sample.h"
 
-// Occluders: every layer of a stack, or the depth alone. A kernel's arguments after the normal:
+// Where occluders are looked for: the depth alone, every layer of a stack whose first is the depth, or with STOCHASTIC the
+// depth and then every layer of a stack. A kernel's arguments after the normal:
 //   OCCLUDERS_ARGUMENT PLANE_OUT ao_raw ...
-// and its first line: OCCLUDERS_FROM(depth)
+// and its first line: const DepthLayers layers = LAYERS_FROM(frame, depth);
+typedef struct {
+  global const float* first;
+  global const float* further;  // one after another (load.h)
+} DepthLayers;
+
+static inline DepthLayers depth_layers(global const float* first, global const float* further) {
+  DepthLayers layers;
+  layers.first = first;
+  layers.further = further;
+  return layers;
+}
+
 #ifdef OCCLUDERS_LAYERS
-#define LAYERS OCCLUDERS_LAYERS
 #define OCCLUDERS_ARGUMENT PLANE occluders,
-#define OCCLUDERS_FROM(depth)
+#if STOCHASTIC
+#define LAYERS (1 + OCCLUDERS_LAYERS)
+#define LAYERS_FROM(frame, depth) depth_layers(depth, occluders)
+#else
+#define LAYERS OCCLUDERS_LAYERS
+#define LAYERS_FROM(frame, depth) depth_layers(occluders, layer_of(occluders, frame, 1))
+#endif
 #else
 #define LAYERS 1
 #define OCCLUDERS_ARGUMENT
-#define OCCLUDERS_FROM(depth) PLANE occluders = depth;
+#define LAYERS_FROM(frame, depth) depth_layers(depth, depth)
+#endif
+
+static inline global const float* layer_at(DepthLayers layers, Frame f, int layer) {
+  return layer == 0 ? layers.first : layer_of(layers.further, f, layer - 1);
+}
+
+// Where layers behind the first are asked (section 3.3): 0 everywhere; 1 where the first rises above the surface, or above
+// the horizon so far, since what is behind it lies lower; 2 where it is nearer to the eye than the pixel's point, and out of
+// reach.
+#ifndef EARLY_OUT
+#define EARLY_OUT 0
+#endif
+
+static inline mask asks_further(mask rises, mask nearer, mask out_of_reach) {
+#if EARLY_OUT == 2
+  return nearer & out_of_reach;
+#elif EARLY_OUT == 1
+  return rises;
+#else
+  return EVERY_LANE;
+#endif
+}
+
+// What layers take together, where what further ones add to the first counts by a factor: they miss some of what is hidden
+// (section 4).
+#if COMPENSATED
+#define COMPENSATE(params, all, by_first) ((by_first) + (params).compensation * ((all) - (by_first)))
+#else
+#define COMPENSATE(params, all, by_first) (all)
 #endif
 
 // The row of pixels that a work-item computes.

@@ -49,6 +49,7 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 #define to_natural JOIN(convert_, N_LANES(uint))
 #define to_stored JOIN(convert_, N_LANES(float))
 #define as_integer JOIN(as_, N_LANES(int))  // the bits of `stored`, and back
+#define as_natural JOIN(as_, N_LANES(uint))
 #define as_stored JOIN(as_, N_LANES(float))
 
 // A comparison of integers as a mask for reals.

@@ -1,8 +1,6 @@
 #include "shared/ambient_occlusion.h"
 
-#define SSAO_PARAMS(P)                                                                                            \
-  REACH_PARAMS(P)                                                                                                 \
-  P(int, samples, 18, 1, 2048, "", "points looked at per pixel")                                                  \
+#define BALL_PARAMS(P)                                                                                            \
   P(bool, hemisphere, on, "points in the half of the ball above the surface; off: in all of it, as in the paper") \
   P(float, inner, 0, 0, 0.99f, "radii", "points lie further away than this: a shell instead of a ball")           \
   P(float, bias, 0.02f, 0, 0.99f, "",                                                                             \
@@ -10,4 +8,16 @@
   P(float, range, 2, 0, INFINITY, "radii",                                                                        \
     "how far before the pixel's point an occluder counts in full; nothing from twice that on")
 
+#define SSAO_PARAMS(P)                                           \
+  REACH_PARAMS(P)                                                \
+  P(int, samples, 18, 1, 2048, "", "points looked at per pixel") \
+  BALL_PARAMS(P)
+
+#define SD_SSAO_PARAMS(P)                                       \
+  REACH_PARAMS(P)                                               \
+  P(int, points, 18, 1, 2048, "", "points looked at per pixel") \
+  BALL_PARAMS(P)                                                \
+  STOCHASTIC_PARAMS(P)
+
 PARAMS(SsaoParams, SSAO_PARAMS)
+PARAMS(SdSsaoParams, SD_SSAO_PARAMS)

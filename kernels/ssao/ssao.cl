@@ -2,15 +2,21 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D SAMPLES, HEMISPHERE, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+// -D SAMPLES, HEMISPHERE, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/ball.h"
 #include "estimators/bent_normal.h"
 #include "shared/ball.h"
 #include "ssao/params.h"
+
+#if STOCHASTIC
+typedef SdSsaoParams Params;
+#else
+typedef SsaoParams Params;
+#endif
 
 // What a row of pixels looks for.
 typedef struct {
@@ -23,7 +29,7 @@ typedef struct {
   scalar bias;
 } Search;
 
-static inline Search search_of(Frame frame, SsaoParams params, Receiver r) {
+static inline Search search_of(Frame frame, Params params, Receiver r) {
   Search s;
   s.receiver = r;
   s.surface = surface_at(r.point, r.normal);
@@ -37,26 +43,36 @@ static inline Search search_of(Frame frame, SsaoParams params, Receiver r) {
 }
 
 // How much a point is occluded, 0 to 1: of all layers at its pixel the largest.
-static inline real occlusion_at(Frame frame, global const float* occluders, Search s, integer dx, integer dy,
+static inline real occlusion_at(Frame frame, Params params, DepthLayers layers, Search s, integer dx, integer dy,
                                 real height, int within) {
   const Receiver r = s.receiver;
   const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
-  real largest = 0;
+  real largest = 0, by_first = 0;
+  mask asked = EVERY_LANE;
   for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
 #if GATHERS_ONLY
     largest += depth;
     continue;
 #endif
     const real e = relative_depth(r.point, r.depth, depth);
     const mask is_behind = stands_before(e, fall, there - height);
-    largest = larger(choose(is_behind, range_weight(e, s.per_range), (real)(0)), largest);
+    const real found = choose(is_behind, range_weight(e, s.per_range), (real)(0));
+    if (k == 0) {
+      largest = by_first = found;
+      if (LAYERS == 1) break;
+      // What is in reach occludes the point as much as it can, or by a part in the outer range.
+      asked = asks_further(is_behind & (found < 1), is_behind, found <= 0);
+      if (EARLY_OUT && !ANY(asked)) break;
+    } else {
+      largest = choose(asked, larger(found, largest), largest);
+    }
   }
-  return largest;
+  return COMPENSATE(params, largest, by_first);
 }
 
-static inline __attribute__((always_inline)) real occluded_points(Frame frame, global const float* occluders, Search s,
-                                                                  int within, OpenDirections* open) {
+static inline __attribute__((always_inline)) real occluded_points(Frame frame, Params params, DepthLayers layers,
+                                                                  Search s, int within, OpenDirections* open) {
   const Receiver r = s.receiver;
   real sum = 0;
 // Unrolled it is no faster, and takes far longer to compile.
@@ -67,7 +83,7 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, g
     project(s.on_screen, point, &dx, &dy);
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     const real height = point.distance * ((point.axis + s.bias) * s.on_screen.radius) + s.heights.rounding;
-    real found = occlusion_at(frame, occluders, s, dx, dy, height, within);
+    real found = occlusion_at(frame, params, layers, s, dx, dy, height, within);
     if (OUTSIDE_OPEN) found = choose(counts, found, (real)(0));
     sum += found;
 #if WITH_OPEN_DIRECTIONS
@@ -77,16 +93,16 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, g
   return sum;
 }
 
-kernel void ssao_estimate(Frame frame, SsaoParams params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+kernel void ssao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                           OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
-  OCCLUDERS_FROM(depth)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   OpenDirections open = no_directions();
   real occluded = 0;
   if (ANY(!r.point.background)) {
     const Search s = search_of(frame, params, r);
     const Reach widest = reach_of_ball(s.on_screen, s.surface);
-    LOOK_AROUND(occluded, frame, r, widest, occluded_points(frame, occluders, s, within, &open))
+    LOOK_AROUND(occluded, frame, r, widest, occluded_points(frame, params, layers, s, within, &open))
   }
   store_open(1 - occluded * ((scalar)1 / SAMPLES), r, ao_raw);
   STORE_OPEN_DIRECTIONS(open, r)

@@ -4,12 +4,17 @@
 namespace gloam::techniques {
 namespace {
 
-std::vector<Pass> passes(const SsaoParams& p) {
-  Pass estimate =
-      ambient_occlusion_estimate(p, "ssao_estimate", {{"SAMPLES", p.samples}, {"HEMISPHERE", p.hemisphere}});
+template <typename Params>
+Pass estimate_of(const Params& p, int points) {
+  Pass estimate = ambient_occlusion_estimate(p, "ssao_estimate", {{"SAMPLES", points}, {"HEMISPHERE", p.hemisphere}});
   estimate.extras = {"bent_normal", "cone"};
-  return {estimate};
+  return estimate;
 }
+
+std::vector<Pass> passes(const SsaoParams& p) { return {estimate_of(p, p.samples)}; }
+std::vector<Pass> sd_passes(const SdSsaoParams& p) { return {behind_depth(estimate_of(p, p.points), p)}; }
+
+int value_of_points(const ParameterValues& values) { return int(values.number("points")); }
 
 Technique over_depth() {
   Technique t =
@@ -24,8 +29,17 @@ Technique over_depth() {
   return t;
 }
 
+/// Its `samples` are those of the stochastic depth, as in all techniques over it.
+Technique over_stochastic() {
+  Technique t = over_stochastic_depth(over_depth(), SdSsaoParams::table(), passes_of(sd_passes));
+  for (Preset& preset : t.presets) preset.settings.front().first = "points";
+  t.converged = {{"points", "1024"}};
+  t.samples = value_of_points;
+  return t;
+}
+
 }  // namespace
 
-std::vector<Technique> ssao() { return {over_depth(), over_peeled_layers(over_depth())}; }
+std::vector<Technique> ssao() { return {over_depth(), over_peeled_layers(over_depth()), over_stochastic()}; }
 
 }  // namespace gloam::techniques

@@ -3,7 +3,7 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  stack of depth layers, in any order; without it the depth is the only layer
+//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
 #include "estimators/column.h"
@@ -38,14 +38,14 @@ static inline Search search_of(Frame frame, VolumetricParams params, Receiver r,
 }
 
 // How much of a column is occluded: of all layers at its pixel the largest.
-static inline real occlusion_at(Frame frame, global const float* occluders, Search s, integer dx, integer dy,
-                                Column column, real bias, int within) {
+static inline real occlusion_at(Frame frame, DepthLayers layers, Search s, integer dx, integer dy, Column column,
+                                real bias, int within) {
   const Receiver r = s.receiver;
   const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
   const real counted = there - bias - s.heights.rounding;
   real largest = 0;
   for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_of(occluders, frame, k), frame, r.here, within, dx, dy);
+    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
 #if GATHERS_ONLY
     largest += depth;
     continue;
@@ -58,7 +58,7 @@ static inline real occlusion_at(Frame frame, global const float* occluders, Sear
 }
 
 // Share of all columns together.
-static inline __attribute__((always_inline)) real occluded_share(Frame frame, global const float* occluders, Search s,
+static inline __attribute__((always_inline)) real occluded_share(Frame frame, DepthLayers layers, Search s,
                                                                  int within) {
   const Receiver r = s.receiver;
   real occluded = 0, whole = 0;
@@ -72,7 +72,7 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, gl
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     const real left = 1 - square + (scalar)1e-20f;  // above 0
     const Column column = column_of(middle, s.rise * (left * inverse_sqrt(left)));
-    const real found = occlusion_at(frame, occluders, s, dx, dy, column, distance * s.bias, within);
+    const real found = occlusion_at(frame, layers, s, dx, dy, column, distance * s.bias, within);
     occluded += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
     whole += column.high - column.low;
   }
@@ -81,7 +81,7 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, gl
 
 kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE depth, PLANE normal_x, PLANE normal_y,
                                 PLANE normal_z, OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
-  OCCLUDERS_FROM(depth)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real occluded = 0;
   if (ANY(!r.point.background)) {
@@ -89,7 +89,7 @@ kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE dept
     const Search s = search_of(frame, params, r, surface);
     // The disk is not square to the image's depth: it reaches further on the screen.
     const Reach widest = longer(r.reach, surface.length);
-    LOOK_AROUND(occluded, frame, r, widest, occluded_share(frame, occluders, s, within))
+    LOOK_AROUND(occluded, frame, r, widest, occluded_share(frame, layers, s, within))
   }
   store_open(1 - occluded, r, ao_raw);
 }

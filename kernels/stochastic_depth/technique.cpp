@@ -1,0 +1,31 @@
+#include "gloam/technique.h"
+
+#include "stochastic_depth/params.h"
+
+namespace gloam::techniques {
+namespace {
+
+std::vector<Pass> passes(const StochasticDepthParams& p) {
+  return {{.name = "map",
+           .kernel = "stochastic_depth_map",
+           .reads = {"depth", "peel"},
+           .writes = {{"stochastic", "stochastic", p.samples}},
+           .defines = {{"SAMPLES", p.samples}, {"HASHED", p.subset == StochasticDepthParams::subset_values::hashed}}}};
+}
+
+}  // namespace
+
+std::vector<Technique> stochastic_depth() {
+  return {{
+      .name = "stochastic-depth",
+      .summary = "depths of surfaces chosen at random among all under a pixel, seen or hidden",
+      .paper = "Vermeer, Scandolo, Eisemann 2021",
+      .source = "stochastic_depth/stochastic_depth.cl",
+      .reads = {"depth", "peel"},
+      .writes = {"stochastic"},
+      .parameters = StochasticDepthParams::table(),
+      .passes = passes_of(passes),
+  }};
+}
+
+}  // namespace gloam::techniques
