@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <map>
 #include <set>
@@ -15,14 +16,18 @@ namespace {
 
 #define FRAME_SCALAR float
 #define FRAME_NAME FrameOfFloats
+#define NEIGHBOUR_NAME NeighbourOfFloats
 #include "shared/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
+#undef NEIGHBOUR_NAME
 #define FRAME_SCALAR double
 #define FRAME_NAME FrameOfDoubles
+#define NEIGHBOUR_NAME NeighbourOfDoubles
 #include "shared/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
+#undef NEIGHBOUR_NAME
 static_assert(Layout::guard == FRAME_GUARD);
 
 /// `layout`: of every `scale`-th pixel. The centre of reduced pixel X is that of pixel X * scale.
@@ -40,6 +45,20 @@ KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout&
           centre(camera.cy - frame.window.y0),
           Scalar(camera.orthographic ? 0 : 1),
           Scalar(camera.orthographic ? 1 : 0)};
+}
+
+/// `frame`: of the neighbour. Differences of places are taken in double, so that views far from the origin stay exact.
+template <typename KernelNeighbour, typename KernelFrame>
+KernelNeighbour kernel_neighbour(const KernelFrame& frame, const Pose& own, const Pose& other) {
+  KernelNeighbour n;
+  n.frame = frame;
+  const glm::dmat3 rotation = other.world_to_view * glm::transpose(own.world_to_view);
+  const glm::dvec3 translation = other.world_to_view * (own.position - other.position);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) n.rotation[3 * row + column] = rotation[column][row];
+    n.translation[row] = translation[row];
+  }
+  return n;
 }
 
 /// Every plane and stack that a plan's passes touch.
@@ -201,10 +220,15 @@ std::string build_options(const PlannedPass& planned, const Device::Impl& device
   return text;
 }
 
+bool reads_other_view(const Pass& pass) {
+  return std::any_of(pass.reads.begin(), pass.reads.end(), [](const Binding& b) { return b.of_other; });
+}
+
 /// Argument names that the declaration promises.
 std::vector<std::string> declared_arguments(const PlannedPass& planned, const Layouts& layouts) {
   std::vector<std::string> names = {"frame"};
   if (other_scale(planned, layouts) != 0) names.push_back("other");
+  if (reads_other_view(planned.pass)) names.push_back("neighbour");
   if (!planned.technique->parameters.empty()) names.push_back("params");
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
@@ -249,31 +273,54 @@ cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Devi
   return kernel;
 }
 
-/// The whole image, and what a kernel has to know of it.
-struct Image {
+/// One view: its image, and its planes on the device.
+struct Target {
   const Frame& frame;
-  const Camera& camera;
+  const View& view;
   Layout layout;
   Layouts layouts;
+  Buffers buffers;
+  std::set<std::string> planes;     // at hand: inputs, and what passes make here
+  std::vector<cl::Kernel> kernels;  // of the passes that run here
+  std::vector<size_t> passes;       // which these are
+  std::vector<size_t> times;        // where their times go
 };
 
-void set_frame(cl::Kernel& kernel, cl_uint index, const Image& image, int scale, const RunOptions& options) {
-  const Layout layout = reduced(image.layout, scale);
-  if (options.real == Real::float64)
-    kernel.setArg(index, kernel_frame<FrameOfDoubles>(image.frame, image.camera, layout, scale, options.seed));
-  else
-    kernel.setArg(index, kernel_frame<FrameOfFloats>(image.frame, image.camera, layout, scale, options.seed));
+template <typename KernelFrame>
+KernelFrame frame_of(const Target& target, int scale, int seed) {
+  return kernel_frame<KernelFrame>(target.frame, *target.view.camera, reduced(target.layout, scale), scale, seed);
 }
 
-void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, const Image& image, Buffers& buffers,
+void set_frame(cl::Kernel& kernel, cl_uint index, const Target& target, int scale, const RunOptions& options) {
+  if (options.real == Real::float64)
+    kernel.setArg(index, frame_of<FrameOfDoubles>(target, scale, options.seed));
+  else
+    kernel.setArg(index, frame_of<FrameOfFloats>(target, scale, options.seed));
+}
+
+void set_neighbour(cl::Kernel& kernel, cl_uint index, const Target& target, const Target& other,
+                   const RunOptions& options) {
+  const Pose &from = *target.view.camera->pose, &to = *other.view.camera->pose;
+  if (options.real == Real::float64)
+    kernel.setArg(index,
+                  kernel_neighbour<NeighbourOfDoubles>(frame_of<FrameOfDoubles>(other, 1, options.seed), from, to));
+  else
+    kernel.setArg(index,
+                  kernel_neighbour<NeighbourOfFloats>(frame_of<FrameOfFloats>(other, 1, options.seed), from, to));
+}
+
+/// `other`: the other view, null where there is none.
+void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, Target& target, Target* other,
                    const RunOptions& options) {
   cl_uint index = 0;
-  set_frame(kernel, index++, image, planned.pass.scale, options);
-  if (const int other = other_scale(planned, image.layouts)) set_frame(kernel, index++, image, other, options);
+  set_frame(kernel, index++, target, planned.pass.scale, options);
+  if (const int scale = other_scale(planned, target.layouts)) set_frame(kernel, index++, target, scale, options);
+  if (reads_other_view(planned.pass)) set_neighbour(kernel, index++, target, *other, options);
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
-      for (cl::Buffer& buffer : buffers.of(binding.plane)) kernel.setArg(index++, buffer);
+      Target& from = binding.of_other ? *other : target;
+      for (cl::Buffer& buffer : from.buffers.of(binding.plane)) kernel.setArg(index++, buffer);
     }
   }
 }
@@ -355,61 +402,131 @@ const Plane& input_plane(const Plan& plan, const View& view, const std::string& 
 }
 
 /// Brings the inputs to the device, and makes room for what is computed.
-void fill(Buffers& buffers, const Plan& plan, const View& view, const Image& image) {
+void fill(Target& target, const Plan& plan) {
   std::map<std::string, const Plane*> inputs;
-  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, view, name, image.layout);
+  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, target.view, name, target.layout);
   for (const std::string& name : planes_of(plan)) {
     if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) {
       std::vector<const Plane*> layers;
       for (const std::string& layer : stack->second) layers.push_back(inputs.at(layer));
-      buffers.upload_stack(name, layers);
+      target.buffers.upload_stack(name, layers);
+      target.planes.insert(name);
     } else if (const auto input = inputs.find(name); input != inputs.end()) {
-      buffers.upload(*input->second);
+      target.buffers.upload(*input->second);
+      target.planes.insert(name);
     } else if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name)) {
-      buffers.allocate_stack(name, image.layouts.of(name), layers);
+      target.buffers.allocate_stack(name, target.layouts.of(name), layers);
     } else {
-      buffers.allocate(name, image.layouts.of(name));
+      target.buffers.allocate(name, target.layouts.of(name));
     }
   }
 }
 
-void run_view(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device, const RunOptions& options,
-              int lanes, View& out, RunResult& result) {
-  const Layout layout(frame.width(), frame.height());
-  const Image image{frame, *view.camera, layout, Layouts(plan, layout)};
-  Buffers buffers(device);
-  fill(buffers, plan, view, image);
-  std::vector<cl::Kernel> kernels;
-  for (const PlannedPass& planned : plan.passes) {
-    kernels.push_back(build_kernel(planned, image.layouts, device, options, lanes));
-    set_arguments(kernels.back(), planned, image, buffers, options);
-  }
-  const size_t first = result.passes.size();
-  for (const PlannedPass& planned : plan.passes) result.passes.push_back({view.name, planned.label(), {}});
-  const int warm_ups = options.repeat > 1 ? 1 : 0;
-  for (int i = -warm_ups; i < options.repeat; ++i) {
-    for (size_t k = 0; k < kernels.size(); ++k) {
-      try {
-        const double ms = launch(device, kernels[k], reduced(layout, plan.passes[k].pass.scale), lanes);
-        if (i >= 0) result.passes[first + k].ms.push_back(ms);
-      } catch (const cl::Error& error) {
-        throw Error("{} on {}: {} ({})", plan.passes[k].label(), device.info.name, error.what(),
-                    cl_error_name(error.err()));
-      }
-      if (options.progress)
-        options.progress(int((i + warm_ups) * kernels.size() + k + 1),
-                         int((options.repeat + warm_ups) * kernels.size()));
+/// Whether a pass runs on a view: it is meant for it, and what it reads of it is there.
+bool runs_on(const PlannedPass& planned, const Target& target, size_t number) {
+  if (planned.pass.view >= 0 && size_t(planned.pass.view) != number) return false;
+  return std::all_of(planned.pass.reads.begin(), planned.pass.reads.end(),
+                     [&](const Binding& b) { return b.of_other || target.planes.count(b.plane) > 0; });
+}
+
+/// Finds out which passes run on which views, and builds their kernels.
+void add_kernels(const Plan& plan, std::vector<Target>& targets, Device::Impl& device, const RunOptions& options,
+                 int lanes, RunResult& result) {
+  for (size_t k = 0; k < plan.passes.size(); ++k) {
+    const PlannedPass& planned = plan.passes[k];
+    for (size_t i = 0; i < targets.size(); ++i) {
+      Target& target = targets[i];
+      if (!runs_on(planned, target, i)) continue;
+      Target* other = targets.size() == 2 ? &targets[1 - i] : nullptr;
+      target.kernels.push_back(build_kernel(planned, target.layouts, device, options, lanes));
+      set_arguments(target.kernels.back(), planned, target, other, options);
+      target.passes.push_back(k);
+      for (const Binding& written : planned.pass.writes) target.planes.insert(written.plane);
     }
   }
+  for (Target& target : targets) {
+    for (const size_t k : target.passes) {
+      target.times.push_back(result.passes.size());
+      result.passes.push_back({target.view.name, plan.passes[k].label(), {}});
+    }
+  }
+}
+
+/// Every pass on all views before the next one: it may read what the other view made.
+template <typename Function>
+void for_each_launch(const Plan& plan, std::vector<Target>& targets, const Function& function) {
+  std::vector<size_t> next(targets.size(), 0);
+  for (size_t k = 0; k < plan.passes.size(); ++k) {
+    for (size_t i = 0; i < targets.size(); ++i) {
+      Target& target = targets[i];
+      if (next[i] < target.passes.size() && target.passes[next[i]] == k) function(target, next[i]++);
+    }
+  }
+}
+
+void download(const Plan& plan, Target& target, View& out) {
   for (const std::string& name : plan.outputs) {
+    if (target.planes.count(name) == 0 && !target.view.find(name)) continue;
     if (is_stack(name)) {
-      for (Plane& plane : buffers.download_stack(name, image.layouts.of(name), layers_in_buffer(plan, name)))
+      for (Plane& plane : target.buffers.download_stack(name, target.layouts.of(name), layers_in_buffer(plan, name)))
         out.planes.emplace(plane.name, std::move(plane));
       continue;
     }
-    const Plane* given = view.find(name);
     const bool is_input = std::find(plan.inputs.begin(), plan.inputs.end(), name) != plan.inputs.end();
-    out.planes.emplace(name, is_input ? given->clone() : buffers.download(name, image.layouts.of(name)));
+    out.planes.emplace(
+        name, is_input ? target.view.find(name)->clone() : target.buffers.download(name, target.layouts.of(name)));
+  }
+}
+
+/// Views that are on the device together.
+void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
+               const RunOptions& options, int lanes, RunResult& result) {
+  const Layout layout(frame.width(), frame.height());
+  std::vector<Target> targets;
+  for (const View* view : views) {
+    targets.push_back({frame, *view, layout, Layouts(plan, layout), Buffers(device), {}, {}, {}, {}});
+    fill(targets.back(), plan);
+  }
+  add_kernels(plan, targets, device, options, lanes, result);
+  size_t launches = 0, done = 0;
+  for (const Target& target : targets) launches += target.kernels.size();
+  const int warm_ups = options.repeat > 1 ? 1 : 0;
+  for (int i = -warm_ups; i < options.repeat; ++i) {
+    for_each_launch(plan, targets, [&](Target& target, size_t k) {
+      const PlannedPass& planned = plan.passes[target.passes[k]];
+      try {
+        const double ms = launch(device, target.kernels[k], reduced(layout, planned.pass.scale), lanes);
+        if (i >= 0) result.passes[target.times[k]].ms.push_back(ms);
+      } catch (const cl::Error& error) {
+        throw Error("{} on {}: {} ({})", planned.label(), device.info.name, error.what(), cl_error_name(error.err()));
+      }
+      if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
+    });
+  }
+  for (Target& target : targets) {
+    View out{.name = target.view.name, .camera = target.view.camera, .origin = target.view.origin, .planes = {}};
+    download(plan, target, out);
+    result.frame.views.push_back(std::move(out));
+  }
+}
+
+bool needs_two_views(const Plan& plan) {
+  return std::any_of(plan.passes.begin(), plan.passes.end(),
+                     [](const PlannedPass& planned) { return planned.technique->views == 2; });
+}
+
+void check_two_views(const Plan& plan, const Frame& frame) {
+  if (frame.views.size() != 2)
+    throw Error(
+        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo makes one, "
+        "--views A,B takes two of more",
+        plan.technique, frame.views.size());
+  for (const View& view : frame.views) {
+    if (!view.camera->pose)
+      throw Error(
+          "{}: view '{}' has a camera without a pose, so nothing tells where it stands beside the other; give "
+          "camera_to_world in a --camera file",
+          plan.technique, view.name);
   }
 }
 
@@ -420,7 +537,7 @@ unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
   unsigned long long bytes = 0;
   for (const std::string& name : planes_of(plan))
     bytes += plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
-  return bytes;
+  return needs_two_views(plan) ? 2 * bytes : bytes;
 }
 
 void check(const Plan& plan, const Layout& layout, const Device& device, const RunOptions& options) {
@@ -447,13 +564,16 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   result.frame.assumed = frame.assumed;
   for (const View& view : frame.views) {
     if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);
-    View out{.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}};
+  }
+  if (needs_two_views(plan)) check_two_views(plan, frame);
+  std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
+  for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
+  for (const std::vector<const View*>& views : groups) {
     try {
-      run_view(plan, frame, view, impl, options, result.lanes, out, result);
+      run_views(plan, frame, views, impl, options, result.lanes, result);
     } catch (const cl::Error& error) {
       throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
     }
-    result.frame.views.push_back(std::move(out));
   }
   result.total_ms.assign(size_t(std::max(options.repeat, 0)), 0.0);
   for (const PassTime& pass : result.passes) {

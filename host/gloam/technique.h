@@ -17,16 +17,26 @@ namespace gloam {
 /// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
 /// the technique's own resolution whatever the pass's. A pass that reads and writes such a stack names it once, as
 /// written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
+///
+/// With `of_other` it is the plane of the other of two views (`Technique::views`).
 struct Binding {
   std::string argument, plane;
   int layers = 0;
+  bool of_other = false;
   Binding(const char* name) : argument(name), plane(name) {}
   Binding(std::string argument, std::string plane, int layers = 0)
       : argument(std::move(argument)), plane(std::move(plane)), layers(layers) {}
 };
 
-/// One kernel launch. Kernel arguments: (Frame frame, Frame other, Params params, reads..., writes...). A technique
-/// without parameters has no `params`. `other` is there only where planes of a second resolution are bound: their frame.
+/// The binding of the other view's plane.
+inline Binding of_other(Binding binding) {
+  binding.of_other = true;
+  return binding;
+}
+
+/// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, Params params, reads..., writes...).
+/// A technique without parameters has no `params`. `other` is there only where planes of a second resolution are bound:
+/// their frame; `neighbour` (frame.h) only where planes of the other view are.
 struct Pass {
   std::string name;                                  ///< "estimate": shown as "hbao+/estimate"
   std::string kernel;                                ///< function in the technique's source
@@ -38,6 +48,8 @@ struct Pass {
   /// Pixels of the image per pixel of what is computed, along each axis: one of `scale` x `scale` pixels is launched, and
   /// the planes written are that small (`reduced`, frame.h).
   int scale = 1;
+  /// The view that it runs on, by number; -1: on every one. Passes that read what it makes run there too.
+  int view = -1;
 };
 
 /// A named set of parameter values.
@@ -58,6 +70,7 @@ struct Technique {
                                      ///< the same name
   std::vector<std::pair<std::string, std::string>> then_with;  ///< settings that the follower has by default
   std::vector<std::string> default_for;  ///< planes that it makes where they are asked for by name and several could
+  int views = 1;                         ///< that a frame needs: 2 where passes read the other view's planes
   std::vector<std::string> extras;       ///< planes made beside `writes` where they are asked for by name
   std::vector<Parameter> parameters;
   std::vector<Preset> presets;

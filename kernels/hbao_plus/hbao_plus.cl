@@ -5,30 +5,48 @@
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
 //      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
+//      other_depth, other_occluders  the same of the other view (hbao_plus_other_view)
+//      own        what hbao_plus_estimate found
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
-// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED
+// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, MULTIVIEW
 #include "estimators/obscurance.h"
 #include "hbao_plus/params.h"
 #include "shared/fan.h"
 
+#if MULTIVIEW
+#include "shared/neighbour.h"
+#endif
 #if STOCHASTIC
 typedef SdHbaoPlusParams Params;
 #else
 typedef HbaoPlusParams Params;
 #endif
 
-// The largest contribution of all layers at an offset in pixels.
-static inline real obscurance_near(Frame frame, Params params, DepthLayers layers, Receiver r, integer dx, integer dy,
-                                   int within) {
+// Where a sample is read: at an offset from a row of pixels (sample.h), or at an index of each lane.
+typedef struct {
+  int here, within;
+  integer dx, dy;
+  integer index;  // ANYWHERE
+} Place;
+#define ANYWHERE -1
+
+static inline real depth_at(Frame frame, DepthLayers layers, int layer, Place p) {
+  if (p.within == ANYWHERE) return gather(layer_at(layers, frame, layer), p.index);
+  return sample_near(layer_at(layers, frame, layer), frame, p.here, p.within, p.dx, p.dy);
+}
+
+// The largest contribution of all layers at a place, which lies (dx, dy) pixels from the point.
+static inline real obscurance_at(Frame frame, Params params, DepthLayers layers, Receiver r, real dx, real dy,
+                                 Place place) {
   real largest = 0, by_first = 0;
   mask asked = EVERY_LANE;
   for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
+    const real depth = depth_at(frame, layers, k, place);
 #if GATHERS_ONLY
     largest += depth;
     continue;
 #endif
-    const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, depth));
+    const real3 v = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, depth));
     const real found = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
     if (k == 0) {
       largest = by_first = found;
@@ -44,22 +62,32 @@ static inline real obscurance_near(Frame frame, Params params, DepthLayers layer
   return COMPENSATE(params, largest, by_first);
 }
 
-// Inlined by order: called, it is 8 % slower. `occluders` has no `restrict` because oclgrind knows no inlined one.
+// Inlined by order: called, it is 8 % slower.
 static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params, DepthLayers layers,
                                                                     Receiver r, Fan fan, int within) {
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
 #pragma unroll
     for (int k = 0; k < STEPS; ++k) {
-      integer dx, dy;
-      step_at(fan, k, &dx, &dy);
-      const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
-      const real found = obscurance_near(frame, params, layers, r, dx, dy, within);
+      Place p;
+      p.here = r.here;
+      p.within = within;
+      step_at(fan, k, &p.dx, &p.dy);
+      const mask counts = keep_in_frame(frame, r.x, r.y, within, &p.dx, &p.dy);
+      const real found = obscurance_at(frame, params, layers, r, to_real(p.dx), to_real(p.dy), p);
       sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
     }
     turn(&fan);
   }
   return sum;
+}
+
+static inline real open_of(Params params, real sum) {
+  const real mean = sum * (params.strength * 2 / (DIRECTIONS * STEPS));
+  const real open = smaller(larger(1 - mean, (real)(0)), (real)(1));
+  real ao = open;
+  for (int k = 1; k < POWER; ++k) ao *= open;
+  return ao;
 }
 
 kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
@@ -73,9 +101,50 @@ kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE no
   const Fan fan = fan_of(r.reach, r.noise);
   real sum;
   LOOK_AROUND(sum, frame, r, r.reach, sum_of_obscurance(frame, params, layers, r, fan, within))
-  const real mean = sum * (params.strength * 2 / (DIRECTIONS * STEPS));
-  const real open = smaller(larger(1 - mean, (real)(0)), (real)(1));
-  real ao = open;
-  for (int k = 1; k < POWER; ++k) ao *= open;
-  store_open(ao, r, ao_raw);
+  store_open(open_of(params, sum), r, ao_raw);
 }
+
+#if MULTIVIEW
+// The same around the pixel's point as the other view sees it.
+static inline real sum_around(Frame other, Params params, DepthLayers layers, Receiver r, Fan fan) {
+  const integer column = nearest(r.point.x), row = nearest(r.point.y);
+  real sum = 0;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+    for (int k = 0; k < STEPS; ++k) {
+      integer dx, dy;
+      step_at(fan, k, &dx, &dy);
+      const integer x = clamp(column + dx, (integer)(0), (integer)(other.width - 1));
+      const integer y = clamp(row + dy, (integer)(0), (integer)(other.height - 1));
+      Place p;
+      p.within = ANYWHERE;
+      p.index = FRAME_GUARD + y * other.pitch + x;
+      const real found = obscurance_at(other, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y, p);
+      const mask counts = to_mask((x == column + dx) & (y == row + dy));
+      sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    }
+    turn(&fan);
+  }
+  return sum;
+}
+
+// Algorithm 3: of both views the one that occludes more.
+kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
+                                 PLANE normal_y, PLANE normal_z, PLANE own, PLANE other_depth, PLANE occluders,
+                                 PLANE_OUT ao_raw) {
+  const Frame other = neighbour.frame;
+  const Receiver here = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  const Projection there =
+      project_into(neighbour, position_at(frame, here.point.x, here.point.y, here.depth), !here.point.background);
+  real open = load(own, here.here);
+  if (ANY(there.is_seen)) {
+    Receiver r = here;
+    r.depth = there.depth;
+    r.normal = rotated(neighbour, here.normal);
+    r.point = anchor_at(other, there.x, there.y, there.depth);
+    r.reach = reach_of(other, r.point, params.radius, params.max_reach * (scalar)other.width);
+    const real sum = sum_around(other, params, LAYERS_FROM(other, other_depth), r, fan_of(r.reach, r.noise));
+    open = choose(there.is_seen, smaller(open_of(params, sum), open), open);
+  }
+  store_open(open, here, ao_raw);
+}
+#endif

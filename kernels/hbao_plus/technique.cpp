@@ -18,6 +18,24 @@ Pass estimate_of(const Params& p) {
 std::vector<Pass> passes(const HbaoPlusParams& p) { return {estimate_of(p)}; }
 std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return {behind_depth(estimate_of(p), p)}; }
 
+/// Algorithm 3, for the first view; stochastic depths of both.
+std::vector<Pass> multiview_passes(const SdHbaoPlusParams& p) {
+  Pass own = behind_depth(estimate_of(p), p);
+  own.writes = {{"ao_raw", "multiview_own"}};
+  own.view = 0;
+  Pass other = own;
+  other.name = "other view";
+  other.kernel = "hbao_plus_other_view";
+  other.reads = {"depth",
+                 "normal",
+                 {"own", "multiview_own"},
+                 of_other({"other_depth", "depth"}),
+                 of_other({"occluders", "stochastic", p.samples})};
+  other.writes = {"ao_raw"};
+  other.defines.push_back({"MULTIVIEW", 1});
+  return {own, other};
+}
+
 int samples(const ParameterValues& values) { return int(values.number("directions") * values.number("steps")); }
 
 /// The estimate's limit for many samples, as an integral over directions; `power` comes after it and is no part of it.
@@ -44,11 +62,24 @@ Technique over_depth() {
   return t;
 }
 
+Technique over_stochastic() {
+  return over_stochastic_depth(over_depth(), SdHbaoPlusParams::table(), passes_of(sd_passes));
+}
+
+Technique multiview() {
+  Technique t = over_stochastic();
+  t.name = "multiview";
+  t.summary = "sd-hbao+ for the first of two views, where what either of them shows occludes";
+  t.paper = "Vermeer, Scandolo, Eisemann 2021";
+  t.views = 2;
+  t.passes = passes_of(multiview_passes);
+  return t;
+}
+
 }  // namespace
 
 std::vector<Technique> hbao_plus() {
-  return {over_depth(), over_peeled_layers(over_depth()),
-          over_stochastic_depth(over_depth(), SdHbaoPlusParams::table(), passes_of(sd_passes))};
+  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic(), multiview()};
 }
 
 }  // namespace gloam::techniques

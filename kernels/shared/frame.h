@@ -11,6 +11,7 @@
 #include "shared/lanes.h"
 #define FRAME_SCALAR scalar
 #define FRAME_NAME Frame
+#define NEIGHBOUR_NAME Neighbour
 #endif
 
 typedef struct {
@@ -21,6 +22,14 @@ typedef struct {
   FRAME_SCALAR perspective, parallel;  // (1, 0) or (0, 1)
 } FRAME_NAME;
 
+// The other view: what is at p in this view's space (scene units) is at rotation * p + translation in the other's.
+typedef struct {
+  FRAME_NAME frame;
+  FRAME_SCALAR rotation[9];  // by rows
+  FRAME_SCALAR translation[3];
+} NEIGHBOUR_NAME;
+
 #ifdef __OPENCL_VERSION__
 typedef char frame_size_check[sizeof(Frame) == 16 + 6 * sizeof(scalar) ? 1 : -1];
+typedef char neighbour_size_check[sizeof(Neighbour) == sizeof(Frame) + 12 * sizeof(scalar) ? 1 : -1];
 #endif

@@ -1,0 +1,44 @@
+// A pixel's point as the other of two views sees it (frame.h).
+#ifndef GLOAM_NEIGHBOUR_H
+#define GLOAM_NEIGHBOUR_H
+
+#include "shared/camera.h"
+
+static inline real3 rotated(Neighbour n, real3 v) {
+  return make3(n.rotation[0] * v.x + n.rotation[1] * v.y + n.rotation[2] * v.z,
+               n.rotation[3] * v.x + n.rotation[4] * v.y + n.rotation[5] * v.z,
+               n.rotation[6] * v.x + n.rotation[7] * v.y + n.rotation[8] * v.z);
+}
+
+// View space, scene units, of what pixel (x, y) shows at this depth.
+static inline real3 position_at(Frame f, real x, real y, real depth) {
+  const real lateral = f.perspective * depth + f.parallel;
+  return make3((x + (scalar)0.5 - f.centre_x) * f.scale_x * lateral,
+               (f.centre_y - y - (scalar)0.5) * f.scale_y * lateral, -depth);
+}
+
+// Where the other view shows it: column and row, not rounded, and its depth there. `is_seen`: it lies before that eye and in
+// its image, in front of other surfaces or behind them; elsewhere the numbers are safe and mean nothing.
+typedef struct {
+  real x, y, depth;
+  mask is_seen;
+} Projection;
+
+static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
+  const real3 r = rotated(n, p);
+  const real3 q = make3(r.x + n.translation[0], r.y + n.translation[1], r.z + n.translation[2]);
+  const Frame f = n.frame;
+  Projection s;
+  s.is_seen = is_there & (q.z < 0);
+  s.depth = choose(s.is_seen, -q.z, (real)(1));
+  const real lateral = f.perspective * s.depth + f.parallel;
+  s.x = q.x / (f.scale_x * lateral) + f.centre_x - (scalar)0.5;
+  s.y = f.centre_y - (scalar)0.5 - q.y / (f.scale_y * lateral);
+  const scalar right = (scalar)f.width - (scalar)0.5, bottom = (scalar)f.height - (scalar)0.5;
+  s.is_seen &= (s.x >= (scalar)-0.5) & (s.x < right) & (s.y >= (scalar)-0.5) & (s.y < bottom);
+  s.x = choose(s.is_seen, s.x, (real)(0));
+  s.y = choose(s.is_seen, s.y, (real)(0));
+  return s;
+}
+
+#endif
