@@ -182,7 +182,7 @@ std::vector<std::string> presets_of(const Technique& technique, const MeasureOpt
 }
 
 bool in_short(const Technique& technique, const MeasureOptions& options) {
-  return !options.layers_in_full && contains(technique.reads, "peel");
+  return !options.layers_in_full && reads_layers(technique);
 }
 
 std::vector<Variation> variations_of(const Technique& technique, double radius, const MeasureOptions& options) {

@@ -58,8 +58,10 @@ bool reads_layers(const Technique& technique) {
 
 const Technique* over_all_layers(const Technique& technique) {
   if (contains(technique.reads, "peel")) return &technique;
+  // "sd-hbao+" over all layers is "dp-hbao+", too.
+  const std::string base = technique.name.rfind("sd-", 0) == 0 ? technique.name.substr(3) : technique.name;
   for (const Technique& other : registry()) {
-    if (other.name == "dp-" + technique.name) return &other;
+    if (other.name == "dp-" + base) return &other;
   }
   return nullptr;
 }
