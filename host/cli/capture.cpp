@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <numbers>
+#include <optional>
 
 #include "camera_io.h"
 #include "gloam/error.h"
@@ -15,6 +19,7 @@ namespace {
 
 struct CaptureCommand {
   std::string out, size = "1920x1080", planes, peel = "0", path, picture, compression = "zip";
+  std::string stochastic, alpha, stochastic_seed, view2;
   bool half = false;
   SceneFlags scene;
   SceneCameraFlags camera;
@@ -38,6 +43,40 @@ std::vector<std::string> planes_of(const CaptureCommand& flags) {
   return planes;
 }
 
+StochasticOptions stochastic_of(const CaptureCommand& flags) {
+  StochasticOptions options;
+  if (flags.stochastic.empty()) {
+    if (!flags.alpha.empty()) throw UsageError("--alpha is of a stochastic depth map; give --stochastic S too");
+    if (!flags.stochastic_seed.empty())
+      throw UsageError("--stochastic-seed is of a stochastic depth map; give --stochastic S too");
+    return options;
+  }
+  options.samples = parse_whole_number(flags.stochastic, "--stochastic", 1, 16);
+  if (!flags.alpha.empty()) options.alpha = parse_number(flags.alpha, "--alpha", 0, 1);
+  if (!flags.stochastic_seed.empty())
+    options.seed = parse_whole_number(flags.stochastic_seed, "--stochastic-seed", 0, std::numeric_limits<int>::max());
+  return options;
+}
+
+/// By how many degrees the second view is turned; none where none is wanted.
+std::optional<double> second_view_of(const CaptureCommand& flags) {
+  if (flags.view2.empty()) return {};
+  const double degrees = parse_number(flags.view2, "--view2", -90, 90);
+  if (degrees == 0) throw UsageError("--view2 0 would be the first view again; give -90 to 90 degrees, but not 0");
+  if (!flags.path.empty())
+    throw UsageError("--view2 cannot be given with --camera-path, whose frames have one view; give one of them");
+  return degrees;
+}
+
+/// A camera file may hold more than the one view that a second goes beside.
+void check_single_view(const CaptureCommand& flags, const std::vector<CaptureView>& views) {
+  if (flags.view2.empty() || views.size() == 1) return;
+  std::vector<std::string> names;
+  for (const CaptureView& view : views) names.push_back("'" + view.name + "'");
+  throw UsageError("--view2 goes beside one view, and {} has {}; leave out --view2, or give a camera of one view",
+                   flags.camera.camera, enumerate(names));
+}
+
 /// "frame.exr" and 7 make "frame.0007.exr".
 std::string numbered(const std::string& path, int number) {
   const std::filesystem::path p(path);
@@ -56,6 +95,7 @@ std::vector<Shot> shots_of(const CaptureCommand& flags, const Scene& scene, int 
     Shot shot{flags.out, flags.picture, {}};
     for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
       shot.views.push_back({name, camera, {}});
+    check_single_view(flags, shot.views);
     return {shot};
   }
   std::vector<std::string> assumed;
@@ -93,11 +133,13 @@ struct Layers {
 
 struct Figures {
   size_t faces = 0, meshes = 0;
-  double load = 0, build = 0, trace = 0, write = 0;
+  double load = 0, build = 0, trace = 0, stochastic = 0, write = 0;
   long long rays = 0;
   Layers layers;
-  std::string camera;      ///< where the first view's camera came from
-  long long surfaces = 0;  ///< pixels that show one
+  std::string camera;                    ///< where the first view's camera came from
+  long long surfaces = 0;                ///< pixels that show one
+  std::optional<VisibleDepths> visible;  ///< what the second view holds
+  std::optional<Camera> second;          ///< its camera
   std::vector<std::string> files;
 };
 
@@ -113,9 +155,12 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   options.views = shot.views;
   const CaptureResult result = capture(tracer, options);
   figures.trace += result.seconds;
+  figures.stochastic += result.stochastic_seconds;
   figures.rays += result.rays;
   figures.layers.add(result.frame);
   figures.surfaces += result.surfaces;
+  figures.visible = result.visible;
+  if (result.visible) figures.second = result.frame.views.back().camera;
   const auto start = std::chrono::steady_clock::now();
   write_frame(shot.file, result.frame, write);
   write_colour(shot, result.frame);
@@ -123,19 +168,44 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   figures.files.push_back(shot.file);
 }
 
+/// What the image of a camera spans from its left to its right border: degrees, or scene units.
+double span_of(const Camera& camera, int width) {
+  const double left = camera.cx / camera.fx, right = (width - camera.cx) / camera.fx;
+  if (camera.orthographic) return left + right;
+  return (std::atan(left) + std::atan(right)) * 180 / std::numbers::pi;
+}
+
+Json stochastic_document(const StochasticOptions& options) {
+  if (options.samples == 0) return nullptr;
+  return {{"samples", options.samples}, {"alpha", options.alpha}, {"seed", options.seed}};
+}
+
+Json second_view_document(const CaptureOptions& options, const Figures& f) {
+  if (!f.visible) return nullptr;
+  return {{"degrees", *options.second_view},
+          {"nearest", f.visible->nearest},
+          {"median", f.visible->median},
+          {"farthest", f.visible->farthest},
+          {f.second->orthographic ? "units_across" : "degrees_across", span_of(*f.second, options.width)}};
+}
+
 Json document(const Scene& scene, const CaptureOptions& options, const Figures& f) {
   Json layers = nullptr;
   if (options.peel > 0) layers = {{"stored", options.peel}, {"mean", f.layers.mean()}, {"max", f.layers.most}};
-  return {{"scene", scene.name},
-          {"faces", f.faces},
-          {"meshes", f.meshes},
-          {"size", {options.width, options.height}},
-          {"files", f.files},
-          {"layers", layers},
-          {"ao_radius", scene.ao_radius},
-          {"rays", f.rays},
-          {"rays_per_second", f.trace > 0 ? double(f.rays) / f.trace : 0},
-          {"seconds", {{"load", f.load}, {"build", f.build}, {"trace", f.trace}, {"write", f.write}}}};
+  return {
+      {"scene", scene.name},
+      {"faces", f.faces},
+      {"meshes", f.meshes},
+      {"size", {options.width, options.height}},
+      {"files", f.files},
+      {"layers", layers},
+      {"stochastic", stochastic_document(options.stochastic)},
+      {"view2", second_view_document(options, f)},
+      {"ao_radius", scene.ao_radius},
+      {"rays", f.rays},
+      {"rays_per_second", f.trace > 0 ? double(f.rays) / f.trace : 0},
+      {"seconds",
+       {{"load", f.load}, {"build", f.build}, {"trace", f.trace}, {"stochastic", f.stochastic}, {"write", f.write}}}};
 }
 
 void print(const Scene& scene, const CaptureOptions& options, const Figures& f) {
@@ -144,6 +214,13 @@ void print(const Scene& scene, const CaptureOptions& options, const Figures& f) 
   fmt::print("{}; AO radius that suits: {:g} scene units\n", f.camera, scene.ao_radius);
   if (options.peel > 0)
     fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
+  if (options.stochastic.samples > 0)
+    fmt::print("stochastic depth: {} samples, alpha {:g}; choosing them took {:.3f} s of the tracing\n",
+               options.stochastic.samples, options.stochastic.alpha, f.stochastic);
+  if (f.visible)
+    fmt::print("view2: turned {:g} degrees about depth {:g}, holds depths {:g} to {:g}, {:.3g} {} across\n",
+               *options.second_view, f.visible->median, f.visible->nearest, f.visible->farthest,
+               span_of(*f.second, options.width), f.second->orthographic ? "scene units" : "degrees");
   fmt::print("load {:.2f} s, build {:.2f} s, trace {:.2f} s ({:.1f} million rays per second), write {:.2f} s\n", f.load,
              f.build, f.trace, f.trace > 0 ? double(f.rays) / f.trace * 1e-6 : 0.0, f.write);
   if (f.files.size() == 1)
@@ -186,6 +263,8 @@ void capture_command(const CaptureCommand& flags) {
   std::tie(options.width, options.height) = parse_size(flags.size, "--size");
   options.planes = planes_of(flags);
   options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
+  options.stochastic = stochastic_of(flags);
+  options.second_view = second_view_of(flags);
   Figures figures;
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = flags.scene.load();
@@ -224,6 +303,13 @@ void add_capture(CLI::App& app) {
   command->add_option("--planes", flags->planes, "these planes and depth only: " + enumerate(capture_planes()))
       ->type_name("A,B");
   command->add_option("--peel", flags->peel, "depth layers to store per pixel, 0 to 64")->type_name("N");
+  command->add_option("--stochastic", flags->stochastic, "samples of a stochastic depth map of all surfaces, 1 to 16")
+      ->type_name("S");
+  command->add_option("--alpha", flags->alpha, "share of the samples that a surface is offered to; default 0.2")
+      ->type_name("A");
+  command->add_option("--stochastic-seed", flags->stochastic_seed, "of its random choices; default 0")->type_name("N");
+  command->add_option("--view2", flags->view2, "also a second view, turned by that many degrees, -90 to 90")
+      ->type_name("ANGLE");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
@@ -236,6 +322,8 @@ void add_capture(CLI::App& app) {
       "Planes are sampled at pixel centres. Examples:\n"
       "  gloam capture colonnade -o colonnade.exr --size 960x540 --picture colonnade.png\n"
       "  gloam capture statue --faces 500000 -o statue.exr --peel 8\n"
+      "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
+      "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
       "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");
   command->callback([flags] { capture_command(*flags); });

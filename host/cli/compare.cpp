@@ -31,7 +31,9 @@ std::vector<std::string> comparable_planes(const FrameFile& test, const FrameFil
     lacks(reference, b);
     return {asked};
   }
-  std::vector<std::string> order = {"ao", "reflection", "color", "normal", "depth"}, both;
+  // What techniques make before what they read: a result has the depth beside it that it was made from.
+  std::vector<std::string> order = {"ao", "ao_raw", "reflection", "bent_normal", "cone", "hit"}, both;
+  for (const char* input : {"color", "normal", "mask", "outline_count", "depth"}) order.push_back(input);
   order.insert(order.end(), a.begin(), a.end());
   for (const std::string& plane : order) {
     if (contains(a, plane) && contains(b, plane) && !contains(both, plane)) both.push_back(plane);
@@ -347,7 +349,8 @@ void add_compare(CLI::App& app) {
       "Background never counts. Examples:\n"
       "  gloam compare ao.exr truth.exr -o difference.png\n"
       "  gloam compare ao.exr truth_left.exr --view left --json -\n"
-      "  gloam compare ao.exr truth.exr --what ao_raw --plane ao_raw=AO_raw");
+      "  gloam compare ao.exr truth.exr --what ao_raw\n"
+      "  gloam compare ao.exr truth.exr --plane ao=Lamp.R");
   command->callback([flags] { compare_command(*flags); });
 }
 

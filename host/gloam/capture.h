@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gloam/frame.h"
+#include "gloam/secondary_camera.h"
 #include "gloam/tracer.h"
 
 namespace gloam {
@@ -18,11 +19,22 @@ struct CaptureView {
   std::optional<Camera> previous_camera;  ///< of the frame before, for motion vectors
 };
 
+/// A stochastic depth map of all surfaces under the pixel centre (kernels/shared/stochastic.h).
+struct StochasticOptions {
+  int samples = 0;     ///< depths per pixel, 0 to 16: planes stochastic.00 ...
+  double alpha = 0.2;  ///< share of the samples that a surface is offered to, 0 to 1; used as float
+  int seed = 0;        ///< at least 0; what `RunOptions::seed` is to the technique `stochastic-depth`
+};
+
 struct CaptureOptions {
   int width = 1920, height = 1080;
   std::vector<std::string> planes;  ///< of `capture_planes()`; depth is always there
   int peel = 0;                     ///< depth layers per pixel, 0 to 64: planes peel.00 ... and peel_count
+  StochasticOptions stochastic;     ///< of every view
   std::vector<CaptureView> views;
+  /// Beside the only view a second one, "view2", by `secondary_camera`: degrees, -90 to 90, not 0. A view without a name
+  /// becomes "main" then.
+  std::optional<double> second_view;
   std::function<void(int done, int of)> progress;
 };
 
@@ -30,7 +42,10 @@ struct CaptureResult {
   Frame frame;
   long long surfaces = 0;  ///< pixels that show one
   long long rays = 0;      ///< through pixels and towards the sun
-  double seconds = 0;      ///< of tracing
+  double seconds = 0;      ///< of tracing, all that it takes to fill the planes
+  /// Of these, choosing what the stochastic depth map keeps: the mean over the threads.
+  double stochastic_seconds = 0;
+  std::optional<VisibleDepths> visible;  ///< what the second view is made to hold
 };
 
 /// What can be captured: depth, normal, albedo, color, roughness, reflectance, position, back_depth, instance, motion.
@@ -38,8 +53,11 @@ const std::vector<std::string>& capture_planes();
 
 /// Point-sampled at pixel centres. Every plane as docs/gbuffer.md has it; `peel_count` is the number of all surfaces
 /// under the pixel centre, stored or not. `instance` is the mesh's index + 1; 0 is background.
-/// The frame says in its attributes which scene it shows (gloamScene). Cameras' near and far planes clip.
-/// Throws UsageError for an unknown plane, a size or a number of layers out of range; Error for a camera without a pose.
+/// The frame says in its attributes which scene it shows (gloamScene), how its stochastic depth map was made
+/// (gloamStochasticAlpha, gloamStochasticSeed) and by how much its second view is turned (gloamSecondView, degrees).
+/// Cameras' near and far planes clip.
+/// Throws UsageError for an unknown plane, a size, a number of layers or samples out of range, a second view beside
+/// several or with motion; Error for a camera without a pose, and for a second view where the first shows nothing.
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
 
 /// The ray through a point of the image, in pixels (centres at +0.5). Distances along it are planar view-space depths.

@@ -1,7 +1,10 @@
 #include "gloam/capture.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -15,6 +18,7 @@
 #include "gloam/planes.h"
 #include "lists.h"
 #include "low_discrepancy.h"
+#include "shared/stochastic.h"
 
 namespace gloam {
 namespace {
@@ -22,6 +26,7 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
+constexpr const char* second_view_name = "view2";
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// The depth at which a view's frustum ends, where the camera has one.
@@ -32,8 +37,12 @@ struct Target {
   Channel* depth = nullptr;
   Channel *normal[3] = {}, *albedo[3] = {}, *color[3] = {}, *reflectance[3] = {}, *position[3] = {}, *motion[2] = {};
   Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr;
-  std::vector<Channel*> peel;
+  std::vector<Channel*> peel, stochastic;
 };
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 Plane empty_plane(const std::string& name, const Layout& layout) {
   const PlaneKind kind = plane_kind(name);
@@ -67,9 +76,10 @@ Target make_target(View& view, const CaptureOptions& options, const Layout& layo
   single("roughness", target.roughness);
   single("back_depth", target.back_depth);
   single("instance", target.instance);
-  if (options.peel == 0) return target;
-  target.peel_count = add_channel(view, "peel_count", layout);
-  for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, fmt::format("peel.{:02}", i), layout));
+  if (options.peel > 0) target.peel_count = add_channel(view, "peel_count", layout);
+  for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, layer_name("peel", i), layout));
+  for (int i = 0; i < options.stochastic.samples; ++i)
+    target.stochastic.push_back(add_channel(view, layer_name("stochastic", i), layout));
   return target;
 }
 
@@ -97,17 +107,69 @@ long long surfaces_in(const Channel& depth) {
   return count;
 }
 
+/// Depths of all surfaces under the pixels of a row.
+struct RowDepths {
+  std::vector<float> depths;  ///< of each pixel front to back, one pixel after another
+  std::vector<size_t> ends;   ///< of each pixel's, in `depths`
+};
+
+/// Makes one view's stochastic depth map: the same bits as kernels/stochastic_depth from the same surfaces.
+class StochasticMap {
+ public:
+  StochasticMap(const StochasticOptions& options, const std::vector<Channel*>& samples)
+      : alpha_(uint32_t(float(options.alpha) * float(STOCHASTIC_ONE))),
+        seed_(uint32_t(options.seed)),
+        samples_(samples) {}
+
+  bool is_wanted() const { return !samples_.empty(); }
+
+  void row(int y, const RowDepths& row) const {
+    size_t begin = 0;
+    for (size_t x = 0; x < row.ends.size(); ++x) {
+      pixel(int(x), y, row.depths.data() + begin, row.depths.data() + row.ends[x]);
+      begin = row.ends[x];
+    }
+  }
+
+ private:
+  /// Front to back, so that a sample keeps the first that it is offered.
+  void pixel(int x, int y, const float* begin, const float* end) const {
+    uint32_t empty = (1u << samples_.size()) - 1;
+    for (const float* depth = begin; depth < end && empty != 0; ++depth) {
+      const uint32_t hash = surface_hash(uint32_t(x), uint32_t(y), seed_, std::bit_cast<uint32_t>(*depth),
+                                         std::bit_cast<uint32_t>(*begin));
+      const uint32_t subset = stratified_subset(hash, alpha_) & empty;
+      for (uint32_t left = subset; left != 0; left &= left - 1)
+        samples_[size_t(std::countr_zero(left))]->at(x, y) = *depth;
+      empty &= ~subset;
+    }
+  }
+
+  uint32_t alpha_, seed_;
+  const std::vector<Channel*>& samples_;
+};
+
 /// Captures the rows of one view.
 class Capturer {
  public:
-  Capturer(const Tracer& tracer, const CaptureView& view, const Target& target)
-      : tracer_(tracer), view_(view), target_(target) {
-    needs_all_ = target.back_depth || target.peel_count;
+  Capturer(const Tracer& tracer, const CaptureView& view, const Target& target, const StochasticOptions& stochastic)
+      : tracer_(tracer), view_(view), target_(target), stochastic_(stochastic, target.stochastic) {
+    needs_all_ = target.back_depth || target.peel_count || stochastic_.is_wanted();
   }
 
-  void row(int y, int width) const {
+  /// Seconds that the stochastic depth map took.
+  double row(int y, int width) const {
     std::vector<Surface> surfaces;
-    for (int x = 0; x < width; ++x) pixel(x, y, uint32_t(y * width + x), surfaces);
+    RowDepths depths;
+    for (int x = 0; x < width; ++x) {
+      pixel(x, y, uint32_t(y * width + x), surfaces);
+      if (!stochastic_.is_wanted()) continue;
+      for (const Surface& surface : surfaces) depths.depths.push_back(float(surface.distance));
+      depths.ends.push_back(depths.depths.size());
+    }
+    const auto start = std::chrono::steady_clock::now();
+    stochastic_.row(y, depths);
+    return seconds_since(start);
   }
 
  private:
@@ -171,8 +233,29 @@ class Capturer {
   const Tracer& tracer_;
   const CaptureView& view_;
   const Target& target_;
+  StochasticMap stochastic_;
   bool needs_all_;
 };
+
+void check_stochastic(const StochasticOptions& options) {
+  if (options.samples < 0 || options.samples > STOCHASTIC_MOST)
+    throw UsageError("a stochastic depth map of {} samples cannot be made; 1 to {} can", options.samples,
+                     STOCHASTIC_MOST);
+  if (!(options.alpha >= 0 && options.alpha <= 1))
+    throw UsageError("alpha {:g} is no share of the samples; give 0 to 1", options.alpha);
+  if (options.seed < 0) throw UsageError("seed {} is negative; give 0 or more", options.seed);
+}
+
+void check_second_view(const CaptureOptions& options) {
+  const double degrees = *options.second_view;
+  if (!(std::abs(degrees) <= 90) || degrees == 0)
+    throw UsageError("a second view turned by {:g} degrees cannot be had; -90 to 90 can, but not 0", degrees);
+  if (options.views.size() != 1)
+    throw UsageError("a second view goes beside one view, and there are {}", options.views.size());
+  if (options.views[0].name == second_view_name)
+    throw UsageError("the first view is called '{}', as the second would be; give it another name", second_view_name);
+  if (contains(options.planes, "motion")) throw UsageError("a second view has no motion; leave out one of them");
+}
 
 void check_options(const CaptureOptions& options) {
   if (options.width < 1 || options.height < 1)
@@ -184,9 +267,62 @@ void check_options(const CaptureOptions& options) {
     throw UsageError("plane '{}' cannot be captured{}; {} can, and layers by their number", plane,
                      suggestion(plane, capture_planes()), enumerate(capture_planes()));
   }
+  check_stochastic(options.stochastic);
+  if (options.second_view) check_second_view(options);
   for (const CaptureView& view : options.views) {
     if (!view.camera.pose) throw Error("view '{}' has a camera without a pose; give its camera_to_world", view.name);
   }
+}
+
+/// All rows of a view, on all threads. Returns the seconds that its stochastic depth map took, as a mean over the threads.
+double capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
+  const int rows = options.height * int(options.views.size() + (options.second_view ? 1 : 0));
+  int done = rows_before;
+  double stochastic_seconds = 0;
+  std::atomic<bool> failed = false;
+  std::mutex mutex;
+  std::exception_ptr failure;  // an exception may not leave a parallel loop
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int y = 0; y < options.height; ++y) {
+    try {
+      if (failed) continue;
+      const double seconds = capturer.row(y, options.width);
+      const std::lock_guard<std::mutex> lock(mutex);
+      stochastic_seconds += seconds;
+      ++done;
+      if (options.progress) options.progress(done, rows);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      failed = true;
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  return stochastic_seconds / omp_get_max_threads();
+}
+
+/// Adds a view to the frame.
+void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOptions& options, CaptureResult& result) {
+  const int rows_before = options.height * int(result.frame.views.size());
+  View& view = result.frame.views.emplace_back();
+  view.name = from.name;
+  view.camera = from.camera;
+  view.origin = from.camera.pose->position;
+  const Target target = make_target(view, options, Layout(options.width, options.height));
+  result.stochastic_seconds += capture_rows(Capturer(tracer, from, target, options.stochastic), options, rows_before);
+  const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
+  const long long surfaces = surfaces_in(*target.depth);
+  result.surfaces += surfaces;
+  result.rays += (long long)options.width * options.height + (lit ? sun_rays * surfaces : 0);
+}
+
+/// From what the first view shows.
+CaptureView second_view(const CaptureOptions& options, CaptureResult& result) {
+  result.visible = visible_depths(result.frame.views[0].planes.at("depth").channels[0]);
+  if (!result.visible)
+    throw Error("the first view shows nothing that a second could turn about; another camera may see it");
+  return {second_view_name, secondary_camera(options.views[0].camera, options.width, options.height, *result.visible,
+                                             *options.second_view)};
 }
 
 }  // namespace
@@ -253,44 +389,21 @@ vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed) {
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
   check_options(options);
   const auto start = std::chrono::steady_clock::now();
-  const Layout layout(options.width, options.height);
   CaptureResult result;
   Frame& frame = result.frame;
   frame.display = frame.window = {0, 0, options.width, options.height};
   frame.attributes["gloamScene"] = tracer.scene().name;
-  std::atomic<bool> failed = false;
-  std::mutex mutex;
-  int done = 0;
-  const int rows = options.height * int(options.views.size());
-  std::exception_ptr failure;  // an exception may not leave a parallel loop
-  for (const CaptureView& from : options.views) {
-    View& view = frame.views.emplace_back();
-    view.name = from.name;
-    view.camera = from.camera;
-    view.origin = from.camera.pose ? from.camera.pose->position : dvec3(0);
-    const Target target = make_target(view, options, layout);
-    const Capturer capturer(tracer, from, target);
-#pragma omp parallel for schedule(dynamic, 4)
-    for (int y = 0; y < options.height; ++y) {
-      try {
-        if (failed) continue;
-        capturer.row(y, options.width);
-        const std::lock_guard<std::mutex> lock(mutex);
-        ++done;
-        if (options.progress) options.progress(done, rows);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        failed = true;
-        failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
-    const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
-    const long long surfaces = surfaces_in(*target.depth);
-    result.surfaces += surfaces;
-    result.rays += (long long)options.width * options.height + (lit ? sun_rays * surfaces : 0);
+  for (const CaptureView& view : options.views) capture_view(tracer, view, options, result);
+  if (options.second_view) {
+    if (frame.views[0].name.empty()) frame.views[0].name = "main";
+    capture_view(tracer, second_view(options, result), options, result);
+    frame.numbers["gloamSecondView"] = *options.second_view;
   }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.stochastic.samples > 0) {
+    frame.numbers["gloamStochasticAlpha"] = options.stochastic.alpha;
+    frame.attributes["gloamStochasticSeed"] = std::to_string(options.stochastic.seed);
+  }
+  result.seconds = seconds_since(start);
   return result;
 }
 

@@ -3,6 +3,9 @@
 
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
+#include "gloam/planes.h"
+#include "support/frames.h"
+#include "support/techniques.h"
 
 namespace gloam::test {
 namespace {
@@ -83,6 +86,110 @@ TEST_F(CaptureCommand, APathGivesOneFramePerCameraWithMotion) {
       << "from further left, it was further right";
   EXPECT_NEAR(FrameFile(file("walk.0001.exr"), {}).read({"motion"}).views[0].planes.at("motion").channels[0].at(40, 20),
               0, 1e-6);
+}
+
+TEST_F(CaptureCommand, StochasticDepth) {
+  const Result result = gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "normal",
+                               "--stochastic", "4", "--alpha", "0.3", "--stochastic-seed", "7", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["stochastic"], nlohmann::json({{"samples", 4}, {"alpha", 0.3}, {"seed", 7}}));
+  const double chosen = result.json()["seconds"]["stochastic"], traced = result.json()["seconds"]["trace"];
+  EXPECT_GT(chosen, 0);
+  EXPECT_LT(chosen, traced) << "a part of it";
+  EXPECT_EQ(result.json()["view2"], nullptr);
+  FrameFile frame(file("f.exr"), {});
+  EXPECT_EQ(frame.common_planes(), (std::vector<std::string>{"depth", "normal", "stochastic.00", "stochastic.01",
+                                                             "stochastic.02", "stochastic.03"}));
+  EXPECT_EQ(frame.number_attribute("gloamStochasticAlpha"), double(0.3f));
+  EXPECT_EQ(frame.text_attribute("gloamStochasticSeed"), "7");
+  EXPECT_EQ(gloam({"run", "sd-hbao+", file("f.exr"), "-o", file("ao.exr")}).status, 0) << "of use as it is";
+}
+
+TEST_F(CaptureCommand, TheStochasticMapIsWhatTheTechniqueMakesOfTheLayers) {
+  ASSERT_EQ(gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "depth", "--peel", "64",
+                   "--stochastic", "8", "--stochastic-seed", "9"})
+                .status,
+            0);
+  ASSERT_EQ(
+      gloam({"capture", "fence", "-o", file("layers.exr"), "--size", "64x36", "--planes", "depth", "--peel", "64"})
+          .status,
+      0);
+  ASSERT_EQ(
+      gloam({"run", "stochastic-depth", file("layers.exr"), "-o", file("made.exr"), "--samples", "8", "--seed", "9"})
+          .status,
+      0);
+  std::vector<std::string> samples;
+  for (int i = 0; i < 8; ++i) samples.push_back(layer_name("stochastic", i));
+  Frame captured = FrameFile(file("f.exr"), {}).read(samples), made = FrameFile(file("made.exr"), {}).read(samples);
+  EXPECT_EQ(plane_names(captured).size(), 8u);
+  EXPECT_TRUE(same_bits(captured, made));
+  captured.views[0].planes.at("stochastic.07").channels[0].at(30, 20) += 1;
+  EXPECT_FALSE(same_bits(captured, made));
+}
+
+TEST_F(CaptureCommand, ASecondView) {
+  const Result result = gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--stochastic", "2",
+                               "--peel", "2", "--view2", "-30", "--picture", file("f.png"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json second = result.json()["view2"];
+  EXPECT_EQ(second["degrees"], -30);
+  EXPECT_LT(second["nearest"], second["median"]);
+  EXPECT_LT(second["median"], second["farthest"]);
+  EXPECT_LE(double(second["degrees_across"]), 120);
+  EXPECT_EQ(files(), (std::vector<std::string>{"f.exr", "f.main.png", "f.view2.png"}));
+  FrameFile frame(file("f.exr"), {});
+  EXPECT_EQ(frame.views(), (std::vector<std::string>{"main", "view2"}));
+  EXPECT_EQ(frame.number_attribute("gloamSecondView"), -30);
+  const std::vector<std::string> planes = frame.common_planes();
+  for (const char* plane : {"depth", "color", "back_depth", "position", "peel_count", "peel.01", "stochastic.01"})
+    EXPECT_TRUE(std::find(planes.begin(), planes.end(), plane) != planes.end()) << plane;
+  const Pose first = *frame.camera("main")->pose, turned = *frame.camera("view2")->pose;
+  EXPECT_LT((first.world_to_view * (turned.position - first.position)).x, 0) << "to the left";
+}
+
+TEST_F(CaptureCommand, ASecondViewOfAnOrthographicCamera) {
+  write("flat.json", R"({"width": 64, "height": 36, "view": "plan", "camera_type": "ORTHO", "pixels_per_unit": 12,
+    "cx": 32, "cy": 18, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]})");
+  const Result result = gloam({"capture", "plane", "--tilt", "20", "-o", file("p.exr"), "--size", "64x36", "--camera",
+                               file("flat.json"), "--view2", "45", "--planes", "normal", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_GT(double(result.json()["view2"]["units_across"]), 0);
+  EXPECT_TRUE(FrameFile(file("p.exr"), {}).camera("view2")->orthographic);
+}
+
+TEST_F(CaptureCommand, RefusesASecondViewInOneLine) {
+  const Arguments capture = {"capture", "plane", "-o", file("x.exr"), "--size", "8x8"};
+  const auto with = [&](const Arguments& more) {
+    Arguments all = capture;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  for (const char* angle : {"0", "91", "-90.5", "nan", "right"}) expect_refused(with({"--view2", angle}), 2, "--view2");
+  expect_refused(with({"--view2", "30", "--camera-path", "p.json"}), 2, "--camera-path");
+  expect_refused(with({"--view2", "30", "--planes", "motion"}), 2, "motion");
+  expect_refused(with({"--view2", "30", "--eye", "0,0,9", "--target", "0,0,20"}), 1, "shows nothing");
+  write("pair.json", R"({"width": 8, "height": 8, "fx": 9, "fy": 9, "cx": 4, "cy": 4, "views": [
+    {"view": "left", "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]},
+    {"view": "right", "camera_to_world": [[1,0,0,1],[0,1,0,0],[0,0,1,4],[0,0,0,1]]}]})");
+  const Result result = gloam(with({"--view2", "30", "--camera", file("pair.json")}));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("'left'"), std::string::npos) << result.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"pair.json"});
+}
+
+TEST_F(CaptureCommand, RefusesStochasticDepthInOneLine) {
+  const Arguments capture = {"capture", "plane", "-o", file("x.exr"), "--size", "8x8"};
+  const auto refused = [&](const Arguments& more, const std::string& says) {
+    Arguments all = capture;
+    all.insert(all.end(), more.begin(), more.end());
+    expect_refused(all, 2, says);
+  };
+  for (const char* samples : {"0", "17", "-1", "4.5", "many"}) refused({"--stochastic", samples}, "--stochastic");
+  for (const char* alpha : {"-1", "2", "nan"}) refused({"--stochastic", "4", "--alpha", alpha}, "--alpha");
+  for (const char* seed : {"-1", "2147483648"}) refused({"--stochastic", "4", "--stochastic-seed", seed}, "seed");
+  refused({"--alpha", "0.2"}, "--stochastic S");
+  refused({"--stochastic-seed", "2"}, "--stochastic S");
 }
 
 TEST_F(CaptureCommand, RefusesInOneLine) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gloam_process.h"
+#include "support/frames.h"
 
 namespace gloam::test {
 namespace {
@@ -267,6 +268,18 @@ TEST_F(Cli, WindowsOfOneSizeMayStartElsewhere) {
   moved.display = moved.window = {100, 50, 132, 74};
   write_frame(path("b.exr"), moved);
   EXPECT_EQ(gloam({"compare", path("a.exr"), path("b.exr"), "--json", "-"}).json()["rmse"], 0);
+}
+
+// As `gloam run` writes them, each has the depth beside it that it was made from.
+TEST_F(Cli, CompareTakesAResultBeforeTheDepthBesideIt) {
+  for (const char* result : {"ao", "ao_raw", "reflection", "bent_normal", "cone", "hit", "mask", "outline_count"}) {
+    Frame frame = shoot(perspective(48, 32), room(), false);
+    invent_plane(frame, result);
+    write_frame(path("a.exr"), frame);
+    const Result compared = gloam({"compare", path("a.exr"), path("a.exr"), "--json", "-"});
+    ASSERT_EQ(compared.status, 0) << compared.err;
+    EXPECT_EQ(compared.json()["plane"], result);
+  }
 }
 
 }  // namespace

@@ -3,12 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
+#include <set>
 
 #include "gloam/error.h"
+#include "gloam/exr.h"
+#include "gloam/planes.h"
 #include "mesh_builder.h"
+#include "support/techniques.h"
 
 namespace gloam {
 namespace {
@@ -187,6 +195,445 @@ TEST(Capture, AboutTheSameAtAnyDistanceFromTheOrigin) {
   }
 }
 
+// --- Stochastic depth
+
+/// A thing with many surfaces under a pixel, once for all tests.
+const Scene& fence() {
+  static const Scene scene = load_scene("fence", {});
+  return scene;
+}
+const Tracer& fence_tracer() {
+  static const Tracer tracer(fence());
+  return tracer;
+}
+
+constexpr int fence_width = 200, fence_height = 150;
+
+/// Depth, all layers, and a stochastic depth map where `samples` is not 0.
+Frame captured_fence(int samples, double alpha = 0.2, int seed = 0, bool orthographic = false) {
+  SceneCamera camera = fence().cameras[0];
+  camera.orthographic = orthographic;
+  camera.width = 6;
+  CaptureOptions options;
+  options.width = fence_width, options.height = fence_height;
+  options.peel = 64;
+  options.stochastic = {samples, alpha, seed};
+  options.views = {{"", camera_for(camera, fence_width, fence_height), {}}};
+  return capture(fence_tracer(), options).frame;
+}
+
+/// The map's and the peeled layers' channels of one view.
+struct Layered {
+  std::vector<const Channel*> samples, surfaces;
+  const Channel* count;
+  explicit Layered(const View& view) : count(&view.planes.at("peel_count").channels[0]) {
+    for (int i = 0; i < 64; ++i) {
+      if (const Plane* plane = view.find(layer_name("stochastic", i))) samples.push_back(&plane->channels[0]);
+      if (const Plane* plane = view.find(layer_name("peel", i))) surfaces.push_back(&plane->channels[0]);
+    }
+  }
+  int layers(int x, int y) const { return int(count->at(x, y)); }
+  /// Which of the first samples hold a surface.
+  uint32_t holders(int x, int y, int layer, int first = 16) const {
+    uint32_t held = 0;
+    for (int j = 0; j < std::min(first, int(samples.size())); ++j)
+      held |= uint32_t(samples[size_t(j)]->at(x, y) == surfaces[size_t(layer)]->at(x, y)) << j;
+    return held;
+  }
+  /// At least so many surfaces under the pixel, no two at one depth (which would go into the same samples).
+  bool has(int x, int y, int number) const {
+    if (layers(x, y) < number) return false;
+    for (int i = 1; i < number; ++i) {
+      if (surfaces[size_t(i)]->at(x, y) == surfaces[size_t(i - 1)]->at(x, y)) return false;
+    }
+    return true;
+  }
+};
+
+template <typename Visit>
+void for_pixels(Visit visit) {
+  for (int y = 0; y < fence_height; ++y) {
+    for (int x = 0; x < fence_width; ++x) visit(x, y);
+  }
+}
+
+TEST(StochasticCapture, HasThePlanesAndSaysHowTheyWereMade) {
+  for (const int samples : {1, 4, 16}) {
+    const Frame frame = captured_fence(samples, 0.3, 12345);
+    EXPECT_EQ(Layered(frame.views[0]).samples.size(), size_t(samples));
+    EXPECT_EQ(frame.numbers.at("gloamStochasticAlpha"), 0.3);
+    EXPECT_EQ(frame.attributes.at("gloamStochasticSeed"), "12345");
+    int held = 0;
+    for_pixels([&](int x, int y) { held += std::isfinite(value(frame, "stochastic.00", x, y)); });
+    EXPECT_GT(held, fence_width * fence_height / 20);
+  }
+  const Frame none = captured_fence(0);
+  EXPECT_EQ(none.views[0].find("stochastic.00"), nullptr);
+  EXPECT_EQ(none.numbers.count("gloamStochasticAlpha"), 0u);
+}
+
+TEST(StochasticCapture, AlphaOfZeroHoldsNothingAndOfOneTheDepth) {
+  for (const int samples : {1, 4, 16}) {
+    const Frame nothing = captured_fence(samples, 0), all = captured_fence(samples, 1);
+    int differing = 0;
+    for_pixels([&](int x, int y) {
+      for (int j = 0; j < samples; ++j) {
+        differing += value(nothing, layer_name("stochastic", j), x, y) != std::numeric_limits<float>::infinity();
+        differing += value(all, layer_name("stochastic", j), x, y) != value(all, "depth", x, y);
+      }
+    });
+    EXPECT_EQ(differing, 0);
+  }
+}
+
+TEST(StochasticCapture, EverySampleHoldsASurfaceOfItsPixelOrNothing) {
+  const Frame frame = captured_fence(16);
+  const Layered layered(frame.views[0]);
+  int strangers = 0;
+  for_pixels([&](int x, int y) {
+    for (const Channel* sample : layered.samples) {
+      bool known = std::isinf(sample->at(x, y));
+      for (int i = 0; i < layered.layers(x, y); ++i) known |= layered.surfaces[size_t(i)]->at(x, y) == sample->at(x, y);
+      strangers += !known;
+    }
+  });
+  EXPECT_EQ(strangers, 0);
+}
+
+/// A mean with its standard error.
+struct Mean {
+  double sum = 0, squares = 0;
+  long long count = 0;
+  void add(double v) { sum += v, squares += v * v, ++count; }
+  double mean() const { return sum / double(count); }
+  double error() const { return std::sqrt((squares / double(count) - mean() * mean()) / double(count)); }
+};
+
+/// A sample holds layer i with probability alpha (1 - alpha)^(i - 1): it was offered that one and none before it.
+void expect_layer_counts(const Layered& layered, int samples, double alpha, const std::string& what) {
+  for (int layer = 0; layer < 3; ++layer) {
+    Mean held;
+    for_pixels([&](int x, int y) {
+      if (layered.has(x, y, 3)) held.add(std::popcount(layered.holders(x, y, layer, samples)));
+    });
+    const double expected = samples * alpha * std::pow(1 - alpha, layer);
+    ASSERT_GT(held.count, 1000) << what;
+    EXPECT_LT(std::abs(held.mean() - expected), 4 * held.error() + 1e-6)
+        << what << ", layer " << layer << ": " << held.mean() << " +- " << held.error() << ", expected " << expected;
+    std::printf("%s, layer %d: mean %.4f, expected %.4f, %+.1f standard errors over %lld pixels\n", what.c_str(),
+                layer + 1, held.mean(), expected, held.error() > 0 ? (held.mean() - expected) / held.error() : 0.0,
+                held.count);
+  }
+}
+
+TEST(StochasticCapture, LayersAreHeldAsOftenAsAlphaSays) {
+  for (const int samples : {1, 4, 16}) {
+    for (const double alpha : {0.2, 0.35}) {
+      const Frame frame = captured_fence(samples, alpha);
+      expect_layer_counts(Layered(frame.views[0]), samples, alpha, fmt::format("{} samples, alpha {}", samples, alpha));
+    }
+  }
+}
+
+TEST(StochasticCapture, TheFirstSamplesAreAMapOfTheirOwn) {
+  for (const double alpha : {0.2, 0.3, 0.5}) {
+    const Frame frame = captured_fence(16, alpha);
+    const Layered layered(frame.views[0]);
+    for (const int first : {1, 2, 4, 8, 16}) {
+      expect_layer_counts(layered, first, alpha, fmt::format("first {} of 16, alpha {}", first, alpha));
+      // Stratified: the nearest surface is in as many of them as alpha says, rounded up or down.
+      std::map<int, int> counts;
+      for_pixels([&](int x, int y) {
+        if (layered.has(x, y, 1)) ++counts[std::popcount(layered.holders(x, y, 0, first))];
+      });
+      for (const auto& [count, pixels] : counts) {
+        EXPECT_GE(count, std::floor(alpha * first - 1e-6));
+        EXPECT_LE(count, std::ceil(alpha * first + 1e-6)) << pixels << " pixels";
+      }
+      // The same bits as a map of that many.
+      const Frame own = captured_fence(first, alpha);
+      for (int j = 0; j < first; ++j) {
+        int differing = 0;
+        for_pixels([&](int x, int y) {
+          differing += value(own, layer_name("stochastic", j), x, y) != value(frame, layer_name("stochastic", j), x, y);
+        });
+        EXPECT_EQ(differing, 0) << "sample " << j << " of " << first;
+      }
+    }
+  }
+}
+
+/// Chi-square of a table of counts against the product of its margins.
+double chi_square(const std::vector<std::vector<double>>& table) {
+  const size_t n = table.size();
+  std::vector<double> rows(n, 0), columns(n, 0);
+  double all = 0, sum = 0;
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = 0; j < n; ++j) rows[i] += table[i][j], columns[j] += table[i][j], all += table[i][j];
+  }
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = 0; j < n; ++j) {
+      const double expected = rows[i] * columns[j] / all;
+      sum += (table[i][j] - expected) * (table[i][j] - expected) / expected;
+    }
+  }
+  return sum;
+}
+
+TEST(StochasticCapture, TwoSeedsHaveNothingToDoWithEachOther) {
+  // Which of four samples holds the nearest surface under one seed and under another; none of them is the fifth.
+  const auto table_of = [](const Frame& a, const Frame& b) {
+    const Layered left(a.views[0]), right(b.views[0]);
+    std::vector<std::vector<double>> table(5, std::vector<double>(5, 0));
+    const auto holder = [](uint32_t held) { return held == 0 ? size_t(4) : size_t(std::countr_zero(held)); };
+    for_pixels([&](int x, int y) {
+      if (left.has(x, y, 1)) ++table[holder(left.holders(x, y, 0))][holder(right.holders(x, y, 0))];
+    });
+    return table;
+  };
+  const double most = 39.25;  // of 1000 independent pairs 999 stay below it, with 16 degrees of freedom
+  const Frame first = captured_fence(4, 0.2, 0);
+  for (const int seed : {1, 2, 77, 2147483647}) {
+    const double chi = chi_square(table_of(first, captured_fence(4, 0.2, seed)));
+    EXPECT_LT(chi, most) << "seed " << seed;
+    std::printf("seeds 0 and %d: chi-square %.1f, 16 degrees of freedom\n", seed, chi);
+  }
+  EXPECT_GT(chi_square(table_of(first, captured_fence(4, 0.2, 0))), 100 * most) << "one seed is the same twice";
+}
+
+TEST(StochasticCapture, TheNearestSurfaceIsInEachSampleEquallyOften) {
+  const Frame frame = captured_fence(16, 0.2);
+  const Layered layered(frame.views[0]);
+  double held[16] = {}, pixels = 0;
+  for_pixels([&](int x, int y) {
+    if (!layered.has(x, y, 1)) return;
+    ++pixels;
+    for (int j = 0; j < 16; ++j) held[j] += layered.holders(x, y, 0) >> j & 1;
+  });
+  for (int j = 0; j < 16; ++j)
+    EXPECT_LT(std::abs(held[j] - 0.2 * pixels), 4 * std::sqrt(0.2 * 0.8 * pixels)) << "sample " << j;
+}
+
+/// What the technique makes of a frame's peeled layers.
+Frame derived(Frame& frame, int samples, double alpha, int seed) {
+  RunOptions options;
+  options.seed = seed;
+  return test::outputs_of(
+      find_technique("stochastic-depth"), frame,
+      {{"samples", std::to_string(samples)}, {"alpha", fmt::format("{}", alpha)}, {"subset", "stratified"}}, options);
+}
+
+/// Moves the stochastic planes out of a frame.
+std::map<std::string, Plane> without_map(View& view) {
+  std::map<std::string, Plane> planes;
+  for (auto& [name, plane] : view.planes) {
+    if (stack_layer(name) && stack_layer(name)->stack == "stochastic") planes.emplace(name, std::move(plane));
+  }
+  for (const auto& [name, plane] : planes) view.planes.erase(name);
+  return planes;
+}
+
+void expect_same_map(Frame& frame, int samples, double alpha, int seed) {
+  std::vector<std::map<std::string, Plane>> captured;
+  for (View& view : frame.views) {
+    captured.push_back(without_map(view));
+    EXPECT_EQ(captured.back().size(), size_t(samples));
+    float most = 0;
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) most = std::max(most, view.planes.at("peel_count").channels[0].at(x, y));
+    }
+    EXPECT_GT(most, 3) << "there is something to choose from";
+    EXPECT_LE(most, 64) << "all surfaces are stored";
+  }
+  normalise(frame);
+  const Frame made = derived(frame, samples, alpha, seed);
+  for (size_t v = 0; v < frame.views.size(); ++v) {
+    for (const auto& [name, plane] : captured[v]) {
+      const Plane* other = made.views[v].find(name);
+      ASSERT_TRUE(other) << name;
+      int differing = 0, held = 0;
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+          const float a = plane.channels[0].at(x, y), b = other->channels[0].at(x, y);
+          differing += std::bit_cast<uint32_t>(a) != std::bit_cast<uint32_t>(b);
+          held += std::isfinite(a);
+        }
+      }
+      EXPECT_EQ(differing, 0) << name << " of view '" << frame.views[v].name << "'";
+      EXPECT_GT(held, 0) << name;
+    }
+  }
+}
+
+TEST(StochasticCapture, TheSameBitsAsTheTechniqueMakes) {
+  for (const bool orthographic : {false, true}) {
+    for (const auto& [samples, alpha, seed] :
+         {std::tuple(1, 0.2, 0), std::tuple(4, 0.2, 7), std::tuple(16, 0.37, 2147483647), std::tuple(5, 1.0, 3)}) {
+      SCOPED_TRACE(fmt::format("{} samples, alpha {}, seed {}, orthographic {}", samples, alpha, seed, orthographic));
+      Frame frame = captured_fence(samples, alpha, seed, orthographic);
+      expect_same_map(frame, samples, alpha, seed);
+    }
+  }
+}
+
+TEST(StochasticCapture, IsOfAllSurfacesWhateverIsStored) {
+  CaptureOptions options;
+  options.width = fence_width, options.height = fence_height;
+  options.stochastic = {16, 0.2, 5};
+  options.views = {{"", camera_for(fence().cameras[0], fence_width, fence_height), {}}};
+  const Frame all = captured_fence(16, 0.2, 5);
+  for (const int peel : {0, 1}) {
+    options.peel = peel;
+    const Frame few = capture(fence_tracer(), options).frame;
+    int differing = 0;
+    for_pixels([&](int x, int y) {
+      for (int j = 0; j < 16; ++j)
+        differing += value(few, layer_name("stochastic", j), x, y) != value(all, layer_name("stochastic", j), x, y);
+    });
+    EXPECT_EQ(differing, 0) << peel << " layers stored";
+  }
+}
+
+TEST(StochasticCapture, TheUnitOfTheSceneChangesNothing) {
+  Scene large = boxes();
+  for (Mesh& mesh : large.meshes) {
+    for (vec3& position : mesh.positions) position *= 1024.0f;
+  }
+  large.cameras[0].pose.position *= 1024.0;
+  const auto map_of = [](const Scene& scene) {
+    const Tracer tracer(scene);
+    CaptureOptions options;
+    options.width = 65, options.height = 33;
+    options.stochastic = {8, 0.3, 1};
+    options.views = {{"", camera_for(scene.cameras[0], 65, 33), {}}};
+    return capture(tracer, options).frame;
+  };
+  const Frame a = map_of(boxes()), b = map_of(large);
+  int held = 0;
+  for (int y = 0; y < 33; ++y) {
+    for (int x = 0; x < 65; ++x) {
+      for (int j = 0; j < 8; ++j) {
+        const float small = value(a, layer_name("stochastic", j), x, y);
+        EXPECT_EQ(1024 * small, value(b, layer_name("stochastic", j), x, y));
+        held += std::isfinite(small);
+      }
+    }
+  }
+  EXPECT_GT(held, 1000);
+}
+
+// --- The second view
+
+CaptureOptions turned(const Scene& scene, double degrees, bool orthographic) {
+  SceneCamera camera = scene.cameras[0];
+  camera.orthographic = orthographic;
+  camera.width = 6;
+  CaptureOptions options;
+  options.width = 96, options.height = 54;
+  options.planes = {"normal", "position", "instance"};
+  options.peel = 64;
+  options.stochastic = {4, 0.2, 3};
+  options.views = {{"", camera_for(camera, options.width, options.height), {}}};
+  options.second_view = degrees;
+  return options;
+}
+
+TEST(SecondView, HasAllPlanesOfTheFirst) {
+  const Scene scene = boxes();
+  const Tracer tracer(scene);
+  for (const bool orthographic : {false, true}) {
+    CaptureOptions options = turned(scene, 35, orthographic);
+    int most = 0;
+    options.progress = [&](int done, int of) {
+      EXPECT_EQ(of, 108) << "rows of both";
+      most = std::max(most, done);
+    };
+    CaptureResult result = capture(tracer, options);
+    EXPECT_EQ(most, 108);
+    Frame& frame = result.frame;
+    ASSERT_EQ(frame.views.size(), 2u);
+    EXPECT_EQ(frame.views[0].name, "main");
+    EXPECT_EQ(frame.views[1].name, "view2");
+    EXPECT_EQ(frame.views[1].camera->orthographic, orthographic);
+    EXPECT_EQ(frame.numbers.at("gloamSecondView"), 35);
+    std::set<std::string> planes[2];
+    for (int v : {0, 1}) {
+      for (const auto& [name, plane] : frame.views[size_t(v)].planes) planes[v].insert(name);
+    }
+    EXPECT_EQ(planes[0], planes[1]);
+    EXPECT_TRUE(planes[0].contains("stochastic.03") && planes[0].contains("peel.63") && planes[0].contains("normal"));
+    expect_same_map(frame, 4, 0.2, 3);
+  }
+}
+
+TEST(SecondView, TheFirstIsWhatItIsAlone) {
+  const Scene scene = boxes();
+  const Tracer tracer(scene);
+  CaptureOptions options = turned(scene, -60, false);
+  const CaptureResult both = capture(tracer, options);
+  options.second_view.reset();
+  const CaptureResult alone = capture(tracer, options);
+  EXPECT_EQ(both.rays, 2 * alone.rays);
+  EXPECT_FALSE(alone.visible);
+  for (const auto& [name, plane] : alone.frame.views[0].planes) {
+    const Plane& same = both.frame.views[0].planes.at(name);
+    EXPECT_EQ(test::difference(same, plane).max, 0) << name;
+  }
+}
+
+// The sides of the boxes, which the first camera sees edge-on or not at all; both see their places in the world.
+TEST(SecondView, SeesTheSidesWhereTheyAre) {
+  const Scene scene = boxes();
+  const Tracer tracer(scene);
+  for (const bool orthographic : {false, true}) {
+    const Frame frame = capture(tracer, turned(scene, 40, orthographic)).frame;
+    int sides[2] = {}, sheet[2] = {};
+    for (size_t v : {0, 1}) {
+      const View& view = frame.views[v];
+      const auto place = [&](int x, int y) {
+        dvec3 at = view.origin;
+        for (int i = 0; i < 3; ++i) at[i] += view.planes.at("position").channels[size_t(i)].at(x, y);
+        return at;
+      };
+      for (int y = 0; y < 54; ++y) {
+        for (int x = 0; x < 96; ++x) {
+          const float instance = view.planes.at("instance").channels[0].at(x, y);
+          if (instance == 0) continue;
+          const dvec3 at = place(x, y);
+          if (instance == 4) {
+            EXPECT_NEAR(at.z, -5, 1e-5) << "the sheet";
+            ++sheet[v];
+          } else {
+            EXPECT_LT(std::max(std::abs(at.x) - 0.5, std::abs(at.y - 0.5) - 0.5), 1e-5) << "a box";
+            sides[v] += std::abs(at.x - 0.5) < 1e-5;
+          }
+        }
+      }
+    }
+    EXPECT_GT(std::min(sheet[0], sheet[1]), 500);
+    EXPECT_LE(sides[0], 5);
+    EXPECT_GT(sides[1], 50) << "the camera stands to the right of them";
+  }
+}
+
+TEST(SecondView, RefusesWhatItCannotDo) {
+  const Scene scene = boxes();
+  const Tracer tracer(scene);
+  const auto with = [&](const std::function<void(CaptureOptions&)>& change) {
+    CaptureOptions options = turned(scene, 30, false);
+    change(options);
+    return options;
+  };
+  for (const double degrees : {0.0, 90.5, -91.0, double(NAN)})
+    EXPECT_THROW(capture(tracer, with([&](CaptureOptions& o) { o.second_view = degrees; })), UsageError) << degrees;
+  EXPECT_THROW(capture(tracer, with([](CaptureOptions& o) { o.views.push_back(o.views[0]); })), UsageError);
+  EXPECT_THROW(capture(tracer, with([](CaptureOptions& o) { o.views[0].name = "view2"; })), UsageError);
+  EXPECT_THROW(capture(tracer, with([](CaptureOptions& o) { o.planes = {"motion"}; })), UsageError);
+  EXPECT_THROW(capture(tracer, with([](CaptureOptions& o) { o.views[0].camera.pose->position.y = 1e6; })), Error)
+      << "nothing is seen";
+  EXPECT_NO_THROW(capture(tracer, with([](CaptureOptions&) {})));
+}
+
 TEST(Capture, RefusesWhatItCannotDo) {
   const Scene scene = boxes();
   const Tracer tracer(scene);
@@ -199,6 +646,12 @@ TEST(Capture, RefusesWhatItCannotDo) {
   options.peel = 65;
   EXPECT_THROW(capture(tracer, options), UsageError);
   options.peel = 0;
+  for (const StochasticOptions& wrong : std::initializer_list<StochasticOptions>{
+           {17, 0.2, 0}, {-1, 0.2, 0}, {4, -0.1, 0}, {4, 1.1, 0}, {4, NAN, 0}, {4, 0.2, -1}}) {
+    options.stochastic = wrong;
+    EXPECT_THROW(capture(tracer, options), UsageError) << wrong.samples << " " << wrong.alpha << " " << wrong.seed;
+  }
+  options.stochastic = {};
   options.views[0].camera.pose.reset();
   EXPECT_THROW(capture(tracer, options), Error);
   Scene empty = boxes();

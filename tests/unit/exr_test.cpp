@@ -709,6 +709,70 @@ TEST(WriteExr, NamesAndTypesAreThoseOfTheContract) {
   EXPECT_EQ(file.header().displayWindow(), box(0, 0, 39, 19));
 }
 
+/// Every plane that gloam has a name for, and layers of every stack.
+std::vector<std::string> all_plane_names() {
+  std::vector<std::string> names;
+  for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
+  for (const StackKind& stack : stack_kinds()) {
+    for (const int number : {0, 1, 15}) names.push_back(layer_name(stack.name, number));
+  }
+  return names;
+}
+
+/// Views with all these planes, each channel of another value.
+Frame frame_of(const std::vector<std::string>& planes, const std::vector<std::string>& views) {
+  Frame frame;
+  frame.display = frame.window = {0, 0, 3, 2};
+  int number = 0;
+  for (const std::string& name : views) {
+    View& view = frame.views.emplace_back();
+    view.name = name;
+    for (const std::string& plane : planes) {
+      Plane& made = view.planes[plane];
+      made.name = plane;
+      for (size_t i = 0; i < plane_kind(plane).components.size(); ++i)
+        made.channels.emplace_back(Layout(3, 2), float(++number) / 256);
+    }
+  }
+  return frame;
+}
+
+TEST(WriteExr, EveryPlaneIsReadBackByItsName) {
+  Folder folder;
+  ReadOptions options;
+  options.as_stored = true;
+  options.normal_space = NormalSpace::view;
+  for (const std::vector<std::string>& views : {std::vector<std::string>{""}, {"left", "right"}, {"main", "view2"}}) {
+    const Frame frame = frame_of(all_plane_names(), views);
+    write_frame(folder / "f.exr", frame);
+    FrameFile file(folder / "f.exr", options);
+    EXPECT_EQ(file.views(), views);
+    EXPECT_EQ(file.planes().size(), views.size() * all_plane_names().size()) << "each once, and nothing else";
+    const Frame back = file.read(all_plane_names());
+    for (const View& view : frame.views) {
+      for (const auto& [name, plane] : view.planes) {
+        const Plane* read = back.view(view.name).find(name);
+        ASSERT_TRUE(read) << name << " of view '" << view.name << "'";
+        ASSERT_EQ(read->channels.size(), plane.channels.size()) << name;
+        const bool is_identity = name == "instance";  // a whole number in the file
+        for (size_t i = 0; i < plane.channels.size(); ++i)
+          EXPECT_EQ(read->channels[i].at(1, 1), is_identity ? 0 : plane.channels[i].at(1, 1)) << name << " " << i;
+      }
+    }
+  }
+}
+
+// What is alone in a file has nothing beside it that could tell what it is.
+TEST(WriteExr, EveryPlaneAloneIsReadBackByItsName) {
+  Folder folder;
+  for (const std::string& name : all_plane_names()) {
+    write_frame(folder / "f.exr", frame_of({name}, {""}));
+    const FrameFile file(folder / "f.exr", {});
+    ASSERT_EQ(file.planes().size(), 1u) << name;
+    EXPECT_EQ(file.planes()[0].plane, name);
+  }
+}
+
 TEST(WriteExr, AssumedCameraDoesNotBecomeKnowledge) {
   Folder folder;
   write_exr(folder / "in.exr", Imf::Header(8, 8), {{"Z", Imf::FLOAT, ramp}});
