@@ -38,10 +38,12 @@ TimedPlan::TimedPlan(Plan plan, const Frame& frame, Device& device, const RunOpt
 
 double TimedPlan::run() {
   const RunResult result = gloam::run(plan_, frame_, device_, options_);
-  for (size_t i = 0; i < passes_.size(); ++i) {
-    double ms = 0;  // the passes of one view come after those of the other
-    for (size_t k = i; k < result.passes.size(); k += passes_.size()) ms += result.passes[k].ms.back();
-    passes_[i].ms.push_back(ms);
+  for (Pass& pass : passes_) {
+    double ms = 0;  // of all views that it ran on
+    for (const PassTime& time : result.passes) {
+      if (time.name == pass.name) ms += time.ms.back();
+    }
+    pass.ms.push_back(ms);
   }
   return result.total_ms.back();
 }

@@ -225,14 +225,23 @@ std::vector<std::string> layers_of(const std::string& stack, const std::vector<s
 }
 
 /// Planes that are not at hand, in words; and what makes them where that is no technique.
-[[noreturn]] void throw_missing(const std::string& technique, const std::vector<std::string>& missing,
-                                const std::string& holds) {
+[[noreturn]] void throw_missing(const std::string& technique, const std::vector<const Technique*>& order,
+                                const std::vector<std::string>& missing, const std::string& holds) {
   std::vector<std::string> quoted;
   std::string sources;
   for (const std::string& plane : missing) quoted.push_back("'" + plane + "'");
   for (const StackKind& stack : stack_kinds()) {
     if (contains(missing, stack.name) && !stack.source.empty())
       sources += fmt::format("{} makes '{}'; ", stack.source, stack.name);
+  }
+  // A stack that could have been made of a missing one.
+  for (const StackKind& stack : stack_kinds()) {
+    for (const Technique* maker : order) {
+      const bool lacks = std::any_of(missing.begin(), missing.end(),
+                                     [&](const std::string& plane) { return contains(maker->reads, plane); });
+      if (lacks && contains(maker->writes, stack.name))
+        sources += fmt::format("{} makes '{}', which does as well; ", stack.source, stack.name);
+    }
   }
   throw MissingPlanes(
       fmt::format("{}: needs {}, and {} ({}see docs/gbuffer.md)", technique, enumerate(quoted), holds, sources),
@@ -408,7 +417,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   take_inputs(plan, walk.inputs, available, walk.missing);
-  if (!walk.missing.empty()) throw_missing(plan.technique, walk.missing, holds);
+  if (!walk.missing.empty()) throw_missing(plan.technique, walk.order, walk.missing, holds);
   if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);

@@ -506,7 +506,8 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
   for (Target& target : targets) {
     View out{.name = target.view.name, .camera = target.view.camera, .origin = target.view.origin, .planes = {}};
     download(plan, target, out);
-    result.frame.views.push_back(std::move(out));
+    // A view that is only looked into has no result of its own.
+    if (!out.planes.empty()) result.frame.views.push_back(std::move(out));
   }
 }
 
@@ -518,7 +519,7 @@ bool needs_two_views(const Plan& plan) {
 void check_two_views(const Plan& plan, const Frame& frame) {
   if (frame.views.size() != 2)
     throw Error(
-        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo makes one, "
+        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE makes one, "
         "--views A,B takes two of more",
         plan.technique, frame.views.size());
   for (const View& view : frame.views) {
