@@ -287,22 +287,18 @@ int layers_at_hand(const Plan& plan, const std::string& stack) {
   return 0;
 }
 
-[[noreturn]] void throw_too_few_layers(const Plan& plan, const Technique& technique, const Binding& binding, int layers,
-                                       const std::string& holds) {
-  const std::string source = stack_kind(binding.plane).source;
-  const bool is_given = plan.stacks.count(binding.plane) > 0;
-  throw MissingPlanes(
-      fmt::format("{}: needs {} layers of '{}', and {} {}; {} makes them", technique.name, binding.layers,
-                  binding.plane, is_given ? holds + "; it has" : "the technique that makes them makes", layers, source),
-      {layer_name(binding.plane, layers)});
+[[noreturn]] void throw_too_few_layers(const Technique& technique, const Binding& binding, int layers) {
+  throw MissingPlanes(fmt::format("{}: needs {} layers of '{}', and there are {}; {} makes them", technique.name,
+                                  binding.layers, binding.plane, layers, stack_kind(binding.plane).source),
+                      {layer_name(binding.plane, layers)});
 }
 
 /// What the pass's kernel has to know of the stacks that it reads.
-void define_layers(Pass& pass, const Plan& plan, const Technique& technique, const std::string& holds) {
+void define_layers(Pass& pass, const Plan& plan, const Technique& technique) {
   for (const Binding& binding : pass.reads) {
     if (!is_stack(binding.plane)) continue;
     const int layers = layers_at_hand(plan, binding.plane);
-    if (binding.layers > layers) throw_too_few_layers(plan, technique, binding, layers, holds);
+    if (binding.layers > layers) throw_too_few_layers(technique, binding, layers);
     pass.defines.emplace_back(layer_count_define(binding), binding.layers > 0 ? binding.layers : layers);
   }
 }
@@ -429,7 +425,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
       add_extras(pass, wanted.outputs);
-      define_layers(pass, plan, *walk.order[i], holds);
+      define_layers(pass, plan, *walk.order[i]);
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
     }
   }
