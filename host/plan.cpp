@@ -287,10 +287,11 @@ int layers_at_hand(const Plan& plan, const std::string& stack) {
   return 0;
 }
 
-[[noreturn]] void throw_too_few_layers(const Technique& technique, const Binding& binding, int layers) {
-  throw MissingPlanes(fmt::format("{}: needs {} layers of '{}', and there are {}; {} makes them", technique.name,
-                                  binding.layers, binding.plane, layers, stack_kind(binding.plane).source),
-                      {layer_name(binding.plane, layers)});
+[[noreturn]] void throw_too_few_layers(const Technique& technique, const Binding& binding, int layers, bool are_made) {
+  const std::string few = fmt::format("{}: needs {} layers of '{}', and there are {}; ", technique.name, binding.layers,
+                                      binding.plane, layers);
+  if (are_made) throw UsageError("{}make more, or ask for fewer", few);
+  throw MissingPlanes(few + stack_kind(binding.plane).source + " makes them", {layer_name(binding.plane, layers)});
 }
 
 /// What the pass's kernel has to know of the stacks that it reads.
@@ -298,7 +299,8 @@ void define_layers(Pass& pass, const Plan& plan, const Technique& technique) {
   for (const Binding& binding : pass.reads) {
     if (!is_stack(binding.plane)) continue;
     const int layers = layers_at_hand(plan, binding.plane);
-    if (binding.layers > layers) throw_too_few_layers(technique, binding, layers);
+    if (binding.layers > layers)
+      throw_too_few_layers(technique, binding, layers, plan.stacks.count(binding.plane) == 0);
     pass.defines.emplace_back(layer_count_define(binding), binding.layers > 0 ? binding.layers : layers);
   }
 }
@@ -400,6 +402,21 @@ void inherit(const std::vector<const Technique*>& order, std::vector<ParameterVa
   }
 }
 
+/// What makes layers makes as many as are asked for: parameters of the same name.
+void pass_on_to_stacks(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
+  for (size_t reader = 0; reader < order.size(); ++reader) {
+    for (size_t maker = 0; maker < reader; ++maker) {
+      const bool makes_its_layers = std::any_of(
+          order[maker]->writes.begin(), order[maker]->writes.end(),
+          [&](const std::string& plane) { return is_stack(plane) && contains(order[reader]->reads, plane); });
+      if (!makes_its_layers) continue;
+      for (const Parameter& p : order[reader]->parameters) {
+        if (values[maker].has(p.name)) values[maker].set(p.name, values[reader].text(p.name), order[maker]->name);
+      }
+    }
+  }
+}
+
 std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& values) {
   return technique.passes ? technique.passes(values) : std::vector<Pass>();
 }
@@ -421,6 +438,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   // Twice: what a follower inherits is already set, and what is said of the follower itself wins.
   apply(request, walk.order, plan.technique, values);
   inherit(walk.order, values);
+  pass_on_to_stacks(walk.order, values);
   apply(request, walk.order, plan.technique, values);
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {

@@ -119,8 +119,10 @@ static inline real sum_around(Frame other, Params params, DepthLayers layers, Re
       p.within = ANYWHERE;
       p.index = FRAME_GUARD + y * other.pitch + x;
       const real found = obscurance_at(other, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y, p);
-      const mask counts = to_mask((x == column + dx) & (y == row + dy));
-      sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+      // At the border a sample may come down to the point's own pixel, of which only rounding is left.
+      mask counts = to_mask((x != column) | (y != row));
+      if (OUTSIDE_OPEN) counts &= to_mask((x == column + dx) & (y == row + dy));
+      sum += choose(counts, found, (real)(0));
     }
     turn(&fan);
   }

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "gloam/exr.h"
-#include "support/frames.h"
-#include "support/techniques.h"
+#include "support/estimate.h"
+#include "support/surfaces.h"
 
 namespace gloam::test {
 namespace {
@@ -80,13 +80,10 @@ TEST_P(BilateralForm, DoesNotBleedOverADepthEdge) {
 /// What the pixel shows, view space.
 glm::dvec3 point_at(const Frame& frame, int x, int y) {
   const EyeRay ray = ray_through({*frame.views[0].camera, frame.width(), frame.height()}, x + 0.5, y + 0.5);
-  return ray.origin + double(frame.views[0].find("depth")->channels[0].at(x, y)) * ray.direction;
+  return test::point_at(ray, value_at(frame, "depth", x, y));
 }
 
-glm::dvec3 normal_at(const Frame& frame, int x, int y) {
-  const Plane& n = *frame.views[0].find("normal");
-  return {n.channels[0].at(x, y), n.channels[1].at(x, y), n.channels[2].at(x, y)};
-}
+glm::dvec3 normal_at(const Frame& frame, int x, int y) { return vector_at(frame, "normal", x, y); }
 
 struct Tolerances {
   double distance, angle;

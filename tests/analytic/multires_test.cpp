@@ -8,63 +8,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 
-#include "support/frames.h"
-#include "support/techniques.h"
+#include "support/integral.h"
 
 namespace gloam::test {
 namespace {
 
-constexpr double pi = std::numbers::pi, radius = 0.8, bias = 0.1, max_reach = 0.25;
+constexpr double radius = 0.8, bias = 0.1, max_reach = 0.25;
 constexpr int levels = 3;
 
-glm::dvec3 point_at(const EyeRay& ray, double depth) { return ray.origin + depth * ray.direction; }
-
-Plan plan_of(const Settings& settings, const std::string& then = "none", int resolution = 1) {
-  return make_plan({.outputs = {"multires"}, .then = then, .settings = settings, .resolution = resolution},
-                   {"depth", "normal"}, "");
-}
-
-float raw_at(const Frame& result, int x, int y) { return result.views[0].find("ao_raw")->channels[0].at(x, y); }
-
 /// A_i at the centre of a pixel, by midpoints.
-double obscurance_in_ring(const Shot& shot, const Scene& scene, int x, int y, double from, double to) {
-  constexpr int directions = 240, steps = 160;
-  const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5);
-  const Surface here = scene(ray).value();
-  const glm::dvec3 point = point_at(ray, here.depth);
-  double sum = 0;
-  for (int d = 0; d < directions; ++d) {
-    const double angle = 2 * pi * (d + 0.5) / directions;
-    for (int k = 0; k < steps; ++k) {
-      const double t = from + (to - from) * (k + 0.5) / steps;
-      const EyeRay other = ray_through(shot, x + 0.5 + t * std::cos(angle), y + 0.5 + t * std::sin(angle));
-      const auto seen = scene(other);
-      if (!seen) continue;
-      const glm::dvec3 v = point_at(other, seen->depth) - point;
-      const double weight = std::max(0.0, 1 - glm::dot(v, v) / (radius * radius));
-      sum += weight * std::max(0.0, glm::dot(here.normal, v) / glm::length(v) - bias);
-    }
-  }
-  return sum / (directions * steps);
+double obscurance_in_ring(const IntegralCase& test, glm::ivec2 pixel, double from, double to) {
+  return mean_on_screen(test, pixel, from, to, 240, 160, obscurance(radius, bias));
 }
 
 struct Expected {
   double maximum, maximum_and_mean;
 };
 
-Expected expected_at(const Shot& shot, const Scene& scene, int x, int y) {
-  const double depth = scene(ray_through(shot, x + 0.5, y + 0.5))->depth;
-  const double most_pixels = max_reach * shot.width;
-  const double reach = std::min(most_pixels, radius * shot.camera.fx / (shot.camera.orthographic ? 1 : depth));
+Expected expected_at(const IntegralCase& test, glm::ivec2 pixel) {
+  const double depth = receiver_at(test, pixel).surface.depth, most_pixels = max_reach * test.shot.width;
+  const double reach = std::min(most_pixels, pixels_across(test.shot, radius, depth));
   double most = 0, sum = 0;
   int count = 0;
   for (int level = 0; level < levels; ++level) {
     const double outer = most_pixels / double(1 << (levels - 1 - level)), from = level == 0 ? 1 : outer / 2;
     if (reach <= from) continue;
-    const double found = obscurance_in_ring(shot, scene, x, y, from, std::min(reach, outer));
+    const double found = obscurance_in_ring(test, pixel, from, std::min(reach, outer));
     most = std::max(most, found);
     sum += found;
     ++count;
@@ -72,52 +42,32 @@ Expected expected_at(const Shot& shot, const Scene& scene, int x, int y) {
   return {1 - 2 * most, (1 - most) * (1 - sum / count)};
 }
 
-void expect_expectation(const std::string& what, const Shot& shot, const Scene& scene,
-                        const std::vector<glm::ivec2>& pixels, double bound) {
-  constexpr int seeds = 6;
-  const Frame frame = shoot(shot, scene);
+void expect_expectation(const IntegralCase& test, double bound) {
   for (const bool with_mean : {false, true}) {
-    const Plan plan = plan_of({{"radius", fmt::format("{}", radius)},
+    const Settings settings = {{"radius", fmt::format("{}", radius)},
                                {"levels", fmt::format("{}", levels)},
                                {"samples", "512"},
-                               {"combine", with_mean ? "maximum_and_mean" : "maximum"}});
-    std::vector<double> found(pixels.size());
-    for (int seed = 0; seed < seeds; ++seed) {
-      const Frame out = run(plan, frame, device(), {.math = Math::precise, .seed = seed}).frame;
-      for (size_t i = 0; i < pixels.size(); ++i) found[i] += raw_at(out, pixels[i].x, pixels[i].y) / seeds;
-    }
-    double mean = 0, worst = 0, lowest = 1;
-    for (size_t i = 0; i < pixels.size(); ++i) {
-      const Expected all = expected_at(shot, scene, pixels[i].x, pixels[i].y);
-      const double expected = with_mean ? all.maximum_and_mean : all.maximum, off = found[i] - expected;
-      EXPECT_NEAR(found[i], expected, bound) << what << " at " << pixels[i].x << ", " << pixels[i].y;
-      mean += off / double(pixels.size());
-      worst = std::max(worst, std::abs(off));
-      lowest = std::min(lowest, expected);
-    }
-    std::printf("multires, %s, %s: AO down to %.3f; mean error %.2g, largest at one pixel %.2g\n", what.c_str(),
-                with_mean ? "maximum and mean" : "maximum", lowest, mean, worst);
-    EXPECT_LT(lowest, 0.95) << what << ": the case tests nothing";
-    EXPECT_LE(std::abs(mean), 1e-3) << what;
+                               {"combine", with_mean ? "maximum_and_mean" : "maximum"}};
+    const auto expected = [&](const IntegralCase& c, glm::ivec2 pixel) {
+      const Expected all = expected_at(c, pixel);
+      return with_mean ? all.maximum_and_mean : all.maximum;
+    };
+    expect_integral(named(test, with_mean ? "maximum and mean" : "maximum"), "multires", settings, expected,
+                    {.pixel = bound, .errors = 0}, 6);
   }
 }
 
-/// Two walls that meet in a line across the image, one of them steeper to the view than the other.
-Scene corner() {
-  const Scene a = tilted_plane(4, pi / 4, pi / 2), b = tilted_plane(4, 1.0, -pi / 2);
-  return [=](const EyeRay& ray) {
-    const auto first = a(ray), second = b(ray);
-    if (!first || !second) return first ? first : second;
-    return first->depth < second->depth ? first : second;
-  };
+/// The upper wall steeper to the view than the lower one.
+IntegralCase corner_through(const Shot& shot, const std::string& more, const std::vector<glm::ivec2>& pixels) {
+  return {(shot.camera.orthographic ? "corner, orthographic" : "corner, perspective") + more, shot, corner(1), pixels};
 }
 
 /// Pixels that all levels have, so that nothing is interpolated; the levels' own pixels are up to 4 wide.
 TEST(MultiresExpectation, PixelsOfAllLevels) {
   std::vector<glm::ivec2> pixels;
   for (int i = 0; i < 8; ++i) pixels.push_back({240 + 8 * i, 112 + 8 * i});
-  expect_expectation("corner, perspective", perspective(480, 360), corner(), pixels, 1e-3);
-  expect_expectation("corner, orthographic", orthographic(480, 360, 4), corner(), pixels, 1e-3);
+  expect_expectation(corner_through(perspective(480, 360), "", pixels), 1e-3);
+  expect_expectation(corner_through(orthographic(480, 360, 4), "", pixels), 1e-3);
 }
 
 /// Pixels between: the upsampled part is a straight line between pixels that are 4 apart, which cuts where the obscurance
@@ -127,9 +77,9 @@ TEST(MultiresExpectation, PixelsBetween) {
   std::vector<glm::ivec2> pixels, finer;
   for (int i = 0; i < 8; ++i) pixels.push_back({243 + 7 * i, 125 + 5 * i});
   for (const glm::ivec2& p : pixels) finer.push_back({2 * p.x + 1, 2 * p.y + 1});
-  expect_expectation("corner, perspective, between", perspective(480, 360), corner(), pixels, 6e-3);
-  expect_expectation("corner, orthographic, between", orthographic(480, 360, 4), corner(), pixels, 6e-3);
-  expect_expectation("corner, orthographic, between, finer", orthographic(960, 720, 4), corner(), finer, 3e-3);
+  expect_expectation(corner_through(perspective(480, 360), ", between", pixels), 6e-3);
+  expect_expectation(corner_through(orthographic(480, 360, 4), ", between", pixels), 6e-3);
+  expect_expectation(corner_through(orthographic(960, 720, 4), ", between, finer", finer), 3e-3);
 }
 
 /// Where the radius ends within the finest ring, coarser levels are of no matter.
@@ -140,7 +90,7 @@ TEST(Multires, LevelsBeyondTheRadiusChangeNothing) {
       for (const char* combine : {"maximum", "maximum_and_mean"}) {
         const auto with_levels = [&](const char* count) {
           const Settings settings = {{"radius", "0.07"}, {"samples", "4"}, {"levels", count}, {"combine", combine}};
-          return run(plan_of(settings), frame, device(), {.lanes = lanes}).frame;
+          return raw_of("multires", frame, settings, {.lanes = lanes});
         };
         // 0.07 is at most 20 pixels, where the finest of three rings ends, and at least 5, where that of five does.
         EXPECT_TRUE(same_bits(with_levels("1"), with_levels("3"))) << "lanes " << lanes << ", " << combine;
@@ -159,9 +109,8 @@ TEST(Multires, NoDistanceIsMissed) {
   };
   const Shot shot = orthographic(480, 120, 4);
   const Frame frame = shoot(shot, ridge);
-  const Frame out = run(plan_of({{"radius", "0.8"}, {"samples", "512"}, {"falloff", "none"}, {"bias", "0"}}), frame,
-                        device(), {.math = Math::precise})
-                        .frame;
+  const Settings settings = {{"radius", "0.8"}, {"samples", "512"}, {"falloff", "none"}, {"bias", "0"}};
+  const Frame out = raw_of("multires", frame, settings, {.math = Math::precise});
   const double pixel = 4.0 / 480;
   for (int x = 246; x < 480; ++x) {
     const double distance = (x + 0.5 - 240) * pixel - 0.02;
@@ -178,11 +127,14 @@ TEST(Multires, NoDistanceIsMissed) {
 TEST(Multires, RunsAtALowerResolution) {
   const Frame frame = shoot(perspective(640, 480), room());
   for (const char* combine : {"maximum", "maximum_and_mean"}) {
-    const Settings settings = {{"samples", "256"}, {"combine", combine}};
-    const Frame whole = run(plan_of(settings, ""), frame, device(), {}).frame;
+    const auto filtered_at = [&](int resolution) {
+      const PlanRequest request{
+          .outputs = {"multires"}, .settings = {{"samples", "256"}, {"combine", combine}}, .resolution = resolution};
+      return run(make_plan(request, plane_names(frame), ""), frame, device()).frame;
+    };
+    const Frame whole = filtered_at(1);
     for (const int resolution : {2, 4}) {
-      const Frame reduced = run(plan_of(settings, "", resolution), frame, device(), {}).frame;
-      const Difference d = difference(*whole.views[0].find("ao"), *reduced.views[0].find("ao"));
+      const Difference d = difference(*whole.views[0].find("ao"), *filtered_at(resolution).views[0].find("ao"));
       std::printf("multires, %s at 1/%d: mean difference %.2g\n", combine, resolution, d.mean);
       EXPECT_GT(d.mean, 0);
       EXPECT_LT(d.mean, 0.004 * resolution);

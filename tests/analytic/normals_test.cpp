@@ -6,8 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "support/frames.h"
-#include "support/techniques.h"
+#include "support/estimate.h"
 
 namespace gloam::test {
 namespace {
@@ -19,10 +18,7 @@ Frame normals_of(const Shot& shot, const Scene& scene) {
   return outputs_of(find_technique("normals"), frame, {}, {.math = Math::precise});
 }
 
-glm::dvec3 normal_at(const Frame& frame, int x, int y) {
-  const Plane& plane = *frame.views[0].find("normal");
-  return {plane.channels[0].at(x, y), plane.channels[1].at(x, y), plane.channels[2].at(x, y)};
-}
+glm::dvec3 normal_at(const Frame& frame, int x, int y) { return vector_at(frame, "normal", x, y); }
 
 /// Radians; exact for small angles too.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {

@@ -6,35 +6,14 @@
 #include <cmath>
 
 #include "gloam/exr.h"
-#include "gloam/planes.h"
-#include "support/frames.h"
-#include "support/techniques.h"
+#include "support/depth_layers.h"
+#include "support/estimate.h"
 
 namespace gloam::test {
 namespace {
 
-Frame raw_of(const std::string& technique, const Frame& frame, const Settings& settings, const RunOptions& options = {},
-             int resolution = 1) {
-  PlanRequest request{.outputs = {technique}, .then = "none", .settings = settings};
-  request.resolution = resolution;
-  return run(make_plan(request, plane_names(frame), "this frame"), frame, device(), options).frame;
-}
-
-const Channel& raw_channel(const Frame& result) { return result.views[0].find("ao_raw")->channels[0]; }
-
 Settings with(const char* levels, const char* radius, const char* level_offset = "3") {
   return {{"levels", levels}, {"radius", radius}, {"level_offset", level_offset}, {"strength", "0.5"}};
-}
-
-Frame with_its_layer(const Frame& frame) {
-  Frame copy = clone(frame);
-  Channel& layer = plane_of(copy, layer_name("peel", 0)).channels[0];
-  const Channel& depth = plane_of(copy, "depth").channels[0];
-  for (int y = 0; y < copy.height(); ++y) {
-    for (int x = 0; x < copy.width(); ++x) layer.at(x, y) = depth.at(x, y);
-  }
-  normalise(copy);
-  return copy;
 }
 
 std::vector<Shot> shots() {
@@ -85,7 +64,7 @@ TEST(SaoLevels, TheFirstIsARotatedGridOfTheDepth) {
 /// finds it, is the same to the bit, at any resolution.
 TEST(SaoLevels, HoldThePixelsThatTheyStandFor) {
   for (const Shot& shot : {perspective(93, 61), orthographic(93, 61, 4), perspective(300, 1)}) {
-    const Frame frame = with_its_layer(shoot(shot, room()));
+    const Frame frame = with_layers(shoot(shot, room()), {same_depth});
     for (const char* radius : {"0.5", "inf"}) {
       for (const int resolution : {1, 2}) {
         for (const int lanes : usual_lanes(device())) {
@@ -116,14 +95,9 @@ TEST(SaoLevels, APlaneStaysFlat) {
     for (const double tilt : {0.0, 0.7, 1.3}) {
       const Frame frame = shoot(shot, tilted_plane(3, tilt, 0.4));
       for (const char* bias : {"0.0001", "0"}) {
-        Settings settings = with("on", "1.5", "0");
-        settings.emplace_back("bias", bias);
+        const Settings settings = joined(with("on", "1.5", "0"), {{"bias", bias}});
         const Frame out = raw_of("sao", frame, settings, {.math = Math::precise});
-        double worst = 0;
-        for (int y = 0; y < shot.height; ++y) {
-          for (int x = 0; x < shot.width; ++x) worst = std::max(worst, std::abs(1.0 - raw_channel(out).at(x, y)));
-        }
-        EXPECT_LE(worst, bias[1] == '\0' ? 2e-5 : 0) << "tilt " << tilt << ", bias " << bias;
+        EXPECT_LE(largest_occlusion(out), bias[1] == '\0' ? 2e-5 : 0) << "tilt " << tilt << ", bias " << bias;
       }
     }
   }
@@ -133,20 +107,16 @@ TEST(SaoLevels, APlaneStaysFlat) {
 TEST(SaoLevels, ChangeLittle) {
   for (const Shot& shot : {perspective(480, 360), orthographic(480, 360, 4)}) {
     const Frame frame = shoot(shot, room());
-    Settings on = with("on", "0.6"), off = with("off", "0.6");
-    for (Settings* settings : {&on, &off}) {
-      settings->emplace_back("samples", "1000");
-      settings->emplace_back("strength", "2");
-    }
-    const Channel with_levels = raw_channel(raw_of("sao", frame, on)).clone();
-    const Channel without = raw_channel(raw_of("sao", frame, off)).clone();
+    const Settings many = {{"samples", "1000"}, {"strength", "2"}};
+    const Settings on = joined(with("on", "0.6"), many), off = joined(with("off", "0.6"), many);
+    const Frame with_levels = raw_of("sao", frame, on), without = raw_of("sao", frame, off);
     double sum = 0, squares = 0, occlusion = 0;
     for (int y = 0; y < shot.height; ++y) {
       for (int x = 0; x < shot.width; ++x) {
-        const double d = double(with_levels.at(x, y)) - without.at(x, y);
+        const double d = double(raw_at(with_levels, x, y)) - raw_at(without, x, y);
         sum += d;
         squares += d * d;
-        occlusion += 1 - without.at(x, y);
+        occlusion += 1 - raw_at(without, x, y);
       }
     }
     const double count = double(shot.width) * shot.height;

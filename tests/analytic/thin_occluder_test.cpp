@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/integral.h"
+#include "support/surfaces.h"
 #include "support/techniques.h"
 
 namespace gloam::test {
@@ -15,7 +15,7 @@ namespace {
 constexpr double radius = 0.8, wall = 4, height = 0.55, half_width = 0.03, half_length = 2;
 
 Scene strip_before_wall() {
-  return nearer_of(within(tilted_plane(wall - height, 0, 0), half_width, half_length), tilted_plane(wall, 0, 0));
+  return nearest_of({within(tilted_plane(wall - height, 0, 0), half_width, half_length), tilted_plane(wall, 0, 0)});
 }
 
 /// How open the wall is `x` beside the strip's middle.

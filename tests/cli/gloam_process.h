@@ -52,6 +52,7 @@ class Cli : public ::testing::Test {
   pid_t start(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
     const pid_t child = fork();
     if (child != 0) return child;
+    signal(SIGINT, SIG_DFL);  // a shell has its background jobs ignore it, and what they start inherits that
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     dup2(open(path("stdout").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
     dup2(open(path("stderr").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);

@@ -43,7 +43,7 @@ TEST_P(HardCase, Row05BackgroundInEverySpelling) {
                                 {"65504 by flag", 65504, 65504.0f, {}},
                                 {"-1 by flag", -1, -1.0f, {}}};
   int changed = 0, tried = 0;
-  for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 4)}) {
+  for (const Shot& shot : usual_shots()) {
     for (const bool with_normals : {true, false}) {
       Frame frame = shoot(shot, room(), with_normals);
       for (const int lanes : usual_lanes(device())) {

@@ -89,16 +89,17 @@ TEST_P(HardCase, Row02TiltedPlaneReadsOpen) {
 /// The same view of the same scene with another unit of length.
 Frame scaled(const Frame& frame, int k) {
   Frame copy = clone(frame);
-  Camera& camera = *copy.views[0].camera;
-  if (camera.orthographic) {
-    camera.fx = std::ldexp(camera.fx, -k);
-    camera.fy = std::ldexp(camera.fy, -k);
-  }
-  for (auto& [name, plane] : copy.views[0].planes) {
-    if (plane_kind(name).meaning != PlaneKind::view_depth && name != "position") continue;
-    for (Channel& channel : plane.channels) {
-      for (int y = 0; y < copy.height(); ++y) {
-        for (int x = 0; x < copy.width(); ++x) channel.at(x, y) = std::ldexp(channel.at(x, y), k);
+  for (View& view : copy.views) {
+    if (view.camera->orthographic) {
+      view.camera->fx = std::ldexp(view.camera->fx, -k);
+      view.camera->fy = std::ldexp(view.camera->fy, -k);
+    }
+    for (auto& [name, plane] : view.planes) {
+      if (plane_kind(name).meaning != PlaneKind::view_depth && name != "position") continue;
+      for (Channel& channel : plane.channels) {
+        for (int y = 0; y < copy.height(); ++y) {
+          for (int x = 0; x < copy.width(); ++x) channel.at(x, y) = std::ldexp(channel.at(x, y), k);
+        }
       }
     }
   }
@@ -111,26 +112,23 @@ Frame unscaled(const Frame& frame, int k) { return scaled(frame, -k); }
 TEST_P(HardCase, Row03UnitOfTheScene) {
   SKIP_WHERE_OPTED_OUT(3);
   int changed = 0, tried = 0;
-  for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 4)}) {
+  for (const Shot& shot : usual_shots()) {
     for (const bool with_normals : {true, false}) {
       Frame frame = shoot(shot, room(), with_normals);
       plan_for(technique(), frame);  // adds what nothing makes, before it is scaled
-      for (const Math math : {Math::precise, Math::fast}) {
-        for (const int lanes : usual_lanes(device())) {
-          const RunOptions options{.math = math, .lanes = lanes};
-          const Frame expected = outputs_of(technique(), frame, {}, options);
-          for (int k = -20; k <= 20; k += 4) {
-            Frame bigger = scaled(frame, k);
-            const Settings lengths =
-                set_lengths(technique(), bigger, [&](double length) { return std::ldexp(length, k); });
-            const Frame out = unscaled(outputs_of(technique(), bigger, lengths, options), k);
-            ++tried;
-            if (same_bits(out, expected)) continue;
-            if (++changed <= 5) {
-              ADD_FAILURE() << "2^" << k << ", " << camera_name(shot) << ", lanes " << lanes
-                            << (math == Math::fast ? ", fast" : ", precise") << ": differs by up to "
-                            << difference(out, expected).max;
-            }
+      for (const RunOptions& way : all_ways()) {
+        const Frame expected = outputs_of(technique(), frame, {}, way);
+        for (int k = -20; k <= 20; k += 4) {
+          Frame bigger = scaled(frame, k);
+          const Settings lengths =
+              set_lengths(technique(), bigger, [&](double length) { return std::ldexp(length, k); });
+          const Frame out = unscaled(outputs_of(technique(), bigger, lengths, way), k);
+          ++tried;
+          if (same_bits(out, expected)) continue;
+          if (++changed <= 5) {
+            ADD_FAILURE() << "2^" << k << ", " << camera_name(shot) << ", lanes " << way.lanes
+                          << (way.math == Math::fast ? ", fast" : ", precise") << ": differs by up to "
+                          << difference(out, expected).max;
           }
         }
       }
@@ -142,14 +140,14 @@ TEST_P(HardCase, Row03UnitOfTheScene) {
 TEST_P(HardCase, Row08RadiusZeroIsOpen) {
   SKIP_WHERE_OPTED_OUT(8);
   double worst = 0;
-  for (const Shot& shot : {perspective(64, 48), orthographic(64, 48, 4)}) {
+  for (const Shot& shot : usual_shots()) {
     for (const bool with_normals : {true, false}) {
       Frame frame = shoot(shot, room(), with_normals);
       const Settings zero = set_lengths(technique(), frame, [](double) { return 0.0; });
       for (const Settings& variant : variants(technique(), frame)) {
         const Plan plan = plan_for(technique(), frame, variant + zero);
-        for (const int lanes : usual_lanes(device())) {
-          const Frame out = run(plan, frame, device(), {.lanes = lanes}).frame;
+        for (const RunOptions& way : two_ways()) {
+          const Frame out = run(plan, frame, device(), way).frame;
           EXPECT_EQ(violation(out), "") << text_of(variant);
           if (zero.empty()) continue;  // no parameter is a length
           worst = std::max(worst, worst_distance_from_open(plan, out));
@@ -172,7 +170,7 @@ Scene near_and_far() {
 TEST_P(HardCase, Row08RadiusOfAnySizeIsDefined) {
   SKIP_WHERE_OPTED_OUT(8);
   int tried = 0, wrong = 0;
-  for (const Shot& shot : {perspective(64, 48), orthographic(64, 48, 4), orthographic(64, 48, 1e-5)}) {
+  for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 4), orthographic(80, 60, 1e-5)}) {
     for (const Scene& scene : {room(), near_and_far()}) {
       for (const bool with_normals : {true, false}) {
         Frame frame = shoot(shot, scene, with_normals);

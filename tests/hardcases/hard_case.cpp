@@ -22,15 +22,19 @@ std::string opt_out(const Technique& technique, int row, const std::string& part
   const auto readme = std::filesystem::path(GLOAM_SOURCE_DIR) / "kernels" /
                       std::filesystem::path(technique.source).parent_path() / "README.md";
   if (!std::filesystem::exists(readme)) return "";
-  const std::string start = fmt::format("hard case {}{}: ", row, part.empty() ? "" : ", " + part);
+  const std::string which = fmt::format("hard case {}{}", row, part.empty() ? "" : ", " + part);
+  const std::string all = which + ": ", one = fmt::format("{} ({}): ", which, technique.name);
   std::istringstream lines(read_text(readme));
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(start)) return line.substr(start.size());
+    for (const std::string& start : {all, one}) {
+      if (line.starts_with(start)) return line.substr(start.size());
+    }
   }
   return "";
 }
 
 std::vector<Settings> variants(const Technique& technique, Frame& frame) {
+  const Settings few = few_samples(technique);
   std::vector<Settings> all = {{}};
   std::vector<std::string> seen;
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
@@ -41,12 +45,29 @@ std::vector<Settings> variants(const Technique& technique, Frame& frame) {
       seen.push_back(name);
       for (int value = int(p.min); value <= int(p.max); ++value) {
         if (value == int(planned.values.number(p.name))) continue;
-        all.push_back({{name, p.type == Parameter::Type::boolean ? (value ? "on" : "off") : p.choices[size_t(value)]}});
+        const std::string text = p.type == Parameter::Type::boolean ? (value ? "on" : "off") : p.choices[size_t(value)];
+        all.push_back(few + Settings{{name, text}});
       }
     }
   }
   return all;
 }
+
+std::vector<RunOptions> all_ways() {
+  std::vector<RunOptions> all;
+  for (const int lanes : usual_lanes(device())) {
+    for (const Math math : {Math::precise, Math::fast}) all.push_back({.math = math, .lanes = lanes});
+  }
+  return all;
+}
+
+std::vector<RunOptions> two_ways() {
+  return {{.math = Math::fast, .lanes = usual_lanes(device()).back()}, {.math = Math::precise, .lanes = 1}};
+}
+
+std::vector<Shot> usual_shots() { return {perspective(80, 60), orthographic(80, 60, 4)}; }
+
+std::vector<Shot> odd_shots() { return {perspective(93, 61), orthographic(93, 61, 4)}; }
 
 std::string text_of(const Settings& settings) {
   std::string text;
@@ -67,7 +88,7 @@ double worst_distance_from_open(const Plan& plan, const Frame& outputs) {
     for (int y = 0; y < outputs.height(); ++y) {
       for (int x = 0; x < outputs.width(); ++x) {
         const double distance = std::abs(double(values.at(x, y)) - open);
- worst = std::isfinite(distance) ? std::max(worst, distance) : INFINITY;
+        worst = std::isfinite(distance) ? std::max(worst, distance) : INFINITY;
       }
     }
   }

@@ -24,8 +24,22 @@ class HardCase : public testing::TestWithParam<std::string> {
 /// `part`, of a line "hard case 13, fast: reason".
 std::string opt_out(const Technique& technique, int row, const std::string& part = "");
 
-/// The defaults, and each other value of each choice and switch by itself.
+// What takes time here is the compiler: OpenCL on a CPU compiles each kernel anew for each combination of settings, lanes,
+// mathematics and size of image, which takes a hundred times as long as computing a small image. What is compiled is kept
+// on disk and serves all rows that use it. So the rows share few sizes and few samples where they hold for any.
+
+/// The defaults, and each other value of each choice and switch by itself, with few samples.
 std::vector<Settings> variants(const Technique& technique, Frame& frame);
+
+/// Both kinds of mathematics, each with both of `usual_lanes`.
+std::vector<RunOptions> all_ways();
+/// Both kinds of mathematics and both numbers of lanes in two runs, where many settings or sizes are tried.
+std::vector<RunOptions> two_ways();
+
+/// 80x60, through a perspective and an orthographic camera.
+std::vector<Shot> usual_shots();
+/// 93x61: no multiple of any number of lanes.
+std::vector<Shot> odd_shots();
 
 /// "directions = 4, jitter = off"
 std::string text_of(const Settings& settings);

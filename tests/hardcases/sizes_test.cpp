@@ -20,22 +20,14 @@ void spoil_padding(Frame& frame, float value) {
 
 TEST_P(HardCase, Row11SizesAndPadding) {
   SKIP_WHERE_OPTED_OUT(11);
+  const Settings few = few_samples(technique());
   int changed = 0, tried = 0;
-  for (const auto& [width, height] : {std::pair(1, 1),
-                                      {1, 33},
-                                      {33, 1},
-                                      {2, 2},
-                                      {15, 3},
-                                      {16, 3},
-                                      {17, 13},
-                                      {16384, 1},
-                                      {1, 16384},
-                                      {32769, 2},
-                                      {40000, 3}}) {
+  for (const auto& [width, height] :
+       {std::pair(1, 1), {1, 33}, {33, 1}, {2, 2}, {15, 3}, {16, 3}, {17, 13}, {16384, 1}, {1, 16384}, {32769, 3}}) {
     const double fov = width > 1000 ? 150 : 60;
     for (const Shot& shot : {perspective(width, height, fov), orthographic(width, height, width * 0.05)}) {
       Frame frame = shoot(shot, room());
-      const Frame expected = outputs_of(technique(), frame, {}, {.math = Math::precise, .lanes = 1});
+      const Frame expected = outputs_of(technique(), frame, few, {.math = Math::precise, .lanes = 1});
       EXPECT_EQ(violation(expected), "") << width << "x" << height;
       EXPECT_EQ(expected.width(), width);
       EXPECT_EQ(expected.height(), height);
@@ -44,7 +36,7 @@ TEST_P(HardCase, Row11SizesAndPadding) {
           Frame spoilt = clone(frame);
           spoil_padding(spoilt, beside);
           const bool same =
-              same_bits(outputs_of(technique(), spoilt, {}, {.math = Math::precise, .lanes = lanes}), expected);
+              same_bits(outputs_of(technique(), spoilt, few, {.math = Math::precise, .lanes = lanes}), expected);
           EXPECT_TRUE(same) << width << "x" << height << ", lanes " << lanes << ", " << beside << " beside the image";
           changed += !same;
           ++tried;

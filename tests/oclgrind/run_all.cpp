@@ -11,40 +11,58 @@
 namespace gloam::test {
 namespace {
 
-/// Loops of more turns than this read nothing else, and take minutes to interpret.
-constexpr double most_turns = 20;
+// Wide and low: a row of more floats than the guard is long, so that one row too far lies outside of the buffer; and few
+// pixels, since oclgrind interprets every sample, and there are hundreds of them per pixel.
+constexpr int width = 65, height = 3;
+static_assert(width > Layout::guard);
 
-/// The defaults, and each choice, switch and count at both its ends by itself.
+/// Loops of more turns than this, or than they have by default, read nothing else, and take minutes to interpret.
+constexpr int most_turns = 8;
+
+/// Every value of a choice or a switch, and both ends of a count.
+std::vector<int> values_of(const Parameter& p, int usual) {
+  if (p.type == Parameter::Type::integer) return {int(p.min), std::min(int(p.max), std::max(usual, most_turns))};
+  std::vector<int> all;
+  for (int value = int(p.min); value <= int(p.max); ++value) all.push_back(value);
+  return all;
+}
+
+/// Each choice, switch and count by itself at values other than the default.
 std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
-  std::vector<Settings> all = {{}};
+  std::vector<Settings> all;
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
     for (const Parameter& p : planned.technique->parameters) {
       if (p.type == Parameter::Type::floating || planned.technique != &technique) continue;
-      const bool is_count = p.type == Parameter::Type::integer;
-      for (const double end : {p.min, is_count ? std::min(p.max, most_turns) : p.max}) {
-        const std::string text = p.type == Parameter::Type::choice    ? p.choices[size_t(end)]
-                                 : p.type == Parameter::Type::boolean ? (end != 0 ? "on" : "off")
-                                                                      : fmt::format("{}", int(end));
-        const Settings one = {{technique.name + "." + p.name, text}};
-        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+      const int usual = int(planned.values.number(p.name));
+      for (const int value : values_of(p, usual)) {
+        if (value == usual) continue;
+        const std::string text = p.type == Parameter::Type::choice    ? p.choices[size_t(value)]
+                                 : p.type == Parameter::Type::boolean ? (value ? "on" : "off")
+                                                                      : fmt::format("{}", value);
+        all.push_back({{technique.name + "." + p.name, text}});
       }
     }
   }
   return all;
 }
 
-/// On frames that are smaller still: oclgrind interprets every sample, and there are hundreds of them per pixel.
 int run_variants(const Technique& technique) {
   int passes = 0;
-  for (const Shot& shot : {perspective(17, 9), orthographic(17, 9, 2)}) {
-    Frame frame = shoot(shot, room());
-    for (const Settings& settings : settings_of(technique, frame)) {
-      const Plan plan = plan_for(technique, frame, settings);
-      run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
-      passes += int(plan.passes.size());
-    }
+  Frame frame = shoot(perspective(width, height), room());
+  for (const Settings& settings : settings_of(technique, frame)) {
+    const Plan plan = plan_for(technique, frame, settings);
+    run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+    passes += int(plan.passes.size());
   }
   return passes;
+}
+
+/// With its defaults, and with normals or without.
+int run_defaults(const Technique& technique, const Shot& shot, bool with_normals) {
+  Frame frame = shoot(shot, room(), with_normals);
+  const Plan plan = plan_for(technique, frame);
+  run(plan, frame, device(), {.math = with_normals ? Math::precise : Math::fast, .lanes = 1});
+  return int(plan.passes.size());
 }
 
 /// Every `parts`-th technique, from `part` on.
@@ -52,14 +70,9 @@ int run_all(size_t part, size_t parts) {
   int passes = 0;
   for (size_t i = part; i < registry().size(); i += parts) {
     const Technique& technique = registry()[i];
-    for (const Shot& shot : {perspective(33, 17), perspective(1, 1)}) {
-      for (const bool with_normals : {true, false}) {
-        Frame frame = shoot(shot, room(), with_normals);
-        const Plan plan = plan_for(technique, frame);
-        run(plan, frame, device(), {.math = with_normals ? Math::precise : Math::fast, .lanes = 1});
-        passes += int(plan.passes.size());
-      }
-    }
+    passes += run_defaults(technique, perspective(width, height), true);
+    passes += run_defaults(technique, orthographic(width, height, 4), false);
+    for (const bool with_normals : {true, false}) passes += run_defaults(technique, perspective(1, 1), with_normals);
     passes += run_variants(technique);
     std::printf("%s\n", technique.name.c_str());
   }

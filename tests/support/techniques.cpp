@@ -17,8 +17,13 @@
 namespace gloam::test {
 namespace {
 
+/// Set by tests/CMakeLists.txt for tests that need no second device.
+constexpr const char* one_opencl = "GLOAM_ONE_OPENCL";
+
 /// Has to happen before the first OpenCL call of the process.
-void switch_on_rusticl() { setenv("RUSTICL_ENABLE", "llvmpipe", 0); }
+void switch_on_rusticl() {
+  if (!std::getenv(one_opencl)) setenv("RUSTICL_ENABLE", "llvmpipe", 0);
+}
 
 /// As text that a parameter reads back to the same value.
 std::string exact(double value) { return std::isinf(value) ? "inf" : fmt::format("{:.17g}", value); }
@@ -53,6 +58,9 @@ Device& device(const std::string& text) {
 }
 
 bool has_device(const std::string& text) {
+  if (std::getenv(one_opencl))
+    throw Error("has_device: {} is set, so '{}' is not looked for; tests that need it are called *SecondDevice*",
+                one_opencl, text);
   switch_on_rusticl();
   const std::vector<DeviceInfo> all = list_devices();
   return std::any_of(all.begin(), all.end(),
@@ -64,13 +72,28 @@ std::vector<int> usual_lanes(Device& device) {
   return own == 1 ? std::vector<int>{1} : std::vector<int>{1, own};
 }
 
+namespace {
+
+/// A second view that shows the same from the same place: what holds for one view holds for both.
+void add_second_view(Frame& frame) {
+  View& first = frame.views.front();
+  if (!first.camera->pose) first.camera->pose = Pose{};
+  View second{.name = "second", .camera = first.camera, .origin = first.origin, .planes = {}};
+  for (const auto& [name, plane] : first.planes) second.planes.emplace(name, plane.clone());
+  frame.views.push_back(std::move(second));
+}
+
+}  // namespace
+
 Plan plan_for(const Technique& technique, Frame& frame, const Settings& settings) {
   PlanRequest request;
   request.outputs = {technique.name};
   request.settings = settings;
   for (;;) {
     try {
-      return make_plan(request, plane_names(frame), "the test has invented the rest");
+      Plan plan = make_plan(request, plane_names(frame), "the test has invented the rest");
+      if (technique.views > int(frame.views.size())) add_second_view(frame);
+      return plan;
     } catch (const MissingPlanes& missing) {
       for (const std::string& plane : missing.planes) invent_plane(frame, plane);
     }
@@ -91,6 +114,15 @@ Settings set_lengths(const Technique& technique, Frame& frame, const std::functi
       const double initial = planned.values.number(p.name);
       settings.emplace_back(planned.technique->name + "." + p.name, exact(std::clamp(value(initial), p.min, p.max)));
     }
+  }
+  return settings;
+}
+
+Settings few_samples(const Technique& technique) {
+  Settings settings;
+  for (const Preset& preset : technique.presets) {
+    if (preset.name != "low") continue;
+    for (const auto& [name, value] : preset.settings) settings.emplace_back(technique.name + "." + name, value);
   }
   return settings;
 }

@@ -16,7 +16,7 @@ namespace gloam::test {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// The device whose name holds `text` (empty: the one gloam picks), opened once per program. The second OpenCL on CPUs,
-/// Rusticl on llvmpipe, is switched on before the first is opened.
+/// Rusticl on llvmpipe, is switched on before the first is opened, unless GLOAM_ONE_OPENCL is set in the environment.
 Device& device(const std::string& text = "");
 /// Whether there is such a device.
 bool has_device(const std::string& text);
@@ -33,6 +33,10 @@ Frame outputs_of(const Technique& technique, Frame& frame, const Settings& setti
 
 /// A setting for every parameter of the planned techniques whose unit is scene units: as `value` says of its default.
 Settings set_lengths(const Technique& technique, Frame& frame, const std::function<double(double)>& value);
+
+/// The technique's cheapest preset, for tests that hold for any number of samples: loops over samples are unrolled, and the
+/// compiler's time grows with them. Empty where there are no presets.
+Settings few_samples(const Technique& technique);
 
 /// Planes whose values lie in 0..1 and that are computed: AO, cones, masks.
 std::vector<std::string> unit_interval_outputs(const Plan& plan);

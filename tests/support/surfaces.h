@@ -1,0 +1,30 @@
+// Scenes of a few surfaces in closed form, beside those of frames.h, and what they show.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <vector>
+
+#include "support/frames.h"
+
+namespace gloam::test {
+
+glm::dvec3 point_at(const EyeRay& ray, double depth);
+
+/// Depth at the centre of a pixel, rounded to float; +inf where nothing is seen.
+float depth_at(const Shot& shot, const Scene& scene, int x, int y);
+
+/// What is nearest of several scenes.
+Scene nearest_of(const std::vector<Scene>& scenes);
+
+/// A ball in view space.
+Scene ball(const glm::dvec3& centre, double radius);
+
+/// Two walls that meet in a line across the image at depth 4: the lower one turned away from the eye by 45 degrees, the
+/// upper one by `tilt`, radians. By default a right angle.
+Scene corner(double tilt = std::numbers::pi / 4);
+
+/// For an orthographic eye: a wall at depth 4 on the left (x < 0), and on the right one that is nearer by `rise`.
+Scene step(double rise);
+
+}  // namespace gloam::test
