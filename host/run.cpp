@@ -298,15 +298,19 @@ void set_frame(cl::Kernel& kernel, cl_uint index, const Target& target, int scal
     kernel.setArg(index, frame_of<FrameOfFloats>(target, scale, options.seed));
 }
 
-void set_neighbour(cl::Kernel& kernel, cl_uint index, const Target& target, const Target& other,
-                   const RunOptions& options) {
+/// Of the resolution of the planes that are bound of it.
+void set_neighbour(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned, const Target& target,
+                   const Target& other, const RunOptions& options) {
+  const auto binding =
+      std::find_if(planned.pass.reads.begin(), planned.pass.reads.end(), [](const Binding& b) { return b.of_other; });
+  const int scale = other.layouts.scale_of(binding->plane);
   const Pose &from = *target.view.camera->pose, &to = *other.view.camera->pose;
   if (options.real == Real::float64)
     kernel.setArg(index,
-                  kernel_neighbour<NeighbourOfDoubles>(frame_of<FrameOfDoubles>(other, 1, options.seed), from, to));
+                  kernel_neighbour<NeighbourOfDoubles>(frame_of<FrameOfDoubles>(other, scale, options.seed), from, to));
   else
     kernel.setArg(index,
-                  kernel_neighbour<NeighbourOfFloats>(frame_of<FrameOfFloats>(other, 1, options.seed), from, to));
+                  kernel_neighbour<NeighbourOfFloats>(frame_of<FrameOfFloats>(other, scale, options.seed), from, to));
 }
 
 /// `other`: the other view, null where there is none.
@@ -315,7 +319,7 @@ void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, Target& targe
   cl_uint index = 0;
   set_frame(kernel, index++, target, planned.pass.scale, options);
   if (const int scale = other_scale(planned, target.layouts)) set_frame(kernel, index++, target, scale, options);
-  if (reads_other_view(planned.pass)) set_neighbour(kernel, index++, target, *other, options);
+  if (reads_other_view(planned.pass)) set_neighbour(kernel, index++, planned, target, *other, options);
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
