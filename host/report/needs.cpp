@@ -13,6 +13,8 @@ namespace {
 
 /// What `over_peeled_layers` puts before a technique's name.
 constexpr std::string_view peeled = "dp-";
+/// And `over_stochastic_depth`.
+constexpr std::string_view stochastic = "sd-";
 
 enum class Kind { one_layer, peeled, lower_resolution };
 enum class Best { time, error };
@@ -32,11 +34,11 @@ constexpr std::array<Need, 7> needs{
      {"at most 2 times that", Kind::one_layer, 2, Best::error},
      {"at most 5 times that", Kind::one_layer, 5, Best::error},
      {"nearest to the truth at any price, one layer", Kind::one_layer, any, Best::error},
-     {"nearest to the truth with peeled layers", Kind::peeled, any, Best::error},
+     {"nearest to the truth with further layers", Kind::peeled, any, Best::error},
      {"less than half the time of HBAO+ medium, at a lower resolution", Kind::lower_resolution, 0.49, Best::error}}};
 
 bool is_of(Kind kind, const ClassPoint& point) {
-  const bool all_layers = reads_peeled_layers(point.technique);
+  const bool all_layers = reads_further_layers(point.technique);
   if (kind == Kind::peeled) return all_layers && point.variant.empty();
   if (kind == Kind::lower_resolution) return !all_layers && (point.variant == "half" || point.variant == "quarter");
   return !all_layers && point.variant.empty();
@@ -53,6 +55,10 @@ std::tuple<double, double, double, double> order(const ClassPoint& p, Best best)
 
 bool reads_peeled_layers(const std::string& technique) { return technique.starts_with(peeled); }
 
+bool reads_further_layers(const std::string& technique) {
+  return reads_peeled_layers(technique) || technique.starts_with(stochastic);
+}
+
 std::string one_layer_name(const std::string& technique) {
   return reads_peeled_layers(technique) ? technique.substr(peeled.size()) : technique;
 }
@@ -61,7 +67,7 @@ std::string all_layers_name(const std::string& technique) {
   return reads_peeled_layers(technique) ? technique : std::string(peeled) + technique;
 }
 
-bool is_plain_over_one_layer(const Row& row) { return row.variant.empty() && !reads_peeled_layers(row.technique); }
+bool is_plain_over_one_layer(const Row& row) { return row.variant.empty() && !reads_further_layers(row.technique); }
 
 std::vector<Choice> choices(const ClassFront& measured) {
   std::vector<Choice> found;

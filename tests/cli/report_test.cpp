@@ -593,7 +593,7 @@ TEST_F(Documentation, NamesTheSettingForEachNeed) {
       "| at most 2 times that | even medium | .160 (+.010) | 0.90 |\n"
       "| at most 5 times that | even ultra | .120 (+.010) | 4.0 |\n"
       "| nearest to the truth at any price, one layer | even ultra | .120 (+.010) | 4.0 |\n"
-      "| nearest to the truth with peeled layers | dp-even medium | .100 (+.010) | 9.0 |\n"
+      "| nearest to the truth with further layers | dp-even medium | .100 (+.010) | 9.0 |\n"
       "| less than half the time of HBAO+ medium, at a lower resolution | even medium, half | .220 (+.010) | 0.40 |\n");
   EXPECT_NE(needs.find("Over 2 scenes: hall and nave. Left out: 1 setting measured on some"), std::string::npos)
       << needs;

@@ -183,7 +183,7 @@ TEST(Needs, TakeWhatIsNearestWithinTheTime) {
                                     {"at most 2 times that", "two"},
                                     {"at most 5 times that", "five"},
                                     {"nearest to the truth at any price, one layer", "dearest"},
-                                    {"nearest to the truth with peeled layers", "dp-near"},
+                                    {"nearest to the truth with further layers", "dp-near"},
                                     {"less than half the time of HBAO+ medium, at a lower resolution", "reduced"}}));
 }
 
@@ -201,7 +201,7 @@ TEST(Needs, AreLeftOutWhereNothingWasMeasuredForThemAndUnmetWhereNothingMeetsThe
                                                      {"at most 2 times that", "none"},
                                                      {"at most 5 times that", "slow"},
                                                      {"nearest to the truth at any price, one layer", "slow"}}));
-  EXPECT_EQ(chosen({point("dp-x", 3, 0.1)}), (Chosen{{"nearest to the truth with peeled layers", "dp-x"}}));
+  EXPECT_EQ(chosen({point("dp-x", 3, 0.1)}), (Chosen{{"nearest to the truth with further layers", "dp-x"}}));
 }
 
 TEST(Needs, ChooseFromTheFront) {
