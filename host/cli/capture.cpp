@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "camera_io.h"
+#include "elapsed.h"
 #include "gloam/error.h"
 #include "gloam/visualise.h"
 #include "scene_flags.h"
@@ -25,10 +26,6 @@ struct CaptureCommand {
   SceneCameraFlags camera;
   JsonFlag json;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// All planes but motion, which needs a path.
 std::vector<std::string> planes_of(const CaptureCommand& flags) {

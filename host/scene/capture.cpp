@@ -14,6 +14,7 @@
 #include <limits>
 #include <mutex>
 
+#include "elapsed.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "lists.h"
@@ -39,10 +40,6 @@ struct Target {
   Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr;
   std::vector<Channel*> peel, stochastic;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 Plane empty_plane(const std::string& name, const Layout& layout) {
   const PlaneKind kind = plane_kind(name);

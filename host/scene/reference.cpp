@@ -10,6 +10,7 @@
 #include <limits>
 #include <mutex>
 
+#include "elapsed.h"
 #include "fingerprint.h"
 #include "gloam/capture.h"
 #include "gloam/error.h"
@@ -35,8 +36,6 @@ constexpr const char* goes_on = "run it again and it goes on where it was";
 
 /// Surfaces whose depth is this near to the frame's, as a share of it, are the frame's.
 constexpr double same_depth = 0.01;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 int rounded_samples(int samples) { return std::max(1, (samples + 2 * packet - 1) / (2 * packet)) * 2 * packet; }
 
