@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "shared/hash.h"
+
 namespace gloam {
 namespace {
 
@@ -35,13 +37,7 @@ double scramble(uint32_t reversed, uint32_t seed) {
 
 }  // namespace
 
-uint32_t hash(uint32_t value) {
-  value ^= value >> 16;
-  value *= 0x7feb352du;
-  value ^= value >> 15;
-  value *= 0x846ca68bu;
-  return value ^ (value >> 16);
-}
+uint32_t hash(uint32_t value) { return hash_of(value); }
 
 glm::dvec2 scrambled_sobol(uint32_t index, uint32_t seed) {
   return {scramble(index, hash(seed)), scramble(sobol_y_reversed(index), hash(seed ^ 0x9e3779b9u))};

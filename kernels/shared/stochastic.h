@@ -10,28 +10,15 @@
 
 #define STOCHASTIC_MOST 16
 
-#ifdef __OPENCL_VERSION__
-#include "shared/lanes.h"
-#define STOCHASTIC_FUNCTION static inline
-#else
-#include <cstdint>
-#define STOCHASTIC_FUNCTION inline
-namespace gloam {
-using natural = std::uint32_t;
-#endif
+#include "shared/hash.h"
 
-// lowbias32 (Wellons 2018).
-STOCHASTIC_FUNCTION natural hash_of(natural h) {
-  h ^= h >> 16;
-  h *= 0x7feb352du;
-  h ^= h >> 15;
-  h *= 0x846ca68bu;
-  return h ^ (h >> 16);
-}
+#ifndef __OPENCL_VERSION__
+namespace gloam {
+#endif
 
 // Of a surface under a pixel, from the bits of its depth as float and those of the nearest surface there. The exponent
 // counts from that of the nearest, so that the unit of the scene changes nothing.
-STOCHASTIC_FUNCTION natural surface_hash(natural x, natural y, natural seed, natural depth_bits, natural first_bits) {
+SHARED_FUNCTION natural surface_hash(natural x, natural y, natural seed, natural depth_bits, natural first_bits) {
   const natural depth = depth_bits - (first_bits & 0x7f800000u);
   return hash_of(depth + hash_of(x + hash_of(y + hash_of(seed))));
 }
@@ -40,7 +27,7 @@ STOCHASTIC_FUNCTION natural surface_hash(natural x, natural y, natural seed, nat
 #define STOCHASTIC_ONE 0x1000000u
 
 // Bit j: sample j of the 16 takes the surface. `alpha`: 0 to 2^24.
-STOCHASTIC_FUNCTION natural stratified_subset(natural hash, natural alpha) {
+SHARED_FUNCTION natural stratified_subset(natural hash, natural alpha) {
   // floor(16 alpha + xi), xi with 24 bits.
   const natural count = (alpha * 16u + (hash >> 8)) >> 24;
   natural coins = hash_of(hash + 0x9e3779b9u);
@@ -67,7 +54,7 @@ STOCHASTIC_FUNCTION natural stratified_subset(natural hash, natural alpha) {
 }
 
 // 1 where sample `sample` takes the surface, each by a random number of its own.
-STOCHASTIC_FUNCTION natural hashed_bit(natural hash, natural sample, natural alpha) {
+SHARED_FUNCTION natural hashed_bit(natural hash, natural sample, natural alpha) {
   const natural u = hash_of(hash + sample * 0x9e3779b9u) >> 8;
   // u < alpha: the difference borrows from bit 31.
   return (u - alpha) >> 31;
