@@ -6,8 +6,7 @@
 
 #include "gloam/capture.h"
 #include "gloam/planes.h"
-#include "support/frames.h"
-#include "support/techniques.h"
+#include "support/estimate.h"
 
 namespace gloam::test {
 namespace {
@@ -20,13 +19,10 @@ Frame captured(const std::string& name) {
   return capture(Tracer(scene), options).frame;
 }
 
-Channel unfiltered(const Frame& frame, const std::string& technique, Settings settings, double radius) {
-  settings.push_back({"radius", std::to_string(radius)});
-  std::vector<std::string> planes;
-  for (const auto& [plane, unused] : frame.views[0].planes) planes.push_back(plane);
-  const Plan plan =
-      make_plan({.outputs = {technique}, .only = {"ao_raw"}, .then = "none", .settings = settings}, planes, "");
-  return run(plan, frame, device(), {.math = Math::precise}).frame.views[0].planes.at("ao_raw").channels[0].clone();
+Channel unfiltered(const Frame& frame, const std::string& technique, const Settings& settings, double radius) {
+  const Frame result =
+      raw_of(technique, frame, joined(settings, {{"radius", std::to_string(radius)}}), {.math = Math::precise});
+  return result.views[0].planes.at("ao_raw").channels[0].clone();
 }
 
 double rmse(const Frame& frame, const Channel& a, const Channel& b) {
@@ -45,18 +41,13 @@ double rmse(const Frame& frame, const Channel& a, const Channel& b) {
 
 const Settings directions_of_the_paper = {{"directions", "8"}, {"steps", "4"}};
 
-Settings with(Settings settings, const Settings& more) {
-  settings.insert(settings.end(), more.begin(), more.end());
-  return settings;
-}
-
 class StochasticDepthOn : public testing::TestWithParam<std::string> {};
 
 TEST_P(StochasticDepthOn, ClosesTheGapToAllLayers) {
   const double radius = load_scene(GetParam(), {}).ao_radius;
   const Frame frame = captured(GetParam());
   const auto image = [&](const std::string& technique, const Settings& settings) {
-    return unfiltered(frame, technique, with(directions_of_the_paper, settings), radius);
+    return unfiltered(frame, technique, joined(directions_of_the_paper, settings), radius);
   };
   const Channel all_layers = image("dp-hbao", {});
   const double gap = rmse(frame, image("hbao", {}), all_layers);

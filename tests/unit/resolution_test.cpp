@@ -12,6 +12,7 @@
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
+#include "message_of.h"
 #include "support/frames.h"
 #include "support/techniques.h"
 
@@ -19,15 +20,6 @@ namespace gloam::test {
 namespace {
 
 using Names = std::vector<std::string>;
-
-std::string message_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // --- The plan
 

@@ -10,6 +10,7 @@
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
+#include "message_of.h"
 #include "support/frames.h"
 #include "support/techniques.h"
 
@@ -19,15 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Names = std::vector<std::string>;
-
-std::string message_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 Plan plan_of(const std::string& output, const Names& available) {
   return make_plan({.outputs = {output}, .then = "none"}, available, "frame.exr has only R, G, B");
