@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gloam/ambient_occlusion.h"
 #include "gloam/planes.h"
 #include "lists.h"
 
@@ -59,9 +60,10 @@ bool reads_layers(const Technique& technique) {
 const Technique* over_all_layers(const Technique& technique) {
   if (contains(technique.reads, "peel")) return &technique;
   // "sd-hbao+" over all layers is "dp-hbao+", too.
-  const std::string base = technique.name.rfind("sd-", 0) == 0 ? technique.name.substr(3) : technique.name;
+  const bool is_stochastic = technique.name.starts_with(stochastic_prefix);
+  const std::string base = technique.name.substr(is_stochastic ? stochastic_prefix.size() : 0);
   for (const Technique& other : registry()) {
-    if (other.name == "dp-" + base) return &other;
+    if (other.name == std::string(peeled_prefix) + base) return &other;
   }
   return nullptr;
 }

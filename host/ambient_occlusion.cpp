@@ -23,9 +23,13 @@ std::vector<Preset> presets_of_samples() {
 
 int value_of_samples(const ParameterValues& values) { return int(values.number("samples")); }
 
+int directions_times_steps(const ParameterValues& values) {
+  return int(values.number("directions") * values.number("steps"));
+}
+
 Technique over_peeled_layers(Technique technique) {
   technique.summary = technique.name + " over all peeled depth layers: the upper bound of what more layers can give";
-  technique.name = "dp-" + technique.name;
+  technique.name.insert(0, peeled_prefix);
   technique.paper += "; over layers Vermeer, Scandolo, Eisemann 2021";
   technique.default_for.clear();
   technique.reads.push_back("peel");
@@ -42,7 +46,7 @@ Technique over_peeled_layers(Technique technique) {
 Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes) {
   technique.summary = technique.name + " with stochastic depths behind what is seen";
-  technique.name = "sd-" + technique.name;
+  technique.name.insert(0, stochastic_prefix);
   technique.paper += "; over stochastic depth Vermeer, Scandolo, Eisemann 2021";
   technique.default_for.clear();
   technique.reads.push_back("stochastic");

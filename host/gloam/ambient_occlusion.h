@@ -4,12 +4,16 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "gloam/technique.h"
 
 namespace gloam {
+
+/// Before the names of techniques over all peeled layers, and over stochastic depth.
+inline constexpr std::string_view peeled_prefix = "dp-", stochastic_prefix = "sd-";
 
 /// An estimate from depth and normals that a bilateral filter of 5 x 5 pixels follows. The rest is the technique's own:
 /// parameters, passes, presets.
@@ -18,8 +22,9 @@ Technique ambient_occlusion(std::string name, std::string summary, std::string p
 /// Presets of 8, 18, 36 and 72 samples, for a technique with a parameter `samples`.
 std::vector<Preset> presets_of_samples();
 
-/// The value of the parameter `samples`.
+/// Samples per pixel: the parameter `samples`, or `directions` times `steps`.
 int value_of_samples(const ParameterValues& values);
+int directions_times_steps(const ParameterValues& values);
 
 /// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/ambient_occlusion.h) beside `defines`.
 template <typename Params>

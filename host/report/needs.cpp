@@ -6,15 +6,11 @@
 #include <string_view>
 #include <tuple>
 
+#include "gloam/ambient_occlusion.h"
 #include "markdown_text.h"
 
 namespace gloam::report {
 namespace {
-
-/// What `over_peeled_layers` puts before a technique's name.
-constexpr std::string_view peeled = "dp-";
-/// And `over_stochastic_depth`.
-constexpr std::string_view stochastic = "sd-";
 
 enum class Kind { one_layer, peeled, lower_resolution };
 enum class Best { time, error };
@@ -53,18 +49,18 @@ std::tuple<double, double, double, double> order(const ClassPoint& p, Best best)
 
 }  // namespace
 
-bool reads_peeled_layers(const std::string& technique) { return technique.starts_with(peeled); }
+bool reads_peeled_layers(const std::string& technique) { return technique.starts_with(peeled_prefix); }
 
 bool reads_further_layers(const std::string& technique) {
-  return reads_peeled_layers(technique) || technique.starts_with(stochastic);
+  return reads_peeled_layers(technique) || technique.starts_with(stochastic_prefix);
 }
 
 std::string one_layer_name(const std::string& technique) {
-  return reads_peeled_layers(technique) ? technique.substr(peeled.size()) : technique;
+  return reads_peeled_layers(technique) ? technique.substr(peeled_prefix.size()) : technique;
 }
 
 std::string all_layers_name(const std::string& technique) {
-  return reads_peeled_layers(technique) ? technique : std::string(peeled) + technique;
+  return reads_peeled_layers(technique) ? technique : std::string(peeled_prefix) + technique;
 }
 
 bool is_plain_over_one_layer(const Row& row) { return row.variant.empty() && !reads_further_layers(row.technique); }

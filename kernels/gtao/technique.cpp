@@ -28,7 +28,7 @@ std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return {behind_depth(g
 std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return {behind_depth(bitmask_pass(p), p)}; }
 
 /// On both sides of each slice.
-int samples(const ParameterValues& values) { return int(2 * values.number("directions") * values.number("steps")); }
+int samples(const ParameterValues& values) { return 2 * directions_times_steps(values); }
 
 Technique row(std::string name, std::string summary, std::string paper) {
   Technique t = ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl");

@@ -24,8 +24,6 @@ Pass estimate_of(const Params& p) {
 std::vector<Pass> passes(const HbaoParams& p) { return {estimate_of(p)}; }
 std::vector<Pass> sd_passes(const SdHbaoParams& p) { return {behind_depth(estimate_of(p), p)}; }
 
-int samples(const ParameterValues& values) { return int(values.number("directions") * values.number("steps")); }
-
 double weight_of(const HbaoParams& p, double distance) {
   if (p.falloff == Falloff::none) return 1;
   return p.falloff == Falloff::linear ? 1 - distance : 1 - distance * distance;
@@ -49,7 +47,7 @@ Technique over_depth() {
                {"ultra", {{"directions", "4"}, {"steps", "18"}}}};
   t.converged = {{"directions", "16"}, {"steps", "128"}};
   t.passes = passes_of(passes);
-  t.samples = samples;
+  t.samples = directions_times_steps;
   t.contribution = contribution_of(contribution);
   return t;
 }

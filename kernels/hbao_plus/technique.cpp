@@ -36,8 +36,6 @@ std::vector<Pass> multiview_passes(const SdHbaoPlusParams& p) {
   return {own, other};
 }
 
-int samples(const ParameterValues& values) { return int(values.number("directions") * values.number("steps")); }
-
 /// The estimate's limit for many samples, as an integral over directions; `power` comes after it and is no part of it.
 double contribution(const HbaoPlusParams& p, double cosine, double distance) {
   if (distance >= 1 || cosine <= p.bias) return 0;
@@ -57,7 +55,7 @@ Technique over_depth() {
                {"ultra", {{"directions", "16"}, {"steps", "16"}}}};
   t.converged = {{"directions", "32"}, {"steps", "32"}};
   t.passes = passes_of(passes);
-  t.samples = samples;
+  t.samples = directions_times_steps;
   t.contribution = contribution_of(contribution);
   return t;
 }
