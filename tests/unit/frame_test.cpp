@@ -11,6 +11,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "gloam/error.h"
 #include "gloam/files.h"
@@ -90,6 +91,23 @@ TEST(Planes, TableIsConsistent) {
     for (const std::string& channel : kind.channels) EXPECT_TRUE(channels.insert(channel).second) << channel;
     EXPECT_FALSE(kind.help.empty());
     EXPECT_EQ(kind.meaning == PlaneKind::view_depth, is_background(kind.outside)) << kind.name;
+  }
+}
+
+TEST(Planes, EveryChannelIsInTheTableForReaders) {
+  const std::string page = read_text(fs::path(GLOAM_SOURCE_DIR) / "docs/gbuffer.md");
+  std::set<std::string> rows;
+  std::istringstream lines(page.substr(page.find("| plane | channels |")));
+  for (std::string line; std::getline(lines, line) && line.starts_with("|");) {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      std::erase_if(word, [](char c) { return c == '`' || c == ','; });
+      rows.insert(word);
+    }
+  }
+  for (const PlaneKind& kind : plane_kinds()) {
+    EXPECT_TRUE(rows.count(kind.name)) << kind.name;
+    for (const std::string& channel : kind.channels) EXPECT_TRUE(rows.count(channel)) << channel;
   }
 }
 
