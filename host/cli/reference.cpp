@@ -182,7 +182,7 @@ void add_reference(CLI::App& app) {
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
-      "Interrupted, it goes on where it was when run again. Examples:\n"
+      "Interrupted after its first 15 s, it goes on when run again from what it kept last. Examples:\n"
       "  gloam reference ao colonnade.exr -o colonnade_ao_ref.exr --samples 1024\n"
       "  gloam reference ao house.exr --scene house.glb -o ref.exr --radius 0.3\n"
       "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+");
