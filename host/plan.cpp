@@ -153,7 +153,8 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
                      suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
   }
   if (!request.only.empty()) {
-    wanted.outputs = request.only;
+    wanted.outputs.clear();
+    for (const std::string& plane : request.only) add_new(wanted.outputs, plane);
     for (const std::string& plane : request.with) add_new(wanted.outputs, plane);
   }
   return wanted;

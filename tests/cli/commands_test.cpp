@@ -181,6 +181,12 @@ TEST_F(Cli, OnlyTheOutputsAskedForAreComputed) {
   EXPECT_EQ(unfiltered.json()["passes"].size(), 1u);
 }
 
+TEST_F(Cli, AnOutputNamedTwiceIsWrittenOnce) {
+  const Result result = gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--outputs", "ao,ao", "--bare"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(FrameFile(path("ao.exr"), {}).all_channels(), Arguments{"AO"});
+}
+
 TEST_F(Cli, DoubleAndFloatAgree) {
   for (const char* real : {"float", "double"}) {
     ASSERT_EQ(
