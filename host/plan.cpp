@@ -81,16 +81,19 @@ bool follows(const Technique& follower, const Technique& technique) {
          reads_from(follower, technique);
 }
 
-void check_follower(const Technique& technique, const Technique& follower) {
-  if (follows(follower, technique)) return;
+/// The technique that --filter names; throws UsageError unless it fits.
+const Technique& follower_named(const std::string& name, const Technique& technique) {
+  const Technique* follower = technique_named(name);
+  if (follower && follows(*follower, technique)) return *follower;
   std::vector<std::string> fitting;
   for (const Technique& t : registry()) {
     if (follows(t, technique)) fitting.push_back(t.name);
   }
   if (fitting.empty())
-    throw UsageError("--filter {}: {} leaves nothing to a filter; only none fits", follower.name, technique.name);
+    throw UsageError("--filter {}: {} leaves nothing to a filter; only none fits", name, technique.name);
   fitting.push_back("none");
-  throw UsageError("--filter {}: is no filter for {}; there are {}", follower.name, technique.name, enumerate(fitting));
+  throw UsageError("--filter {}: is no filter for {}{}; there are {}", name, technique.name,
+                   follower ? "" : suggestion(name, fitting), enumerate(fitting));
 }
 
 /// A technique asked for brings its follower: its own, or the one that the request names.
@@ -98,8 +101,7 @@ void add_makers(Wanted& wanted, const Technique& technique, const std::string& t
   wanted.makers.push_back(&technique);
   const std::string follower = then.empty() ? technique.then : then;
   if (follower.empty() || follower == "none") return;
-  if (!then.empty()) check_follower(technique, find_technique(follower));
-  wanted.makers.push_back(&find_technique(follower));
+  wanted.makers.push_back(then.empty() ? &find_technique(follower) : &follower_named(then, technique));
 }
 
 /// A technique's outputs, without those that only a follower would make where there shall be none.

@@ -59,6 +59,10 @@ TEST_F(Cli, FiltersThatDoNotFit) {
                  {"normals", "bilateral, gaussian and none"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "hbao+"}), 2,
                  {"hbao+", "bilateral, gaussian and none"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "foo"}), 2,
+                 {"--filter foo", "bilateral, gaussian and none"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "bilatral"}), 2,
+                 {"--filter bilatral", "did you mean 'bilateral'"});
   expect_refused(gloam({"run", "normals", loggia, "-o", path("n.exr"), "--filter", "bilateral"}), 2,
                  {"bilateral", "only none"});
 }
