@@ -105,21 +105,33 @@ void add_makers(Wanted& wanted, const Technique& technique, const std::string& t
 }
 
 /// A technique's outputs, without those that only a follower would make where there shall be none.
-void want_technique(Wanted& wanted, const Technique& technique, const std::string& then) {
-  add_makers(wanted, technique, then);
+void want_outputs(Wanted& wanted, const Technique& technique, const std::string& then) {
   for (const std::string& plane : outputs_of(technique)) {
     if (then != "none" || contains(technique.writes, plane)) add_new(wanted.outputs, plane);
   }
 }
 
+/// The technique that a plane is asked of: what makes it, or what that follows where its work is not at hand. Who asks
+/// for `ao` asks for an estimate and its filter.
+const Technique* asked_for(const std::string& plane, const std::vector<std::string>& available,
+                           const std::vector<const Technique*>& makers) {
+  const Technique* maker = maker_of(plane, nullptr, makers);
+  if (!maker) return nullptr;
+  for (const std::string& source : maker->reads) {
+    const Technique* before = contains(available, source) ? nullptr : maker_of(source, maker, makers);
+    if (before && follows(*maker, *before)) return before;
+  }
+  return maker;
+}
+
 void want_plane(Wanted& wanted, const std::string& plane, const std::vector<std::string>& available,
                 const std::string& then) {
-  const Technique* maker = maker_of(plane, nullptr, wanted.makers);
-  if (!maker && !contains(available, plane)) {
+  const Technique* technique = asked_for(plane, available, wanted.makers);
+  if (!technique && !contains(available, plane)) {
     throw UsageError("nothing makes '{}'{} (gloam list techniques shows what there is)", plane,
                      suggestion(plane, plane_and_technique_names()));
   }
-  if (maker) add_makers(wanted, *maker, then);
+  if (technique) add_makers(wanted, *technique, then);
   add_new(wanted.outputs, plane);
 }
 
@@ -143,8 +155,11 @@ void want_extra(Wanted& wanted, const std::string& plane) {
 Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& available) {
   Wanted wanted;
   for (const std::string& output : request.outputs) {
+    if (const Technique* technique = technique_named(output)) add_makers(wanted, *technique, request.then);
+  }
+  for (const std::string& output : request.outputs) {
     if (const Technique* technique = technique_named(output))
-      want_technique(wanted, *technique, request.then);
+      want_outputs(wanted, *technique, request.then);
     else
       want_plane(wanted, output, available, request.then);
   }

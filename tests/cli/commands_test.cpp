@@ -11,6 +11,12 @@ using Json = nlohmann::json;
 
 bool has(const Json& list, const std::string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
 
+std::vector<std::string> passes_of(const Json& plan) {
+  std::vector<std::string> names;
+  for (const Json& pass : plan["passes"]) names.push_back(pass["name"]);
+  return names;
+}
+
 TEST_F(Cli, HelpAndVersion) {
   const Result help = gloam({"--help"});
   EXPECT_EQ(help.status, 0);
@@ -93,13 +99,30 @@ TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {
   const Json plan = result.json();
   EXPECT_EQ(plan["outputs"], Json({"ao"}));
   EXPECT_EQ(plan["decoded"], Json({"Z"}));
-  std::vector<std::string> names;
-  for (const Json& pass : plan["passes"]) names.push_back(pass["name"]);
-  EXPECT_EQ(names, (std::vector<std::string>{"normals/differences", "bitmask/estimate", "bilateral/horizontal",
-                                             "bilateral/vertical"}));
+  EXPECT_EQ(passes_of(plan), (std::vector<std::string>{"normals/differences", "bitmask/estimate",
+                                                       "bilateral/horizontal", "bilateral/vertical"}));
   const bool color_skipped =
       std::any_of(plan["skipped"].begin(), plan["skipped"].end(), [](const Json& s) { return s["what"] == "color"; });
   EXPECT_TRUE(color_skipped);
+}
+
+// The plane that a filter makes is asked of the technique before the filter too.
+TEST_F(Cli, APlaneCanBePlannedAsTheTechniqueThatMakesIt) {
+  const auto plan = [&](const Arguments& more) {
+    Arguments arguments = {"plan", "ao", loggia, "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  };
+  const Result cone = plan({"--with", "cone"});
+  ASSERT_EQ(cone.status, 0) << cone.err;
+  EXPECT_EQ(cone.json()["outputs"], Json({"ao", "cone"}));
+  EXPECT_EQ(passes_of(cone.json())[0], "bitmask/estimate");
+  EXPECT_EQ(cone.json()["passes"][0]["writes"], Json({"ao_raw", "cone"}));
+  EXPECT_EQ(plan({"--with", "hit"}).err, "gloam: --with hit: bitmask does not make it; it has bent_normal and cone\n");
+  EXPECT_EQ(passes_of(plan({"--filter", "gaussian"}).json())[1].rfind("gaussian/", 0), 0u);
+  const Json half = plan({"--resolution", "half"}).json();
+  EXPECT_EQ(half["passes"][2]["writes"], Json({"ao_raw@2"})) << "the estimate runs reduced as well";
+  EXPECT_EQ(passes_of(gloam({"plan", "ao,hbao+", loggia, "--json", "-"}).json())[0], "hbao+/estimate");
 }
 
 TEST_F(Cli, ADepthOnlyFrameWorks) {
