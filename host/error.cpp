@@ -74,7 +74,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   if (std::none_of(name.begin(), name.end(), is_letter)) return "";
   // A third of the letters wrong, or two swapped, is still a slip of the fingers; more is another word. What is only
   // cut short is as near as one slip.
-  const size_t farthest = name.size() <= 3 ? 1 : std::max<size_t>(2, name.size() / 3);
+  const size_t letters = without_dashes(name).size(), farthest = letters <= 3 ? 1 : std::max<size_t>(2, letters / 3);
   std::tuple<size_t, bool, size_t> best = {farthest + 1, false, 0};
   const std::string* nearest = nullptr;
   for (const std::string& candidate : candidates) {

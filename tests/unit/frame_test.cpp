@@ -124,6 +124,7 @@ TEST(Messages, SuggestionIsNearOrAbsent) {
   EXPECT_EQ(suggestion("HBAO", {"hbao", "ssao"}), " (did you mean 'hbao'?)");
   EXPECT_EQ(suggestion("zebra", {"normal", "depth"}), "");
   EXPECT_EQ(suggestion("x", {}), "");
+  EXPECT_EQ(suggestion("--tol", {"--fov"}), "") << "one letter of three is the same";
 }
 
 TEST(Messages, SuggestionCompletesWhatIsCutShort) {
