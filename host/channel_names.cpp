@@ -485,7 +485,8 @@ void check_plane_name(const std::string& plane) {
   std::vector<std::string> names;
   for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
   if (std::find(names.begin(), names.end(), plane) != names.end()) return;
-  throw UsageError("--plane {}: no plane is called so{}", plane, suggestion(plane, names));
+  throw UsageError("--plane {}: no plane is called so{}; there are {}", plane, suggestion(plane, names),
+                   enumerate(names));
 }
 
 std::string alternatives_for(const PlaneKind& kind) {

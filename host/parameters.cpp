@@ -52,6 +52,13 @@ std::optional<double> parse(const Parameter& p, const std::string& text) {
   return value;
 }
 
+/// "a whole number from 1 to 32", "quadratic or none"
+std::string allowed_words(const Parameter& p) {
+  if (p.type == Parameter::Type::integer) return "a whole number from " + allowed_values(p);
+  if (p.type == Parameter::Type::floating) return "a number from " + allowed_values(p);
+  return allowed_values(p);
+}
+
 }  // namespace
 
 Parameter float_parameter(const char* name, double initial, double min, double max, const char* unit,
@@ -123,7 +130,7 @@ void ParameterValues::set(const std::string& name, const std::string& value, con
   const size_t i = index_of(name);
   const Parameter& p = table_[i];
   const std::optional<double> number = parse(p, value);
-  if (!number) throw UsageError("{}: {} = '{}' is not allowed; {} is", technique, name, value, allowed_values(p));
+  if (!number) throw UsageError("{}: {} = '{}' is not allowed; {} is", technique, name, value, allowed_words(p));
   if (p.type == Parameter::Type::floating) {
     const float as_float = float(*number);
     std::memcpy(&bytes_[4 * i], &as_float, 4);

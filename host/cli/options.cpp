@@ -49,11 +49,13 @@ Value one_of(const std::string& text, const std::string& flag,
 
 }  // namespace
 
-double parse_number(const std::string& text, const std::string& flag, double min, double max) {
+double parse_number(const std::string& text, const std::string& flag, double min, double max,
+                    const std::string& or_else) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || stop != text.data() + text.size() || !(value >= min && value <= max)) {
-    throw UsageError("{} {} is not allowed; a number from {:g} to {:g} is", flag, text, min, max);
+    throw UsageError("{} {} is not allowed; a number from {:g} to {:g}{} is", flag, text, min, max,
+                     or_else.empty() ? "" : ", or " + or_else + ",");
   }
   return value;
 }

@@ -93,8 +93,9 @@ std::function<void(int done, int of)> progress_bar();
 /// "1920x1080"; throws UsageError. 1 to 65536 each way, and `max_pixels` at most.
 std::pair<int, int> parse_size(const std::string& text, const std::string& flag);
 
-/// A number within bounds; throws UsageError that names the flag.
-double parse_number(const std::string& text, const std::string& flag, double min, double max);
+/// A number within bounds; throws UsageError that names the flag. `or_else`: a word that the caller takes as well.
+double parse_number(const std::string& text, const std::string& flag, double min, double max,
+                    const std::string& or_else = "");
 int parse_whole_number(const std::string& text, const std::string& flag, int min, int max);
 
 /// name=value items as pairs; throws UsageError for what is not of that form.

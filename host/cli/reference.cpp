@@ -76,7 +76,7 @@ void note_other_scene(const FrameFile& file, const Scene& scene) {
 double radius_of(const ReferenceCommand& flags, const Scene& scene) {
   if (flags.radius.empty()) return scene.ao_radius;
   if (flags.radius == "inf") return std::numeric_limits<double>::infinity();
-  return parse_number(flags.radius, "--radius", 1e-30, 1e30);
+  return parse_number(flags.radius, "--radius", 1e-30, 1e30, "inf");
 }
 
 Json document(const AoReference& result, const AoReferenceOptions& options, const Scene& scene) {

@@ -29,7 +29,7 @@ TEST_F(Cli, WrongUsage) {
                  {"radius", "-1", "0 to inf", "scene units"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--radius", "nan"}), 2, {"radius", "nan"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--directions", "2.5"}), 2,
-                 {"directions", "2.5", "1 to 32"});
+                 {"directions", "2.5", "a whole number from 1 to 32"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--falloff", "cubic"}), 2, {"cubic", "quadratic, none"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--set", "raduis=1"}), 2,
                  {"raduis", "did you mean 'radius'"});
@@ -39,10 +39,15 @@ TEST_F(Cli, WrongUsage) {
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--repeat", "0"}), 2, {"--repeat", "0"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--outputs", "oa"}), 2, {"'oa'", "did you mean 'ao'"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--plane", "depth"}), 2, {"--plane", "PLANE=CHANNELS"});
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--plane", "foo=Z"}), 2,
+                 {"--plane foo", "depth, normal, color", "bent_normal"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--compression", "dwaa"}), 2, {"dwaa", "zip"});
   expect_refused(gloam({"plan", "oa", loggia}), 2, {"'oa'", "did you mean 'ao'"});
   expect_refused(gloam({"list", "device"}), 2, {"device", "did you mean 'devices'"});
   expect_refused(gloam({"compare", loggia, loggia_truth, "-o", path("d.jpg")}), 2, {".png"});
+  const Result far = gloam({"compare", loggia, loggia_truth, "--tol", "1"});
+  expect_refused(far, 2, {"no flag '--tol'"});
+  EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
   EXPECT_TRUE(files().empty());
 }
 

@@ -308,6 +308,7 @@ TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--falloff", "hbaos"}, 2,
                  "did you mean 'hbao");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "0"}, 2, "--radius");
+  expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "-1"}, 2, "1e+30, or inf, is");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--samples", "0"}, 2, "--samples");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--set", "hbao+.bias=0.3"}, 2,
                  "with --falloff hbao+");
