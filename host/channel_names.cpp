@@ -9,6 +9,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "lists.h"
 
 namespace gloam {
 namespace {
@@ -574,7 +575,7 @@ std::vector<const FileChannel*> chosen(const std::vector<Layer>& layers, const s
   throw Error("--plane {}={}: the file has no channel or layer '{}'{}", plane, text, wrong, hint);
 }
 
-/// Views to use, in file order: those asked for, else those that hold anything of their own.
+/// Views to use: those asked for, in that order, else all, in file order.
 std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
                                         const std::vector<std::string>& asked) {
   std::vector<std::string> quoted;
@@ -586,8 +587,7 @@ std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
     }
   if (asked.empty()) return in_file;
   std::vector<std::string> views;
-  for (const std::string& view : in_file)
-    if (std::find(asked.begin(), asked.end(), view) != asked.end()) views.push_back(view);
+  for (const std::string& view : asked) add_new(views, view);
   return views;
 }
 

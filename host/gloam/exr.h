@@ -25,7 +25,7 @@ struct ReadOptions {
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: the value that means background, instead of 1e10 and more
   NormalSpace normal_space = NormalSpace::automatic;
-  std::vector<std::string> views;  ///< --view, --views: empty = all
+  std::vector<std::string> views;  ///< --view, --views: these, in this order; empty = all
   bool count_nonfinite = false;    ///< have `read` count NaN and infinite values as they stand in the file
   /// Values as they stand in the file: only depth is converted, and the space of normals; nothing is clamped, replaced
   /// or made unit. For measuring, which must see what a technique wrote.
@@ -67,7 +67,7 @@ class FrameFile {
   Window display() const;
   /// Union of the display window and all data windows that hold known planes.
   Window window() const;
-  /// Selected views, in file order; one empty name where the file names none.
+  /// The views that the options select, in their order; else all, in file order; one empty name where the file names none.
   const std::vector<std::string>& views() const;
   /// Known planes of the selected views.
   const std::vector<PlaneSource>& planes() const;

@@ -147,6 +147,25 @@ TEST_F(CaptureCommand, ASecondView) {
   EXPECT_LT((first.world_to_view * (turned.position - first.position)).x, 0) << "to the left";
 }
 
+TEST_F(CaptureCommand, MultiviewWorksOnTheViewNamedFirst) {
+  ASSERT_EQ(gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "depth,normal",
+                   "--stochastic", "4", "--view2", "30"})
+                .status,
+            0);
+  const auto ao_of = [&](const std::string& views) {
+    EXPECT_EQ(gloam({"run", "multiview", file("f.exr"), "-o", file("ao.exr"), "--views", views}).status, 0) << views;
+    FrameFile written(file("ao.exr"), {});
+    EXPECT_EQ(written.views(), std::vector<std::string>{views.substr(0, views.find(','))});
+    return written.read({"ao"});
+  };
+  const Frame first = ao_of("main,view2");
+  Frame second = ao_of("view2,main");
+  second.views[0].name = "main";
+  EXPECT_FALSE(same_bits(first, second));
+  EXPECT_EQ(gloam({"info", file("f.exr"), "--views", "view2,main", "--json", "-"}).json()["views"],
+            nlohmann::json({"view2", "main"}));
+}
+
 TEST_F(CaptureCommand, ASecondViewOfAnOrthographicCamera) {
   write("flat.json", R"({"width": 64, "height": 36, "view": "plan", "camera_type": "ORTHO", "pixels_per_unit": 12,
     "cx": 32, "cy": 18, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]})");

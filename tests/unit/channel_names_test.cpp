@@ -162,6 +162,16 @@ TEST(ChannelNames, StandardMultiView) {
   EXPECT_EQ(channels_of(named, "color", "right").front(), "R");
 }
 
+TEST(ChannelNames, ViewsComeInTheOrderAskedFor) {
+  const auto names = single_part({"Z", "left.Z"});
+  const std::vector<std::string> in_file = {"right", "left"};
+  EXPECT_EQ(name_planes(names, in_file, {{"left", "right"}, {}}).views, (Names{"left", "right"}));
+  EXPECT_EQ(name_planes(names, in_file, {{"right", "left"}, {}}).views, (Names{"right", "left"}));
+  const auto twice = name_planes(names, in_file, {{"left", "left"}, {}});
+  EXPECT_EQ(twice.views, Names{"left"});
+  EXPECT_EQ(channels_of(twice, "depth", "left"), Names{"left.Z"});
+}
+
 TEST(ChannelNames, BlenderMultiViewAndOneElement) {
   const auto both = name_planes(single_part({"VL.Depth.left.Z", "VL.Depth.right.Z"}), {"left", "right"});
   EXPECT_EQ(channels_of(both, "depth", "left"), Names{"VL.Depth.left.Z"});
