@@ -229,8 +229,7 @@ void print(const Scene& scene, const CaptureOptions& options, const Figures& f) 
 void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
   check(write);
   check_picture_name(flags.picture, "--picture");
-  if (std::filesystem::path(flags.out).extension() != ".exr")
-    throw UsageError("-o {}: a frame is an EXR file; name it something.exr", flags.out);
+  check_frame_name(flags.out, "-o");
   if (!flags.path.empty() && flags.camera.any())
     throw UsageError(
         "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "

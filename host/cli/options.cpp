@@ -324,6 +324,11 @@ Plan plan_for(const FrameFile& file, const PlanRequest& request) {
   }
 }
 
+void check_frame_name(const std::string& path, const std::string& flag) {
+  if (std::filesystem::path(path).extension() == ".exr") return;
+  throw UsageError("{} {}: a frame is an EXR file; name it with .exr", flag, path);
+}
+
 void check_picture_name(const std::string& path, const std::string& flag) {
   if (path.empty() || std::filesystem::path(path).extension() == ".png") return;
   throw UsageError("{} {}: the picture is a PNG; name it with .png", flag, path);

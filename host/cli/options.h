@@ -79,6 +79,8 @@ std::string holdings(const FrameFile& file);
 /// A plan for a file; `MissingPlanes` names what it does hold.
 Plan plan_for(const FrameFile& file, const PlanRequest& request);
 
+/// Frames are EXR; throws UsageError for another ending.
+void check_frame_name(const std::string& path, const std::string& flag);
 /// Pictures are PNG; throws UsageError for another ending. Empty names no picture.
 void check_picture_name(const std::string& path, const std::string& flag);
 /// picture.png, or picture.left.png for one of several views.

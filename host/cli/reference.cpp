@@ -112,6 +112,7 @@ void reference_command(ReferenceCommand flags) {
     throw UsageError("reference: no '{}'{}; there is ao", flags.what, suggestion(flags.what, {"ao"}));
   const WriteOptions write{flags.half, flags.compression};
   check(write);
+  check_frame_name(flags.out, "-o");
   check_picture_name(flags.picture, "--picture");
   const std::string checkpoint = flags.out + ".partial";
   check_paths(

@@ -187,6 +187,7 @@ void run_command(const RunCommand& flags) {
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
   const WriteOptions writing{flags.half, flags.compression};
   check(writing);
+  check_frame_name(flags.out, "-o");
   check_picture_name(flags.picture, "--picture");
   check_paths({{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}},
               {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});

@@ -51,6 +51,17 @@ TEST_F(Cli, WrongUsage) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(Cli, FramesAreWrittenUnderTheNamesOfFrames) {
+  for (const char* name : {"ao.png", "ao", "-"}) {
+    const std::string out = std::string(name) == "-" ? name : path(name).string();
+    expect_refused(gloam({"run", "hbao+", loggia, "-o", out}), 2, {"-o " + out, ".exr"});
+    expect_refused(gloam({"reference", "ao", loggia, "--scene", "plane", "-o", out}), 2, {"-o " + out, ".exr"});
+    expect_refused(gloam({"capture", "plane", "-o", out, "--size", "8x8"}), 2, {"-o " + out, ".exr"});
+  }
+  EXPECT_FALSE(fs::exists("-"));
+  EXPECT_TRUE(files().empty());
+}
+
 TEST_F(Cli, EmptyArgumentsAndNumbersThatAreNone) {
   expect_refused(gloam({"run", "hbao+", loggia, "-o", ""}), 2, {"empty", "'-o'"});
   expect_refused(gloam({"info", loggia, "--json", ""}), 2, {"empty", "'--json'"});
