@@ -114,11 +114,8 @@ fs::path temporary_name(const fs::path& target) {
 
 void check_target(const fs::path& path, const fs::path& target) {
   std::error_code code;
-  const fs::file_status status = fs::status(target, code);
-  if (code == std::errc::filename_too_long) throw Error("{}: cannot write: {}", path.string(), code.message());
-  if (fs::is_directory(status)) throw Error("{}: cannot write: it is a directory; name a file in it", path.string());
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    throw Error("{}: cannot write: it is a device or a pipe; name a regular file", path.string());
+  if (const std::string why = why_unwritable(target); !why.empty())
+    throw Error("{}: cannot write: {}", path.string(), why);
   const fs::path folder = target.parent_path().empty() ? fs::path(".") : target.parent_path();
   if (!fs::is_directory(folder, code))
     throw Error("{}: cannot write: '{}' is not a folder", path.string(), folder.string());
@@ -132,6 +129,15 @@ void create(const fs::path& path, const fs::path& temporary) {
 }
 
 }  // namespace
+
+std::string why_unwritable(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (code == std::errc::filename_too_long) return code.message();
+  if (fs::is_directory(status)) return "it is a folder; name a file in it";
+  if (fs::exists(status) && !fs::is_regular_file(status)) return "it is a device or a pipe; name a regular file";
+  return "";
+}
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   if (path.empty()) throw Error("an empty path cannot be written");

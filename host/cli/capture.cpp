@@ -282,7 +282,7 @@ void capture_command(const CaptureCommand& flags) {
     ++taken;
   }
   if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
-  flags.json.write(document(scene, options, figures));
+  flags.json.write(document(scene, options, figures), figures.files);
   if (!flags.json.only_json()) print(scene, options, figures);
 }
 

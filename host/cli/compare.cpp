@@ -324,7 +324,7 @@ void compare_command(const CompareCommand& flags) {
   Json document = metrics_document(pooled(all));
   document["plane"] = plane;
   if (pairs.size() > 1) document["views"] = views;
-  flags.json.write(document);
+  flags.json.write(document, pictures);
   if (flags.json.only_json()) return;
   fmt::print("{}: {} against {} (test - truth)\n", plane, printable(flags.test), printable(flags.reference));
   for (size_t i = 0; i < all.size(); ++i) print_metrics(pairs.size() > 1 ? pairs[i].first : "", plane, all[i]);

@@ -25,7 +25,7 @@ bool same_file(const std::string& a, const std::string& b) {
   return std::filesystem::weakly_canonical(a, unknown) == std::filesystem::weakly_canonical(b, unknown);
 }
 
-void check_folder(const NamedPath& output) {
+void check_writable(const NamedPath& output) {
   const std::filesystem::path parent = std::filesystem::path(output.second).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   std::error_code unknown;
@@ -34,6 +34,8 @@ void check_folder(const NamedPath& output) {
   }
   if (access(folder.c_str(), W_OK) != 0)
     throw Error("{} {}: cannot be written, the folder '{}' is not writable", output.first, output.second, folder);
+  if (const std::string why = why_unwritable(output.second); !why.empty())
+    throw Error("{} {}: cannot be written, {}", output.first, output.second, why);
 }
 
 template <typename Value>
@@ -45,6 +47,21 @@ Value one_of(const std::string& text, const std::string& flag,
     names.push_back(name);
   }
   throw UsageError("{} {} is not allowed{}; {} are", flag, text, suggestion(text, names), enumerate(names));
+}
+
+/// To a file, or to standard output as "-".
+void write_text(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
+    return;
+  }
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error("{}: cannot be written", path);
+  });
 }
 
 }  // namespace
@@ -78,7 +95,7 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
       if (path.empty() || !same_file(path, outputs[i].second)) continue;
       throw UsageError("{} {}: is also {}; name another file", outputs[i].first, outputs[i].second, what);
     }
-    check_folder(outputs[i]);
+    check_writable(outputs[i]);
   }
 }
 
@@ -248,20 +265,14 @@ void JsonFlag::add_to(CLI::App& app) {
       ->group("Writing");
 }
 
-void JsonFlag::write(const Json& document) const {
+void JsonFlag::write(const Json& document, const std::vector<std::string>& complete) const {
   if (path.empty()) return;
-  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (path == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
-    return;
+  try {
+    write_text(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  } catch (const Error& error) {
+    if (complete.empty()) throw;
+    throw Error("{}; {} {} complete", error.what(), enumerate(complete), complete.size() == 1 ? "is" : "are");
   }
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw Error("{}: cannot be written", path);
-  });
 }
 
 Json milliseconds(std::vector<double> ms) {

@@ -49,13 +49,14 @@ struct JsonFlag {
   bool only_json() const { return path == "-"; }
   /// The file, if any.
   std::string file() const { return only_json() ? "" : path; }
-  void write(const Json& document) const;
+  /// Written last: `complete` are the files that stay where this fails, which the message names.
+  void write(const Json& document, const std::vector<std::string>& complete = {}) const;
 };
 
 /// A path with what it is on the command line: {"-o", "out.exr"}.
 using NamedPath = std::pair<std::string, std::string>;
-/// Throws before anything is computed when an output is also an input or another output, or when its folder cannot be
-/// written to. Empty paths are passed over.
+/// Throws before anything is computed when an output is also an input or another output, when its folder cannot be
+/// written to, or when it is a folder or a device itself. Empty paths are passed over.
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
 /// "a,b" -> a b; throws UsageError for an empty item.

@@ -149,7 +149,7 @@ void reference_command(ReferenceCommand flags) {
     if (flags.picture.empty()) break;
     write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at("ao"));
   }
-  flags.json.write(document(result, options, scene));
+  flags.json.write(document(result, options, scene), {flags.out});
   if (!flags.json.only_json()) print(result, options, scene, flags);
 }
 

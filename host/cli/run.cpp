@@ -231,7 +231,9 @@ void run_command(const RunCommand& flags) {
   write_frame(flags.out, result.frame, writing);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, pictured(plan));
   watch.lap("write");
-  flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch));
+  std::vector<std::string> written = {flags.out};
+  written.insert(written.end(), pictures.begin(), pictures.end());
+  flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch), written);
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
   fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));

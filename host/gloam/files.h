@@ -12,6 +12,10 @@ namespace gloam {
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 
+/// Why no file can be written under a name, whatever its contents: it is a folder, a device or a pipe; else empty. For
+/// telling before anything is computed.
+std::string why_unwritable(const std::filesystem::path& path);
+
 /// Installs handlers for SIGHUP, SIGINT and SIGTERM that remove a temporary file in the making, say in one line that
 /// the command was interrupted and how many files were written since this call, and leave with status 128 + signal. A signal
 /// that is ignored (nohup) stays so. SIGXFSZ is ignored: a file over the limit becomes an ordinary error.

@@ -103,7 +103,22 @@ TEST_F(Cli, NothingIsWrittenWhereOneOutputCannotBe) {
                  {"--json", "no/run.json"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--picture", path("no/ao.png")}), 1,
                  {"--picture", "no/ao.png"});
-  EXPECT_TRUE(files().empty());
+  fs::create_directory(path("folder.exr"));
+  for (const char* json : {"/dev/full", "/dev/null", "folder.exr"}) {
+    const std::string name = json[0] == '/' ? json : path(json).string();
+    expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--json", name}), 1, {"--json " + name});
+    expect_refused(gloam({"capture", "plane", "--size", "8x8", "-o", path("p.exr"), "--json", name}), 1, {name});
+  }
+  expect_refused(gloam({"run", "hbao+", loggia, "-o", path("folder.exr")}), 1, {"-o", "folder.exr", "it is a folder"});
+  EXPECT_EQ(files(), Arguments{"folder.exr"});
+}
+
+TEST_F(Cli, WhatIsCompleteIsSaidWhereTheFiguresFail) {
+  const std::string out = path("ao.exr");
+  const std::string command = std::string(GLOAM_BINARY) + " run hbao+ " + loggia + " -o " + out + " --json -";
+  EXPECT_EQ(WEXITSTATUS(std::system((command + " >/dev/full 2>" + path("said").string()).c_str())), 1);
+  EXPECT_EQ(slurp(path("said")), "gloam: standard output: cannot be written; " + out + " is complete\n");
+  EXPECT_EQ(FrameFile(out, {}).all_channels(), (Arguments{"AO", "AO_raw", "Z"}));
 }
 
 TEST_F(Cli, ControlBytesNeverReachTheTerminal) {

@@ -803,7 +803,7 @@ TEST(WriteExr, WhatCannotBeWrittenIsNamed) {
   std::ofstream(folder / "file") << "x";
   const Frame frame = stereo_frame();
   expect_one_line(error_of([&] { write_frame(folder / "file/out.exr", frame); }), "out.exr", "cannot write");
-  expect_one_line(error_of([&] { write_frame(folder.path, frame); }), folder.path, "directory");
+  expect_one_line(error_of([&] { write_frame(folder.path, frame); }), folder.path, "it is a folder");
   WriteOptions options;
   options.compression = "zpi";
   EXPECT_NE(error_of([&] { write_frame(folder / "f.exr", frame, options); }).find("zip"), std::string::npos);
