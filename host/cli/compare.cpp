@@ -18,27 +18,68 @@ struct CompareCommand {
   JsonFlag json;
 };
 
+/// A plane of the test and the plane of the reference that it is measured against.
+struct PlanePair {
+  std::string test, reference;
+};
+
+/// What techniques make, by what it can be measured against, best first. AO is AO before a filter and after.
+const std::vector<PlanePair>& result_pairs() {
+  static const std::vector<PlanePair> pairs = {{"ao", "ao"},
+                                               {"ao_raw", "ao_raw"},
+                                               {"ao_raw", "ao"},
+                                               {"ao", "ao_raw"},
+                                               {"reflection", "reflection"},
+                                               {"bent_normal", "bent_normal"},
+                                               {"cone", "cone"},
+                                               {"hit", "hit"}};
+  return pairs;
+}
+
+/// Those of a file's planes that techniques make.
+std::vector<std::string> results_among(const std::vector<std::string>& planes) {
+  std::vector<std::string> results;
+  for (const PlanePair& pair : result_pairs()) {
+    if (contains(planes, pair.test)) add_new(results, pair.test);
+  }
+  return results;
+}
+
+/// What of the reference a plane of the test is measured against where the user names that plane.
+std::string counterpart(const std::string& plane, const FrameFile& reference) {
+  const std::vector<std::string> planes = reference.common_planes();
+  if (contains(planes, plane)) return plane;
+  for (const PlanePair& pair : result_pairs()) {
+    if (pair.test == plane && contains(planes, pair.reference)) return pair.reference;
+  }
+  throw Error("{}: no plane '{}'{}; {}", reference.path().string(), plane, suggestion(plane, planes),
+              holdings(reference));
+}
+
 /// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
-std::vector<std::string> comparable_planes(const FrameFile& test, const FrameFile& reference,
-                                           const std::string& asked) {
+std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked) {
   const std::vector<std::string> a = test.common_planes(), b = reference.common_planes();
-  const auto lacks = [&](const FrameFile& file, const std::vector<std::string>& planes) {
-    if (!contains(planes, asked))
-      throw Error("{}: no plane '{}'{}; {}", file.path().string(), asked, suggestion(asked, planes), holdings(file));
-  };
   if (!asked.empty()) {
-    lacks(test, a);
-    lacks(reference, b);
-    return {asked};
+    if (!contains(a, asked))
+      throw Error("{}: no plane '{}'{}; {}", test.path().string(), asked, suggestion(asked, a), holdings(test));
+    return {{asked, counterpart(asked, reference)}};
   }
-  // What techniques make before what they read: a result has the depth beside it that it was made from.
-  std::vector<std::string> order = {"ao", "ao_raw", "reflection", "bent_normal", "cone", "hit"}, both;
-  for (const char* input : {"color", "normal", "mask", "outline_count", "depth"}) order.push_back(input);
-  order.insert(order.end(), a.begin(), a.end());
+  std::vector<PlanePair> pairs;
+  for (const PlanePair& pair : result_pairs()) {
+    if (contains(a, pair.test) && contains(b, pair.reference)) pairs.push_back(pair);
+  }
+  if (!pairs.empty()) return pairs;
+  // A result has the depth beside it that it was made from: two depths that are the same say nothing of two results.
+  const std::vector<std::string> results = results_among(a), truths = results_among(b);
+  if (!results.empty() && !truths.empty())
+    throw Error("{} has {} and {} has {}, which cannot be compared; --what PLANE compares another plane",
+                test.path().string(), enumerate(results), reference.path().string(), enumerate(truths));
+  std::vector<std::string> order = {"color", "normal", "mask", "outline_count", "depth"};
+  for (const std::string& plane : a) add_new(order, plane);
   for (const std::string& plane : order) {
-    if (contains(a, plane) && contains(b, plane) && !contains(both, plane)) both.push_back(plane);
+    if (contains(a, plane) && contains(b, plane)) pairs.push_back({plane, plane});
   }
-  if (!both.empty()) return both;
+  if (!pairs.empty()) return pairs;
   throw Error("{} and {} have no plane in common: {}; {}", test.path().string(), reference.path().string(),
               holdings(test), holdings(reference));
 }
@@ -58,12 +99,12 @@ struct Side {
   }
 };
 
-/// Reads both sides and returns the plane to compare: the first that is of use in both.
-std::string read_sides(Side& test, Side& reference, const std::string& asked) {
-  for (const std::string& plane : comparable_planes(test.file, reference.file, asked)) {
-    test.read(plane);
-    reference.read(plane);
-    if (test.has(plane) && reference.has(plane)) return plane;
+/// Reads both sides and returns the planes to compare: the first that are of use in both.
+PlanePair read_sides(Side& test, Side& reference, const std::string& asked) {
+  for (const PlanePair& pair : comparable_planes(test.file, reference.file, asked)) {
+    test.read(pair.test);
+    reference.read(pair.reference);
+    if (test.has(pair.test) && reference.has(pair.reference)) return pair;
   }
   const Side& unusable = test.frame.assumed.empty() ? reference : test;
   throw Error("{}: nothing that both files have can be compared: {}", unusable.file.path().string(),
@@ -223,6 +264,15 @@ std::string bias_words(double bias, const std::string& plane) {
   return bias > 0 ? (light ? "  (too bright)" : "  (too high)") : (light ? "  (too dark)" : "  (too low)");
 }
 
+/// "ao: ao.exr against truth.exr", or "ao_raw of ao.exr against ao of truth.exr".
+void print_heading(const PlanePair& planes, const CompareCommand& flags) {
+  const std::string test = printable(flags.test), reference = printable(flags.reference);
+  if (planes.test == planes.reference)
+    fmt::print("{}: {} against {} (test - truth)\n", planes.test, test, reference);
+  else
+    fmt::print("{} of {} against {} of {} (test - truth)\n", planes.test, test, planes.reference, reference);
+}
+
 void print_metrics(const std::string& view, const std::string& plane, const Metrics& m) {
   if (!view.empty()) fmt::print("view {}\n", view);
   print_table({{"pixels", std::to_string(m.pixels)},
@@ -298,8 +348,8 @@ void compare_command(const CompareCommand& flags) {
   Side test{FrameFile(flags.test, options), {}};
   Side reference{FrameFile(flags.reference, reference_options(options, flags.reference)), {}};
   const auto pairs = pair_views(test.file, reference.file);
-  const std::string plane = read_sides(test, reference, flags.plane);
-  if (plane == "ao") note_other_radius(test.file, reference.file);
+  const PlanePair planes = read_sides(test, reference, flags.plane);
+  if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test.file, reference.file);
   const Frame extra = background_frame(flags, options);
   const Window window = common_window(test, reference);
   std::vector<Metrics> all;
@@ -307,8 +357,9 @@ void compare_command(const CompareCommand& flags) {
   bool background_known = false;
   std::vector<std::string> pictures;
   for (const auto& pair : pairs) {
-    const Plane left = cropped(*test.frame.view(pair.first).find(plane), test.frame.window, window);
-    const Plane right = cropped(*reference.frame.view(pair.second).find(plane), reference.frame.window, window);
+    const Plane left = cropped(*test.frame.view(pair.first).find(planes.test), test.frame.window, window);
+    const Plane right =
+        cropped(*reference.frame.view(pair.second).find(planes.reference), reference.frame.window, window);
     const Layout layout = left.channels[0].layout();
     const std::optional<Mask> known = mask_of(flags, extra, test, reference, pair, window, layout);
     background_known = background_known || known;
@@ -322,12 +373,13 @@ void compare_command(const CompareCommand& flags) {
   }
   if (!background_known) note({"no depth in either file: every pixel counts; --frame FRAME.exr tells the background"});
   Json document = metrics_document(pooled(all));
-  document["plane"] = plane;
+  document["plane"] = planes.test;
+  document["truth_plane"] = planes.reference;
   if (pairs.size() > 1) document["views"] = views;
   flags.json.write(document, pictures);
   if (flags.json.only_json()) return;
-  fmt::print("{}: {} against {} (test - truth)\n", plane, printable(flags.test), printable(flags.reference));
-  for (size_t i = 0; i < all.size(); ++i) print_metrics(pairs.size() > 1 ? pairs[i].first : "", plane, all[i]);
+  print_heading(planes, flags);
+  for (size_t i = 0; i < all.size(); ++i) print_metrics(pairs.size() > 1 ? pairs[i].first : "", planes.test, all[i]);
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 
@@ -340,7 +392,10 @@ void add_compare(CLI::App& app) {
   command->add_option("reference", flags->reference, "EXR file with the truth")->required()->type_name("REF.exr");
   command->add_option("-o,--output", flags->picture, "picture of test, truth, difference and histogram")
       ->type_name("DIFFERENCE.png");
-  command->add_option("--what", flags->plane, "plane to compare; default: the first that both have, results first")
+  command
+      ->add_option("--what", flags->plane,
+                   "plane of the test to compare; default: the first that both have, results first. ao_raw goes with "
+                   "the truth's ao where that has no ao_raw")
       ->type_name("PLANE");
   command->add_option("--frame", flags->frame, "frame whose depth tells the background")->type_name("FRAME.exr");
   flags->frame_flags.add_to(*command);

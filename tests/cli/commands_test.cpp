@@ -234,6 +234,43 @@ TEST_F(Cli, CompareWithTheTruth) {
   EXPECT_EQ(slurp(path("difference.png")).substr(1, 3), "PNG");
 }
 
+// Beside either AO lies the depth that it was made from, the same in both files.
+TEST_F(Cli, UnfilteredAoIsComparedWithTheTruthsAo) {
+  const std::string raw = path("raw.exr"), both = path("both.exr");
+  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", raw, "--filter", "none"}).status, 0);
+  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", both}).status, 0);
+  const auto planes = [&](const Arguments& arguments) {
+    Arguments all = {"compare", "--json", "-"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Result result = gloam(all);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_GT(result.json()["rmse"], 0);
+    return result.json()["plane"].get<std::string>() + " " + result.json()["truth_plane"].get<std::string>();
+  };
+  EXPECT_EQ(planes({raw, loggia_truth}), "ao_raw ao");
+  EXPECT_EQ(planes({raw, loggia_truth, "--what", "ao_raw"}), "ao_raw ao");
+  EXPECT_EQ(planes({both, loggia_truth}), "ao ao");
+  EXPECT_EQ(planes({both, loggia_truth, "--what", "ao_raw"}), "ao_raw ao") << "as the help has it";
+  EXPECT_EQ(planes({loggia_truth, raw}), "ao ao_raw");
+  EXPECT_EQ(gloam({"compare", raw, both, "--json", "-"}).json()["truth_plane"], "ao_raw");
+  const std::string heading = "ao_raw of " + raw + " against ao of " + loggia_truth;
+  EXPECT_EQ(gloam({"compare", raw, loggia_truth}).out.rfind(heading, 0), 0u);
+  const Result none = gloam({"compare", raw, loggia_truth, "--what", "ao"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.err.find("did you mean 'ao_raw'"), std::string::npos) << none.err;
+}
+
+TEST_F(Cli, ResultsOfOtherKindsAreNotReadAsTheDepthBesideThem) {
+  ASSERT_EQ(gloam({"run", "gtao", loggia, "-o", path("bent.exr"), "--with", "bent_normal", "--outputs", "bent_normal"})
+                .status,
+            0);
+  const Result result = gloam({"compare", path("bent.exr"), loggia_truth});
+  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("has bent_normal and"), std::string::npos) << result.err;
+  EXPECT_EQ(gloam({"compare", path("bent.exr"), loggia_truth, "--what", "depth", "--json", "-"}).json()["rmse"], 0);
+}
+
 TEST_F(Cli, AnImageIsIdenticalToItself) {
   const Json same = gloam({"compare", loggia_truth, loggia_truth, "--json", "-"}).json();
   EXPECT_TRUE(same["psnr"].is_null());
