@@ -304,8 +304,9 @@ void note_other_radius(const FrameFile& test, const FrameFile& reference) {
   note({fmt::format("the radius of the test is {:g}, and that of the truth {:g}", *used, *truth)});
 }
 
-/// The reference's options: its channels are not those of the test, and one unnamed view leaves nothing to choose.
-ReadOptions reference_options(const ReadOptions& options, const std::string& path) {
+/// Options for a file beside the test: its channels are not those of the test, and one unnamed view leaves nothing to
+/// choose.
+ReadOptions options_beside(const ReadOptions& options, const std::string& path) {
   ReadOptions own = options;
   own.channels.clear();
   if (own.views.empty()) return own;
@@ -317,24 +318,29 @@ ReadOptions reference_options(const ReadOptions& options, const std::string& pat
 
 Frame background_frame(const CompareCommand& flags, const ReadOptions& options) {
   if (flags.frame.empty()) return {};
-  FrameFile file(flags.frame, options);
+  FrameFile file(flags.frame, options_beside(options, flags.frame));
   if (!contains(file.common_planes(), "depth"))
     throw Error("{}: no depth to tell the background by; {}", flags.frame, holdings(file));
   return file.read({"depth"});
+}
+
+/// What of --frame lies under the images: their window where it shows the same display window, all of it where it has
+/// their size. Throws Error for a frame of another size: which of its pixels are theirs is not known.
+Window window_under(const Frame& extra, const std::string& path, const Frame& test, const Window& window,
+                    const Layout& layout) {
+  if (extra.display == test.display && covers(extra, window, layout)) return window;
+  if (covers(extra, {}, layout)) return {};
+  throw Error("--frame {} is {}x{}, and the images are {}x{}; give the frame that they were made of", path,
+              extra.width(), extra.height(), layout.width, layout.height);
 }
 
 /// --frame first, since the user named it; then what the files themselves know.
 std::optional<Mask> mask_of(const CompareCommand& flags, const Frame& extra, const Side& test, const Side& reference,
                             const std::pair<std::string, std::string>& views, const Window& window,
                             const Layout& layout) {
-  if (!flags.frame.empty()) {
-    const std::optional<Mask> mask = foreground(extra, view_of(extra, views.first), window, layout);
-    if (!mask) {
-      throw Error("--frame {} is {}x{}, and the images are {}x{}", flags.frame, extra.width(), extra.height(),
-                  layout.width, layout.height);
-    }
-    return mask;
-  }
+  if (!flags.frame.empty())
+    return foreground(extra, view_of(extra, views.first), window_under(extra, flags.frame, test.frame, window, layout),
+                      layout);
   if (const auto mask = foreground(test.frame, views.first, window, layout)) return mask;
   return foreground(reference.frame, views.second, window, layout);
 }
@@ -346,7 +352,7 @@ void compare_command(const CompareCommand& flags) {
   ReadOptions options = flags.frame_flags.read_options();
   options.as_stored = true;
   Side test{FrameFile(flags.test, options), {}};
-  Side reference{FrameFile(flags.reference, reference_options(options, flags.reference)), {}};
+  Side reference{FrameFile(flags.reference, options_beside(options, flags.reference)), {}};
   const auto pairs = pair_views(test.file, reference.file);
   const PlanePair planes = read_sides(test, reference, flags.plane);
   if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test.file, reference.file);

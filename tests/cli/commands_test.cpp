@@ -309,6 +309,31 @@ TEST_F(Cli, TheFrameThatTellsTheBackgroundHasToFit) {
   const Result result = gloam({"compare", path("ao.exr"), path("ao.exr"), "--frame", path("tiny.exr")});
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("1x1"), std::string::npos) << result.err;
+  write_frame(path("large.exr"), small_frame(64, 48, {"depth"}));
+  const Result large = gloam({"compare", path("ao.exr"), path("ao.exr"), "--frame", path("large.exr")});
+  EXPECT_EQ(large.status, 1) << large.out;
+  EXPECT_EQ(large.lines_of_error(), 1) << large.err;
+  EXPECT_NE(large.err.find("is 64x48, and the images are 32x24"), std::string::npos) << large.err;
+}
+
+TEST_F(Cli, TheFrameThatTellsTheBackgroundMayStartElsewhereOrReachFarther) {
+  write_frame(path("ao.exr"), flat("ao", 0.5f, 0.5f));
+  Frame moved = small_frame(32, 24, {"depth"});
+  moved.display = moved.window = {100, 50, 132, 74};
+  moved.views[0].planes["depth"].channels[0].at(3, 5) = 0;
+  write_frame(path("moved.exr"), moved);
+  Frame wide = small_frame(48, 40, {"depth"});
+  wide.display = {0, 0, 32, 24};
+  wide.window = {-8, -8, 40, 32};
+  wide.views[0].planes["depth"].channels[0].at(0, 0) = 0;
+  wide.views[0].planes["depth"].channels[0].at(8, 8) = 0;
+  write_frame(path("wide.exr"), wide);
+  for (const char* frame : {"moved.exr", "wide.exr"}) {
+    const Result result =
+        gloam({"compare", path("ao.exr"), path("ao.exr"), "--frame", path(frame).string(), "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.json()["pixels"], 32 * 24 - 1) << frame;
+  }
 }
 
 TEST_F(Cli, NoParameterHidesAFlag) {
