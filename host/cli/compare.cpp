@@ -127,14 +127,27 @@ std::optional<std::string> view_by_name(const FrameFile& several, const FrameFil
   return {};
 }
 
+/// Of one view each, which is compared all the same. `is_told`: by --view.
+void note_other_view(const FrameFile& test, const FrameFile& reference, bool is_told) {
+  const std::string &a = test.views().front(), &b = reference.views().front();
+  if (test.view_is_assumed() == reference.view_is_assumed()) {
+    if (a != b && !a.empty() && !b.empty())
+      note({fmt::format("view '{}' is compared with view '{}'; is that meant?", a, b)});
+    return;
+  }
+  const FrameFile& unsure = reference.view_is_assumed() ? reference : test;
+  const std::string& view = reference.view_is_assumed() ? a : b;
+  if (is_told || view.empty() || ends_with_word(unsure.path().stem().string(), view)) return;
+  note({fmt::format("{} lists several views and does not say which it holds; it is taken as '{}'",
+                    unsure.path().filename().string(), view)});
+}
+
 /// Pairs of views (test, reference): the only two there are; the one that a file of one view is named after; those of
 /// the same name. A file's name wins over its view's: a file that lists both eyes and holds one is read as the first.
-ViewPairs pair_views(const FrameFile& test, const FrameFile& reference) {
+ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_told) {
   const std::vector<std::string>&a = test.views(), &b = reference.views();
   if (a.size() == 1 && b.size() == 1) {
-    if (a[0] != b[0] && !a[0].empty() && !b[0].empty()) {
-      note({fmt::format("view '{}' is compared with view '{}'; is that meant?", a[0], b[0])});
-    }
+    note_other_view(test, reference, is_told);
     return {{a[0], b[0]}};
   }
   const FrameFile& one = b.size() == 1 ? reference : test;
@@ -296,11 +309,14 @@ std::optional<double> radius_in(const std::string& parameters) {
   return std::strtod(parameters.c_str() + at + key.size(), nullptr);
 }
 
+/// Two radii, finite or not, as near as float and decimals keep them.
+bool is_near(double a, double b) { return a == b || std::abs(a - b) <= 1e-3 * std::min(a, b); }
+
 /// An AO made with another radius than its truth is worth a word.
 void note_other_radius(const FrameFile& test, const FrameFile& reference) {
   const std::optional<double> truth = reference.number_attribute("aoRadius");
   const std::optional<double> used = radius_in(test.text_attribute("gloamParameters"));
-  if (!truth || !used || std::abs(*truth - *used) <= 1e-3 * *truth) return;
+  if (!truth || !used || is_near(*truth, *used)) return;
   note({fmt::format("the radius of the test is {:g}, and that of the truth {:g}", *used, *truth)});
 }
 
@@ -353,7 +369,7 @@ void compare_command(const CompareCommand& flags) {
   options.as_stored = true;
   Side test{FrameFile(flags.test, options), {}};
   Side reference{FrameFile(flags.reference, options_beside(options, flags.reference)), {}};
-  const auto pairs = pair_views(test.file, reference.file);
+  const auto pairs = pair_views(test.file, reference.file, !options.views.empty());
   const PlanePair planes = read_sides(test, reference, flags.plane);
   if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test.file, reference.file);
   const Frame extra = background_frame(flags, options);

@@ -68,6 +68,16 @@ TEST_F(CaptureCli, AnEyeThatIsOnlyAssumedIsSaid) {
   EXPECT_NE(result.err.find("taken as 'left'"), std::string::npos) << result.err;
 }
 
+TEST_F(CaptureCli, AnEyeAskedForIsNotSaidToBeTheOther) {
+  const fs::path folder = captures / "apartment_stereo";
+  ASSERT_EQ(
+      gloam({"run", "hbao+", folder / "apartment_stereo_user.exr", "-o", path("ao.exr"), "--radius", "0.4"}).status, 0);
+  const Result result =
+      gloam({"compare", path("ao.exr"), folder / "apartment_stereo_ao_ref_right.exr", "--view", "right"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+}
+
 TEST_F(CaptureCli, EveryVariantGoesThroughInfoAndRun) {
   for (const auto& entry : fs::directory_iterator(captures / "variants")) {
     if (entry.path().extension() != ".exr") continue;

@@ -1,4 +1,10 @@
 // Good use of every command: what it prints, what its JSON holds, what it writes.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
 #include <cmath>
 
 #include "gloam_process.h"
@@ -297,6 +303,70 @@ TEST_F(Cli, WhatIsMeasuredIsWhatTheFileHolds) {
   EXPECT_NE(nan.err.find("(3, 5)"), std::string::npos) << nan.err;
   const Json info = gloam({"info", path("over.exr"), "--json", "-"}).json();
   EXPECT_EQ(info["planes"][0]["max"], 1.5);
+}
+
+/// AO that lists two views and does not say which it is, as references rendered eye by eye do.
+void write_unnamed_eye(const fs::path& path, float value) {
+  Imf::Header header(32, 24);
+  header.channels().insert("AO", Imf::Channel(Imf::FLOAT));
+  Imf::addMultiView(header, {"left", "right"});
+  std::vector<float> pixels(32 * 24, value);
+  Imf::FrameBuffer buffer;
+  buffer.insert("AO", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 4 * 32));
+  Imf::OutputFile file(path.c_str(), header);
+  file.setFrameBuffer(buffer);
+  file.writePixels(24);
+}
+
+Frame two_eyes(float left, float right) {
+  Frame frame = small_frame(32, 24, {"depth", "ao"});
+  frame.views[0].name = "left";
+  frame.views.push_back(std::move(small_frame(32, 24, {"depth", "ao"}).views[0]));
+  frame.views[1].name = "right";
+  const float values[] = {left, right};
+  for (size_t i = 0; i < 2; ++i) frame.views[i].planes["ao"].channels[0] = Channel(Layout(32, 24), values[i]);
+  return frame;
+}
+
+TEST_F(Cli, AnEyeThatDoesNotSayWhichItIsGoesWithTheViewAskedFor) {
+  write_frame(path("both.exr"), two_eyes(0.25f, 0.75f));
+  write_unnamed_eye(path("truth_right.exr"), 0.75f);
+  const Result told = gloam({"compare", path("both.exr"), path("truth_right.exr"), "--view", "right", "--json", "-"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_EQ(told.json()["rmse"], 0);
+  EXPECT_EQ(told.err, "");
+  Frame named = two_eyes(0.25f, 0.75f);
+  named.views.pop_back();
+  write_frame(path("left.exr"), named);
+  const Result other = gloam({"compare", path("both.exr"), path("left.exr"), "--view", "right"});
+  EXPECT_NE(other.err.find("view 'right' is compared with view 'left'"), std::string::npos) << "both files say so";
+}
+
+TEST_F(Cli, TheTestsRadiusIsHeldAgainstTheTruthsWhereBothAreKnown) {
+  const auto said = [&](const std::string& used, double truth) {
+    Frame frame = small_frame(32, 24, {"depth", "ao"});
+    frame.attributes["gloamParameters"] = "hbao+: radius=" + used + " bias=0.1";
+    write_frame(path("ao.exr"), frame);
+    frame.numbers["aoRadius"] = truth;
+    write_frame(path("truth.exr"), frame);
+    return gloam({"compare", path("ao.exr"), path("truth.exr")}).err;
+  };
+  EXPECT_EQ(said("0.3", 0.3), "");
+  EXPECT_EQ(said("inf", INFINITY), "");
+  EXPECT_EQ(said("0.5", 0.3), "note: the radius of the test is 0.5, and that of the truth 0.3\n");
+  EXPECT_EQ(said("0.5", INFINITY), "note: the radius of the test is 0.5, and that of the truth inf\n");
+  EXPECT_EQ(said("inf", 0.3), "note: the radius of the test is inf, and that of the truth 0.3\n");
+}
+
+TEST_F(Cli, ChannelsThatTheUserNamesAreTheTests) {
+  write_frame(path("ao.exr"), small_frame(32, 24, {"Lamp.R"}));
+  write_frame(path("frame.exr"), small_frame(32, 24, {"depth"}));
+  write_frame(path("truth.exr"), flat("ao", 0.5f, 0.25f));
+  const Result result = gloam({"compare", path("ao.exr"), path("truth.exr"), "--plane", "ao=Lamp.R", "--frame",
+                               path("frame.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["plane"], "ao");
+  EXPECT_EQ(result.json()["max"], 0.25);
 }
 
 TEST_F(Cli, TheFrameThatTellsTheBackgroundHasToFit) {
