@@ -10,6 +10,7 @@
 #include "device_impl.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "lists.h"
 
 namespace gloam {
 namespace {
@@ -468,15 +469,17 @@ void for_each_launch(const Plan& plan, std::vector<Target>& targets, const Funct
   }
 }
 
+/// The outputs that this view has: computed here, or inputs. A plane that the view came with and no pass makes here is no
+/// result of it.
 void download(const Plan& plan, Target& target, View& out) {
   for (const std::string& name : plan.outputs) {
-    if (target.planes.count(name) == 0 && !target.view.find(name)) continue;
+    const bool is_input = contains(plan.inputs, name);
+    if (!is_input && target.planes.count(name) == 0) continue;
     if (is_stack(name)) {
       for (Plane& plane : target.buffers.download_stack(name, target.layouts.of(name), layers_in_buffer(plan, name)))
         out.planes.emplace(plane.name, std::move(plane));
       continue;
     }
-    const bool is_input = std::find(plan.inputs.begin(), plan.inputs.end(), name) != plan.inputs.end();
     out.planes.emplace(
         name, is_input ? target.view.find(name)->clone() : target.buffers.download(name, target.layouts.of(name)));
   }
