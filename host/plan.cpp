@@ -242,28 +242,43 @@ std::vector<std::string> layers_of(const std::string& stack, const std::vector<s
   return layers;
 }
 
-/// Planes that are not at hand, in words; and what makes them where that is no technique.
-[[noreturn]] void throw_missing(const std::string& technique, const std::vector<const Technique*>& order,
-                                const std::vector<std::string>& missing, const std::string& holds) {
+/// Of missing planes, what is made of one that nothing else reads, by a technique that nobody asked for.
+std::map<std::string, std::string> substitutes(const Wanted& wanted, const std::vector<const Technique*>& order,
+                                               const std::vector<std::string>& missing) {
+  std::map<std::string, std::string> instead;
+  for (const std::string& plane : missing) {
+    std::vector<const Technique*> readers;
+    for (const Technique* t : order) {
+      if (contains(t->reads, plane)) readers.push_back(t);
+    }
+    if (readers.size() != 1 || readers.front()->writes.size() != 1) continue;
+    const bool is_asked_for =
+        std::find(wanted.makers.begin(), wanted.makers.end(), readers.front()) != wanted.makers.end();
+    if (!is_asked_for) instead[plane] = readers.front()->writes.front();
+  }
+  return instead;
+}
+
+/// "gloam capture --peel N makes 'peel'"; empty for what is no stack.
+std::string source_of(const std::string& plane) {
+  return is_stack(plane) ? fmt::format("{} makes '{}'", stack_kind(plane).source, plane) : "";
+}
+
+/// Planes that are not at hand, in words; what would take least first.
+[[noreturn]] void throw_missing(const std::string& technique, const std::vector<std::string>& missing,
+                                const std::map<std::string, std::string>& instead, const std::string& holds) {
   std::vector<std::string> quoted;
   std::string sources;
-  for (const std::string& plane : missing) quoted.push_back("'" + plane + "'");
-  for (const StackKind& stack : stack_kinds()) {
-    if (contains(missing, stack.name) && !stack.source.empty())
-      sources += fmt::format("{} makes '{}'; ", stack.source, stack.name);
-  }
-  // A stack that could have been made of a missing one.
-  for (const StackKind& stack : stack_kinds()) {
-    for (const Technique* maker : order) {
-      const bool lacks = std::any_of(missing.begin(), missing.end(),
-                                     [&](const std::string& plane) { return contains(maker->reads, plane); });
-      if (lacks && contains(maker->writes, stack.name))
-        sources += fmt::format("{} makes '{}', which does as well; ", stack.source, stack.name);
-    }
+  for (const std::string& plane : missing) {
+    const auto least = instead.find(plane);
+    quoted.push_back("'" + (least == instead.end() ? plane : least->second) + "'");
+    const std::string first = least == instead.end() ? "" : source_of(least->second), own = source_of(plane);
+    if (!first.empty()) sources += first + (own.empty() ? "; " : ", or " + own + ", which does as well; ");
+    if (first.empty() && !own.empty()) sources += own + "; ";
   }
   throw MissingPlanes(
       fmt::format("{}: needs {}, and {} ({}see docs/gbuffer.md)", technique, enumerate(quoted), holds, sources),
-      missing);
+      missing, instead);
 }
 
 /// Planes to take from the frame: a stack is taken layer by layer.
@@ -448,7 +463,8 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   take_inputs(plan, walk.inputs, available, walk.missing);
-  if (!walk.missing.empty()) throw_missing(plan.technique, walk.order, walk.missing, holds);
+  if (!walk.missing.empty())
+    throw_missing(plan.technique, walk.missing, substitutes(wanted, walk.order, walk.missing), holds);
   if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);

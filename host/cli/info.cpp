@@ -1,6 +1,7 @@
 // gloam info FRAME.exr: what was found, what was assumed, what can run, what is lacking.
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
 #include "gloam/error.h"
@@ -72,17 +73,48 @@ Json camera_document(const Camera& camera, const Window& display) {
   return document;
 }
 
+/// What a technique that works on two views lacks of them.
+std::vector<std::string> lacking_views(const Technique& technique, const Frame& frame) {
+  if (technique.views == 1) return {};
+  if (frame.views.size() < 2) return {"a second view"};
+  if (frame.views.size() > 2) return {"a choice of two views (--views A,B)"};
+  const bool has_poses = std::all_of(frame.views.begin(), frame.views.end(),
+                                     [](const View& view) { return view.camera && view.camera->pose; });
+  return has_poses ? std::vector<std::string>() : std::vector<std::string>{"cameras with poses"};
+}
+
 /// Techniques that the file can feed, and what the others lack.
-void sort_techniques(const FrameFile& file, std::vector<std::string>& runs, Json& lacks) {
-  lacks = Json::object();
-  for (const std::string& name : technique_names()) {
+struct Abilities {
+  std::vector<std::string> runs;
+  Json lacks = Json::object();  ///< by technique: planes, of those that do as well the one that takes least; views
+  std::map<std::string, std::string> words;  ///< the same for people
+};
+
+Abilities abilities_of(const FrameFile& file, const Frame& frame) {
+  Abilities abilities;
+  for (const Technique& technique : registry()) {
+    std::vector<std::string> lacks, words;
     try {
-      make_plan({.outputs = {name}}, file.common_planes(), holdings(file));
-      runs.push_back(name);
+      make_plan({.outputs = {technique.name}}, file.common_planes(), holdings(file));
     } catch (const MissingPlanes& missing) {
-      lacks[name] = missing.planes;
+      for (const std::string& plane : missing.planes) {
+        const auto instead = missing.instead.find(plane);
+        lacks.push_back(instead == missing.instead.end() ? plane : instead->second);
+        words.push_back(instead == missing.instead.end() ? plane : instead->second + " or " + plane);
+      }
+    }
+    for (const std::string& what : lacking_views(technique, frame)) {
+      lacks.push_back(what);
+      words.push_back(what);
+    }
+    if (lacks.empty()) {
+      abilities.runs.push_back(technique.name);
+    } else {
+      abilities.lacks[technique.name] = lacks;
+      abilities.words[technique.name] = fmt::format("{}", fmt::join(words, ", "));
     }
   }
+  return abilities;
 }
 
 std::string types_of(const PlaneSource& source) {
@@ -117,7 +149,7 @@ std::vector<std::string> unread_channels(const FrameFile& file) {
 }
 
 void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, const Json& document,
-                const std::vector<std::string>& assumed) {
+                const std::vector<std::string>& assumed, const Abilities& abilities) {
   const Window display = file.display(), window = file.window();
   fmt::print("{}: {} x {}", printable(file.path().string()), display.width(), display.height());
   if (window != display)
@@ -146,11 +178,9 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   }
   if (!document["normal_space"].is_null()) fmt::print("normal {} space\n", document["normal_space"].get<std::string>());
   for (const std::string& note : assumed) fmt::print("assumed: {}\n", printable(note));
-  const std::vector<std::string> runs = document["runs"];
+  const std::vector<std::string>& runs = abilities.runs;
   fmt::print("\nruns   {}\n", runs.empty() ? "nothing" : fmt::format("{}", fmt::join(runs, ", ")));
-  for (const auto& [technique, planes] : document["lacks"].items()) {
-    fmt::print("lacks  {}: {}\n", technique, fmt::join(planes.get<std::vector<std::string>>(), ", "));
-  }
+  for (const auto& [technique, words] : abilities.words) fmt::print("lacks  {}: {}\n", technique, words);
 }
 
 Json planes_document(const std::vector<PlaneFacts>& facts) {
@@ -196,15 +226,14 @@ void info_command(const std::string& path, const std::string& picture, const Fra
   std::vector<PlaneFacts> facts;
   for (const PlaneSource& source : file.planes()) facts.push_back(facts_of(source, frame, file));
 
-  Json cameras = Json::object(), first, lacks;
+  Json cameras = Json::object(), first;
   for (const std::string& view : file.views()) {
     const std::optional<Camera> camera = file.camera(view);
     if (!camera) continue;
     cameras[view] = camera_document(*camera, file.display());
     if (first.is_null()) first = cameras[view];
   }
-  std::vector<std::string> runs;
-  sort_techniques(file, runs, lacks);
+  const Abilities abilities = abilities_of(file, frame);
   const auto text = [](const std::string& value) { return value.empty() ? Json() : Json(value); };
   const std::optional<double> share = background_share(frame);
   std::vector<std::string> views = file.views();
@@ -220,13 +249,13 @@ void info_command(const std::string& path, const std::string& picture, const Fra
                          {"normal_space", text(file.normal_space())},
                          {"background_share", share ? Json(*share) : Json()},
                          {"assumed", frame.assumed},
-                         {"runs", runs},
-                         {"lacks", lacks},
+                         {"runs", abilities.runs},
+                         {"lacks", abilities.lacks},
                          {"unread", unread_channels(file)}};
   write_planes_picture(picture, path, frame);
-  json.write(document);
+  json.write(document, picture.empty() ? std::vector<std::string>() : std::vector<std::string>{picture});
   if (json.only_json()) return;
-  print_info(file, facts, document, frame.assumed);
+  print_info(file, facts, document, frame.assumed, abilities);
   if (!picture.empty()) fmt::print("wrote {}\n", printable(picture));
 }
 

@@ -324,7 +324,9 @@ Plan plan_for(const FrameFile& file, const PlanRequest& request) {
     return make_plan(request, file.common_planes(), holdings(file));
   } catch (const MissingPlanes& missing) {
     // Where one view has what another lacks, the list of channels would only confuse.
-    for (const std::string& plane : missing.planes) {
+    std::vector<std::string> wanted = missing.planes;
+    for (const auto& [plane, instead] : missing.instead) wanted.push_back(instead);
+    for (const std::string& plane : wanted) {
       const std::string why = file.why_missing(plane);
       if (!why.empty()) {
         throw Error("{}: needs '{}', and in {} {}; --view NAME chooses another view", request.outputs.front(), plane,

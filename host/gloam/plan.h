@@ -50,8 +50,13 @@ struct Plan {
 /// Planes that neither the frame nor any technique provides.
 class MissingPlanes : public Error {
  public:
-  MissingPlanes(const std::string& message, std::vector<std::string> planes) : Error("{}", message), planes(planes) {}
+  MissingPlanes(const std::string& message, std::vector<std::string> planes,
+                std::map<std::string, std::string> instead = {})
+      : Error("{}", message), planes(std::move(planes)), instead(std::move(instead)) {}
   std::vector<std::string> planes;
+  /// Of some of these, what would be made of it and is all that it is needed for: "stochastic" by "peel". Having that does
+  /// as well, and takes less.
+  std::map<std::string, std::string> instead;
 };
 
 /// Throws MissingPlanes with all that is missing at once, UsageError for unknown names and values out of range.
