@@ -46,7 +46,9 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("ao_noise", {""}, {"AO_noise"}, 0, K::value, "estimated error of a ray-traced AO"),
       kind("bent_normal", {"x", "y", "z"}, {"bent.X", "bent.Y", "bent.Z"}, 0, K::unit_vector,
            "mean unoccluded direction, view space"),
-      kind("cone", {""}, {"cone"}, 0, K::unit_interval, "cosine of the half angle of the visible cone"),
+      kind(
+          "cone", {""}, {"cone"}, 0, K::unit_interval,
+          "cosine of the half angle of the cone about bent_normal that is as open; 0 is a whole hemisphere, 1 nothing"),
       kind("reflection", {"r", "g", "b", "a"}, {"reflection.R", "reflection.G", "reflection.B", "reflection.A"}, 0,
            K::value, "reflected radiance; A is the confidence"),
       kind("hit", {""}, {"hit.Z"}, 0, K::value, "length of the reflected ray"),

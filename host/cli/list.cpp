@@ -3,6 +3,7 @@
 
 #include "gloam/device.h"
 #include "gloam/error.h"
+#include "gloam/planes.h"
 #include "gloam/scene.h"
 #include "options.h"
 
@@ -50,6 +51,7 @@ Json techniques_document() {
                         {"optional", Json::array()},
                         {"writes", t.writes},
                         {"then", t.then},
+                        {"extras", t.extras},
                         {"parameters", parameters},
                         {"presets", presets}});
   }
@@ -62,6 +64,7 @@ void print_techniques() {
     if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
     fmt::print("  reads   {}\n  writes  {}\n", fmt::join(t.reads, ", "), fmt::join(t.writes, ", "));
     if (!t.then.empty()) fmt::print("  then    {}\n", t.then);
+    for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
     const ParameterValues initial(t.parameters);
     for (const Parameter& p : t.parameters) {
       fmt::print("  {} = {}  ({}) {}\n", p.name, initial.text(p.name), allowed_values(p), p.help);
@@ -75,7 +78,7 @@ void print_techniques() {
   }
 }
 
-/// How a heading's anchor is spelled: letters, digits and hyphens.
+/// How a page that shows Markdown spells the anchor of a heading: letters, digits and hyphens.
 std::string anchor(const std::string& heading) {
   std::string text;
   for (const char c : heading) {
@@ -84,18 +87,46 @@ std::string anchor(const std::string& heading) {
   return text;
 }
 
+/// Anchors of headings in their order. One that is taken is numbered: hbao, and hbao-1 for hbao+.
+std::vector<std::string> anchors_of(const std::vector<std::string>& headings) {
+  std::vector<std::string> anchors;
+  for (const std::string& heading : headings) {
+    std::string unique = anchor(heading);
+    for (int number = 1; contains(anchors, unique); ++number) unique = fmt::format("{}-{}", anchor(heading), number);
+    anchors.push_back(unique);
+  }
+  return anchors;
+}
+
+/// "ao_raw; --with: bent_normal, cone"
+std::string all_writes(const Technique& t) {
+  const std::string own = fmt::format("{}", fmt::join(t.writes, ", "));
+  return t.extras.empty() ? own : fmt::format("{}; `--with`: {}", own, fmt::join(t.extras, ", "));
+}
+
+void print_extras_markdown(const Technique& t) {
+  if (t.extras.empty()) return;
+  std::vector<std::string> extras;
+  for (const std::string& plane : t.extras) extras.push_back(fmt::format("`{}` ({})", plane, plane_kind(plane).help));
+  fmt::print("\nMade where `--with` asks for it: {}.\n", enumerate(extras));
+}
+
 /// docs/techniques.md: one section per technique.
 void print_techniques_markdown() {
   fmt::print(
       "# Techniques\n\nWritten by `gloam list techniques --markdown` from the folders of `kernels/`; do not edit.\n\n");
   fmt::print("| technique | what it does | reads | writes |\n|---|---|---|---|\n");
-  for (const Technique& t : registry()) {
-    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchor(t.name), t.summary, fmt::join(t.reads, ", "),
-               fmt::join(t.writes, ", "));
+  const std::vector<std::string> names = technique_names(), anchors = anchors_of(names);
+  for (size_t i = 0; i < names.size(); ++i) {
+    const Technique& t = registry()[i];
+    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchors[i], t.summary, fmt::join(t.reads, ", "),
+               all_writes(t));
   }
   for (const Technique& t : registry()) {
     fmt::print("\n## `{}`\n\n{}.{}\n", t.name, t.summary, t.paper.empty() ? "" : " Source: " + t.paper + ".");
     if (!t.then.empty()) fmt::print("Followed by `{}` unless `--filter` says otherwise.\n", t.then);
+    if (t.views > 1) fmt::print("Needs a frame of two views; it works on the first.\n");
+    print_extras_markdown(t);
     if (!t.parameters.empty()) fmt::print("\n| parameter | default | allowed | meaning |\n|---|---|---|---|\n");
     const ParameterValues initial(t.parameters);
     for (const Parameter& p : t.parameters) {

@@ -9,10 +9,12 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "gloam/planes.h"
 #include "lists.h"
 #include "statistics.h"
 
@@ -207,6 +209,26 @@ ReadOptions FrameFlags::read_options() const {
   return options;
 }
 
+namespace {
+
+/// "bent_normal (mean unoccluded direction, view space), by bitmask, gtao; cone (...), by the same"
+std::string extras_in_words() {
+  std::map<std::string, std::vector<std::string>> makers;
+  for (const Technique& t : registry()) {
+    for (const std::string& plane : t.extras) makers[plane].push_back(t.name);
+  }
+  std::vector<std::string> words;
+  std::string last;
+  for (const auto& [plane, names] : makers) {
+    const std::string by = enumerate(names);
+    words.push_back(fmt::format("{} ({}), by {}", plane, plane_kind(plane).help, by == last ? "the same" : by));
+    last = by;
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+}  // namespace
+
 void TechniqueFlags::add_to(CLI::App& app) {
   app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
       ->type_name("NAME=VALUE")
@@ -219,7 +241,7 @@ void TechniqueFlags::add_to(CLI::App& app) {
   app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
       ->type_name("NAME")
       ->group("Technique");
-  app.add_option("--with", with, "planes to make beside the usual ones, such as bent_normal,cone")
+  app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
       ->type_name("A,B")
       ->group("Technique");
   app.add_option(

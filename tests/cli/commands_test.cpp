@@ -62,6 +62,44 @@ TEST_F(Cli, ListTechniquesTellsAllThatAProgramNeeds) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(Cli, WhatTechniquesMakeWhenAskedIsTold) {
+  const Json techniques = gloam({"list", "techniques", "--json", "-"}).json();
+  const std::string list = gloam({"list", "techniques"}).out, page = gloam({"list", "techniques", "--markdown"}).out,
+                    help = gloam({"run", "--help"}).out;
+  int makers = 0;
+  for (const Json& technique : techniques) {
+    if (technique["extras"] != Json({"bent_normal", "cone"})) continue;
+    ++makers;
+    const std::string name = technique["name"], section = page.substr(page.find("\n## `" + name + "`\n"));
+    EXPECT_NE(section.substr(0, section.find("\n## ", 1)).find("`cone` (cosine of"), std::string::npos) << name;
+    EXPECT_NE(help.substr(help.find("--with")).find(name), std::string::npos) << name;
+  }
+  EXPECT_GE(makers, 4);
+  EXPECT_NE(list.find("  --with  cone: cosine of the half angle"), std::string::npos);
+  EXPECT_NE(help.find("cosine of the half angle"), std::string::npos) << help;
+}
+
+/// As pages that show Markdown make them: what is no letter, digit or hyphen goes, and what is taken is numbered.
+TEST_F(Cli, LinksOnThePageOfTechniquesLeadToTheirSections) {
+  std::istringstream page(gloam({"list", "techniques", "--markdown"}).out);
+  std::map<std::string, std::string> links, sections;  // by technique
+  std::map<std::string, int> taken;
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("| [`", 0) == 0) {
+      const size_t end = line.find("`](#");
+      links[line.substr(4, end - 4)] = line.substr(end + 4, line.find(')') - end - 4);
+    } else if (line.rfind("## `", 0) == 0) {
+      const std::string name = line.substr(4, line.size() - 5);
+      std::string anchor = name;
+      std::erase(anchor, '+');
+      const int before = taken[anchor]++;
+      sections[name] = before == 0 ? anchor : anchor + "-" + std::to_string(before);
+    }
+  }
+  EXPECT_EQ(links, sections);
+  EXPECT_NE(links.at("hbao+"), links.at("hbao"));
+}
+
 TEST_F(Cli, ListDevicesAndMetrics) {
   const Json devices = gloam({"list", "devices", "--json", "-"}).json();
   ASSERT_FALSE(devices.empty());
