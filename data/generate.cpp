@@ -135,6 +135,14 @@ Frame reference(const Scene& scene, const Frame& captured, int rays, Noise& nois
   return frame;
 }
 
+/// What a reference says of itself, as gloam reference writes it: `compare`, `pick` and `bench` go by the radius.
+void describe(Frame& reference, int rays, const Noise& noise) {
+  reference.numbers = {{"aoRadius", loggia_ao_radius}, {"aoSamples", rays}, {"aoNoise", noise.rms()}};
+  reference.attributes = {
+      {"aoFalloff", "none"},
+      {"aoDefinition", "cosine-weighted share of directions in which nothing is nearer than aoRadius"}};
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -148,7 +156,9 @@ void generate(const std::filesystem::path& folder, int rays) {
 
   const auto reference_start = std::chrono::steady_clock::now();
   Noise noise;
-  write_frame(folder / "loggia_ao_ref.exr", reference(scene, frame, rays, noise));
+  Frame truth = reference(scene, frame, rays, noise);
+  describe(truth, rays, noise);
+  write_frame(folder / "loggia_ao_ref.exr", truth);
   const double background = 1 - double(noise.pixels) / (width * height);
   fmt::print("loggia_ao_ref.exr: {} rays per pixel, {:.1f} s\n", rays, seconds_since(reference_start));
   fmt::print("background {:.2f} % of the pixels\n", 100 * background);

@@ -315,6 +315,20 @@ TEST_F(Cli, ResultsOfOtherKindsAreNotReadAsTheDepthBesideThem) {
   EXPECT_EQ(gloam({"compare", path("bent.exr"), loggia_truth, "--what", "depth", "--json", "-"}).json()["rmse"], 0);
 }
 
+TEST_F(Cli, TheBundledTruthSaysHowItWasMade) {
+  const FrameFile truth(loggia_truth, {});
+  EXPECT_EQ(truth.number_attribute("aoRadius"), 0.5);
+  EXPECT_EQ(truth.number_attribute("aoSamples"), 16384);
+  EXPECT_NEAR(truth.number_attribute("aoNoise").value(), 0.0003, 0.00005);
+  EXPECT_EQ(truth.text_attribute("aoFalloff"), "none");
+  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--radius", "0.3"}).status, 0);
+  EXPECT_EQ(gloam({"compare", path("ao.exr"), loggia_truth}).err,
+            "note: the radius of the test is 0.3, and that of the truth 0.5\n");
+  const Result pick = gloam({"pick", loggia, "--truth", loggia_truth, "--budget", "1s", "--radius", "0.3"});
+  EXPECT_EQ(pick.status, 2);
+  EXPECT_NE(pick.err.find("--radius 0.3: the truth was made with 0.5"), std::string::npos) << pick.err;
+}
+
 TEST_F(Cli, AnImageIsIdenticalToItself) {
   const Json same = gloam({"compare", loggia_truth, loggia_truth, "--json", "-"}).json();
   EXPECT_TRUE(same["psnr"].is_null());
