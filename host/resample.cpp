@@ -47,7 +47,7 @@ Pass upsample(const std::string& plane, int resolution) {
                     "depth",
                     "normal"},
           .writes = {{"result", plane}},
-          .defines = {{"SCALE", resolution}}};
+          .defines = {{"SCALE", resolution}, {"OUTSIDE", int(plane_kind(plane).outside)}}};
 }
 
 /// Passes of a plan, rewritten one by one.
@@ -75,6 +75,9 @@ class Reduction {
         throw UsageError(
             "{}: '{}' is what guides upsampling, so it has to be made of every pixel; use --resolution full",
             plan_.technique, output);
+      if (is_stack(output))
+        throw UsageError("{}: '{}' holds layers, which cannot be upsampled; use --resolution full", plan_.technique,
+                         output);
       for (const std::string& guide : resampling().reads) need(guide);
       passes.push_back({&resampling(), upsample(output, plan_.resolution), values_});
     }

@@ -3,7 +3,7 @@
 //
 // subsample: `frame` is the reduced one, `other` the whole. Pixel (x, y) is pixel (x, y) * SCALE of the whole.
 // joint_upsample (OpenCL has an `upsample` of its own): `frame` is the whole, `other` the reduced one (upsample.h).
-// -D SCALE, SOURCE_LAYERS (subsample_stack)
+// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of what is unknown)
 #include "resample/params.h"
 #include "shared/upsample.h"
 
@@ -31,6 +31,7 @@ kernel void subsample_stack(Frame frame, Frame other, ResampleParams params, PLA
 }
 #endif
 
+#ifdef OUTSIDE
 kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE low_depth,
                            PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
                            PLANE normal_y, PLANE normal_z, PLANE_OUT result) {
@@ -40,8 +41,9 @@ kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLAN
   const mask known = !is_background(s.plane.depth) & (w.total > 0);
   // Divided exactly: not even rounding leads beyond the values at hand.
   const real mean = weighted(w, s, source) / choose(known, w.total, (real)(1));
-  store(choose(known, mean, (real)(1)), result, s.here);
+  store(choose(known, mean, (real)(OUTSIDE)), result, s.here);
 }
+#endif
 
 kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams params, PLANE source_x, PLANE source_y,
                                   PLANE source_z, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,

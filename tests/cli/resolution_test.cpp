@@ -12,7 +12,10 @@ class CliResolution : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    write_frame(path("frame.exr"), shoot(perspective(49, 33), room()));
+    Frame frame = shoot(perspective(49, 33), room());
+    Channel& depth = plane_of(frame, "depth").channels[0];
+    for (int y = 0; y < 9; ++y) std::fill_n(depth.row(y), 12, INFINITY);
+    write_frame(path("frame.exr"), frame);
   }
   Result run(const Arguments& more) const {
     Arguments arguments = {"run", "gtao", path("frame.exr"), "-o", path("ao.exr"), "--json", "-"};
@@ -49,6 +52,29 @@ TEST_F(CliResolution, WhatComesBackHasTheSizeOfTheFrame) {
   }
 }
 
+TEST_F(CliResolution, BackgroundReadsTheSameAtEveryResolution) {
+  for (const char* resolution : {"full", "half", "quarter"}) {
+    ASSERT_EQ(run({"--resolution", resolution, "--with", "bent_normal,cone"}).status, 0);
+    FrameFile file(path("ao.exr"), {});
+    const Frame out = file.read({"depth", "ao", "ao_raw", "bent_normal", "cone"});
+    const auto value = [&](const char* plane, int x, int y) {
+      return out.views[0].planes.at(plane).channels[0].at(x, y);
+    };
+    int pixels = 0;
+    for (int y = 0; y < out.height(); ++y) {
+      for (int x = 0; x < out.width(); ++x) {
+        if (!std::isinf(value("depth", x, y))) continue;
+        ++pixels;
+        ASSERT_EQ(value("ao", x, y), 1) << resolution;
+        ASSERT_EQ(value("ao_raw", x, y), 1) << resolution;
+        ASSERT_EQ(value("bent_normal", x, y), 0) << resolution;
+        ASSERT_EQ(value("cone", x, y), 0) << resolution;
+      }
+    }
+    EXPECT_GT(pixels, 0);
+  }
+}
+
 TEST_F(CliResolution, OtherNamesAreWrongUsage) {
   for (const char* resolution : {"third", "2", "1/2"}) {
     const Result result = run({"--resolution", resolution});
@@ -64,6 +90,16 @@ TEST_F(CliResolution, WhatGuidesUpsamplingIsNotReduced) {
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.lines_of_error(), 1) << result.err;
   EXPECT_NE(result.err.find("'normal' is what guides upsampling"), std::string::npos) << result.err;
+}
+
+TEST_F(CliResolution, LayersAreNotUpsampled) {
+  ASSERT_EQ(gloam({"capture", "fence", "-o", path("layers.exr"), "--size", "49x33", "--peel", "3"}).status, 0);
+  const Result result =
+      gloam({"run", "stochastic-depth", path("layers.exr"), "-o", path("map.exr"), "--resolution", "half"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err,
+            "gloam: stochastic-depth: 'stochastic' holds layers, which cannot be upsampled; use --resolution full\n");
+  EXPECT_EQ(files(), (std::vector<std::string>{"frame.exr", "layers.exr"}));
 }
 
 TEST_F(CliResolution, ExtrasThatThereAreNot) {
