@@ -41,13 +41,17 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);
 
-/// The pass with `p.samples` stochastic depths behind the depth as occluders too: the choices of STOCHASTIC_PARAMS.
+/// The plane of what lies hidden behind the depth, as kernels read it (shared/hidden_depths.h).
+Binding hidden_depths(int samples);
+
+/// The pass that makes it of so many stochastic depths; then `estimate`, with them as occluders behind the depth too.
+std::vector<Pass> behind_depth(Pass estimate, int samples);
+
+/// The same with the choices of STOCHASTIC_PARAMS.
 template <typename Params>
-Pass behind_depth(Pass estimate, const Params& p) {
-  estimate.reads.push_back({"occluders", "stochastic", p.samples});
-  estimate.defines.insert(estimate.defines.end(),
-                          {{"STOCHASTIC", 1}, {"EARLY_OUT", p.early_out}, {"COMPENSATED", p.compensation != 1}});
-  return estimate;
+std::vector<Pass> behind_depth(Pass estimate, const Params& p) {
+  estimate.defines.insert(estimate.defines.end(), {{"EARLY_OUT", p.early_out}, {"COMPENSATED", p.compensation != 1}});
+  return behind_depth(std::move(estimate), p.samples);
 }
 
 /// The same technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its

@@ -21,11 +21,9 @@ typedef struct {
   real height, taken;  // both 0 to 1: of the highest occluder; of the wedge, less what distance spares
 } Horizon;
 
-// What one sample does to a horizon: how high it stands, 0 or less if out of reach; what that takes away; and whether it
-// stands above the horizon, in reach or not.
+// What one sample does to a horizon: how high it stands, 0 or less if out of reach, and what that takes away.
 typedef struct {
   real height, taken;
-  mask rises;
 } Rise;
 
 static inline Horizon horizon_from(scalar height) {
@@ -48,8 +46,7 @@ static inline real attenuation(real square) {
 
 // The rise to the point at v, where it `counts`. n: unit normal; `inverse_square`: 1 / radius^2 in the units of v.
 static inline Rise rise_to(Horizon horizon, real3 v, real3 n, real inverse_square, mask counts) {
-  // The point itself is 0 away: what is far below its square (1e-15 depths) keeps 0/0 away.
-  const real vv = multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
+  const real vv = square_of(v);
 #if COSINE_WEIGHTED
   const real above = larger(fused_dot3(n, v), (real)(0));
   const real height = above * above * quick_inverse(vv);
@@ -61,7 +58,6 @@ static inline Rise rise_to(Horizon horizon, real3 v, real3 n, real inverse_squar
   r.height = choose(counts & (weight > 0), height, (real)(0));
   // One sample waits for another only here.
   r.taken = (larger(r.height, horizon.height) - horizon.height) * weight;
-  r.rises = height > horizon.height;
   return r;
 }
 

@@ -8,8 +8,7 @@
 // with the squared distance to 0 at the radius. `inverse_square` is 1 / radius^2 in the units of v. A sample on the
 // point itself contributes nothing.
 static inline real obscurance(real3 v, real3 n, scalar bias, real inverse_square) {
-  // The point itself is 0 away: what is far below its square (1e-15 depths) keeps 0/0 away.
-  const real vv = multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
+  const real vv = square_of(v);
   // The cosine less the bias.
   const real above = multiply_add(fused_dot3(scale3(n, (scalar)0.5), v), twice_inverse_sqrt(vv), (real)(-bias));
 #if NO_FALLOFF

@@ -23,6 +23,9 @@ typedef SdGtaoParams Params;
 #else
 typedef GtaoParams Params;
 #endif
+#if STOCHASTIC
+#include "shared/hidden_depths.h"
+#endif
 
 // What a row of pixels looks for, the same on both sides of all slices.
 typedef struct {
@@ -87,30 +90,38 @@ static inline void take_point(Closed* closed, const Side* side, Params params, S
 #endif
 }
 
+// What a depth at a side's offset closes. Returns where further layers are asked.
+static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params params, Search search,
+                                                             const Side* side, real depth, mask counts,
+                                                             Closed* closed) {
+  const real e = relative_depth(search.receiver.point, search.receiver.depth, depth);
+  const real q = multiply_add((real)(frame.perspective), e, (real)(1));
+  const real above = multiply_add(e, side->above_e, q * side->above);
+  const real along = multiply_add(-side->slope, above, q * side->along);
+  const real square = multiply_add(along, along, above * above);
+  take_point(closed, side, params, search, along, above, square, counts);
+  return counts & asks_further(above > side->least, e < 0, square >= search.radius_square);
+}
+
 // Every layer at an offset in pixels.
 static inline __attribute__((always_inline)) void look(Frame frame, Params params, DepthLayers layers, Search search,
                                                        integer dx, integer dy, mask in_frame, int within, Side* side) {
   const Receiver r = search.receiver;
-  mask asked = in_frame;
-  for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
+  const integer place = index_within(frame, within, dx, dy);
 #if GATHERS_ONLY
-    side->closed.horizon = smaller(side->closed.horizon, depth);
-    continue;
+  side->closed.horizon = smaller(side->closed.horizon, sum_of_depths(layers, frame, r.here, place, r.farthest));
+  return;
 #endif
-    const real e = relative_depth(r.point, r.depth, depth);
-    const real q = multiply_add((real)(frame.perspective), e, (real)(1));
-    const real above = multiply_add(e, side->above_e, q * side->above);
-    const real along = multiply_add(-side->slope, above, q * side->along);
-    const real square = multiply_add(along, along, above * above);
-    take_point(&side->closed, side, params, search, along, above, square, asked);
-    if (k > 0) continue;
+  const real depth = gather(layers.first + r.here, place);
+  const mask asked = take_depth(frame, params, search, side, depth, in_frame, &side->closed);
 #if COMPENSATED
-    take_point(&side->closed_by_depth, side, params, search, along, above, square, asked);
+  take_depth(frame, params, search, side, depth, in_frame, &side->closed_by_depth);
 #endif
-    if (LAYERS == 1) break;
-    asked &= asks_further(above > side->least, e < 0, square >= search.radius_square);
-    if (EARLY_OUT && !ANY(asked)) break;
+  Behind behind;
+#pragma unroll 4
+  for (int k = 0; k < LAYERS - 1; ++k) {
+    if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
+    take_depth(frame, params, search, side, behind.next, asked, &side->closed);
   }
 }
 

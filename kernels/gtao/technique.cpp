@@ -24,8 +24,8 @@ Pass bitmask_pass(const Params& p) {
 
 std::vector<Pass> gtao_passes(const GtaoParams& p) { return {gtao_pass(p)}; }
 std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {bitmask_pass(p)}; }
-std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return {behind_depth(gtao_pass(p), p)}; }
-std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return {behind_depth(bitmask_pass(p), p)}; }
+std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return behind_depth(gtao_pass(p), p); }
+std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return behind_depth(bitmask_pass(p), p); }
 
 /// On both sides of each slice.
 int samples(const ParameterValues& values) { return 2 * directions_times_steps(values); }

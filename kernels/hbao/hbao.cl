@@ -1,7 +1,6 @@
 // Horizon-based ambient occlusion (Bavoil, Sainz, Dimitrov 2008; written out in Vermeer, Scandolo, Eisemann 2021,
-// Algorithm 2, here without its stochastic branch). Along each direction the horizon only rises; each rise takes
-// W(|v|) (sin h_new - sin h_old), and AO = 1 - mean over directions of what was taken. Of all layers at a sample the one
-// that takes most counts.
+// Algorithm 2). Along each direction the horizon only rises; each rise takes W(|v|) (sin h_new - sin h_old), and AO = 1 -
+// mean over directions of what was taken. Of all layers at a sample the one that takes most counts.
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
@@ -19,33 +18,33 @@ typedef SdHbaoParams Params;
 #else
 typedef HbaoParams Params;
 #endif
+#if STOCHASTIC
+#include "shared/hidden_depths.h"
+#endif
 
 // Lifts a horizon by what the layers at an offset in pixels do to it. Inlined by order, and returns no struct: oclgrind
 // does not know what becomes of that.
 static inline __attribute__((always_inline)) void rise_near(Frame frame, Params params, DepthLayers layers, Receiver r,
                                                             integer dx, integer dy, mask counts, int within,
                                                             Horizon* horizon) {
-  Rise rise;
-  real by_first;
-  mask asked = counts;
-  for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
+  const integer place = index_within(frame, within, dx, dy);
 #if GATHERS_ONLY
-    rise.height = depth;
-    rise.taken = k == 0 ? depth : rise.taken + depth;
-    continue;
+  horizon->taken += sum_of_depths(layers, frame, r.here, place, r.farthest);
+  return;
 #endif
-    const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, depth));
-    const Rise found = rise_to(*horizon, v, r.normal, r.reach.inverse_square, asked);
-    if (k == 0) {
-      rise = found;
-      by_first = found.taken;
-      if (LAYERS == 1) break;
-      asked &= asks_further(found.rises, v.z > 0, dot3(v, v) * r.reach.inverse_square >= 1);
-      if (EARLY_OUT && !ANY(asked)) break;
-    } else {
-      rise = greater_rise(rise, found);
-    }
+  const real x = to_real(dx), y = to_real(dy), depth = gather(layers.first + r.here, place);
+  const real3 v = towards_near(frame, r.point, x, y, relative_depth(r.point, r.depth, depth));
+  Rise rise = rise_to(*horizon, v, r.normal, r.reach.inverse_square, counts);
+  const real by_first = rise.taken;
+  // A height is no more than its sine.
+  const mask rises = fused_dot3(r.normal, v) > horizon->height * least_distance(r, x, y);
+  const mask asked = counts & asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
+  Behind behind;
+#pragma unroll 4
+  for (int k = 0; k < LAYERS - 1; ++k) {
+    if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
+    const real3 w = towards_near(frame, r.point, x, y, relative_depth(r.point, r.depth, behind.next));
+    rise = greater_rise(rise, rise_to(*horizon, w, r.normal, r.reach.inverse_square, asked));
   }
   rise.taken = COMPENSATE(params, rise.taken, by_first);
   raise_by(horizon, rise);

@@ -22,7 +22,7 @@ Pass estimate_of(const Params& p) {
 }
 
 std::vector<Pass> passes(const HbaoParams& p) { return {estimate_of(p)}; }
-std::vector<Pass> sd_passes(const SdHbaoParams& p) { return {behind_depth(estimate_of(p), p)}; }
+std::vector<Pass> sd_passes(const SdHbaoParams& p) { return behind_depth(estimate_of(p), p); }
 
 double weight_of(const HbaoParams& p, double distance) {
   if (p.falloff == Falloff::none) return 1;

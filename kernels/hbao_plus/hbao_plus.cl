@@ -21,43 +21,28 @@ typedef SdHbaoPlusParams Params;
 #else
 typedef HbaoPlusParams Params;
 #endif
-
-// Where a sample is read: at an offset from a row of pixels (sample.h), or at an index of each lane.
-typedef struct {
-  int here, within;
-  integer dx, dy;
-  integer index;  // ANYWHERE
-} Place;
-#define ANYWHERE -1
-
-static inline real depth_at(Frame frame, DepthLayers layers, int layer, Place p) {
-  if (p.within == ANYWHERE) return gather(layer_at(layers, frame, layer), p.index);
-  return sample_near(layer_at(layers, frame, layer), frame, p.here, p.within, p.dx, p.dy);
-}
-
-// The largest contribution of all layers at a place, which lies (dx, dy) pixels from the point.
-static inline real obscurance_at(Frame frame, Params params, DepthLayers layers, Receiver r, real dx, real dy,
-                                 Place place) {
-  real largest = 0, by_first = 0;
-  mask asked = EVERY_LANE;
-  for (int k = 0; k < LAYERS; ++k) {
-    const real depth = depth_at(frame, layers, k, place);
-#if GATHERS_ONLY
-    largest += depth;
-    continue;
+#if STOCHASTIC
+#include "shared/hidden_depths.h"
 #endif
-    const real3 v = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, depth));
-    const real found = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
-    if (k == 0) {
-      largest = by_first = found;
-      if (LAYERS == 1) break;
-      const real above = dot3(r.normal, v), square = dot3(v, v);
-      const mask rises = (above > 0) & (above * above > params.bias * params.bias * square);
-      asked = asks_further(rises, v.z > 0, square * r.reach.inverse_square >= 1);
-      if (EARLY_OUT && !ANY(asked)) break;
-    } else {
-      largest = choose(asked, larger(found, largest), largest);
-    }
+
+// The largest contribution of all layers at an index from `here`, which lies (dx, dy) pixels from the point.
+static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Params params, DepthLayers layers,
+                                                                Receiver r, real dx, real dy, int here, integer place) {
+#if GATHERS_ONLY
+  return sum_of_depths(layers, frame, here, place, r.farthest);
+#endif
+  const real depth = gather(layers.first + here, place);
+  const real3 v = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, depth));
+  const real by_first = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
+  const mask rises = fused_dot3(r.normal, v) > params.bias * least_distance(r, dx, dy);
+  const mask asked = asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
+  real largest = by_first;
+  Behind behind;
+#pragma unroll 4
+  for (int k = 0; k < LAYERS - 1; ++k) {
+    if (!look_behind(layers, frame, k, here, place, asked, r.farthest, &behind)) break;
+    const real3 w = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, behind.next));
+    largest = choose(asked, larger(obscurance(w, r.normal, params.bias, r.reach.inverse_square), largest), largest);
   }
   return COMPENSATE(params, largest, by_first);
 }
@@ -69,12 +54,11 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
   for (int d = 0; d < DIRECTIONS; ++d) {
 #pragma unroll
     for (int k = 0; k < STEPS; ++k) {
-      Place p;
-      p.here = r.here;
-      p.within = within;
-      step_at(fan, k, &p.dx, &p.dy);
-      const mask counts = keep_in_frame(frame, r.x, r.y, within, &p.dx, &p.dy);
-      const real found = obscurance_at(frame, params, layers, r, to_real(p.dx), to_real(p.dy), p);
+      integer dx, dy;
+      step_at(fan, k, &dx, &dy);
+      const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+      const real found = obscurance_at(frame, params, layers, r, to_real(dx), to_real(dy), r.here,
+                                       index_within(frame, within, dx, dy));
       sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
     }
     turn(&fan);
@@ -115,10 +99,8 @@ static inline real sum_around(Frame other, Params params, DepthLayers layers, Re
       step_at(fan, k, &dx, &dy);
       const integer x = clamp(column + dx, (integer)(0), (integer)(other.width - 1));
       const integer y = clamp(row + dy, (integer)(0), (integer)(other.height - 1));
-      Place p;
-      p.within = ANYWHERE;
-      p.index = FRAME_GUARD + y * other.pitch + x;
-      const real found = obscurance_at(other, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y, p);
+      const real found = obscurance_at(other, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y,
+                                       FRAME_GUARD, y * other.pitch + x);
       // At the border a sample may come down to the point's own pixel, of which only rounding is left.
       mask counts = to_mask((x != column) | (y != row));
       if (OUTSIDE_OPEN) counts &= to_mask((x == column + dx) & (y == row + dy));
@@ -144,6 +126,7 @@ kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params
     r.normal = rotated(neighbour, here.normal);
     r.point = anchor_at(other, there.x, there.y, there.depth);
     r.reach = reach_of(other, r.point, params.radius, params.max_reach * (scalar)other.width);
+    expect_behind(&r, other, params.radius);
     const real sum = sum_around(other, params, LAYERS_FROM(other, other_depth), r, fan_of(r.reach, r.noise));
     open = choose(there.is_seen, smaller(open_of(params, sum), open), open);
   }

@@ -16,11 +16,12 @@ Pass estimate_of(const Params& p) {
 }
 
 std::vector<Pass> passes(const HbaoPlusParams& p) { return {estimate_of(p)}; }
-std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return {behind_depth(estimate_of(p), p)}; }
+std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return behind_depth(estimate_of(p), p); }
 
 /// Algorithm 3, for the first view; stochastic depths of both.
 std::vector<Pass> multiview_passes(const SdHbaoPlusParams& p) {
-  Pass own = behind_depth(estimate_of(p), p);
+  std::vector<Pass> passes = behind_depth(estimate_of(p), p);
+  Pass& own = passes.back();
   own.writes = {{"ao_raw", "multiview_own"}};
   own.view = 0;
   Pass other = own;
@@ -30,10 +31,11 @@ std::vector<Pass> multiview_passes(const SdHbaoPlusParams& p) {
                  "normal",
                  {"own", "multiview_own"},
                  of_other({"other_depth", "depth"}),
-                 of_other({"occluders", "stochastic", p.samples})};
+                 of_other({"occluders", "hidden_depths", p.samples})};
   other.writes = {"ao_raw"};
   other.defines.push_back({"MULTIVIEW", 1});
-  return {own, other};
+  passes.push_back(std::move(other));
+  return passes;
 }
 
 /// The estimate's limit for many samples, as an integral over directions; `power` comes after it and is no part of it.

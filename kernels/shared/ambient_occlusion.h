@@ -17,7 +17,7 @@
   P(int, samples, 4, 1, 16, "", "stochastic depths per pixel")                                                     \
   P(choice, early_out, below, (off, below, on),                                                                    \
     "where they are not looked at: nowhere; where the depth lies below the surface, since what is behind it lies " \
-    "lower; on: nor where it is within reach, as in the paper")                                                    \
+    "lower still; on: nor where it is within reach, as in the paper")                                              \
   P(float, compensation, 1, 0, 8, "", "factor on what they take away: they miss some of what is hidden")
 
 #ifdef __OPENCL_VERSION__
@@ -43,6 +43,7 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 #ifdef OCCLUDERS_LAYERS
 #define OCCLUDERS_ARGUMENT PLANE occluders,
 #if STOCHASTIC
+// Hidden depths (hidden_depths.h).
 #define LAYERS (1 + OCCLUDERS_LAYERS)
 #define LAYERS_FROM(frame, depth) depth_layers(depth, occluders)
 #else
@@ -59,16 +60,72 @@ static inline global const float* layer_at(DepthLayers layers, Frame f, int laye
   return layer == 0 ? layers.first : layer_of(layers.further, f, layer - 1);
 }
 
-// Where layers behind the first are asked (section 3.3): 0 everywhere; 1 where the first rises above the surface, or above
-// the horizon so far, since what is behind it lies lower; 2 where it is nearer to the eye than the pixel's point, and out of
-// reach.
+// Where layers behind the first are asked (section 3.3): 0 everywhere; 1 where the first `rises` over the tangent plane so
+// far that something behind it, which on a surface that faces the eye is lower, may still count, so that this changes
+// nothing; 2 where moreover it is nearer to the eye than the pixel's point, and out of reach.
 #ifndef EARLY_OUT
 #define EARLY_OUT 0
 #endif
 
+// Layers behind the first are read by groups: of stacks that techniques sort themselves, several lie side by side, pixel by
+// pixel. Both kinds are sorted front to back.
+#if STOCHASTIC && OCCLUDERS_LAYERS % 4 == 0
+#define GROUP 4
+#elif STOCHASTIC && OCCLUDERS_LAYERS % 2 == 0
+#define GROUP 2
+#else
+#define GROUP 1
+#endif
+
+// Two depths behind the first that come at once.
+typedef struct {
+  real next, later;
+} Behind;
+
+// Brings depth `k` behind the first at an index from `here` into `behind->next`. Returns 0 if no lane that asks can find
+// anything before `farthest` in it and in what lies behind it. To be called with k = 0, 1, ... in order.
+static inline __attribute__((always_inline)) int look_behind(DepthLayers layers, Frame f, int k, int here,
+                                                             integer index, mask asked, real farthest, Behind* behind) {
+  if (k == 0 && EARLY_OUT && !ANY(asked)) return 0;
+#if GROUP == 1
+  behind->next = gather(layer_of(layers.further, f, k) + here, index);
+#else
+  global const float* group = layer_of(layers.further, f, k - k % GROUP) + (size_t)here * GROUP;
+  if (k % 2 == 0)
+    gather_pair(group, (GROUP / 2) * index + k % GROUP / 2, &behind->next, &behind->later);
+  else
+    behind->next = behind->later;
+#endif
+  return ANY(asked & (behind->next < farthest));
+}
+
+// Nothing but what is read at an index (GATHERS_ONLY).
+static inline __attribute__((always_inline)) real sum_of_depths(DepthLayers layers, Frame f, int here, integer index,
+                                                                real farthest) {
+  real sum = gather(layers.first + here, index);
+  Behind behind;
+#pragma unroll 4
+  for (int k = 0; k < LAYERS - 1; ++k) {
+    if (!look_behind(layers, f, k, here, index, EVERY_LANE, farthest, &behind)) break;
+    sum += smaller(behind.next, farthest);
+  }
+  return sum;
+}
+
+// Writes a group.
+static inline void store_group(const real* depths, global float* layers, int here) {
+#if GROUP == 1
+  store(depths[0], layers, here);
+#elif GROUP == 2
+  store_pair(depths[0], depths[1], layers, here);
+#else
+  store_four(depths[0], depths[1], depths[2], depths[3], layers, here);
+#endif
+}
+
 static inline mask asks_further(mask rises, mask nearer, mask out_of_reach) {
 #if EARLY_OUT == 2
-  return nearer & out_of_reach;
+  return rises & nearer & out_of_reach;
 #elif EARLY_OUT == 1
   return rises;
 #else
@@ -92,8 +149,24 @@ typedef struct {
   real3 normal;
   Anchor point;
   Reach reach;
+  real farthest;          // depth from which on nothing is within the radius; 0 on background
+  real clear_x, clear_y;  // least_distance
   Noise noise;
 } Receiver;
+
+// What is known of layers behind the first before they are read.
+static inline void expect_behind(Receiver* r, Frame f, scalar radius) {
+  r->farthest = choose(r->point.background, (real)(0), r->depth + radius);
+  const scalar x = max(fabs(f.centre_x), fabs(f.width - f.centre_x)) * f.scale_x * f.perspective;
+  const scalar y = max(fabs(f.centre_y), fabs(f.height - f.centre_y)) * f.scale_y * f.perspective;
+  const scalar least = (scalar)0.7 / sqrt(1 + x * x + y * y);
+  r->clear_x = r->point.across_x * least;
+  r->clear_y = r->point.across_y * least;
+}
+
+// No point of the ray through a pixel dx to the right and dy below is nearer to the pixel's point than this, in units of its
+// depth: rays are no steeper than in the corners of the image.
+static inline real least_distance(Receiver r, real dx, real dy) { return fabs(dx) * r.clear_x + fabs(dy) * r.clear_y; }
 
 static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach, PLANE depth, PLANE normal_x,
                                    PLANE normal_y, PLANE normal_z) {
@@ -105,6 +178,7 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
   r.normal = load3(normal_x, normal_y, normal_z, r.here);
   r.point = anchor_at(frame, to_real(r.x), (real)(r.y), r.depth);
   r.reach = reach_of(frame, r.point, radius, max_reach * (scalar)frame.width);
+  expect_behind(&r, frame, radius);
   r.noise = noise_at(r.x, r.y, frame.seed);
   return r;
 }

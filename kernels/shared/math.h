@@ -100,6 +100,11 @@ static inline real rough_inverse(real q) {
   return to_real(inverse * (2.0f - x * inverse));
 }
 
+// |v|^2, and a little that keeps 0/0 away where v is 0: far below the square of what counts (1e-15 depths).
+static inline real square_of(real3 v) {
+  return multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
+}
+
 static inline real3 normalise3(real3 v) { return scale3(v, inverse_sqrt(dot3(v, v))); }
 
 // Cosine and sine of a number of whole turns, 0 <= turns <= 1. Taylor polynomials about the nearest quarter turn, in

@@ -93,10 +93,14 @@ static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer*
   return inside;
 }
 
-// A plane's value at an offset that stays in the frame; `here` is the first lane's index. |dy| is below SHORT_PITCH.
+// The index of an offset that stays in the frame, from the first lane's. |dy| is below SHORT_PITCH.
+static inline integer index_within(Frame f, int within, integer dx, integer dy) {
+  return within == SAMPLES_IN_WIDE_FRAME ? index_near(f, dx, dy) : index_near_short(f, dx, dy);
+}
+
+// A plane's value at an offset that stays in the frame; `here` is the first lane's index.
 static inline real sample_near(PLANE plane, Frame f, int here, int within, integer dx, integer dy) {
-  return within == SAMPLES_IN_WIDE_FRAME ? gather_near(plane, f, here, dx, dy)
-                                         : gather_near_short(plane, f, here, dx, dy);
+  return gather(plane + here, index_within(f, within, dx, dy));
 }
 
 #endif

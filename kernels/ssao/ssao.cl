@@ -17,6 +17,9 @@ typedef SdSsaoParams Params;
 #else
 typedef SsaoParams Params;
 #endif
+#if STOCHASTIC
+#include "shared/hidden_depths.h"
+#endif
 
 // What a row of pixels looks for.
 typedef struct {
@@ -43,30 +46,27 @@ static inline Search search_of(Frame frame, Params params, Receiver r) {
 }
 
 // How much a point is occluded, 0 to 1: of all layers at its pixel the largest.
-static inline real occlusion_at(Frame frame, Params params, DepthLayers layers, Search s, integer dx, integer dy,
-                                real height, int within) {
+static inline __attribute__((always_inline)) real occlusion_at(Frame frame, Params params, DepthLayers layers, Search s,
+                                                               integer dx, integer dy, real height, int within) {
   const Receiver r = s.receiver;
   const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
-  real largest = 0, by_first = 0;
-  mask asked = EVERY_LANE;
-  for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
+  const integer place = index_within(frame, within, dx, dy);
 #if GATHERS_ONLY
-    largest += depth;
-    continue;
+  return sum_of_depths(layers, frame, r.here, place, r.farthest);
 #endif
-    const real e = relative_depth(r.point, r.depth, depth);
-    const mask is_behind = stands_before(e, fall, there - height);
-    const real found = choose(is_behind, range_weight(e, s.per_range), (real)(0));
-    if (k == 0) {
-      largest = by_first = found;
-      if (LAYERS == 1) break;
-      // What is in reach occludes the point as much as it can, or by a part in the outer range.
-      asked = asks_further(is_behind & (found < 1), is_behind, found <= 0);
-      if (EARLY_OUT && !ANY(asked)) break;
-    } else {
-      largest = choose(asked, larger(found, largest), largest);
-    }
+  const real e = relative_depth(r.point, r.depth, gather(layers.first + r.here, place));
+  const mask is_behind = stands_before(e, fall, there - height);
+  const real by_first = choose(is_behind, range_weight(e, s.per_range), (real)(0));
+  // What is in reach occludes the point as much as it can, or by a part in the outer range.
+  const mask asked = asks_further(is_behind & (by_first < 1), is_behind, by_first <= 0);
+  real largest = by_first;
+  Behind behind;
+#pragma unroll 4
+  for (int k = 0; k < LAYERS - 1; ++k) {
+    if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
+    const real further = relative_depth(r.point, r.depth, behind.next);
+    const mask occludes = asked & stands_before(further, fall, there - height);
+    largest = larger(choose(occludes, range_weight(further, s.per_range), (real)(0)), largest);
   }
   return COMPENSATE(params, largest, by_first);
 }

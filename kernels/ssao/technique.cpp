@@ -12,7 +12,7 @@ Pass estimate_of(const Params& p, int points) {
 }
 
 std::vector<Pass> passes(const SsaoParams& p) { return {estimate_of(p, p.samples)}; }
-std::vector<Pass> sd_passes(const SdSsaoParams& p) { return {behind_depth(estimate_of(p, p.points), p)}; }
+std::vector<Pass> sd_passes(const SdSsaoParams& p) { return behind_depth(estimate_of(p, p.points), p); }
 
 int value_of_points(const ParameterValues& values) { return int(values.number("points")); }
 
