@@ -151,6 +151,22 @@ Json document_of(const Skipped& s) {
       {"technique", s.technique}, {"preset", text_or_null(s.preset)}, {"scene", text_or_null(s.scene)}, {"why", s.why}};
 }
 
+Json document_of(const PaperTime& t) {
+  return {{"table", t.table},
+          {"row", t.row},
+          {"column", t.column},
+          {"ms", t.ms},
+          {"ratio", number(t.ratio)},
+          {"paper_ratio", number(t.paper_ratio)},
+          {"base", t.base}};
+}
+
+Json document_of(const PaperFact& f) {
+  return {{"figure", f.figure}, {"row", f.row}, {"column", f.column}, {"value", f.value}, {"unit", f.unit}};
+}
+
+Json document_of(const PaperPicture& p) { return {{"figure", p.figure}, {"caption", p.caption}, {"file", p.file}}; }
+
 template <typename Thing>
 Json list_of(const std::vector<Thing>& things) {
   Json list = Json::array();
@@ -175,25 +191,43 @@ std::string cpu_model() {
   return "unknown";
 }
 
-Json document_of(const Measurement& measurement, const MeasureOptions& options, int rays, const DeviceInfo& device) {
-  Json results = Json::array();
-  for (const auto& row : measurement.rows) results.push_back(document_of(*row));
+Json origin_of(const DeviceInfo& device) {
   return {{"device", device.name},
           {"cpu", cpu_model()},
           {"cores", std::thread::hardware_concurrency()},
           {"driver", fmt::format("{} {}", device.platform, device.driver)},
           {"date", utc_day()},
-          {"commit", commit},
-          {"rounds", options.rounds},
-          {"rays", rays},
-          {"scenes", list_of(measurement.scenes)},
-          {"results", results},
-          {"growth", list_of(measurement.growth)},
-          {"converged", list_of(measurement.converged)},
-          {"scales", list_of(measurement.scales)},
-          {"planes", list_of(measurement.planes)},
-          {"skipped", list_of(measurement.skipped)},
-          {"paper", Json::array()}};
+          {"commit", commit}};
+}
+
+Json document_of(const Measurement& measurement, const MeasureOptions& options, int rays, const DeviceInfo& device) {
+  Json results = Json::array();
+  for (const auto& row : measurement.rows) results.push_back(document_of(*row));
+  Json document = origin_of(device);
+  document.update({{"rounds", options.rounds},
+                   {"rays", rays},
+                   {"scenes", list_of(measurement.scenes)},
+                   {"results", results},
+                   {"growth", list_of(measurement.growth)},
+                   {"converged", list_of(measurement.converged)},
+                   {"scales", list_of(measurement.scales)},
+                   {"planes", list_of(measurement.planes)},
+                   {"skipped", list_of(measurement.skipped)},
+                   {"paper", Json::array()}});
+  return document;
+}
+
+Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device) {
+  Json document = origin_of(device);
+  document.update({{"rounds", options.rounds},
+                   {"width", options.width},
+                   {"height", options.height},
+                   {"results", Json::array()},
+                   {"paper", list_of(result.times)},
+                   {"facts", list_of(result.facts)},
+                   {"pictures", list_of(result.pictures)},
+                   {"notes", result.notes}});
+  return document;
 }
 
 }  // namespace gloam::bench

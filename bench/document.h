@@ -5,6 +5,7 @@
 #include <string>
 
 #include "measurement.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 
@@ -13,7 +14,13 @@ using Json = nlohmann::ordered_json;
 /// "model name" of /proc/cpuinfo; "unknown" where there is none.
 std::string cpu_model();
 
+/// What a document says of where it was measured: device, cpu, cores, driver, date, commit.
+Json origin_of(const DeviceInfo& device);
+
 /// `rays`: per pixel, of truths that are traced.
 Json document_of(const Measurement& measurement, const MeasureOptions& options, int rays, const DeviceInfo& device);
+
+/// Of a paper that was measured again: no results, but `paper`, `facts` and `pictures`.
+Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device);
 
 }  // namespace gloam::bench

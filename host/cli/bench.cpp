@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bench_paper.h"
 #include "document.h"
 #include "gloam/error.h"
 #include "measurement.h"
@@ -22,8 +23,8 @@ constexpr int peeled_layers = 8;
 constexpr size_t most_swept = 1000;
 
 struct BenchCommand {
-  std::string folder, techniques, scenes, presets, frame, truth, size = "960x540", rays = "256", radius, rounds = "9",
-                                                                 device, variants, ladder = "presets";
+  std::string paper, folder, techniques, scenes, presets, frame, truth, size, rays = "256", radius, rounds = "9",
+                                                                              device, variants, ladder = "presets";
   std::vector<std::string> sweeps;
   bool no_growth = false, no_checks = false, no_images = false;
   FrameFlags frame_flags;
@@ -177,7 +178,8 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   options.checks = !flags.no_checks;
   options.layers_in_full = !flags.techniques.empty();
   if (flags.frame.empty()) choose_scenes(options, flags.scenes);
-  std::tie(options.scene.width, options.scene.height) = parse_size(flags.size, "--size");
+  std::tie(options.scene.width, options.scene.height) =
+      parse_size(flags.size.empty() ? "960x540" : flags.size, "--size");
   options.scene.layers = peeled_layers;
   options.scene.rays = parse_whole_number(flags.rays, "--rays", 1, 1 << 24);
   if (!flags.radius.empty()) options.scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
@@ -247,6 +249,10 @@ void print(const Measurement& result, const Options& options, const DeviceInfo& 
 }
 
 void bench_command(const BenchCommand& flags) {
+  if (!flags.paper.empty()) {
+    bench_paper({flags.paper, flags.folder, flags.size, flags.rounds, flags.device}, flags.json);
+    return;
+  }
   if (!make_openmp_wait_passively())
     note({"OMP_WAIT_POLICY=passive could not be set: threads of the native loop may take time from the others"});
   Measurement result;
@@ -303,7 +309,8 @@ void add_bench(CLI::App& app) {
       ->type_name("REF.exr")
       ->needs(frame);
   CLI::Option* size =
-      command->add_option("--size", flags->size, "of the scenes' images; default 960x540")->type_name("WxH");
+      command->add_option("--size", flags->size, "of the scenes' images; default 960x540, with --paper 1920x1080")
+          ->type_name("WxH");
   frame->excludes(scenes)->excludes(size);
   command->add_option("--rays", flags->rays, "per pixel, for truths that are traced; default 256")->type_name("N");
   command
@@ -333,7 +340,16 @@ void add_bench(CLI::App& app) {
   command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
   command->add_option("--device", flags->device, "part of a device's or platform's name (gloam list devices)")
       ->type_name("TEXT");
+  CLI::Option* paper =
+      command
+          ->add_option("--paper", flags->paper,
+                       "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()))
+          ->type_name("NAME");
   flags->frame_flags.add_to(*command);
+  const std::vector<std::string> shared = {"--output", "--size", "--rounds", "--device", "--help", "--paper"};
+  for (CLI::Option* option : command->get_options()) {
+    if (!contains(shared, option->get_name())) option->excludes(paper);
+  }
   for (CLI::Option* option : command->get_options()) {
     if (option->get_group() == "Reading the frame") option->needs(frame);
   }
@@ -343,6 +359,7 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/bench\n"
       "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
       "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
+      "  gloam bench -o out/vermeer2021 --paper vermeer2021\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium");
   command->callback([flags] { bench_command(*flags); });
 }

@@ -1,0 +1,94 @@
+#include "paper.h"
+
+#include <fmt/format.h>
+
+#include "document.h"
+#include "lists.h"
+#include "vermeer2021.h"
+
+namespace gloam::bench {
+namespace {
+
+/// Rows and columns of a table in the order in which they come.
+template <typename Entry>
+struct Grid {
+  std::vector<std::string> rows, columns;
+  explicit Grid(const std::vector<const Entry*>& entries) {
+    for (const Entry* e : entries) {
+      add_new(rows, e->row);
+      add_new(columns, e->column);
+    }
+  }
+};
+
+std::string text_of(const PaperTime& t) {
+  std::string text = fmt::format("{:.1f} ms", t.ms);
+  if (t.ratio) text += fmt::format(", {:.2f}", *t.ratio);
+  if (t.paper_ratio) text += fmt::format(" ({:.2f})", *t.paper_ratio);
+  return text;
+}
+
+std::string text_of(const PaperFact& f) {
+  if (f.unit == "share") return fmt::format("{:.1f} %", 100 * f.value);
+  return fmt::format("{:.4f}", f.value);
+}
+
+template <typename Entry>
+std::string table_of(const std::vector<const Entry*>& entries) {
+  const Grid<Entry> grid(entries);
+  std::string text = "|  |";
+  for (const std::string& column : grid.columns) text += " " + column + " |";
+  text += "\n|---|";
+  for (size_t i = 0; i < grid.columns.size(); ++i) text += "---:|";
+  for (const std::string& row : grid.rows) {
+    text += "\n| " + row + " |";
+    for (const std::string& column : grid.columns) {
+      std::string cell;
+      for (const Entry* e : entries) {
+        if (e->row == row && e->column == column) cell = text_of(*e);
+      }
+      text += " " + cell + " |";
+    }
+  }
+  return text + "\n";
+}
+
+/// Everything of one list that belongs to one heading.
+template <typename Entry>
+void add_tables(std::string& text, const std::vector<Entry>& entries, std::string Entry::*heading,
+                const std::function<std::string(const Entry&)>& below) {
+  std::vector<std::string> headings;
+  for (const Entry& e : entries) add_new(headings, e.*heading);
+  for (const std::string& name : headings) {
+    std::vector<const Entry*> chosen;
+    for (const Entry& e : entries) {
+      if (e.*heading == name) chosen.push_back(&e);
+    }
+    text += fmt::format("\n## {}\n\n{}\n{}", name, below(*chosen.back()), table_of(chosen));
+  }
+}
+
+}  // namespace
+
+const std::vector<Paper>& papers() {
+  static const std::vector<Paper> all = {vermeer2021()};
+  return all;
+}
+
+std::string page_of(const Paper& paper, const PaperResult& result, const PaperOptions& options,
+                    const DeviceInfo& device) {
+  std::string text = fmt::format("# {}, measured again\n\n{} ({}), {} x {} pixels, {} rounds.\n", paper.title,
+                                 cpu_model(), device.name, options.width, options.height, options.rounds);
+  for (const std::string& note : result.notes) text += fmt::format("\n- {}", note);
+  text += "\n";
+  add_tables<PaperTime>(text, result.times, &PaperTime::table, [](const PaperTime& t) {
+    return fmt::format("Milliseconds, and the ratio to {}; in brackets the paper's own.\n", t.base);
+  });
+  add_tables<PaperFact>(text, result.facts, &PaperFact::figure,
+                        [](const PaperFact& f) { return f.unit == "share" ? "" : f.unit + ".\n"; });
+  for (const PaperPicture& p : result.pictures)
+    text += fmt::format("\n## {}\n\n{}\n\n![{}]({})\n", p.figure, p.caption, p.figure, p.file);
+  return text;
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,63 @@
+// What a paper measured, measured again: its tables with its ratios beside ours, its figures as pictures.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/device.h"
+
+namespace gloam::bench {
+
+/// A time of a table.
+struct PaperTime {
+  std::string table, row, column;
+  double ms = 0;                      ///< median of the rounds
+  std::optional<double> ratio;        ///< to `base`, median of the rounds' ratios; none for the base itself
+  std::optional<double> paper_ratio;  ///< the same of the paper's own figures
+  std::string base;                   ///< what the ratio is to
+};
+
+/// A figure that is no time: an error, a share. Many belong to what the paper shows in pictures only.
+struct PaperFact {
+  std::string figure, row, column;
+  double value = 0;
+  std::string unit;  ///< "RMSE", "share" ...
+};
+
+struct PaperPicture {
+  std::string figure, caption, file;  ///< file: below the folder
+};
+
+/// What came of it.
+struct PaperResult {
+  std::vector<PaperTime> times;
+  std::vector<PaperFact> facts;
+  std::vector<PaperPicture> pictures;
+  std::vector<std::string> notes;  ///< what stands in for what, and what differs from the paper
+};
+
+struct PaperOptions {
+  std::filesystem::path folder;  ///< for pictures; there
+  int width = 1920, height = 1080;
+  int rounds = 9;
+  /// Told of what takes long; may be empty.
+  std::function<void(const std::string& what, double share_done)> progress;
+};
+
+struct Paper {
+  std::string name;   ///< as users type it: "vermeer2021"
+  std::string title;  ///< authors and year
+  std::function<PaperResult(Device&, const PaperOptions&)> reproduce;
+};
+
+/// All papers that can be measured again.
+const std::vector<Paper>& papers();
+
+/// The result as a page: tables, facts, pictures.
+std::string page_of(const Paper& paper, const PaperResult& result, const PaperOptions& options,
+                    const DeviceInfo& device);
+
+}  // namespace gloam::bench

@@ -1,0 +1,57 @@
+#include "bench_paper.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "document.h"
+#include "gloam/error.h"
+#include "gloam/files.h"
+#include "lists.h"
+#include "options.h"
+#include "papers/paper.h"
+#include "subjects.h"
+
+namespace gloam::cli {
+namespace {
+
+using namespace gloam::bench;
+
+const Paper& find_paper(const std::string& name) {
+  for (const Paper& paper : papers()) {
+    if (paper.name == name) return paper;
+  }
+  throw UsageError("--paper {}: is none that can be measured{}; there is {}", name, suggestion(name, paper_names()),
+                   enumerate(paper_names()));
+}
+
+}  // namespace
+
+std::vector<std::string> paper_names() {
+  std::vector<std::string> names;
+  for (const Paper& paper : papers()) names.push_back(paper.name);
+  return names;
+}
+
+void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
+  const Paper& paper = find_paper(flags.paper);
+  Device device(flags.device);
+  PaperOptions options{.folder = flags.folder, .progress = show_status};
+  if (!flags.size.empty()) std::tie(options.width, options.height) = parse_size(flags.size, "--size");
+  options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);
+  if (error) throw Error("-o {}: cannot be made ({})", options.folder.string(), error.message());
+  const std::filesystem::path document = options.folder / "bench.json", page = options.folder / (paper.name + ".md");
+  check_paths({}, {{"-o", document.string()}, {"-o", page.string()}, {"--json", json.file()}});
+  const PaperResult result = paper.reproduce(device, options);
+  erase_status();
+  const std::string text = page_of(paper, result, options, device.info());
+  write_atomically(page, [&](const std::filesystem::path& path) { std::ofstream(path) << text; });
+  const Json written = document_of(result, options, device.info());
+  JsonFlag{document.string()}.write(written);
+  json.write(written);
+  if (json.only_json()) return;
+  fmt::print("{}\nwrote {} and {}\n", text, printable(page.string()), printable(document.string()));
+}
+
+}  // namespace gloam::cli

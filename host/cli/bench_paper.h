@@ -1,0 +1,20 @@
+// gloam bench --paper NAME
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "options.h"
+
+namespace gloam::cli {
+
+struct PaperFlags {
+  std::string paper, folder, size, rounds, device;
+};
+
+std::vector<std::string> paper_names();
+
+/// Measures the paper again, writes bench.json, PAPER.md and pictures to the folder, and prints the page.
+void bench_paper(const PaperFlags& flags, const JsonFlag& json);
+
+}  // namespace gloam::cli
