@@ -9,11 +9,6 @@
 namespace gloam::bench {
 namespace {
 
-bool reads_from(const Technique& reader, const Technique& writer) {
-  return std::any_of(reader.reads.begin(), reader.reads.end(),
-                     [&](const std::string& plane) { return contains(writer.writes, plane); });
-}
-
 /// The radius in the shortest form that reads back as the same float.
 PlanRequest request_for(const Variation& variation) {
   PlanRequest request{
@@ -31,10 +26,6 @@ RunOptions Variation::run_options() const {
   options.math = math;
   options.real = real;
   return options;
-}
-
-const std::vector<std::string>& outputs_of(const Technique& technique) {
-  return technique.outputs.empty() ? technique.writes : technique.outputs;
 }
 
 bool is_filter(const Technique& technique) {

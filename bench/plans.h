@@ -13,9 +13,6 @@ namespace gloam::bench {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Planes that a technique puts out, those that it leaves to its filter included.
-const std::vector<std::string>& outputs_of(const Technique& technique);
-
 /// Whether it makes `ao` only from what another technique that puts out `ao` leaves to it.
 bool is_filter(const Technique& technique);
 

@@ -12,8 +12,6 @@
 namespace gloam {
 namespace {
 
-const std::vector<std::string>& outputs_of(const Technique& t) { return t.outputs.empty() ? t.writes : t.outputs; }
-
 const Technique* technique_named(const std::string& name) {
   for (const Technique& t : registry()) {
     if (t.name == name) return &t;
@@ -65,11 +63,6 @@ const Technique* maker_of(const std::string& plane, const Technique* asking,
     if (!simplest || rank(t) < rank(*simplest)) simplest = &t;
   }
   return simplest;
-}
-
-bool reads_from(const Technique& reader, const Technique& writer) {
-  return std::any_of(reader.reads.begin(), reader.reads.end(),
-                     [&](const std::string& plane) { return contains(writer.writes, plane); });
 }
 
 /// Whether a technique makes of what another writes one of the outputs that the other leaves to a follower.
@@ -455,6 +448,15 @@ std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& v
 }
 
 }  // namespace
+
+const std::vector<std::string>& outputs_of(const Technique& technique) {
+  return technique.outputs.empty() ? technique.writes : technique.outputs;
+}
+
+bool reads_from(const Technique& reader, const Technique& writer) {
+  return std::any_of(reader.reads.begin(), reader.reads.end(),
+                     [&](const std::string& plane) { return contains(writer.writes, plane); });
+}
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
   const Wanted wanted = wanted_by(request, available);

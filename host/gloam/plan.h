@@ -69,6 +69,12 @@ class MissingPlanes : public Error {
 /// Where `resolution` is above 1, planes of that size have names that end in it: "depth@2".
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds);
 
+/// Planes that a technique puts out, those that it leaves to its filter included.
+const std::vector<std::string>& outputs_of(const Technique& technique);
+
+/// Whether a technique reads what another writes.
+bool reads_from(const Technique& reader, const Technique& writer);
+
 /// The scale (`Pass::scale`) of every plane and stack that a plan's passes touch.
 std::map<std::string, int> plane_scales(const Plan& plan);
 
