@@ -26,6 +26,13 @@ std::string digest_of(const Scene& scene) {
   return print.text();
 }
 
+/// Tells frames apart that rays start from elsewhere.
+std::string digest_of(const Frame& frame) {
+  Fingerprint print;
+  print.add(frame);
+  return print.text();
+}
+
 /// Tells contributions apart, by their values.
 std::string digest_of(const std::function<double(double, double)>& contribution) {
   if (!contribution) return "none";
@@ -109,8 +116,9 @@ Frame Truths::captured(int width, int height) {
 
 const Truth& Truths::traced(const Frame& frame, const std::string& file, const Contribution& contribution,
                             const std::string& falloff) {
-  const std::string recipe = fmt::format("{} {} {}x{} radius={} rays={} contribution={}", name_, recipe_, frame.width(),
-                                         frame.height(), radius_, options_.rays, digest_of(contribution));
+  const std::string recipe =
+      fmt::format("{} {} frame={} {}x{} radius={} rays={} contribution={}", name_, recipe_, digest_of(frame),
+                  frame.width(), frame.height(), radius_, options_.rays, digest_of(contribution));
   if (!is_there(file, recipe)) {
     AoReferenceOptions options;
     options.radius = radius_;

@@ -33,7 +33,8 @@ struct SceneOptions {
   std::function<void(const std::string& what, double share_done)> progress;
 };
 
-/// A scene with its truths, traced when they are asked for and kept as EXR files.
+/// A scene with its truths, traced when they are asked for and kept as EXR files. All are of one frame: `frame` is the same
+/// in every call.
 class Truths {
  public:
   /// `name`: of the files.

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "gloam/frame.h"
 #include "gloam/scene.h"
 
 namespace gloam {
@@ -34,6 +35,8 @@ class Fingerprint {
   }
   /// All that rays can meet: triangles, normals, cut-outs and where they are.
   void add(const Scene& scene);
+  /// What rays start from: depth and normals of every view, and its camera.
+  void add(const Frame& frame);
 
   /// 16 hexadecimal digits.
   std::string text() const;

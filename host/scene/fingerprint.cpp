@@ -3,6 +3,21 @@
 #include <fmt/format.h>
 
 namespace gloam {
+namespace {
+
+void add_plane(Fingerprint& print, const Plane* plane) {
+  if (!plane) return;
+  for (const Channel& channel : plane->channels) print.add_bytes(channel.data(), channel.layout().bytes());
+}
+
+void add_camera(Fingerprint& print, const Camera& c) {
+  print.add(std::vector<double>{c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic)});
+  if (!c.pose) return;
+  print.add(c.pose->position);
+  print.add(c.pose->world_to_view);
+}
+
+}  // namespace
 
 void Fingerprint::add(const Scene& scene) {
   add(scene.origin);
@@ -15,6 +30,16 @@ void Fingerprint::add(const Scene& scene) {
     add(material.alpha_cutoff);
     if (material.alpha_cutoff > 0 && material.albedo_texture >= 0)
       add(scene.textures[size_t(material.albedo_texture)].texels);
+  }
+}
+
+void Fingerprint::add(const Frame& frame) {
+  add(std::vector<int>{frame.window.x0, frame.window.y0});
+  for (const View& view : frame.views) {
+    add_plane(*this, view.find("depth"));
+    add_plane(*this, view.find("normal"));
+    add(view.name);
+    if (view.camera) add_camera(*this, *view.camera);
   }
 }
 

@@ -161,29 +161,11 @@ class ViewTracer {
 
 // --- What is kept between two runs
 
-void add(Fingerprint& print, const Plane* plane) {
-  if (!plane) return;
-  for (const Channel& channel : plane->channels) print.add_bytes(channel.data(), channel.layout().bytes());
-}
-
-void add(Fingerprint& print, const Frame& frame) {
-  print.add(std::vector<int>{frame.window.x0, frame.window.y0});
-  for (const View& view : frame.views) {
-    add(print, view.find("depth"));
-    add(print, view.find("normal"));
-    const Camera& c = *view.camera;
-    print.add(view.name);
-    print.add(std::vector<double>{c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic)});
-    print.add(c.pose->position);
-    print.add(c.pose->world_to_view);
-  }
-}
-
 /// Tells one computation from another: all that the result depends on. The number is raised when the method changes.
 std::string key_of(const Tracer& tracer, const Frame& frame, const AoReferenceOptions& options) {
   Fingerprint print;
   print.add(tracer.scene());
-  add(print, frame);
+  print.add(frame);
   return fmt::format("2: {} {}x{} radius {} samples {} seed {} falloff {} {}", print.text(), frame.width(),
                      frame.height(), options.radius, rounded_samples(options.samples), options.seed, options.falloff,
                      options.falloff_parameters);

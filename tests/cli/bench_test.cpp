@@ -260,6 +260,32 @@ TEST_F(Cli, BenchUsesTruthsAgain) {
   EXPECT_EQ(third.json()["scenes"][0]["reused"], Json({"plane.exr"}));
 }
 
+TEST_F(Cli, BenchTracesTheTruthOfAFrameThatWasCapturedAnew) {
+  const auto measured = [&](const char* out) {
+    const Result result = gloam({"bench",       "-o",          path(out), "--frame",    path("f.exr"), "--techniques",
+                                 "hbao+",       "--presets",   "low",     "--variants", "none",        "--rays",
+                                 "32",          "--rounds",    "1",       "--ladder",   "presets",     "--no-growth",
+                                 "--no-checks", "--no-images", "--json",  "-"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.json();
+  };
+  const auto captured = [&](const char* eye) {
+    const Result result =
+        gloam({"capture", "gallery", "-o", path("f.exr"), "--size", "96x54", "--eye", eye, "--target", "0,1,0"});
+    ASSERT_EQ(result.status, 0) << result.err;
+  };
+  const Json truths = {"f_ao_ref.exr", "f_ao_ref_hbao+.exr"};
+  captured("3,2,1");
+  EXPECT_EQ(measured("out")["scenes"][0]["made"], truths);
+  EXPECT_EQ(measured("out")["scenes"][0]["reused"], truths);
+  captured("2,1.5,2");
+  const Json again = measured("out"), fresh = measured("fresh");
+  EXPECT_EQ(again["scenes"][0]["made"], truths);
+  for (const char* key : {"rmse_to_truth", "bias"})
+    EXPECT_EQ(again["results"][0][key], fresh["results"][0][key]) << key;
+  EXPECT_EQ(again["results"][0]["ladder"]["t0w"], fresh["results"][0]["ladder"]["t0w"]);
+}
+
 TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
   const Result result =
       gloam({"bench",    "-o",           path("out"),      "--size",    "96x54",    "--rays",     "64",   "--scenes",
