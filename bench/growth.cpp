@@ -114,19 +114,12 @@ std::vector<Case> over_radius(const Technique& technique, const Frame& frame, do
   return cases;
 }
 
-int layers_in(const Frame& frame) {
-  int layers = 0;
-  for (const std::string& plane : planes_of(frame)) {
-    if (const std::optional<StackLayer> layer = stack_layer(plane)) layers = std::max(layers, layer->number + 1);
-  }
-  return layers;
-}
-
-std::vector<Case> over_layers(const Technique& technique, const Frame& frame, double radius) {
+std::vector<Case> over_layers(const Technique& technique, const Plan& plan, const Frame& frame, double radius) {
   std::vector<Case> cases;
-  if (!reads_layers(technique)) return cases;
-  for (int layers = 1; layers <= layers_in(frame); layers *= 2) {
-    auto part = share(with_layers(frame, layers));
+  const auto peeled = plan.stacks.find("peel");
+  if (peeled == plan.stacks.end()) return cases;
+  for (size_t layers = 1; layers <= peeled->second.size(); layers *= 2) {
+    auto part = share(with_layers(frame, int(layers)));
     cases.push_back({double(layers), unfiltered_plan({&technique, "", radius}, planes_of(*part), "the frame"), part});
   }
   return cases;
@@ -193,7 +186,7 @@ Frame with_layers(const Frame& frame, int layers) {
     View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin});
     for (const auto& [name, plane] : view.planes) {
       const std::optional<StackLayer> layer = stack_layer(name);
-      if (!layer || layer->number < layers) copy.planes.emplace(name, plane.clone());
+      if (!layer || layer->stack != "peel" || layer->number < layers) copy.planes.emplace(name, plane.clone());
     }
   }
   return out;
@@ -210,7 +203,7 @@ std::vector<Growth> measure_growth(const Technique& technique, const Frame& fram
   add("pixels", over_pixels(plan, frame));
   add("samples", over_samples(technique, frame, options.radius));
   add("radius", over_radius(technique, frame, options.radius));
-  add("layers", over_layers(technique, frame, options.radius));
+  add("layers", over_layers(technique, plan, frame, options.radius));
   add("views", over_views(plan, frame));
   return all;
 }

@@ -36,14 +36,14 @@ Frame resized(const Frame& frame, int width, int height);
 /// The same frame with its first view several times.
 Frame with_views(const Frame& frame, int views);
 
-/// The same frame with the first `layers` of its peeled layers.
+/// The same frame with the first `layers` of its peeled layers, and all else.
 Frame with_layers(const Frame& frame, int layers);
 
 /// Times of a technique with its default settings and without its filter, over
 /// - pixels: a quarter to four times the frame's (the radius on the screen grows with the image's width),
 /// - samples: the technique's presets; x is `Technique::samples`, else the product of the whole numbers that they set,
 /// - radius: a quarter to four times; x is in pixels at the median depth,
-/// - layers: where it reads peeled layers, 1, 2, 4 ... of those in the frame,
+/// - layers: where it or what makes its stochastic depth reads peeled layers, 1, 2, 4 ... of those in the frame,
 /// - views: 1, 2 and 4.
 /// What a technique does not have is left out. Throws what `gloam::run` throws.
 std::vector<Growth> measure_growth(const Technique& technique, const Frame& frame, Device& device,

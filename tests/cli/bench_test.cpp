@@ -347,6 +347,30 @@ TEST_F(Cli, BenchMeasuresGrowth) {
   EXPECT_EQ(points, expected);
 }
 
+TEST_F(Cli, BenchMeasuresGrowthOverThePeeledLayersThatAreRead) {
+  const auto growth_over = [&](const Arguments& layers) {
+    Arguments capture = {"capture", "colonnade", "-o", path("f.exr"), "--size", "48x27"};
+    capture.insert(capture.end(), layers.begin(), layers.end());
+    EXPECT_EQ(gloam(capture).status, 0);
+    const Result result =
+        gloam({"bench",     "-o",       path("out"),  "--frame",     path("f.exr"), "--techniques", "sd-hbao",
+               "--presets", "low",      "--variants", "none",        "--rays",      "16",           "--rounds",
+               "1",         "--ladder", "none",       "--no-checks", "--no-images", "--json",       "-"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const Json document = result.json();
+    EXPECT_TRUE(document["skipped"].empty()) << document["skipped"];
+    std::set<std::string> over;
+    for (const Json& growth : document["growth"]) over.insert(growth["over"].get<std::string>());
+    return over;
+  };
+  const std::set<std::string> always = {"pixels", "samples", "radius", "views"};
+  std::set<std::string> with_layers = always;
+  with_layers.insert("layers");
+  EXPECT_EQ(growth_over({"--peel", "4"}), with_layers);  // stochastic depth is made of them
+  EXPECT_EQ(growth_over({"--stochastic", "4"}), always);
+  EXPECT_EQ(growth_over({"--peel", "4", "--stochastic", "4"}), always);
+}
+
 TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
   Frame flat = small_frame(48, 32, {"depth", "normal"}), pair = small_frame(48, 32, {"depth", "normal"});
   flat.views[0].camera->orthographic = true;

@@ -39,13 +39,14 @@ TEST(Growth, ExponentNeedsTwoDifferentPoints) {
   EXPECT_TRUE(exponent({{1, 1}, {2, 3}}));
 }
 
-/// Depth = 1 + x + 100 y, two layers of it, seen by a camera whose centre is off the middle.
+/// Depth = 1 + x + 100 y, two peeled layers of it and two stochastic depths, seen by a camera whose centre is off the middle.
 Frame ramp(int width, int height) {
   Frame frame;
   frame.display = frame.window = {0, 0, width, height};
   View& view = frame.views.emplace_back();
   view.camera = Camera{.fx = 10, .fy = 20, .cx = 3, .cy = 2};
-  for (const std::string& name : {std::string("depth"), layer_name("peel", 0), layer_name("peel", 1)}) {
+  for (const std::string& name : {std::string("depth"), layer_name("peel", 0), layer_name("peel", 1),
+                                  layer_name("stochastic", 0), layer_name("stochastic", 1)}) {
     Plane plane{name, {}};
     Channel& channel = plane.channels.emplace_back(Layout(width, height), plane_kind(name).outside);
     for (int y = 0; y < height; ++y) {
@@ -76,6 +77,7 @@ TEST(Growth, FewerLayersAndMoreViews) {
   EXPECT_TRUE(with_layers(frame, 1).views[0].find("peel.00"));
   EXPECT_FALSE(with_layers(frame, 1).views[0].find("peel.01"));
   EXPECT_TRUE(with_layers(frame, 1).views[0].find("depth"));
+  EXPECT_TRUE(with_layers(frame, 1).views[0].find("stochastic.01"));
   const Frame four = with_views(frame, 4);
   ASSERT_EQ(four.views.size(), 4u);
   EXPECT_EQ(four.views[3].planes.at("depth").channels[0].at(5, 5), 506);
