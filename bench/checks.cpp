@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -126,6 +127,7 @@ struct Reading {
   PlaneFacts least = {.least = INFINITY};
   double sum = 0;
   long long count = 0;
+  bool has_failed = false;
 };
 
 void read_plane(Reading& reading, const PlaneCase& test, const Channel& ao) {
@@ -138,6 +140,35 @@ void read_plane(Reading& reading, const PlaneCase& test, const Channel& ao) {
       ++reading.count;
       if (value < reading.least.least) reading.least = {"", "", value, 1, test.camera, test.tilt, test.direction, x, y};
     }
+  }
+}
+
+/// A technique on several sizes of a frame, the largest first: each change from one to the next.
+std::vector<ScaleFacts> changes_of(const Technique& technique, const std::array<const Frame*, 3>& sizes, double radius,
+                                   Device& device) {
+  std::vector<ScaleFacts> all;
+  std::optional<Frame> finer;
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    Frame result = filtered(technique, *sizes[i], radius, device);
+    const Channel& ao = result.views.front().planes.at("ao").channels[0];
+    if (finer) {
+      const Channel& fine_ao = finer->views.front().planes.at("ao").channels[0];
+      all.push_back(change(*sizes[i - 1], fine_ao, *sizes[i], ao));
+    }
+    finer = std::move(result);
+  }
+  return all;
+}
+
+/// Adds what a plane reads, unless the technique failed on an earlier one.
+void read(Reading& reading, const PlaneCase& test, double radius, Device& device, const OnFailure& on_failure) {
+  if (reading.has_failed) return;
+  try {
+    const Frame result = reading.make(*reading.technique, test.frame, radius, device);
+    read_plane(reading, test, result.views.front().planes.at(reading.plane).channels[0]);
+  } catch (const Error& error) {
+    reading.has_failed = true;
+    on_failure(*reading.technique, error);
   }
 }
 
@@ -165,30 +196,26 @@ Frame every_second_pixel(const Frame& frame) {
 }
 
 std::vector<ScaleFacts> measure_scales(const std::vector<const Technique*>& techniques, const Frame& frame,
-                                       const std::string& scene, double radius, Device& device) {
+                                       const std::string& scene, double radius, Device& device,
+                                       const OnFailure& on_failure) {
   std::vector<ScaleFacts> all;
   const Frame half = every_second_pixel(frame), quarter = every_second_pixel(half);
-  const Frame* sizes[] = {&frame, &half, &quarter};
   for (const Technique* technique : over_one_layer(techniques)) {
-    std::optional<Frame> finer;
-    for (int i = 0; i < 3; ++i) {
-      Frame result = filtered(*technique, *sizes[i], radius, device);
-      const Channel& ao = result.views.front().planes.at("ao").channels[0];
-      if (finer) {
-        const Channel& fine_ao = finer->views.front().planes.at("ao").channels[0];
-        ScaleFacts facts = change(*sizes[i - 1], fine_ao, *sizes[i], ao);
+    try {
+      for (ScaleFacts& facts : changes_of(*technique, {&frame, &half, &quarter}, radius, device)) {
         facts.technique = technique->name;
         facts.scene = scene;
-        all.push_back(facts);
+        all.push_back(std::move(facts));
       }
-      finer = std::move(result);
+    } catch (const Error& error) {
+      on_failure(*technique, error);
     }
   }
   return all;
 }
 
 std::vector<PlaneFacts> measure_planes(const std::vector<const Technique*>& techniques, int width, int height,
-                                       Device& device) {
+                                       Device& device, const OnFailure& on_failure) {
   constexpr double distance = 2, radius = 0.5;
   std::vector<Reading> readings;
   for (const Technique* t : over_one_layer(techniques)) {
@@ -199,15 +226,13 @@ std::vector<PlaneFacts> measure_planes(const std::vector<const Technique*>& tech
     for (const double tilt : {0.0, 30.0, 60.0, 80.0, 85.0}) {
       for (const double direction : {0.0, 45.0, 90.0}) {
         const PlaneCase test = plane_case(camera, tilt, direction, width, height, distance);
-        for (Reading& reading : readings) {
-          const Frame result = reading.make(*reading.technique, test.frame, radius, device);
-          read_plane(reading, test, result.views.front().planes.at(reading.plane).channels[0]);
-        }
+        for (Reading& reading : readings) read(reading, test, radius, device, on_failure);
       }
     }
   }
   std::vector<PlaneFacts> all;
   for (Reading& reading : readings) {
+    if (reading.has_failed) continue;
     PlaneFacts facts = reading.least;
     facts.technique = reading.technique->name;
     facts.plane = reading.plane;

@@ -1,10 +1,12 @@
 // What a technique must not do: read a bare plane as occluded, or look otherwise at another resolution.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "gloam/device.h"
+#include "gloam/error.h"
 #include "gloam/frame.h"
 #include "gloam/technique.h"
 
@@ -22,10 +24,14 @@ struct ScaleFacts {
 /// same point in space. Empty where a side is one pixel long.
 Frame every_second_pixel(const Frame& frame);
 
+/// Told of a technique that cannot be measured, and why; the others go on.
+using OnFailure = std::function<void(const Technique& technique, const Error& why)>;
+
 /// The frame, every second and every fourth pixel of it, each technique with default settings and its filter. Compared are
 /// the pixels that both sizes have: the same points in space.
 std::vector<ScaleFacts> measure_scales(const std::vector<const Technique*>& techniques, const Frame& frame,
-                                       const std::string& scene, double radius, Device& device);
+                                       const std::string& scene, double radius, Device& device,
+                                       const OnFailure& on_failure);
 
 /// The least that a technique reads on planes that nothing occludes.
 struct PlaneFacts {
@@ -39,6 +45,6 @@ struct PlaneFacts {
 /// Planes tilted by 0 to 85 degrees towards the side, the corner and the top of the image, through three cameras, with
 /// default settings and a radius of a quarter of the distance; unfiltered and filtered.
 std::vector<PlaneFacts> measure_planes(const std::vector<const Technique*>& techniques, int width, int height,
-                                       Device& device);
+                                       Device& device, const OnFailure& on_failure);
 
 }  // namespace gloam::bench

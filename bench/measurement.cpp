@@ -1,5 +1,7 @@
 #include "measurement.h"
 
+#include <algorithm>
+
 #include "gloam/error.h"
 #include "lists.h"
 #include "pictures.h"
@@ -34,8 +36,13 @@ class Session {
       const Technique& technique = *options_.growth[i];
       if (!contains(measured_, technique.name)) continue;
       tell("growth of " + technique.name, int(i), int(options_.growth.size()));
-      for (Growth& growth : bench::measure_growth(technique, subject_.frame, device_, {subject_.radius, growth_rounds}))
-        result_.growth.push_back({technique.name, subject_.name, std::move(growth)});
+      try {
+        for (Growth& growth :
+             bench::measure_growth(technique, subject_.frame, device_, {subject_.radius, growth_rounds}))
+          result_.growth.push_back({technique.name, subject_.name, std::move(growth)});
+      } catch (const Error& error) {
+        skip_part(technique, "growth", error);
+      }
     }
   }
 
@@ -46,16 +53,19 @@ class Session {
     const std::vector<const Technique*> techniques = those_measured();
     const bool is_known =
         subject_.truths && subject_.scene_class != "own" && std::max(width, height) <= most_pixels_across;
+    const auto measured = [&](const Frame& largest) {
+      return bench::measure_scales(techniques, largest, subject_.name, subject_.radius, device_,
+                                   [&](const Technique& t, const Error& e) { skip_part(t, "other resolutions", e); });
+    };
     const std::vector<ScaleFacts> found =
-        is_known ? bench::measure_scales(techniques, subject_.truths->captured(width, height), subject_.name,
-                                         subject_.radius, device_)
-                 : bench::measure_scales(techniques, subject_.frame, subject_.name, subject_.radius, device_);
+        is_known ? measured(subject_.truths->captured(width, height)) : measured(subject_.frame);
     result_.scales.insert(result_.scales.end(), found.begin(), found.end());
   }
 
   void measure_planes() {
     tell("bare planes", 0, 1);
-    result_.planes = bench::measure_planes(those_measured(), subject_.frame.width(), subject_.frame.height(), device_);
+    result_.planes = bench::measure_planes(those_measured(), subject_.frame.width(), subject_.frame.height(), device_,
+                                           [&](const Technique& t, const Error& e) { skip_part(t, "bare planes", e); });
   }
 
   void add_scene() {
@@ -64,7 +74,11 @@ class Session {
     facts.radius_pixels = median_reach(subject_.frame, subject_.radius);
     if (subject_.truth) {
       facts.truth_noise = subject_.truth->noise;
-      facts.truth_image = picture("truth", subject_.truth->ao);
+      try {
+        facts.truth_image = picture("truth", subject_.truth->ao);
+      } catch (const Error& error) {
+        result_.notes.push_back(fmt::format("{}; there is no picture of the truth", error.what()));
+      }
     }
     if (subject_.truths) {
       facts.traced = true;
@@ -93,25 +107,37 @@ class Session {
     result_.skipped.push_back({technique.name, preset, subject_.name, why});
   }
 
+  /// Something that is measured beside the rows.
+  void skip_part(const Technique& technique, const std::string& part, const Error& error) {
+    skip(technique, "", part + ": " + without_name(technique, error));
+  }
+
   /// Enters what of a technique the frame and the device allow.
   void enter(const Technique& technique) {
     const std::vector<Variation> variations = variations_of(technique, subject_.radius, options_);
     if (variations.empty()) skip(technique, "", "has none of these presets");
+    std::vector<Skipped> failed;
     for (size_t i = 0; i < variations.size(); ++i) {
+      const Variation& v = variations[i];
       tell(fmt::format("images of {}", technique.name), int(i), int(variations.size()));
       try {
-        rows_.push_back(row_of(variations[i]));
+        rows_.push_back(row_of(v));
         add_new(measured_, technique.name);
-      } catch (const UsageError&) {
-        throw;
-      } catch (const MissingPlanes& missing) {  // the same for all of it
-        skip(technique, "", without_name(technique, missing));
-        return;
       } catch (const Error& error) {
-        const Variation& v = variations[i];
-        skip(technique, v.variant.empty() ? v.preset : v.name() + ", " + v.variant, without_name(technique, error));
+        failed.push_back({technique.name, v.variant.empty() ? v.preset : v.name() + ", " + v.variant, subject_.name,
+                          without_name(technique, error)});
       }
     }
+    add_skipped(failed, failed.size() == variations.size());
+  }
+
+  /// One line for a technique of which nothing can be measured, for one reason.
+  void add_skipped(const std::vector<Skipped>& failed, bool is_all) {
+    const auto is_like_first = [&](const Skipped& each) { return each.why == failed.front().why; };
+    if (is_all && !failed.empty() && std::all_of(failed.begin(), failed.end(), is_like_first))
+      result_.skipped.push_back({failed.front().technique, "", subject_.name, failed.front().why});
+    else
+      result_.skipped.insert(result_.skipped.end(), failed.begin(), failed.end());
   }
 
   std::unique_ptr<Row> row_of(const Variation& variation) {

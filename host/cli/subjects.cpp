@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gloam/error.h"
+#include "gloam/planes.h"
 
 namespace gloam::cli {
 
@@ -38,6 +39,15 @@ std::string no_ao(const Technique& technique) {
 
 namespace {
 
+/// All layers at hand of the stacks that a technique reads: settings other than its own may take more than those do.
+void add_layers(const Technique& technique, const std::vector<std::string>& available,
+                std::vector<std::string>& planes) {
+  for (const std::string& plane : available) {
+    const std::optional<StackLayer> layer = stack_layer(plane);
+    if (layer && contains(technique.reads, layer->stack)) add_new(planes, plane);
+  }
+}
+
 /// What any technique takes of a file, and what the baselines and the figures need.
 std::vector<std::string> planes_to_read(const FrameFile& file, const std::vector<const Technique*>& techniques) {
   const std::vector<std::string> available = file.common_planes();
@@ -48,6 +58,7 @@ std::vector<std::string> planes_to_read(const FrameFile& file, const std::vector
   for (const Technique* t : techniques) {
     for (const Technique* each : {t, over_all_layers(*t)}) {
       if (!each) continue;
+      add_layers(*each, available, planes);
       try {
         for (const std::string& plane : whole_plan({each, "", 0.5}, available, "").inputs) add_new(planes, plane);
       } catch (const MissingPlanes&) {  // said where it is skipped

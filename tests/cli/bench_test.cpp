@@ -371,6 +371,33 @@ TEST_F(Cli, BenchMeasuresGrowthOverThePeeledLayersThatAreRead) {
   EXPECT_EQ(growth_over({"--peel", "4", "--stochastic", "4"}), always);
 }
 
+TEST_F(Cli, BenchSkipsWhatCannotBeMeasuredAndKeepsTheRest) {
+  ASSERT_EQ(gloam({"capture", "colonnade", "-o", path("f.exr"), "--size", "48x27", "--stochastic", "2"}).status, 0);
+  fs::create_directories(path("out/images/f/truth.png"));
+  const Result result =
+      gloam({"bench",     "-o",         path("out"),  "--frame",  path("f.exr"), "--techniques", "sd-hbao,hbao,dp-hbao",
+             "--presets", "low,medium", "--variants", "none",     "--sweep",     "samples=2,8",  "--rays",
+             "16",        "--rounds",   "1",          "--ladder", "none",        "--json",       "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  EXPECT_EQ(variants_of(document, "sd-hbao"), std::set<std::string>{"samples=2"});
+  EXPECT_TRUE(find(document["results"], "low"));  // of hbao
+  EXPECT_FALSE(document["growth"].empty());
+  EXPECT_FALSE(document["scales"].empty());
+  EXPECT_TRUE(document["scenes"][0]["truth_image"].is_null());
+  EXPECT_NE(result.err.find("no picture of the truth"), std::string::npos) << result.err;
+  std::vector<std::string> skipped;
+  for (const Json& each : document["skipped"]) {
+    const std::string why = each["why"],
+                      preset = each["preset"].is_null() ? "" : " " + each["preset"].get<std::string>();
+    skipped.push_back(each["technique"].get<std::string>() + preset + ": " + why.substr(0, why.find(',')));
+  }
+  EXPECT_EQ(skipped,
+            Arguments({"sd-hbao low: needs 4 layers of 'stochastic'", "sd-hbao medium: needs 4 layers of 'stochastic'",
+                       "sd-hbao medium, samples=8: needs 8 layers of 'stochastic'", "dp-hbao: needs 'peel'",
+                       "sd-hbao: growth: needs 4 layers of 'stochastic'"}));
+}
+
 TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
   Frame flat = small_frame(48, 32, {"depth", "normal"}), pair = small_frame(48, 32, {"depth", "normal"});
   flat.views[0].camera->orthographic = true;
