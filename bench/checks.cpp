@@ -17,11 +17,11 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Those over one layer of depth: layers are not to be had of a plane, nor of a frame of another size.
+/// Those over one view and one layer of depth: more are not to be had of a plane, nor of a frame of another size.
 std::vector<const Technique*> over_one_layer(const std::vector<const Technique*>& techniques) {
   std::vector<const Technique*> some;
   for (const Technique* t : techniques) {
-    if (!reads_layers(*t)) some.push_back(t);
+    if (!reads_layers(*t) && t->views == 1) some.push_back(t);
   }
   return some;
 }

@@ -125,8 +125,9 @@ std::vector<Case> over_layers(const Technique& technique, const Plan& plan, cons
   return cases;
 }
 
-std::vector<Case> over_views(const Plan& plan, const Frame& frame) {
+std::vector<Case> over_views(const Technique& technique, const Plan& plan, const Frame& frame) {
   std::vector<Case> cases;
+  if (technique.views > 1) return cases;  // it takes so many and no others
   for (const int views : {1, 2, 4}) cases.push_back({double(views), plan, share(with_views(frame, views))});
   return cases;
 }
@@ -204,7 +205,7 @@ std::vector<Growth> measure_growth(const Technique& technique, const Frame& fram
   add("samples", over_samples(technique, frame, options.radius));
   add("radius", over_radius(technique, frame, options.radius));
   add("layers", over_layers(technique, plan, frame, options.radius));
-  add("views", over_views(plan, frame));
+  add("views", over_views(technique, plan, frame));
   return all;
 }
 

@@ -44,7 +44,7 @@ Frame with_layers(const Frame& frame, int layers);
 /// - samples: the technique's presets; x is `Technique::samples`, else the product of the whole numbers that they set,
 /// - radius: a quarter to four times; x is in pixels at the median depth,
 /// - layers: where it or what makes its stochastic depth reads peeled layers, 1, 2, 4 ... of those in the frame,
-/// - views: 1, 2 and 4.
+/// - views: 1, 2 and 4, where it does not need a number of its own.
 /// What a technique does not have is left out. Throws what `gloam::run` throws.
 std::vector<Growth> measure_growth(const Technique& technique, const Frame& frame, Device& device,
                                    const GrowthOptions& options);

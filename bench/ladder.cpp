@@ -30,22 +30,17 @@ RunOptions without_rounding(const Device& device) {
 /// take five times as long.
 RunOptions for_converged() { return {}; }
 
-Image take(Frame frame, const std::string& plane) {
-  Image image;
-  for (View& view : frame.views) image.push_back(std::move(view.planes.at(plane)));
-  return image;
-}
-
-/// Depth, normals ... of a frame and one more plane, for a plan that reads no others.
+/// Depth, normals ... of the views of an image and the image itself, for a plan that reads no other planes.
 Frame with_plane(const Frame& frame, const Plan& plan, const std::string& name, const Image& image) {
   Frame out;
   out.display = frame.display;
   out.window = frame.window;
-  for (size_t i = 0; i < frame.views.size(); ++i) {
-    const View& view = frame.views[i];
+  for (const View& view : frame.views) {
+    const auto own = image.find(view.name);
+    if (own == image.end()) continue;
     View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin});
     for (const std::string& input : plan.inputs) {
-      const Plane* plane = input == name ? &image[i] : view.find(input);
+      const Plane* plane = input == name ? &own->second : view.find(input);
       if (plane) copy.planes.emplace(input, plane->clone());
     }
     copy.planes.at(name).name = name;
@@ -55,17 +50,18 @@ Frame with_plane(const Frame& frame, const Plan& plan, const std::string& name, 
 
 }  // namespace
 
-Steps::Steps(const Frame& frame, const std::string& holds, Device& device, const Truth* truth, Truths* truths)
+Steps::Steps(const Frame& frame, const std::string& holds, Device& device, const Truth* truth, Truths* truths,
+             Foreground foreground)
     : frame_(frame),
       holds_(holds),
       device_(device),
       truth_(truth),
       truths_(truths),
-      foreground_(foreground(frame)),
+      foreground_(std::move(foreground)),
       available_(planes_of(frame)) {}
 
 Image Steps::computed(const Plan& plan, const RunOptions& options) {
-  return take(run(plan, frame_, device_, options).frame, plan.outputs.front());
+  return image_of(run(plan, frame_, device_, options).frame, plan.outputs.front());
 }
 
 const Image& Steps::shared(const Plan& plan, const RunOptions& options) {
@@ -101,9 +97,9 @@ Image Steps::filtered(const Frame& frame, const Plan& filter, const std::string&
   for (const std::string& input : filter.inputs) {
     if (read.views.front().find(input)) continue;
     const Image& made = shared(make_plan({.outputs = {input}}, available_, holds_), without_rounding(device_));
-    for (size_t i = 0; i < read.views.size(); ++i) read.views[i].planes.emplace(input, made[i].clone());
+    for (View& view : read.views) view.planes.emplace(input, made.at(view.name).clone());
   }
-  return take(run(filter, read, device_, options).frame, filter.outputs.front());
+  return image_of(run(filter, read, device_, options).frame, filter.outputs.front());
 }
 
 /// Rounded at the door, between estimate and filter, and at the end.
@@ -111,11 +107,11 @@ Image Steps::kept_in_half(const Variation& variation, const Plan& whole) {
   if (!frame_in_half_) frame_in_half_ = stored_in_half(frame_);
   const RunOptions options = variation.run_options();
   const Plan estimate = unfiltered_plan(variation, available_, holds_), filter = filter_of(whole, *variation.technique);
-  Image image = take(run(estimate, *frame_in_half_, device_, options).frame, estimate.outputs.front());
-  for (Plane& plane : image) store_in_half(plane);
+  Image image = image_of(run(estimate, *frame_in_half_, device_, options).frame, estimate.outputs.front());
+  for (auto& [view, plane] : image) store_in_half(plane);
   if (filter.passes.empty()) return image;
   image = filtered(*frame_in_half_, filter, own_plane(*variation.technique), image, options);
-  for (Plane& plane : image) store_in_half(plane);
+  for (auto& [view, plane] : image) store_in_half(plane);
   return image;
 }
 

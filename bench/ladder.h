@@ -34,8 +34,9 @@ struct Ladder {
 class Steps {
  public:
   /// Either truth may be missing: `truth` null, `truths` null where no scene is at hand. All must outlive it.
-  /// `holds`: as for `make_plan`.
-  Steps(const Frame& frame, const std::string& holds, Device& device, const Truth* truth, Truths* truths);
+  /// `holds`: as for `make_plan`. `foreground`: what errors are over.
+  Steps(const Frame& frame, const std::string& holds, Device& device, const Truth* truth, Truths* truths,
+        Foreground foreground);
 
   /// What is handed over in the end, with its filter. Throws what `gloam::run` throws.
   Image shipped(const Variation& variation);
@@ -64,7 +65,7 @@ class Steps {
   Device& device_;
   const Truth* truth_;
   Truths* truths_;
-  std::vector<Mask> foreground_;
+  Foreground foreground_;
   std::vector<std::string> available_;
   std::map<std::string, Image> images_;
   std::optional<Frame> frame_in_half_;

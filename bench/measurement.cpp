@@ -21,7 +21,8 @@ class Session {
         device_(device),
         result_(result),
         race_(subject.frame, subject.holds, subject.radius, device),
-        steps_(subject.frame, subject.holds, device, subject.truth, subject.truths.get()) {}
+        steps_(subject.frame, subject.holds, device, subject.truth, subject.truths.get(),
+               foreground(subject.frame, any_makes_first_view_only(options.techniques))) {}
 
   void measure() {
     for (const Technique* technique : options_.techniques) enter(*technique);
@@ -176,7 +177,7 @@ class Session {
     std::filesystem::create_directories(options_.folder / folder, error);
     if (error) throw Error("{}: cannot be made ({})", (options_.folder / folder).string(), error.message());
     const View& view = subject_.frame.views.front();
-    write_share(options_.folder / path, image.front().channels[0], view.planes.at("depth").channels[0]);
+    write_share(options_.folder / path, image.at(view.name).channels[0], view.planes.at("depth").channels[0]);
     return path;
   }
 

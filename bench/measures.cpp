@@ -10,15 +10,17 @@ namespace {
 
 /// Mean of a function of test - truth over the foreground; 0 where there is none.
 template <typename Function>
-double mean_over(const Image& test, const Image& truth, const std::vector<Mask>& foreground, Function function) {
+double mean_over(const Image& test, const Image& truth, const Foreground& foreground, Function function) {
   double sum = 0;
   long long count = 0;
-  for (size_t i = 0; i < foreground.size(); ++i) {
-    const Channel &a = test.at(i).channels[0], &b = truth.at(i).channels[0];
+  for (const auto& [view, mask] : foreground) {
+    const auto tested = test.find(view), expected = truth.find(view);
+    if (tested == test.end() || expected == truth.end()) continue;
+    const Channel &a = tested->second.channels[0], &b = expected->second.channels[0];
     const int width = a.layout().width, height = a.layout().height;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        if (!foreground[i][size_t(y) * size_t(width) + size_t(x)]) continue;
+        if (!mask[size_t(y) * size_t(width) + size_t(x)]) continue;
         sum += function(double(a.at(x, y)) - double(b.at(x, y)));
         ++count;
       }
@@ -29,11 +31,12 @@ double mean_over(const Image& test, const Image& truth, const std::vector<Mask>&
 
 }  // namespace
 
-std::vector<Mask> foreground(const Frame& frame) {
-  std::vector<Mask> masks;
+Foreground foreground(const Frame& frame, bool first_view_only) {
+  Foreground masks;
   for (const View& view : frame.views) {
     const Channel& depth = view.planes.at("depth").channels[0];
-    Mask& mask = masks.emplace_back();
+    if (first_view_only && !masks.empty()) break;
+    Mask& mask = masks[view.name];
     mask.reserve(size_t(frame.width()) * size_t(frame.height()));
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) mask.push_back(!is_background(depth.at(x, y)));
@@ -42,11 +45,20 @@ std::vector<Mask> foreground(const Frame& frame) {
   return masks;
 }
 
-double rmse(const Image& test, const Image& truth, const std::vector<Mask>& foreground) {
+Image image_of(Frame frame, const std::string& plane) {
+  Image image;
+  for (View& view : frame.views) {
+    if (const auto made = view.planes.find(plane); made != view.planes.end())
+      image.emplace(view.name, std::move(made->second));
+  }
+  return image;
+}
+
+double rmse(const Image& test, const Image& truth, const Foreground& foreground) {
   return std::sqrt(mean_over(test, truth, foreground, [](double d) { return d * d; }));
 }
 
-double bias(const Image& test, const Image& truth, const std::vector<Mask>& foreground) {
+double bias(const Image& test, const Image& truth, const Foreground& foreground) {
   return mean_over(test, truth, foreground, [](double d) { return d; });
 }
 

@@ -1,6 +1,8 @@
 // Figures of frames and images that several benchmarks take.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "gloam/frame.h"
@@ -8,17 +10,21 @@
 
 namespace gloam::bench {
 
-/// One plane per view, in the order of the frame's views.
-using Image = std::vector<Plane>;
+/// One plane of each view that it was made for, by the view's name: a technique that needs two views may make it for one.
+using Image = std::map<std::string, Plane>;
+using Foreground = std::map<std::string, Mask>;
 
-/// Foreground of each view, by depth.
-std::vector<Mask> foreground(const Frame& frame);
+/// Of each view, by depth; `first_view_only`: of the first.
+Foreground foreground(const Frame& frame, bool first_view_only = false);
 
-/// Root of the mean squared difference over the foreground of all views.
-double rmse(const Image& test, const Image& truth, const std::vector<Mask>& foreground);
+/// Takes a plane out of every view that has it.
+Image image_of(Frame frame, const std::string& plane);
 
-/// Mean of test - truth over the foreground of all views: above 0, the test is too bright.
-double bias(const Image& test, const Image& truth, const std::vector<Mask>& foreground);
+/// Root of the mean squared difference over the foreground, of views that both images have.
+double rmse(const Image& test, const Image& truth, const Foreground& foreground);
+
+/// Mean of test - truth over the foreground, of views that both images have: above 0, the test is too bright.
+double bias(const Image& test, const Image& truth, const Foreground& foreground);
 
 /// Mean absolute difference over all pixels.
 double mean_difference(const Channel& a, const Channel& b);

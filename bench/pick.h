@@ -33,7 +33,8 @@ struct Picked {
 
 /// Tries every preset of the techniques at full and at half resolution, once; then times those that may win in turn. Where
 /// the subject has no truth, errors are to the converged image of the technique that comes nearest to ray-traced truth on
-/// the built-in scenes. Throws Error that names the nearest miss where nothing is within the bound.
+/// the built-in scenes. Where one of the techniques makes an image of the first of two views only, times and errors of all
+/// are those of the first view. Throws Error that names the nearest miss where nothing is within the bound.
 Picked pick(const Subject& subject, const PickOptions& options, Device& device);
 
 }  // namespace gloam::bench

@@ -48,6 +48,13 @@ bool reads_layers(const Technique& technique) {
                      [](const std::string& plane) { return is_stack(plane); });
 }
 
+bool makes_first_view_only(const Technique& technique) { return technique.views > 1; }
+
+bool any_makes_first_view_only(const std::vector<const Technique*>& techniques) {
+  return std::any_of(techniques.begin(), techniques.end(),
+                     [](const Technique* t) { return makes_first_view_only(*t); });
+}
+
 const Technique* over_all_layers(const Technique& technique) {
   if (contains(technique.reads, "peel")) return &technique;
   // "sd-hbao+" over all layers is "dp-hbao+", too.

@@ -22,6 +22,10 @@ std::string own_plane(const Technique& technique);
 /// Whether it reads a stack of depth layers.
 bool reads_layers(const Technique& technique);
 
+/// Whether it needs two views and makes an image of the first, where others make one of each.
+bool makes_first_view_only(const Technique& technique);
+bool any_makes_first_view_only(const std::vector<const Technique*>& techniques);
+
 /// The technique over all peeled layers: "dp-hbao+" for "hbao+", itself for one that reads layers already. None where the
 /// registry has none.
 const Technique* over_all_layers(const Technique& technique);

@@ -191,6 +191,7 @@ void Race::run(int rounds, const std::function<void(int done, int of)>& progress
   enter_reference();
   naives_.resize(racers_.size());
   for (size_t i = 0; i < racers_.size(); ++i) enter_naive(i);
+  first_view_.resize((racers_.size() + group_size - 1) / group_size);
   std::vector<Contender> contenders;
   std::vector<size_t> group_of;
   for (size_t first = 0; first < racers_.size(); first += group_size) {
@@ -211,6 +212,13 @@ void Race::add_group(size_t first, std::vector<Contender>& contenders) {
     if (naives_[i]) contenders.push_back({"", [naive = naives_[i].get()] { return naive->run(); }});
     with_native |= is_native(*racers_[i]);
   }
+  if (reference_) {
+    contenders.push_back({reference_technique, [this, &of_group = first_view_[first / group_size]] {
+                            const double ms = reference_->run();
+                            of_group.push_back(reference_->first_view_ms());
+                            return ms;
+                          }});
+  }
   contenders.insert(contenders.end(), common_.begin(), common_.end());
   if (with_native) contenders.insert(contenders.end(), loops_.begin(), loops_.end());
 }
@@ -224,7 +232,6 @@ void Race::enter_reference() {
     const Plan plan = whole_plan(reference_variation_, planes_of(frame_), holds_);
     if (const ParameterValues* values = as_baseline(plan)) enter_baselines(values->as<HbaoPlusParams>());
     reference_ = std::make_unique<TimedPlan>(plan, frame_, device_);
-    common_.push_back({reference_technique, [this] { return reference_->run(); }});
   } catch (const MissingPlanes&) {
   }
 }
@@ -280,6 +287,8 @@ void Race::add_ratios(size_t index) {
   racer.to_gather_floor = ratio_to(racer.ms, "gather floor");
   racer.to_copy_floor = ratio_to(racer.ms, "copy floor");
   racer.to_hbao_plus = ratio_to(racer.ms, reference_technique);
+  if (racer.to_hbao_plus && makes_first_view_only(*racer.variation.technique))
+    racer.to_hbao_plus = ratio(racer.ms, first_view_[index / group_size]);
   if (const auto copy = series.find("copy floor"); copy != series.end()) racer.copy_floor_ms = median(copy->second);
   if (naives_[index]) add_naive_ratios(index);
   if (is_native(racer)) racer.to_native = ratio_to(own_passes(*racer.timed), "native");

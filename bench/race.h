@@ -31,7 +31,8 @@ struct AgainstNaive {
   std::optional<double> mean_difference, greatest_difference;
 };
 
-/// What takes part, and how it did; ratios are its time over the other's, none where the other takes no part.
+/// What takes part, and how it did; ratios are its time over the other's, none where the other takes no part. Of a
+/// technique that needs two views and makes an image of the first, `to_hbao_plus` is to HBAO+ on the first.
 struct Racer {
   Variation variation;
   std::unique_ptr<TimedPlan> timed;
@@ -82,7 +83,7 @@ class Race {
   Device& device_;
   std::vector<std::string> notes_;
   std::vector<Racer*> racers_;
-  std::vector<Contender> common_;  ///< what every racer is compared with
+  std::vector<Contender> common_;  ///< what every racer is compared with, beside the reference
   std::vector<Contender> loops_;   ///< native: what computes the same is
   Variation reference_variation_;
   std::unique_ptr<Plain> plain_;
@@ -90,6 +91,7 @@ class Race {
   std::unique_ptr<Baselines> baselines_;
   std::vector<std::unique_ptr<Naive>> naives_;         ///< by racer; null: none
   std::vector<std::map<std::string, Series>> series_;  ///< by group, by name
+  std::vector<Series> first_view_;                     ///< by group: the reference on the first view alone
 };
 
 }  // namespace gloam::bench

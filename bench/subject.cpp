@@ -44,12 +44,6 @@ std::string digest_of(const std::function<double(double, double)>& contribution)
   return print.text();
 }
 
-Image image_of(const Frame& frame, const std::string& plane) {
-  Image image;
-  for (const View& view : frame.views) image.push_back(view.planes.at(plane).clone());
-  return image;
-}
-
 }  // namespace
 
 Truths::Truths(std::string name, Scene scene, SceneOptions options)
@@ -168,7 +162,7 @@ Truth read_truth(const std::filesystem::path& path, const Frame& frame) {
                 truth.width(), truth.height(), frame.width(), frame.height());
   Truth result;
   if (truth.views.size() == 1 && frame.views.size() == 1) {
-    result.ao = image_of(truth, "ao");
+    result.ao.emplace(frame.views[0].name, truth.views[0].planes.at("ao").clone());
   } else {
     for (const View& view : frame.views) {
       const auto same = std::find_if(truth.views.begin(), truth.views.end(),
@@ -176,7 +170,7 @@ Truth read_truth(const std::filesystem::path& path, const Frame& frame) {
       if (same == truth.views.end())
         throw Error("{}: has no view '{}' as the frame has; --view NAME takes one view of the frame", path.string(),
                     view.name);
-      result.ao.push_back(same->planes.at("ao").clone());
+      result.ao.emplace(view.name, same->planes.at("ao").clone());
     }
   }
   result.noise = file.number_attribute("aoNoise");

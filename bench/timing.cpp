@@ -45,6 +45,10 @@ double TimedPlan::run() {
     }
     pass.ms.push_back(ms);
   }
+  first_view_ms_ = 0;
+  for (const PassTime& time : result.passes) {
+    if (time.view == frame_.views.front().name) first_view_ms_ += time.ms.back();
+  }
   return result.total_ms.back();
 }
 

@@ -39,6 +39,9 @@ class TimedPlan {
   /// The sum over passes and views, by the events of the device, when the device is warm.
   double run();
 
+  /// Of the last run, the sum over the passes on the first view.
+  double first_view_ms() const { return first_view_ms_; }
+
   struct Pass {
     std::string name;  ///< "hbao+/estimate"
     Series ms;         ///< one per call of `run`, the sum over views
@@ -53,6 +56,7 @@ class TimedPlan {
   Device& device_;
   RunOptions options_;
   std::vector<Pass> passes_;
+  double first_view_ms_ = 0;
   int lanes_ = 1;
 };
 

@@ -41,8 +41,8 @@ struct Options : MeasureOptions {
 
 void choose_techniques(Options& options, const std::string& list, Measurement& result) {
   for (const Technique& t : registry()) {
-    const std::string why = no_ao(t);
     if (!list.empty()) continue;
+    const std::string why = no_ao(t).empty() ? needs_naming(t) : no_ao(t);
     if (why.empty())
       options.techniques.push_back(&t);
     else
@@ -295,7 +295,8 @@ void add_bench(CLI::App& app) {
                    "folder for bench.json, images/ and scenes/; made where it is not there")
       ->required()
       ->type_name("DIR");
-  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao")->type_name("A,B");
+  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao of every view")
+      ->type_name("A,B");
   command->add_option("--presets", flags->presets, "these only; default: all that a technique has")->type_name("A,B");
   CLI::Option* scenes =
       command->add_option("--scenes", flags->scenes, "built-in scenes, or all; default: " + enumerate(default_scenes))

@@ -39,7 +39,8 @@ double parse_budget(const std::string& text) {
   }
 }
 
-PickOptions options_of(const PickCommand& flags) {
+/// `left_out`: what is tried only where it is named.
+PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out) {
   if (flags.budget.empty() == flags.error.empty())
     throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (an RMSE, such as 0.02)");
   PickOptions options;
@@ -52,7 +53,9 @@ PickOptions options_of(const PickCommand& flags) {
     const Technique& technique = find_technique(name);
     if (const std::string why = no_ao(technique); !why.empty())
       throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_with_ao()));
-    if (std::find(options.techniques.begin(), options.techniques.end(), &technique) == options.techniques.end())
+    if (const std::string why = needs_naming(technique); all && !why.empty())
+      left_out.push_back({name, "", "", why});
+    else if (std::find(options.techniques.begin(), options.techniques.end(), &technique) == options.techniques.end())
       options.techniques.push_back(&technique);
   }
   return options;
@@ -139,7 +142,8 @@ class ScratchFolder {
 };
 
 void pick_command(const PickCommand& flags) {
-  const PickOptions options = options_of(flags);
+  std::vector<Skipped> left_out;
+  const PickOptions options = options_of(flags, left_out);
   check_paths({{"the frame", flags.frame}, {"--truth", flags.truth}, {"--camera", flags.frame_flags.camera}},
               {{"--json", flags.json.file()}});
   const ScratchFolder scratch;
@@ -150,7 +154,8 @@ void pick_command(const PickCommand& flags) {
   scene.progress = show_status;
   Device device(flags.device);
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, scene);
-  const Picked picked = pick(subject, options, device);
+  Picked picked = pick(subject, options, device);
+  picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
   erase_status();
   const std::string command = run_line(flags, picked.finalists[picked.best].variation);
   flags.json.write(document_of(picked, command, device.info()));
@@ -174,7 +179,8 @@ void add_pick(CLI::App& app) {
                    "ambient occlusion as gloam reference makes it; default: traced where the frame shows a built-in "
                    "scene, else a converged estimate")
       ->type_name("REF.exr");
-  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao")->type_name("A,B");
+  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao of every view")
+      ->type_name("A,B");
   command
       ->add_option("--radius", flags->radius,
                    "scene units; default: the truth's, else a built-in scene's own, else 0.5")

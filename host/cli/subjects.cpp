@@ -37,6 +37,12 @@ std::string no_ao(const Technique& technique) {
   return "";
 }
 
+std::string needs_naming(const Technique& technique) {
+  return makes_first_view_only(technique)
+             ? "makes ao of the first of two views only: measured where --techniques names it"
+             : "";
+}
+
 namespace {
 
 /// All layers at hand of the stacks that a technique reads: settings other than its own may take more than those do.

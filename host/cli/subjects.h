@@ -18,6 +18,9 @@ std::vector<std::string> techniques_with_ao();
 /// Empty, or why a technique is none of them.
 std::string no_ao(const Technique& technique);
 
+/// Why a technique is left out where nobody names it; empty for most.
+std::string needs_naming(const Technique& technique);
+
 /// A built-in scene from its first camera, with its truth.
 bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                                const bench::SceneOptions& options);

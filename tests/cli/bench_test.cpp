@@ -424,6 +424,58 @@ TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
   EXPECT_TRUE(row("pair.exr")["ratio_to_hbao_plus"].is_number());
 }
 
+TEST_F(Cli, BenchMeasuresOnTheFirstViewWhatMakesNoOther) {
+  ASSERT_EQ(gloam({"capture", "colonnade", "-o", path("two.exr"), "--size", "96x54", "--peel", "2", "--stochastic", "4",
+                   "--view2", "30"})
+                .status,
+            0);
+  const Result result =
+      gloam({"bench", "-o", path("out"), "--frame", path("two.exr"), "--techniques", "multiview,sd-hbao+", "--presets",
+             "low", "--variants", "half", "--rays", "32", "--rounds", "1", "--no-checks", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json(), row = row_of(document, "multiview", ""),
+             beside = row_of(document, "sd-hbao+", "");
+  EXPECT_TRUE(document["skipped"].empty()) << document["skipped"];
+  // The same figures as of the image that gloam run makes, beside the truth of that view.
+  ASSERT_EQ(
+      gloam({"run", "multiview", path("two.exr"), "-o", path("ao.exr"), "--preset", "low", "--radius", "0.6"}).status,
+      0);
+  const std::string first = FrameFile(path("two.exr"), {}).read({"depth"}).views[0].name;
+  const Frame made = FrameFile(path("ao.exr"), {}).read({"ao"});
+  ASSERT_EQ(made.views.size(), 1u);
+  Frame truth = FrameFile(path("out/scenes/two_ao_ref.exr"), {}).read({"ao", "depth"});
+  ASSERT_EQ(truth.views.size(), 2u);
+  const Channel& depth = truth.view(first).planes.at("depth").channels[0];
+  double sum = 0, squares = 0;
+  int count = 0;
+  for (int y = 0; y < 54; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      if (is_background(depth.at(x, y))) continue;
+      const double off = double(made.views[0].planes.at("ao").channels[0].at(x, y)) -
+                         truth.view(first).planes.at("ao").channels[0].at(x, y);
+      sum += off;
+      squares += off * off;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(row["rmse_to_truth"], std::sqrt(squares / count), 1e-5);
+  EXPECT_NEAR(row["bias"], sum / count, 1e-5);
+  // The others are compared with it on that view alone.
+  const Result alone = gloam(
+      {"bench",    "-o",        path("alone"), "--frame",     path("two.exr"), "--view",      first,    "--techniques",
+       "sd-hbao+", "--presets", "low",         "--variants",  "none",          "--rays",      "32",     "--rounds",
+       "1",        "--ladder",  "none",        "--no-growth", "--no-checks",   "--no-images", "--json", "-"});
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  EXPECT_NEAR(beside["rmse_to_truth"], row_of(alone.json(), "sd-hbao+", "")["rmse_to_truth"], 1e-5);
+  EXPECT_GT(row["ladder"]["t3"], 1e-3);
+  EXPECT_GT(row["ladder"]["t4_bias"], 1e-3);
+  std::set<std::string> over, over_sd;
+  for (const Json& growth : document["growth"])
+    (growth["technique"] == "multiview" ? over : over_sd).insert(growth["over"].get<std::string>());
+  EXPECT_EQ(over, (std::set<std::string>{"pixels", "samples", "radius"}));
+  EXPECT_EQ(over_sd, (std::set<std::string>{"pixels", "samples", "radius", "views"}));
+}
+
 TEST_F(Cli, BenchSaysWhatIsWrong) {
   struct Wrong {
     Arguments flags;

@@ -1,4 +1,5 @@
 // gloam pick: that the choice is what it says, and runs. Never how long anything took.
+#include <set>
 #include <sstream>
 
 #include "gloam_process.h"
@@ -46,6 +47,24 @@ TEST_F(Cli, PickWithinAnErrorIsTheCheapest) {
       EXPECT_GE(finalist["ms"], document["ms"]);
     }
   }
+}
+
+TEST_F(Cli, PickMeasuresOnTheFirstViewWhatMakesNoOther) {
+  ASSERT_EQ(
+      gloam({"capture", "colonnade", "-o", path("two.exr"), "--size", "48x27", "--stochastic", "4", "--view2", "30"})
+          .status,
+      0);
+  const Result result = gloam({"pick", path("two.exr"), "--budget", "100s", "--rays", "16", "--rounds", "1",
+                               "--techniques", "multiview,hbao+", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  EXPECT_TRUE(document["skipped"].empty()) << document["skipped"];
+  std::set<std::string> tried;
+  for (const Json& finalist : document["finalists"]) {
+    tried.insert(finalist["technique"].get<std::string>());
+    EXPECT_GT(finalist["rmse"], 1e-3);
+  }
+  EXPECT_TRUE(tried.count("multiview")) << Json(tried);
 }
 
 TEST_F(Cli, PickWithoutATruthSaysWhatErrorsAreTo) {
