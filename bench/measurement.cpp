@@ -152,17 +152,14 @@ class Session {
     const bool with_ladder =
         options_.ladder == LadderFor::all || (options_.ladder == LadderFor::presets && variation.variant.empty());
     if (with_ladder) row->ladder = steps_.climb(variation, shipped);
-    if (with_ladder && !contains(measured_, variation.technique->name)) add_converged(variation);
-    race_.enter(*row);
     std::string name = variation.technique->name + "_" + variation.name();
     if (!variation.variant.empty()) name += "_" + variation.variant;
     row->image = picture(name, shipped);
+    Errors converged;
+    if (with_ladder && !contains(measured_, variation.technique->name)) converged = steps_.converged_errors(variation);
+    race_.enter(*row);  // last: the race keeps a pointer to it
+    if (converged.rmse) result_.converged.push_back({variation.technique->name, subject_.name, converged});
     return row;
-  }
-
-  void add_converged(const Variation& variation) {
-    const Errors errors = steps_.converged_errors(variation);
-    if (errors.rmse) result_.converged.push_back({variation.technique->name, subject_.name, errors});
   }
 
   /// Draws the first view; the path below the folder, empty where there shall be no pictures.

@@ -53,7 +53,8 @@ class Race {
   Race(const Frame& frame, const std::string& holds, double radius, Device& device);
   ~Race();
 
-  /// `racer.variation` says what; the racer must stay where it is. Throws what `gloam::run` throws.
+  /// `racer.variation` says what; the racer must stay where it is until `run` is done. Throws what `gloam::run` throws, and
+  /// has not entered it then.
   void enter(Racer& racer);
 
   /// Fills in the times and ratios of all that was entered. `progress` is told of single runs, and may be empty.

@@ -398,6 +398,21 @@ TEST_F(Cli, BenchSkipsWhatCannotBeMeasuredAndKeepsTheRest) {
                        "sd-hbao: growth: needs 4 layers of 'stochastic'"}));
 }
 
+TEST_F(Cli, BenchGoesOnWithoutARowWhosePictureCannotBeWritten) {
+  fs::create_directories(path("out/images/plane/hbaoplus_low.png"));
+  fs::create_directories(path("out/images/plane/hbaoplus_ultra.png"));
+  const Result result = gloam(small(path("out"), {"--json", "-"}));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  ASSERT_EQ(document["results"].size(), 2u);
+  EXPECT_EQ(document["results"][0]["preset"], "medium");
+  EXPECT_EQ(document["results"][1]["preset"], "high");
+  ASSERT_EQ(document["skipped"].size(), 2u);
+  for (const Json& skipped : document["skipped"])
+    EXPECT_NE(skipped["why"].get<std::string>().find("it is a directory"), std::string::npos) << skipped;
+  EXPECT_EQ(document["converged"].size(), 1u);
+}
+
 TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
   Frame flat = small_frame(48, 32, {"depth", "normal"}), pair = small_frame(48, 32, {"depth", "normal"});
   flat.views[0].camera->orthographic = true;
