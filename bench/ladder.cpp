@@ -81,6 +81,7 @@ const Image* Steps::converged(const Technique& technique, const Variation& varia
   if (technique.converged.empty()) return nullptr;
   Variation full = variation;
   full.technique = &technique;
+  full.settings = settings_over_other_layers(variation.settings, *variation.technique, technique);
   full.resolution = 1;
   try {
     return &shared(unfiltered_plan(full, available_, holds_, technique.converged), for_converged());

@@ -5,9 +5,12 @@
 #include "gloam/ambient_occlusion.h"
 #include "gloam/planes.h"
 #include "lists.h"
+#include "shared/ambient_occlusion.h"
 
 namespace gloam::bench {
 namespace {
+
+PARAMS(StochasticParams, STOCHASTIC_PARAMS)
 
 /// The radius in the shortest form that reads back as the same float.
 PlanRequest request_for(const Variation& variation) {
@@ -64,6 +67,17 @@ const Technique* over_all_layers(const Technique& technique) {
     if (other.name == std::string(peeled_prefix) + base) return &other;
   }
   return nullptr;
+}
+
+Settings settings_over_other_layers(const Settings& settings, const Technique& from, const Technique& to) {
+  if (&from == &to) return settings;
+  const ParameterValues known(to.parameters), of_layers(StochasticParams::table());
+  const bool has_own_layers = contains(from.reads, "stochastic");
+  Settings same;
+  for (const auto& setting : settings) {
+    if (known.has(setting.first) && !(has_own_layers && of_layers.has(setting.first))) same.push_back(setting);
+  }
+  return same;
 }
 
 std::vector<std::string> planes_of(const Frame& frame) {

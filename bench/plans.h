@@ -49,6 +49,10 @@ struct Variation {
   RunOptions run_options() const;
 };
 
+/// Of settings for a technique, those that mean the same for the same estimate over other layers (`over_all_layers`). The
+/// parameters of stochastic depth do not: their `samples` are depths, not places that are looked at.
+Settings settings_over_other_layers(const Settings& settings, const Technique& from, const Technique& to);
+
 /// The names of a frame's planes that every view has.
 std::vector<std::string> planes_of(const Frame& frame);
 

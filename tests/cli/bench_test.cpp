@@ -306,6 +306,22 @@ TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
   EXPECT_LT(low["t5"], 1e-3);
 }
 
+TEST_F(Cli, BenchClimbsTheLadderOfSweepsOverStochasticDepth) {
+  const Result result =
+      gloam({"bench",        "-o",        path("out"),   "--size",      "96x54",       "--rays",  "16",
+             "--scenes",     "fence",     "--rounds",    "1",           "--ladder",    "all",     "--techniques",
+             "hbao,sd-hbao", "--presets", "low",         "--variants",  "none",        "--sweep", "samples=1,4",
+             "--sweep",      "bias=0.5",  "--no-growth", "--no-checks", "--no-images", "--json",  "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json(), preset = row_of(document, "sd-hbao", "")["ladder"],
+             one = row_of(document, "sd-hbao", "samples=1, bias=0.5")["ladder"],
+             four = row_of(document, "sd-hbao", "samples=4, bias=0.5")["ladder"];
+  EXPECT_EQ(one["t1"], four["t1"]);    // over all layers it has no samples
+  EXPECT_NE(one["t1"], preset["t1"]);  // ... but the same bias
+  EXPECT_GT(one["t2"], four["t2"]);    // fewer depths miss more
+  EXPECT_TRUE(row_of(document, "hbao", "")["ladder"]["t1"].is_number());
+}
+
 TEST_F(Cli, BenchOfOnesOwnFrameAgreesWithRunAndCompare) {
   const Result result =
       gloam({"bench", "-o", path("out"), "--frame", loggia, "--truth", loggia_truth, "--techniques", "hbao+",
