@@ -25,6 +25,10 @@ struct Try : Choice {
   std::unique_ptr<TimedPlan> timed;
 };
 
+bool is_within(const Choice& tried, const PickOptions& options) {
+  return options.budget ? tried.ms <= *options.budget : tried.rmse <= *options.error;
+}
+
 class Search {
  public:
   Search(const Subject& subject, const PickOptions& options, Device& device)
@@ -120,22 +124,12 @@ class Search {
     return counts_in_full ? ms : tried.timed->first_view_ms();
   }
 
-  /// Those that may be within the bound, the most promising first; at least one, to tell by how much it is missed.
   void keep_finalists() {
-    const auto better = [&](const auto& a, const auto& b) {
-      return options_.budget ? a->rmse < b->rmse : a->ms < b->ms;
-    };
-    const auto hopeless = [&](const auto& t) {
-      return options_.budget ? t->ms > *options_.budget * doubt : t->rmse > *options_.error;
-    };
-    const auto nearest = [&](const auto& a, const auto& b) {
-      return options_.budget ? a->ms < b->ms : a->rmse < b->rmse;
-    };
-    std::iter_swap(tries_.begin(), std::min_element(tries_.begin(), tries_.end(), nearest));
-    const auto end = std::remove_if(tries_.begin() + 1, tries_.end(), hopeless);
-    tries_.erase(end, tries_.end());
-    std::sort(tries_.begin() + 1, tries_.end(), better);
-    if (tries_.size() > most_finalists) tries_.resize(most_finalists);
+    std::vector<Choice> choices;
+    for (const auto& t : tries_) choices.push_back(*t);
+    std::vector<std::unique_ptr<Try>> kept;
+    for (const size_t i : finalists_of(choices, options_)) kept.push_back(std::move(tries_[i]));
+    tries_ = std::move(kept);
   }
 
   void time_finalists() {
@@ -153,7 +147,7 @@ class Search {
     const std::vector<Choice>& all = picked_.finalists;
     bool found = false;
     for (size_t i = 0; i < all.size(); ++i) {
-      const bool fits = options_.budget ? all[i].ms <= *options_.budget : all[i].rmse <= *options_.error;
+      const bool fits = is_within(all[i], options_);
       const bool is_better = options_.budget ? all[i].rmse < all[picked_.best].rmse : false;  // they are by time
       if (!fits || (found && !is_better)) continue;
       picked_.best = i;
@@ -182,6 +176,36 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options) {
+  const auto is_better = [&](size_t a, size_t b) {
+    return options.budget ? tries[a].rmse < tries[b].rmse : tries[a].ms < tries[b].ms;
+  };
+  const auto is_nearer = [&](const Choice& a, const Choice& b) {
+    return options.budget ? a.ms < b.ms : a.rmse < b.rmse;
+  };
+  std::vector<size_t> within, doubtful;
+  for (size_t i = 0; i < tries.size(); ++i) {
+    if (is_within(tries[i], options))
+      within.push_back(i);
+    else if (options.budget && tries[i].ms <= *options.budget * doubt)
+      doubtful.push_back(i);
+  }
+  std::sort(within.begin(), within.end(), is_better);
+  const auto rest = within.begin() + std::min(within.size(), most_finalists / 2);
+  doubtful.insert(doubtful.end(), rest, within.end());
+  within.erase(rest, within.end());
+  std::sort(doubtful.begin(), doubtful.end(), is_better);
+  // At least one, to tell by how much the bound is missed.
+  const size_t nearest = size_t(std::min_element(tries.begin(), tries.end(), is_nearer) - tries.begin());
+  std::vector<size_t> finalists = {nearest};
+  for (const std::vector<size_t>* some : {&within, &doubtful}) {
+    for (const size_t i : *some) {
+      if (i != nearest && finalists.size() < most_finalists) finalists.push_back(i);
+    }
+  }
+  return finalists;
+}
 
 Picked pick(const Subject& subject, const PickOptions& options, Device& device) {
   return Search(subject, options, device).run();

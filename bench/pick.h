@@ -31,6 +31,11 @@ struct Picked {
   std::vector<Skipped> skipped;
 };
 
+/// Which of what was tried once (`ms` of one run) are timed in turn: indices, first the one that misses the bound least. The
+/// most accurate of those that a budget may turn out to allow, but half of the places are for those that were within it at
+/// once: near misses do not crowd them out.
+std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options);
+
 /// Tries every preset of the techniques at full and at half resolution, once; then times those that may win in turn. Where
 /// the subject has no truth, errors are to the converged image of the technique that comes nearest to ray-traced truth on
 /// the built-in scenes. Where one of the techniques makes an image of the first of two views only, times and errors of all
