@@ -72,12 +72,10 @@ void add(std::vector<Share>& shares, const std::string& what, double ms) {
   shares.push_back({what, ms});
 }
 
-/// The estimate in two, gathers and the rest, then the other passes in their order.
+/// The estimate, then the other passes in their order.
 std::vector<Share> spent_on(const Racer& racer) {
   const Series estimate = own_passes(*racer.timed);
-  const double gathers = std::min(1.0, ratio(racer.own_floor_ms, estimate));
-  std::vector<Share> shares = {{"gathers", gathers * median(estimate)},
-                               {"arithmetic of the estimate", (1 - gathers) * median(estimate)}};
+  std::vector<Share> shares = split_estimate(median(estimate), ratio(racer.own_floor_ms, estimate));
   for (size_t i = 0; i < racer.timed->passes().size(); ++i) {
     const TimedPlan::Pass& pass = racer.timed->passes()[i];
     if (!is_own(*racer.timed, i)) add(shares, pass.name, median(pass.ms));
@@ -128,6 +126,11 @@ AgainstNaive part_of(const char* name, const Channel& naive, const Plan& plan, c
 }
 
 }  // namespace
+
+std::vector<Share> split_estimate(double ms, double gathers) {
+  if (gathers > 1) return {{"estimate, whose gathers alone take longer", ms}};
+  return {{"gathers", gathers * ms}, {"arithmetic of the estimate", (1 - gathers) * ms}};
+}
 
 struct Race::Plain {
   Plain(const Frame& given, Device& device) : frame(depth_and_normals(given, device)), planes(device, frame) {}

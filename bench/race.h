@@ -18,9 +18,13 @@ class Naive;
 
 /// A part of a plan's time.
 struct Share {
-  std::string what;  ///< "gathers", "arithmetic of the estimate", or a pass: "bilateral/horizontal"
+  std::string what;  ///< "gathers", "arithmetic of the estimate" (`split_estimate`), or a pass: "bilateral/horizontal"
   double share = 0;  ///< of 1
 };
+
+/// The time of a technique's own passes in two: what its gathers take alone (`gathers`: over all of it) and the rest. In one
+/// where the gathers alone take longer: then they are no part of it.
+std::vector<Share> split_estimate(double ms, double gathers);
 
 /// A part of a plan, and the naive kernels that compute the same.
 struct AgainstNaive {

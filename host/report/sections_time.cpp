@@ -58,6 +58,11 @@ std::string largest_shares(const std::vector<Row>& rows) {
   return text;
 }
 
+std::string remark_on(double ratio, const std::vector<Row>& rows) {
+  if (ratio < 1) return "no floor: its gathers alone take longer";
+  return ratio > far_above ? largest_shares(rows) : "";
+}
+
 std::string floor_table(const std::vector<Row>& rows) {
   Table table({"setting", "time over its own gathers", "most of it is spent on"}, "lrl");
   for (const std::string& technique : techniques_of(rows)) {
@@ -69,7 +74,7 @@ std::string floor_table(const std::vector<Row>& rows) {
     if (ratios.empty()) continue;
     const double ratio = median(ratios);
     table.add({setting_text(technique, of_technique.front().preset), ratio_text(ratio),
-               as_printed(ratio_text(ratio)) > far_above ? largest_shares(of_technique) : ""});
+               remark_on(as_printed(ratio_text(ratio)), of_technique)});
   }
   return table.empty() ? "" : table.text();
 }

@@ -85,8 +85,14 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
       EXPECT_GT(row[key], 0) << key;
     }
     EXPECT_LT(row["own_floor_ms"], row["ms"]["median"]);  // without the filter, it reads less
-    EXPECT_EQ(spent_on(row),
-              Arguments({"gathers", "arithmetic of the estimate", "bilateral/horizontal", "bilateral/vertical"}));
+    // So small an image may take longer for its gathers alone.
+    const Arguments parts = spent_on(row), filter = {"bilateral/horizontal", "bilateral/vertical"};
+    ASSERT_GT(parts.size(), 2u) << row["spent_on"];
+    const Arguments estimate(parts.begin(), parts.end() - 2);
+    EXPECT_TRUE(estimate == Arguments({"gathers", "arithmetic of the estimate"}) ||
+                estimate == Arguments({"estimate, whose gathers alone take longer"}))
+        << row["spent_on"];
+    EXPECT_EQ(Arguments(parts.end() - 2, parts.end()), filter);
     double spent = 0;
     for (const Json& share : row["spent_on"]) {
       EXPECT_GE(share["share"], 0) << share;
