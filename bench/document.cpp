@@ -75,6 +75,8 @@ Json document_of(const Row& row) {
   return {{"technique", v.technique->name},
           {"preset", v.name()},
           {"variant", v.variant},
+          {"depths", depths_of(*v.technique)},
+          {"views", v.technique->views},
           {"settings", settings_of(row.timed->plan(), *v.technique)},
           {"samples", samples_of(row)},
           {"resolution", resolution_name(v.resolution)},
@@ -129,10 +131,9 @@ Json document_of(const GrowthFacts& facts) {
 }
 
 Json document_of(const ConvergedFacts& facts) {
-  return {{"technique", facts.technique},
-          {"scene", facts.scene},
-          {"rmse_to_truth", number(facts.errors.rmse)},
-          {"bias", number(facts.errors.bias)}};
+  return {{"technique", facts.technique->name},         {"scene", facts.scene},
+          {"depths", depths_of(*facts.technique)},      {"views", facts.technique->views},
+          {"rmse_to_truth", number(facts.errors.rmse)}, {"bias", number(facts.errors.bias)}};
 }
 
 Json document_of(const ScaleFacts& facts) {

@@ -158,7 +158,7 @@ class Session {
     Errors converged;
     if (with_ladder && !contains(measured_, variation.technique->name)) converged = steps_.converged_errors(variation);
     race_.enter(*row);  // last: the race keeps a pointer to it
-    if (converged.rmse) result_.converged.push_back({variation.technique->name, subject_.name, converged});
+    if (converged.rmse) result_.converged.push_back({variation.technique, subject_.name, converged});
     return row;
   }
 

@@ -76,7 +76,8 @@ struct GrowthFacts {
 
 /// What more samples would lead to, without a filter.
 struct ConvergedFacts {
-  std::string technique, scene;
+  const Technique* technique = nullptr;
+  std::string scene;
   Errors errors;
 };
 

@@ -46,6 +46,14 @@ std::string own_plane(const Technique& technique) {
   return "ao";
 }
 
+std::vector<std::string> depths_of(const Technique& technique) {
+  std::vector<std::string> depths;
+  for (const std::string& plane : technique.reads) {
+    if (plane_kind(plane).meaning == PlaneKind::view_depth) depths.push_back(plane);
+  }
+  return depths;
+}
+
 bool reads_layers(const Technique& technique) {
   return std::any_of(technique.reads.begin(), technique.reads.end(),
                      [](const std::string& plane) { return is_stack(plane); });

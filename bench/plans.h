@@ -19,6 +19,9 @@ bool is_filter(const Technique& technique);
 /// The plane of ambient occlusion that the technique itself writes: `ao_raw` where a filter follows, else `ao`.
 std::string own_plane(const Technique& technique);
 
+/// What of its input is depth: "depth", and stacks such as "peel" and "stochastic".
+std::vector<std::string> depths_of(const Technique& technique);
+
 /// Whether it reads a stack of depth layers.
 bool reads_layers(const Technique& technique);
 

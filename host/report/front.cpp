@@ -44,6 +44,7 @@ ClassPoint mean_point(const Setting& setting, const std::map<std::string, size_t
                       const std::vector<Row>& rows) {
   ClassPoint point;
   std::tie(point.technique, point.preset, point.variant) = setting;
+  point.reads = rows[rows_of_scenes.begin()->second].reads;
   const double scenes = double(rows_of_scenes.size());
   point.bias = 0;
   for (const auto& [scene, index] : rows_of_scenes) {

@@ -34,6 +34,7 @@ SceneFront front_of_scene(const std::vector<Row>& rows, const std::string& scene
 /// One setting over the scenes of a class.
 struct ClassPoint {
   std::string technique, preset, variant;
+  Reads reads;
   double error = 0, ratio = 0;      ///< means over the scenes
   Number bias;                      ///< the same; empty where a scene has none
   bool on_front = false;            ///< of the means, over all settings

@@ -203,10 +203,10 @@ std::string setting_text(const std::string& technique, const std::string& preset
 }
 
 std::vector<std::string> techniques_of(const std::vector<Row>& rows) {
-  std::vector<std::string> one_layer, peeled;
-  for (const Row& row : rows) add_new(reads_peeled_layers(row.technique) ? peeled : one_layer, row.technique);
-  one_layer.insert(one_layer.end(), peeled.begin(), peeled.end());
-  return one_layer;
+  std::vector<std::string> others, peeled;
+  for (const Row& row : rows) add_new(reads_peeled_layers(row.reads) ? peeled : others, row.technique);
+  others.insert(others.end(), peeled.begin(), peeled.end());
+  return others;
 }
 
 std::vector<Row> default_rows(const std::vector<Row>& rows, const std::string& technique) {

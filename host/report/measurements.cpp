@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gloam/ambient_occlusion.h"
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "lists.h"
 
 namespace gloam::report {
 namespace {
@@ -67,6 +69,16 @@ class Object {
     return list(key);
   }
 
+  /// Empty where it is null or missing.
+  std::optional<std::vector<std::string>> texts(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    const bool are_texts =
+        value->is_array() && std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); });
+    if (!are_texts) fail(place_of(key), *value, "a list of texts");
+    return value->get<std::vector<std::string>>();
+  }
+
   /// The two numbers of a size; empty where there is none.
   std::pair<Number, Number> size(const char* key) const {
     const Json* value = find(key);
@@ -112,12 +124,27 @@ Ladder ladder_of(const Object& l) {
           l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
 }
 
+/// Of files that do not say.
+Reads reads_by_name(const std::string& technique) {
+  if (technique.starts_with(peeled_prefix)) return {{"depth", "peel"}};
+  if (technique.starts_with(stochastic_prefix)) return {{"depth", "stochastic"}};
+  return {{"depth"}};
+}
+
+Reads reads_of(const Object& o) {
+  Reads reads = reads_by_name(o.needed_text("technique"));
+  if (const auto depths = o.texts("depths")) reads.depths = *depths;
+  reads.views = int(o.number("views").value_or(1));
+  return reads;
+}
+
 Row row_of(const Object& o) {
   Row row;
   row.technique = o.needed_text("technique");
   row.preset = o.text("preset");
   row.variant = o.text("variant");
   row.scene = o.needed_text("scene");
+  row.reads = reads_of(o);
   row.ms = milliseconds_of(o.needed_object("ms"));
   row.rmse_to_truth = o.number("rmse_to_truth");
   row.bias = o.number("bias");
@@ -174,7 +201,7 @@ PaperFigure paper_figure_of(const Object& o) {
 }
 
 Converged converged_of(const Object& o) {
-  return {o.needed_text("technique"), o.needed_text("scene"), o.number("rmse_to_truth"), o.number("bias")};
+  return {o.needed_text("technique"), o.needed_text("scene"), o.number("rmse_to_truth"), o.number("bias"), reads_of(o)};
 }
 
 ScaleChange scale_change_of(const Object& o) {
@@ -247,6 +274,13 @@ Measurements read_file(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+bool reads_peeled_layers(const Reads& reads) { return contains(reads.depths, "peel"); }
+
+bool reads_one_layer(const Reads& reads) {
+  return reads.views == 1 && std::all_of(reads.depths.begin(), reads.depths.end(),
+                                         [](const std::string& depth) { return depth == "depth"; });
+}
 
 Measurements read_measurements(const std::filesystem::path& folder) {
   std::error_code unknown;

@@ -38,9 +38,21 @@ struct AgainstNaive {
   double ratio = 0;  ///< the technique's time over theirs
 };
 
+/// What a technique looks at.
+struct Reads {
+  std::vector<std::string> depths;  ///< "depth", and stacks of further layers: "peel", "stochastic"
+  int views = 1;                    ///< that a frame needs
+};
+
+/// Peeled layers: no choice where a renderer gives one.
+bool reads_peeled_layers(const Reads& reads);
+/// Nothing but the depth of its own view, which every renderer has.
+bool reads_one_layer(const Reads& reads);
+
 /// One technique with one preset, in one variant, on one scene.
 struct Row {
   std::string technique, preset, variant, scene;
+  Reads reads;
   Milliseconds ms;
   Number rmse_to_truth, bias;
   Number ratio_to_hbao_plus, ratio_to_gather_floor, ratio_to_copy_floor, ratio_to_naive, ratio_to_native;
@@ -83,6 +95,7 @@ struct PaperFigure {
 struct Converged {
   std::string technique, scene;
   Number rmse_to_truth, bias;
+  Reads reads;
 };
 
 /// What an image computed at one size differs by from the same computed at another.
@@ -114,7 +127,8 @@ struct Measurements {
   std::vector<PlaneReading> planes;
 };
 
-/// Reads DIR/bench.json, of this version or an older one: what that did not have is empty. Throws Error naming the file
+/// Reads DIR/bench.json, of this version or an older one: what that did not have is empty, and what a technique reads is
+/// taken from the prefixes of names (gloam/ambient_occlusion.h). Throws Error naming the file
 /// and the thing in it that is missing or of another kind.
 Measurements read_measurements(const std::filesystem::path& folder);
 

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <string_view>
 #include <tuple>
 
-#include "gloam/ambient_occlusion.h"
 #include "markdown_text.h"
 
 namespace gloam::report {
 namespace {
 
-enum class Kind { one_layer, peeled, lower_resolution };
+enum class Kind { one_layer, further_layers, lower_resolution };
 enum class Best { time, error };
 
 struct Need {
@@ -30,14 +28,14 @@ constexpr std::array<Need, 7> needs{
      {"at most 2 times that", Kind::one_layer, 2, Best::error},
      {"at most 5 times that", Kind::one_layer, 5, Best::error},
      {"nearest to the truth at any price, one layer", Kind::one_layer, any, Best::error},
-     {"nearest to the truth with further layers", Kind::peeled, any, Best::error},
+     {"nearest to the truth with further layers", Kind::further_layers, any, Best::error},
      {"less than half the time of HBAO+ medium, at a lower resolution", Kind::lower_resolution, 0.49, Best::error}}};
 
 bool is_of(Kind kind, const ClassPoint& point) {
-  const bool all_layers = reads_further_layers(point.technique);
-  if (kind == Kind::peeled) return all_layers && point.variant.empty();
-  if (kind == Kind::lower_resolution) return !all_layers && (point.variant == "half" || point.variant == "quarter");
-  return !all_layers && point.variant.empty();
+  const bool one_layer = reads_one_layer(point.reads);
+  if (kind == Kind::further_layers) return !one_layer && point.variant.empty();
+  if (kind == Kind::lower_resolution) return one_layer && (point.variant == "half" || point.variant == "quarter");
+  return one_layer && point.variant.empty();
 }
 
 /// Smaller is better: what is printed first, then what it was rounded from.
@@ -49,21 +47,7 @@ std::tuple<double, double, double, double> order(const ClassPoint& p, Best best)
 
 }  // namespace
 
-bool reads_peeled_layers(const std::string& technique) { return technique.starts_with(peeled_prefix); }
-
-bool reads_further_layers(const std::string& technique) {
-  return reads_peeled_layers(technique) || technique.starts_with(stochastic_prefix);
-}
-
-std::string one_layer_name(const std::string& technique) {
-  return reads_peeled_layers(technique) ? technique.substr(peeled_prefix.size()) : technique;
-}
-
-std::string all_layers_name(const std::string& technique) {
-  return reads_peeled_layers(technique) ? technique : std::string(peeled_prefix) + technique;
-}
-
-bool is_plain_over_one_layer(const Row& row) { return row.variant.empty() && !reads_further_layers(row.technique); }
+bool is_plain_over_one_layer(const Row& row) { return row.variant.empty() && reads_one_layer(row.reads); }
 
 std::vector<Choice> choices(const ClassFront& measured) {
   std::vector<Choice> found;

@@ -9,15 +9,6 @@
 
 namespace gloam::report {
 
-/// Reads every peeled layer of the depth (`over_peeled_layers`, gloam/ambient_occlusion.h): no choice where a renderer
-/// gives one.
-bool reads_peeled_layers(const std::string& technique);
-/// Whether it looks at layers behind the depth: all peeled ones, or stochastic depths.
-bool reads_further_layers(const std::string& technique);
-/// The same technique over one layer, and over all of them.
-std::string one_layer_name(const std::string& technique);
-std::string all_layers_name(const std::string& technique);
-
 /// A preset as it stands, over one layer: what the page's fronts are over.
 bool is_plain_over_one_layer(const Row& row);
 

@@ -146,8 +146,9 @@ std::string needs_section(const Material& material) {
       "Take the row that says what you need, in the class of scenes that yours are like. Figures are means over the "
       "scenes of the class. The setting is chosen by them alone, from the Pareto front of the presets that see one "
       "layer, the depth buffer that every renderer has: of settings with the same RMSE, as printed, the fastest. Two "
-      "rows stand beside that front. Peeled layers are what a renderer has to make first, and that is not in the "
-      "time. At a lower resolution every 2nd (half) or 4th pixel (quarter) each way is estimated and filtered, then "
+      "rows stand beside that front. Further layers, peeled or stochastic, or a second view, are what a renderer has "
+      "to make first, and that is not in the time. At a lower resolution every 2nd (half) or 4th pixel (quarter) each "
+      "way is estimated and filtered, then "
       "upsampled.");
   if (material.measured.size() > 1) text += overview(material);
   for (const ClassFront& group : material.measured) text += needs_of_group(group);
@@ -176,7 +177,7 @@ std::string scenes_section(const Material& material) {
          paragraph(
              "A row is a technique, a column a preset. In a cell: RMSE (bias), time, samples per pixel where the "
              "technique says how many it takes. With `*` the setting is on the scene's front, of which techniques "
-             "over peeled layers are no part.") +
+             "over further layers are no part.") +
          tables;
 }
 

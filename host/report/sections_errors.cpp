@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "gloam/ambient_occlusion.h"
 #include "gloam/error.h"
 #include "lists.h"
 #include "markdown_text.h"
@@ -27,16 +28,27 @@ const Converged* find(const std::vector<Converged>& list, const std::string& sce
   return found == list.end() ? nullptr : &*found;
 }
 
-/// A technique over one layer and over all of them; either may be missing.
+/// A technique and the same over all peeled layers; either may be missing, and is empty then.
 struct Pair {
-  std::string one_layer, all_layers;
+  std::string name, given, all_layers;
+  bool is_over_one_layer = false;  ///< `given`: what is compared for the least
 };
 
+/// What the technique is called that the same over peeled layers is named after (gloam/ambient_occlusion.h).
+std::string name_of_pair(const Converged& each) {
+  const bool is_named_after = reads_peeled_layers(each.reads) && each.technique.starts_with(peeled_prefix);
+  return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);
+}
+
 std::vector<Pair> pairs_of(const std::vector<Converged>& list) {
-  std::vector<std::string> names;
-  for (const Converged& each : list) add_new(names, one_layer_name(each.technique));
   std::vector<Pair> pairs;
-  for (const std::string& name : names) pairs.push_back({name, all_layers_name(name)});
+  for (const Converged& each : list) {
+    const std::string name = name_of_pair(each);
+    auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.name == name; });
+    if (pair == pairs.end()) pair = pairs.insert(pairs.end(), Pair{.name = name});
+    (reads_peeled_layers(each.reads) ? pair->all_layers : pair->given) = each.technique;
+    pair->is_over_one_layer |= reads_one_layer(each.reads);
+  }
   return pairs;
 }
 
@@ -78,13 +90,14 @@ std::vector<std::string> converged_row(const std::vector<Converged>& list, const
   };
   std::string least = "-";
   for (const Pair& pair : pairs) {
-    const std::string text = error(pair.one_layer);
+    const std::string text = pair.is_over_one_layer ? error(pair.given) : "-";
     if (text != "-" && (least == "-" || as_printed(text) < as_printed(least))) least = text;
   }
   std::vector<std::string> cells{plain_text(scene)};
   for (const Pair& pair : pairs) {
-    const std::string one = error(pair.one_layer);
-    cells.push_back(side_by_side(one != "-" && one == least ? "**" + one + "**" : one, error(pair.all_layers)));
+    const std::string given = error(pair.given);
+    const bool is_least = pair.is_over_one_layer && given != "-" && given == least;
+    cells.push_back(side_by_side(is_least ? "**" + given + "**" : given, error(pair.all_layers)));
   }
   return cells;
 }
@@ -158,10 +171,10 @@ std::string converged_section(const Material& material) {
   const std::vector<std::string> scenes = scenes_of(material);
   std::vector<std::string> heading{"scene"}, means{"mean"}, biases{"bias, mean"};
   for (const Pair& pair : pairs) {
-    heading.push_back(plain_text(pair.one_layer));
-    means.push_back(side_by_side(error_text(mean_of(list, scenes, pair.one_layer, &Converged::rmse_to_truth)),
+    heading.push_back(plain_text(pair.name));
+    means.push_back(side_by_side(error_text(mean_of(list, scenes, pair.given, &Converged::rmse_to_truth)),
                                  error_text(mean_of(list, scenes, pair.all_layers, &Converged::rmse_to_truth))));
-    biases.push_back(side_by_side(bias_text(mean_of(list, scenes, pair.one_layer, &Converged::bias)),
+    biases.push_back(side_by_side(bias_text(mean_of(list, scenes, pair.given, &Converged::bias)),
                                   bias_text(mean_of(list, scenes, pair.all_layers, &Converged::bias))));
   }
   Table table(heading, "lr");
@@ -174,7 +187,9 @@ std::string converged_section(const Material& material) {
          paragraph(
              "RMSE to the truth with so many samples that more change nothing, unfiltered: what no time buys. Two "
              "figures are one layer / all peeled layers of the same technique; their difference is what hidden "
-             "surfaces are worth. The least over one layer is bold.") +
+             "surfaces are worth. The least over one layer is bold; what looks at stochastic depths or at a second "
+             "view "
+             "has a column of its own.") +
          table.text();
 }
 

@@ -74,6 +74,8 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
     EXPECT_EQ(row["width"], 96);
     EXPECT_EQ(row["height"], 54);
     EXPECT_EQ(row["variant"], "");
+    EXPECT_EQ(row["depths"], Json({"depth"}));
+    EXPECT_EQ(row["views"], 1);
     EXPECT_TRUE(row["settings"].is_object());
     EXPECT_EQ(row["samples"], int(row["settings"]["directions"]) * int(row["settings"]["steps"]));
     expect_ms(row["ms"]);
@@ -497,6 +499,11 @@ TEST_F(Cli, BenchMeasuresOnTheFirstViewWhatMakesNoOther) {
   }
   EXPECT_NEAR(row["rmse_to_truth"], std::sqrt(squares / count), 1e-5);
   EXPECT_NEAR(row["bias"], sum / count, 1e-5);
+  for (const Json& each : {row, document["converged"][0]}) {
+    EXPECT_EQ(each["technique"], "multiview");
+    EXPECT_EQ(each["depths"], Json({"depth", "stochastic"}));
+    EXPECT_EQ(each["views"], 2);
+  }
   // The others are compared with it on that view alone.
   const Result alone = gloam(
       {"bench",    "-o",        path("alone"), "--frame",     path("two.exr"), "--view",      first,    "--techniques",

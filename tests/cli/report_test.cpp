@@ -266,6 +266,7 @@ TEST_F(Report, SaysWhatIsWrong) {
   says(changed("/results", Json::array()), 1, "results is empty");
   says(changed("/scenes/0", "hall"), 1, "scenes[0] is \"hall\", not an object");
   says(changed("/scenes/0/size", {1}), 1, "scenes[0].size");
+  says(changed("/results/0/depths", "depth"), 1, "results[0].depths is \"depth\", not a list of texts");
   says(changed("/results/0/spent_on", {{{"what", "x"}}}), 1, "results[0].spent_on[0].share is missing");
   write_text("out/bench.json", "{\"results\": [");
   says(report(), 1, "bench.json: is not JSON");
@@ -667,6 +668,42 @@ TEST_F(Documentation, HasASectionForEachMeasurement) {
             std::string::npos)
       << others;
   EXPECT_EQ(rows_of(others), "| hbao+ medium | 0.060 (0.050 to 0.070) | 0.10 | 1.1 |\n");
+}
+
+TEST_F(Documentation, TellsLayersByWhatIsReadAndNotByNames) {
+  Json document = with_all_sections();
+  const auto reads = [](Json each, const char* technique, const Json& depths, int views, double error) {
+    each["technique"] = technique;
+    each["depths"] = depths;
+    each["views"] = views;
+    each["rmse_to_truth"] = error;
+    return each;
+  };
+  // Better than all others on one layer, and named like them.
+  for (const char* list : {"results", "converged"}) {
+    const Json before = document[list];
+    for (const Json& each : before) {
+      if (each["technique"] != "quick") continue;
+      document[list].push_back(reads(each, "deep", {"depth", "stochastic"}, 1, 0.05));
+      document[list].push_back(reads(each, "stereo", {"depth"}, 2, 0.06));
+      document[list].push_back(reads(each, "dp-shallow", {"depth"}, 1, 0.1));
+      document[list].push_back(reads(each, "sd-old", nullptr, 1, 0.07));  // of a file that does not say
+    }
+  }
+  const std::string page = page_of(document);
+  EXPECT_EQ(rows_of(section(page, "## Converged")),
+            "| hall | .110 / .090 | .240 | .050 | .060 | **.100** | .070 |\n"
+            "| nave | .110 / .090 | .240 | .050 | .060 | **.100** | .070 |\n"
+            "| mean | .110 / .090 | .240 | .050 | .060 | .100 | .070 |\n"
+            "| bias, mean | +.020 / +.010 | -.100 | -.100 | -.100 | -.100 | -.100 |\n");
+  EXPECT_NE(page.find("| scene | even | quick | deep | stereo | dp-shallow | sd-old |\n"), std::string::npos) << page;
+  const std::string needs = rows_of(section(page, "## Which technique for which need"));
+  for (const char* line : {"| at most the time of HBAO+ medium | dp-shallow medium |",
+                           "| nearest to the truth at any price, one layer | dp-shallow medium |",
+                           "| nearest to the truth with further layers | deep medium |"})
+    EXPECT_NE(needs.find(line), std::string::npos) << line << "\n" << needs;
+  const std::string fronts = section(page, "## The fronts");
+  for (const char* other : {"deep", "stereo", "sd-old"}) EXPECT_EQ(fronts.find(other), std::string::npos) << fronts;
 }
 
 TEST_F(Documentation, IsMadeOfSeveralFiles) {

@@ -144,8 +144,10 @@ TEST(ClassFront, HasTheMeanBiasOrNone) {
 
 // --- Needs
 
-ClassPoint point(const std::string& technique, double ratio, double error, const std::string& variant = "") {
+ClassPoint point(const std::string& technique, double ratio, double error, const std::string& variant = "",
+                 const Reads& reads = {{"depth"}}) {
   ClassPoint made;
+  made.reads = reads;
   made.technique = technique;
   made.preset = "low";
   made.variant = variant;
@@ -172,8 +174,10 @@ TEST(Needs, TakeWhatIsNearestWithinTheTime) {
       point("two", 1.9, 0.12),
       point("five", 5, 0.1),
       point("dearest", 30, 0.09),
-      point("dp-far", 2, 0.2),
-      point("dp-near", 9, 0.08),
+      point("far layers", 2, 0.2, "", {{"depth", "peel"}}),
+      point("near layers", 9, 0.08, "", {{"depth", "stochastic"}}),
+      point("two views", 1, 0.081, "", {{"depth"}, 2}),
+      point("layers", 0.1, 0.05, "half", {{"depth", "peel"}}),
       point("reduced", 0.45, 0.2, "half"),
       point("tiny", 0.1, 0.3, "quarter"),
       point("slow", 0.496, 0.1, "half"),      // printed as 0.50
@@ -183,7 +187,7 @@ TEST(Needs, TakeWhatIsNearestWithinTheTime) {
                                     {"at most 2 times that", "two"},
                                     {"at most 5 times that", "five"},
                                     {"nearest to the truth at any price, one layer", "dearest"},
-                                    {"nearest to the truth with further layers", "dp-near"},
+                                    {"nearest to the truth with further layers", "near layers"},
                                     {"less than half the time of HBAO+ medium, at a lower resolution", "reduced"}}));
 }
 
@@ -201,7 +205,8 @@ TEST(Needs, AreLeftOutWhereNothingWasMeasuredForThemAndUnmetWhereNothingMeetsThe
                                                      {"at most 2 times that", "none"},
                                                      {"at most 5 times that", "slow"},
                                                      {"nearest to the truth at any price, one layer", "slow"}}));
-  EXPECT_EQ(chosen({point("dp-x", 3, 0.1)}), (Chosen{{"nearest to the truth with further layers", "dp-x"}}));
+  EXPECT_EQ(chosen({point("x", 3, 0.1, "", {{"depth", "peel"}})}),
+            (Chosen{{"nearest to the truth with further layers", "x"}}));
 }
 
 TEST(Needs, ChooseFromTheFront) {
