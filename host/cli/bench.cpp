@@ -228,7 +228,8 @@ void print(const Measurement& result, const Options& options, const DeviceInfo& 
   fmt::print("{}, {} ({}); {} rounds\n", cpu_model(), device.name, device.platform, options.rounds);
   fmt::print(
       "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
-      "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: none is both faster and closer.\n");
+      "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: no other is as fast\nand as close, "
+      "and better in one of the two.\n");
   for (const SceneFacts& scene : result.scenes) {
     print(table_of_scene(result, scene.name));
     if (const Table table = table_of_baselines(result, scene.name); table.rows.size() > 1 || !table.below.empty())

@@ -1,4 +1,4 @@
-// The Pareto front: the settings that no other beats in both time and error.
+// The Pareto front: the settings beside which no other is as fast and as near to the truth, and better in one of the two.
 #pragma once
 
 #include <cstddef>

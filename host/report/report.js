@@ -318,7 +318,7 @@ function spentSentence(row) {
 /// How a point stands to the front.
 function standingOf(point) {
   if (!is(point.rmse)) return 'no truth to tell its error';
-  if (!frontNow().includes(point)) return 'beaten in both time and error by another setting';
+  if (!frontNow().includes(point)) return 'not on the front: another setting is as fast and as near to the truth, and better in one of the two';
   const onAll = state.mean !== null ? point.on_front : sceneNow().front.includes(data.rows.indexOf(point));
   return element('span', {class: 'badge'}, 'on the Pareto front' + (onAll ? '' : ' of plain settings'));
 }
