@@ -197,7 +197,7 @@ void add_report(CLI::App& app) {
       ->required()
       ->type_name("DIR|JSON");
   command
-      ->add_option("--picture-width", flags->picture_width, "reduce wider pictures to this; 0: as stored; default: 640")
+      ->add_option("--picture-width", flags->picture_width, "reduce wider pictures to this; 0: as stored; default: 480")
       ->type_name("PIXELS");
   command
       ->add_option("--markdown", flags->markdown,

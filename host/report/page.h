@@ -12,7 +12,7 @@
 namespace gloam::report {
 
 struct PageOptions {
-  int picture_width = 640;                         ///< wider pictures are reduced to it by averaging; 0: as stored
+  int picture_width = 480;                         ///< wider pictures are reduced to it by averaging; 0: as stored
   std::function<void(int done, int of)> progress;  ///< may be empty
 };
 

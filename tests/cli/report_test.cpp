@@ -215,6 +215,17 @@ TEST_F(Report, ReducesPicturesByAveragingWhatIsThere) {
   EXPECT_EQ(result["there"], Json({false, false, true, true}));
 }
 
+TEST_F(Report, ReducesPicturesTo480PixelsWhereNothingIsSaid) {
+  write_grey(path("out/images/hall/low.png"), 100, 1000, 40);
+  const auto page = [&](const Arguments& more) {
+    EXPECT_EQ(report(more).status, 0);
+    return slurp(path("out/report.html"));
+  };
+  const std::string by_default = page({});
+  EXPECT_EQ(by_default, page({"--picture-width", "480"}));
+  EXPECT_NE(by_default, page({"--picture-width", "481"}));
+}
+
 TEST_F(Report, GoesWithoutPicturesThatCannotBeHad) {
   write_text("out/images/hall/low.png", "no picture");
   fs::remove(path("out/images/hall/medium.png"));
