@@ -68,7 +68,7 @@ struct Stage {
   std::unique_ptr<Tracer> tracer;
   Frame frame;
   double radius = 0;
-  std::vector<Mask> surfaces;
+  Foreground surfaces;
 };
 
 class Study {
@@ -117,21 +117,21 @@ class Study {
     return std::move(run(plan, s.frame, device_).frame.views[0].planes.at(asked.plane));
   }
 
+  static Image of_first_view(const Stage& s, const Plane& plane) {
+    Image image;
+    image.emplace(s.frame.views[0].name, plane.clone());
+    return image;
+  }
+
   double error(const Stage& s, const Plane& test, const Plane& truth) const {
-    Image a, b;
-    a.push_back(test.clone());
-    b.push_back(truth.clone());
-    return rmse(a, b, {s.surfaces[0]});
+    return rmse(of_first_view(s, test), of_first_view(s, truth), s.surfaces);
   }
 
   double mean_taken(const Stage& s, const Plane& ao) const {
     Plane open{ao.name, {}};
     open.channels.push_back(ao.channels[0].clone());
     for (int y = 0; y < s.frame.height(); ++y) std::fill_n(open.channels[0].row(y), s.frame.width(), 1.0f);
-    Image a, b;
-    a.push_back(std::move(open));
-    b.push_back(ao.clone());
-    return bias(a, b, {s.surfaces[0]});
+    return bias(of_first_view(s, open), of_first_view(s, ao), s.surfaces);
   }
 
   void tell(const std::string& what, double share = 0) const {
