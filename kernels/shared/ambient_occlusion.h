@@ -68,7 +68,7 @@ static inline global const float* layer_at(DepthLayers layers, Frame f, int laye
 #endif
 
 // Layers behind the first are read by groups: of stacks that techniques sort themselves, several lie side by side, pixel by
-// pixel. Both kinds are sorted front to back.
+// pixel, front to back. Those of a frame come in any order.
 #if STOCHASTIC && OCCLUDERS_LAYERS % 4 == 0
 #define GROUP 4
 #elif STOCHASTIC && OCCLUDERS_LAYERS % 2 == 0
@@ -82,8 +82,8 @@ typedef struct {
   real next, later;
 } Behind;
 
-// Brings depth `k` behind the first at an index from `here` into `behind->next`. Returns 0 if no lane that asks can find
-// anything before `farthest` in it and in what lies behind it. To be called with k = 0, 1, ... in order.
+// Brings depth `k` behind the first at an index from `here` into `behind->next`. Returns 0 if what is sorted holds nothing
+// before `farthest` from there on, for none of the lanes that ask. To be called with k = 0, 1, ... in order.
 static inline __attribute__((always_inline)) int look_behind(DepthLayers layers, Frame f, int k, int here,
                                                              integer index, mask asked, real farthest, Behind* behind) {
   if (k == 0 && EARLY_OUT && !ANY(asked)) return 0;
@@ -96,7 +96,11 @@ static inline __attribute__((always_inline)) int look_behind(DepthLayers layers,
   else
     behind->next = behind->later;
 #endif
+#if STOCHASTIC
   return ANY(asked & (behind->next < farthest));
+#else
+  return 1;
+#endif
 }
 
 // Nothing but what is read at an index (GATHERS_ONLY).
