@@ -121,7 +121,7 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
 #pragma unroll 4
   for (int k = 0; k < LAYERS - 1; ++k) {
     if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
-    take_depth(frame, params, search, side, behind.next, asked, &side->closed);
+    take_depth(frame, params, search, side, behind.next, behind.counts, &side->closed);
   }
 }
 

@@ -44,7 +44,7 @@ static inline __attribute__((always_inline)) void rise_near(Frame frame, Params 
   for (int k = 0; k < LAYERS - 1; ++k) {
     if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
     const real3 w = towards_near(frame, r.point, x, y, relative_depth(r.point, r.depth, behind.next));
-    rise = greater_rise(rise, rise_to(*horizon, w, r.normal, r.reach.inverse_square, asked));
+    rise = greater_rise(rise, rise_to(*horizon, w, r.normal, r.reach.inverse_square, behind.counts));
   }
   rise.taken = COMPENSATE(params, rise.taken, by_first);
   raise_by(horizon, rise);

@@ -42,7 +42,8 @@ static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Par
   for (int k = 0; k < LAYERS - 1; ++k) {
     if (!look_behind(layers, frame, k, here, place, asked, r.farthest, &behind)) break;
     const real3 w = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, behind.next));
-    largest = choose(asked, larger(obscurance(w, r.normal, params.bias, r.reach.inverse_square), largest), largest);
+    largest =
+        choose(behind.counts, larger(obscurance(w, r.normal, params.bias, r.reach.inverse_square), largest), largest);
   }
   return COMPENSATE(params, largest, by_first);
 }

@@ -80,6 +80,7 @@ static inline global const float* layer_at(DepthLayers layers, Frame f, int laye
 // Two depths behind the first that come at once.
 typedef struct {
   real next, later;
+  mask counts;  // where `next` may
 } Behind;
 
 // Brings depth `k` behind the first at an index from `here` into `behind->next`. Returns 0 if what is sorted holds nothing
@@ -97,8 +98,11 @@ static inline __attribute__((always_inline)) int look_behind(DepthLayers layers,
     behind->next = behind->later;
 #endif
 #if STOCHASTIC
-  return ANY(asked & (behind->next < farthest));
+  // Lane by lane, so that none depends on the others.
+  behind->counts = asked & (behind->next < farthest);
+  return ANY(behind->counts);
 #else
+  behind->counts = asked;
   return 1;
 #endif
 }

@@ -65,7 +65,7 @@ static inline __attribute__((always_inline)) real occlusion_at(Frame frame, Para
   for (int k = 0; k < LAYERS - 1; ++k) {
     if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
     const real further = relative_depth(r.point, r.depth, behind.next);
-    const mask occludes = asked & stands_before(further, fall, there - height);
+    const mask occludes = behind.counts & stands_before(further, fall, there - height);
     largest = larger(choose(occludes, range_weight(further, s.per_range), (real)(0)), largest);
   }
   return COMPENSATE(params, largest, by_first);

@@ -16,6 +16,7 @@
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "mesh_builder.h"
+#include "support/frames.h"
 #include "support/techniques.h"
 
 namespace gloam {
@@ -474,6 +475,39 @@ TEST(StochasticCapture, TheSameBitsAsTheTechniqueMakes) {
       expect_same_map(frame, samples, alpha, seed);
     }
   }
+}
+
+/// Every one of 64 layers is held as often as alpha says, down to where that is less than once in the image.
+TEST(StochasticDepthOfLayers, SixteenSamplesOfSixtyFour) {
+  constexpr int width = 160, height = 120, layers = 64, samples = 16;
+  constexpr double alpha = 0.05;
+  Frame frame = test::shoot(test::perspective(width, height), test::tilted_plane(4, 0, 0));
+  const auto depth_of = [](int layer) { return 4 + 0.25f * float(layer); };
+  for (int i = 0; i < layers; ++i) {
+    Channel& channel = test::plane_of(frame, layer_name("peel", i)).channels[0];
+    for (int y = 0; y < height; ++y) std::fill_n(channel.row(y), width, depth_of(i));
+  }
+  const Frame map = derived(frame, samples, alpha, 0);
+  std::vector<double> held(layers, 0);
+  double empty = 0;
+  for (int j = 0; j < samples; ++j) {
+    const Channel& sample = map.views[0].find(layer_name("stochastic", j))->channels[0];
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const double layer = (double(sample.at(x, y)) - 4) * 4;
+        if (std::isinf(layer))
+          ++empty;
+        else
+          ++held.at(size_t(layer));
+      }
+    }
+  }
+  const double all = double(width) * height * samples;
+  for (int i = 0; i < layers; ++i) {
+    const double share = alpha * std::pow(1 - alpha, i);
+    EXPECT_LT(std::abs(held[size_t(i)] - share * all), 4.5 * std::sqrt(share * all)) << "layer " << i;
+  }
+  EXPECT_NEAR(empty / all, std::pow(1 - alpha, layers), 0.002);
 }
 
 TEST(StochasticCapture, IsOfAllSurfacesWhateverIsStored) {
