@@ -42,6 +42,7 @@ class Search {
   Picked run() {
     find_truth();
     try_all();
+    picked_.tried = tries_.size();
     keep_finalists();
     time_finalists();
     choose();

@@ -26,6 +26,7 @@ struct Choice {
 
 struct Picked {
   std::vector<Choice> finalists;  ///< by time
+  size_t tried = 0;               ///< settings, of which these are the ones that may win
   size_t best = 0;                ///< of these
   std::string truth;              ///< what errors are to: "the truth", or what stood in for it
   std::vector<Skipped> skipped;

@@ -121,7 +121,8 @@ void print(const Picked& picked, const DeviceInfo& device) {
                     fmt::format("{:.4f}", c.rmse)});
   }
   print_table(rows, 4);
-  fmt::print("{}; errors to {}\n", printable(device.name), picked.truth);
+  fmt::print("{} of {} settings that were tried; {}; errors to {}\n", picked.finalists.size(), picked.tried,
+             printable(device.name), picked.truth);
 }
 
 /// A folder of its own for a truth that is traced; gone with it.

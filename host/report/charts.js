@@ -274,13 +274,13 @@ function scatterSpec({points, front, picked, timeTitle, isRatio, width}) {
 }
 
 /// Bars beside one another, a line for each total. `bars`: {step, index, value, colour, opacity, hover}; `totals`: {value,
-/// colour, opacity, dash, label}.
+/// colour, opacity, dash, label, picked}.
 function ladderSpec({steps, count, bars, totals, width}) {
   const colours = theme(), height = 280, wide = width >= 620;
   const highest = Math.max(1e-9, ...bars.map((b) => b.value || 0), ...totals.map((t) => t.value)) * 1.06;
-  // A label that would lie on another is left out: the table has them all.
+  // A label that would lie on another is left out, but never what is picked: the table has them all.
   const labelled = [];
-  for (const total of [...totals].sort((a, b) => b.value - a.value)) {
+  for (const total of [...totals].sort((a, b) => (b.picked || 0) - (a.picked || 0) || b.value - a.value)) {
     const at = height * (1 - total.value / highest);
     if (labelled.every((other) => Math.abs(other.at - at) > 13)) labelled.push({...total, at});
   }

@@ -433,8 +433,9 @@ function renderLadder() {
             }
           })));
   const totals = rows.filter(({row}) => is(row.rmse))
-                     .map(({row, colour, dash}) => ({
+                     .map(({row, key, colour, dash}) => ({
                             value: row.rmse,
+                            picked: key === state.picked,
                             colour,
                             opacity: 0.9,
                             dash,
