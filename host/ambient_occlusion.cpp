@@ -43,14 +43,13 @@ Technique over_peeled_layers(Technique technique) {
   return technique;
 }
 
-Binding hidden_depths(int samples) { return {"hidden_depths", "hidden_depths", samples}; }
-
 std::vector<Pass> behind_depth(Pass estimate, int samples) {
+  const Binding hidden("hidden_depths", "hidden_depths", samples);
   Pass sort{.name = "sort",
             .kernel = "sort_hidden_depths",
             .reads = {"depth", {"stochastic", "stochastic", samples}},
-            .writes = {hidden_depths(samples)}};
-  estimate.reads.push_back({"occluders", hidden_depths(samples).plane, samples});
+            .writes = {hidden}};
+  estimate.reads.push_back({"occluders", hidden.plane, hidden.layers});
   estimate.defines.insert(estimate.defines.end(), {{"STOCHASTIC", 1}, {"OCCLUDERS_LAYERS", samples}});
   sort.defines = estimate.defines;
   return {std::move(sort), std::move(estimate)};

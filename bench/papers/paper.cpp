@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "document.h"
 #include "lists.h"
+#include "report/markdown_text.h"
 #include "vermeer2021.h"
 
 namespace gloam::bench {
@@ -36,21 +39,19 @@ std::string text_of(const PaperFact& f) {
 template <typename Entry>
 std::string table_of(const std::vector<const Entry*>& entries) {
   const Grid<Entry> grid(entries);
-  std::string text = "|  |";
-  for (const std::string& column : grid.columns) text += " " + column + " |";
-  text += "\n|---|";
-  for (size_t i = 0; i < grid.columns.size(); ++i) text += "---:|";
+  std::vector<std::string> heading = {""};
+  heading.insert(heading.end(), grid.columns.begin(), grid.columns.end());
+  report::Table table(std::move(heading), "lr");
   for (const std::string& row : grid.rows) {
-    text += "\n| " + row + " |";
+    std::vector<std::string> cells = {row};
     for (const std::string& column : grid.columns) {
-      std::string cell;
-      for (const Entry* e : entries) {
-        if (e->row == row && e->column == column) cell = text_of(*e);
-      }
-      text += " " + cell + " |";
+      const auto found = std::find_if(entries.begin(), entries.end(),
+                                      [&](const Entry* e) { return e->row == row && e->column == column; });
+      cells.push_back(found == entries.end() ? "" : text_of(**found));
     }
+    table.add(std::move(cells));
   }
-  return text + "\n";
+  return table.text();
 }
 
 /// Everything of one list that belongs to one heading.

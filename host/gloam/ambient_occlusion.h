@@ -41,10 +41,8 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);
 
-/// The plane of what lies hidden behind the depth, as kernels read it (shared/hidden_depths.h).
-Binding hidden_depths(int samples);
-
-/// The pass that makes it of so many stochastic depths; then `estimate`, with them as occluders behind the depth too.
+/// The pass that makes of so many stochastic depths what kernels read (shared/hidden_depths.h); then `estimate`, with that as
+/// occluders behind the depth too: the last of its `reads`.
 std::vector<Pass> behind_depth(Pass estimate, int samples);
 
 /// The same with the choices of STOCHASTIC_PARAMS.

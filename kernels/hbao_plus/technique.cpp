@@ -31,7 +31,7 @@ std::vector<Pass> multiview_passes(const SdHbaoPlusParams& p) {
                  "normal",
                  {"own", "multiview_own"},
                  of_other({"other_depth", "depth"}),
-                 of_other({"occluders", "hidden_depths", p.samples})};
+                 of_other(own.reads.back())};  // what behind_depth has it read
   other.writes = {"ao_raw"};
   other.defines.push_back({"MULTIVIEW", 1});
   passes.push_back(std::move(other));

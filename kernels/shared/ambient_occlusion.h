@@ -67,6 +67,16 @@ static inline global const float* layer_at(DepthLayers layers, Frame f, int laye
 #define EARLY_OUT 0
 #endif
 
+static inline mask asks_further(mask rises, mask nearer, mask out_of_reach) {
+#if EARLY_OUT == 2
+  return rises & nearer & out_of_reach;
+#elif EARLY_OUT == 1
+  return rises;
+#else
+  return EVERY_LANE;
+#endif
+}
+
 // Layers behind the first are read by groups: of stacks that techniques sort themselves, several lie side by side, pixel by
 // pixel, front to back. Those of a frame come in any order.
 #if STOCHASTIC && OCCLUDERS_LAYERS % 4 == 0
@@ -128,16 +138,6 @@ static inline void store_group(const real* depths, global float* layers, int her
   store_pair(depths[0], depths[1], layers, here);
 #else
   store_four(depths[0], depths[1], depths[2], depths[3], layers, here);
-#endif
-}
-
-static inline mask asks_further(mask rises, mask nearer, mask out_of_reach) {
-#if EARLY_OUT == 2
-  return rises & nearer & out_of_reach;
-#elif EARLY_OUT == 1
-  return rises;
-#else
-  return EVERY_LANE;
 #endif
 }
 
