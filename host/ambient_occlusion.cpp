@@ -55,6 +55,18 @@ std::vector<Pass> behind_depth(Pass estimate, int samples) {
   return {std::move(sort), std::move(estimate)};
 }
 
+Pass at_lower_resolution(Pass sort, int scale) {
+  sort.name = "sort at 1/" + std::to_string(scale);
+  sort.kernel = "sort_every_hidden_depths";
+  sort.scale = scale;
+  sort.defines.emplace_back("SCALE", scale);
+  Binding& hidden = sort.writes.front();
+  hidden.plane += "@low";
+  hidden.as_launched = true;
+  sort.writes.insert(sort.writes.begin(), Binding("low_depth", "depth@low"));
+  return sort;
+}
+
 Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes) {
   technique.summary = technique.name + " with stochastic depths behind what is seen";

@@ -502,7 +502,7 @@ std::map<std::string, int> plane_scales(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     for (const Binding& b : planned.pass.reads) scales.emplace(b.plane, b.layers > 0 ? planned.scale : 1);
     for (const Binding& b : planned.pass.writes)
-      scales.emplace(b.plane, b.layers > 0 ? planned.scale : planned.pass.scale);
+      scales.emplace(b.plane, b.layers > 0 && !b.as_launched ? planned.scale : planned.pass.scale);
   }
   return scales;
 }

@@ -98,13 +98,13 @@ class Layouts {
   std::map<std::string, int> scales_;
 };
 
-/// The one scale beside the pass's own among the planes that it binds; 0 where there is none.
+/// The one scale beside the pass's own among the planes that it binds of its view; 0 where there is none.
 int other_scale(const PlannedPass& planned, const Layouts& layouts) {
   int other = 0;
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
       const int scale = layouts.scale_of(binding.plane);
-      if (scale == planned.pass.scale || scale == other) continue;
+      if (binding.of_other || scale == planned.pass.scale || scale == other) continue;
       if (other != 0)
         throw Error("{}: binds planes of three resolutions (1/{}, 1/{}, 1/{}); two are allowed", planned.label(),
                     planned.pass.scale, other, scale);

@@ -52,6 +52,9 @@ std::vector<Pass> behind_depth(Pass estimate, const Params& p) {
   return behind_depth(std::move(estimate), p.samples);
 }
 
+/// The first of these passes for every `scale`-th pixel each way. Writes the depth of these, and what is hidden there.
+Pass at_lower_resolution(Pass sort, int scale);
+
 /// The same technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its
 /// own.
 Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,

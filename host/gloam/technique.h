@@ -15,14 +15,14 @@ namespace gloam {
 /// (`normal_x`, `normal_y`, `normal_z`).
 ///
 /// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
-/// the technique's own resolution whatever the pass's. A pass that reads and writes such a stack names it once, as
+/// the technique's own resolution whatever the pass's, or with `as_launched` of the pass's. A pass that reads and writes such a stack names it once, as
 /// written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
 ///
 /// With `of_other` it is the plane of the other of two views (`Technique::views`).
 struct Binding {
   std::string argument, plane;
   int layers = 0;
-  bool of_other = false;
+  bool of_other = false, as_launched = false;
   Binding(const char* name) : argument(name), plane(name) {}
   Binding(std::string argument, std::string plane, int layers = 0)
       : argument(std::move(argument)), plane(std::move(plane)), layers(layers) {}

@@ -5,7 +5,7 @@
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
 //      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
-//      other_depth, other_occluders  the same of the other view (hbao_plus_other_view)
+//      other_depth, occluders  of the other view, at a resolution of their own (hbao_plus_other_view)
 //      own        what hbao_plus_estimate found
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
 // -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, MULTIVIEW
@@ -16,7 +16,9 @@
 #if MULTIVIEW
 #include "shared/neighbour.h"
 #endif
-#if STOCHASTIC
+#if MULTIVIEW
+typedef MultiviewParams Params;
+#elif STOCHASTIC
 typedef SdHbaoPlusParams Params;
 #else
 typedef HbaoPlusParams Params;

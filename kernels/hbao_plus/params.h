@@ -13,5 +13,10 @@
   HBAO_PLUS_PARAMS(P)          \
   STOCHASTIC_PARAMS(P)
 
+#define MULTIVIEW_PARAMS(P) \
+  SD_HBAO_PLUS_PARAMS(P)    \
+  P(choice, other_resolution, full, (full, half, quarter), "of what is looked at of the second view")
+
 PARAMS(HbaoPlusParams, HBAO_PLUS_PARAMS)
 PARAMS(SdHbaoPlusParams, SD_HBAO_PLUS_PARAMS)
+PARAMS(MultiviewParams, MULTIVIEW_PARAMS)

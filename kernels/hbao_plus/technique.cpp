@@ -18,22 +18,31 @@ Pass estimate_of(const Params& p) {
 std::vector<Pass> passes(const HbaoPlusParams& p) { return {estimate_of(p)}; }
 std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return behind_depth(estimate_of(p), p); }
 
-/// Algorithm 3, for the first view; stochastic depths of both.
-std::vector<Pass> multiview_passes(const SdHbaoPlusParams& p) {
-  std::vector<Pass> passes = behind_depth(estimate_of(p), p);
-  Pass& own = passes.back();
-  own.writes = {{"ao_raw", "multiview_own"}};
-  own.view = 0;
-  Pass other = own;
+/// Algorithm 3, for the first view; stochastic depths of both, of the second at a resolution of its own.
+std::vector<Pass> multiview_passes(const MultiviewParams& p) {
+  Pass estimate = estimate_of(p);
+  estimate.writes = {{"ao_raw", "multiview_own"}};
+  estimate.view = 0;
+  estimate.defines.push_back({"MULTIVIEW", 1});
+  std::vector<Pass> passes = behind_depth(std::move(estimate), p);
+  Binding other_depth = "depth", other_hidden = passes.back().reads.back();  // what behind_depth has it read
+  if (const int scale = 1 << p.other_resolution; scale > 1) {
+    Pass sort = at_lower_resolution(passes.front(), scale);
+    passes.front().view = 0;
+    sort.view = 1;
+    other_depth = sort.writes.front();
+    other_hidden = {other_hidden.argument, sort.writes.back().plane, other_hidden.layers};
+    passes.insert(passes.begin() + 1, std::move(sort));
+  }
+  Pass other = passes.back();
   other.name = "other view";
   other.kernel = "hbao_plus_other_view";
   other.reads = {"depth",
                  "normal",
                  {"own", "multiview_own"},
-                 of_other({"other_depth", "depth"}),
-                 of_other(own.reads.back())};  // what behind_depth has it read
+                 of_other({"other_depth", other_depth.plane}),
+                 of_other(other_hidden)};
   other.writes = {"ao_raw"};
-  other.defines.push_back({"MULTIVIEW", 1});
   passes.push_back(std::move(other));
   return passes;
 }
@@ -72,6 +81,7 @@ Technique multiview() {
   t.summary = "sd-hbao+ for the first of two views, where what either of them shows occludes";
   t.paper = "Vermeer, Scandolo, Eisemann 2021";
   t.views = 2;
+  t.parameters = MultiviewParams::table();
   t.passes = passes_of(multiview_passes);
   return t;
 }
