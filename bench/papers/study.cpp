@@ -1,0 +1,92 @@
+#include "study.h"
+
+#include <algorithm>
+
+#include "gloam/capture.h"
+
+namespace gloam::bench {
+namespace {
+
+Image of_first_view(const Stage& s, const Plane& plane) {
+  Image image;
+  image.emplace(s.frame.views[0].name, plane.clone());
+  return image;
+}
+
+}  // namespace
+
+Asked with(Asked asked, const std::string& name, const std::string& value) {
+  asked.settings.emplace_back(name, value);
+  return asked;
+}
+
+Asked filtered(Asked asked) {
+  asked.plane = "ao";
+  return asked;
+}
+
+Stage Study::stage(const Shot& shot, int width, int height) const {
+  Stage s;
+  s.scene = load_scene(shot.scene, shot.settings);
+  s.tracer = std::make_unique<Tracer>(s.scene);
+  s.radius = s.scene.ao_radius;
+  CaptureOptions capture{.width = width, .height = height, .planes = {"depth", "normal"}, .peel = shot.layers};
+  capture.views = {{"", camera_for(s.scene.cameras.at(size_t(shot.camera)), width, height), {}}};
+  capture.second_view = shot.second_view;
+  s.frame = gloam::capture(*s.tracer, capture).frame;
+  s.surfaces = foreground(s.frame);
+  return s;
+}
+
+Stage Study::small_stage(const Shot& shot) const {
+  return stage(shot, std::max(options_.width / 2, 16), std::max(options_.height / 2, 9));
+}
+
+Plan Study::plan_of(const Stage& s, const Asked& asked) const {
+  PlanRequest request{.outputs = {asked.technique}, .only = {asked.plane}, .resolution = asked.resolution};
+  if (asked.plane != "ao") request.then = "none";
+  request.settings = asked.settings;
+  request.settings.emplace_back("radius", std::to_string(s.radius));
+  return make_plan(request, planes_of(s.frame), "the captured frame");
+}
+
+Plane Study::image(const Stage& s, const Asked& asked) const {
+  return std::move(run(plan_of(s, asked), s.frame, device_).frame.views[0].planes.at(asked.plane));
+}
+
+Plane Study::truth(const Stage& s, const Technique* like) const {
+  AoReferenceOptions rays{.radius = s.radius, .samples = 256};
+  if (like)
+    rays.contribution = [like, defaults = ParameterValues(like->parameters)](double cosine, double distance) {
+      return like->contribution(defaults, cosine, distance);
+    };
+  return std::move(ao_reference(*s.tracer, s.frame, rays).frame.views[0].planes.at("ao"));
+}
+
+double Study::error(const Stage& s, const Plane& test, const Plane& truth) const {
+  return rmse(of_first_view(s, test), of_first_view(s, truth), s.surfaces);
+}
+
+double Study::mean_taken(const Stage& s, const Plane& ao) const {
+  Plane open{ao.name, {}};
+  open.channels.push_back(ao.channels[0].clone());
+  for (int y = 0; y < s.frame.height(); ++y) std::fill_n(open.channels[0].row(y), s.frame.width(), 1.0f);
+  return bias(of_first_view(s, open), of_first_view(s, ao), s.surfaces);
+}
+
+void Study::tell(const std::string& what, double share) const {
+  if (options_.progress) options_.progress(what, share);
+}
+
+void Study::fact(const std::string& figure, const std::string& row, const std::string& column, double value,
+                 const std::string& unit) {
+  result.facts.push_back({figure, row, column, value, unit});
+}
+
+void Study::picture(const std::string& figure, const std::string& caption, const std::string& file,
+                    const std::vector<Panel>& panels, int columns) {
+  write_panels(options_.folder / file, panels, columns);
+  result.pictures.push_back({figure, caption, file});
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,97 @@
+// What measuring a paper again is made of: frames of scenes, techniques on them, and what came of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/reference.h"
+#include "gloam/scene.h"
+#include "gloam/tracer.h"
+#include "measures.h"
+#include "panels.h"
+#include "paper.h"
+#include "plans.h"
+
+namespace gloam::bench {
+
+/// A scene that stands for one of the paper's, which cannot be had here.
+struct StandIn {
+  const char *scene, *of;
+};
+
+/// A technique, and what of it is set.
+struct Asked {
+  std::string technique;
+  Settings settings;
+  int resolution = 1;
+  std::string plane = "ao_raw";
+};
+
+Asked with(Asked asked, const std::string& name, const std::string& value);
+
+/// The same after its filter.
+Asked filtered(Asked asked);
+
+/// A frame of a scene, with what its AO is measured with.
+struct Stage {
+  Scene scene;
+  std::unique_ptr<Tracer> tracer;
+  Frame frame;
+  double radius = 0;
+  Foreground surfaces;
+};
+
+/// What of a scene is captured: depth, normal and so many peeled layers.
+struct Shot {
+  std::string scene;
+  int layers = 0;
+  Settings settings = {};  ///< of the scene
+  int camera = 0;
+  std::optional<double> second_view = {};  ///< degrees
+};
+
+class Study {
+ public:
+  Study(Device& device, const PaperOptions& options) : device_(device), options_(options) {}
+
+  PaperResult result;
+
+  Stage stage(const Shot& shot, int width, int height) const;
+
+  /// In the size of tables.
+  Stage timed_stage(const Shot& shot) const { return stage(shot, options_.width, options_.height); }
+
+  /// A quarter of the pixels, at least: errors and pictures do not need more.
+  Stage small_stage(const Shot& shot) const;
+
+  Plan plan_of(const Stage& s, const Asked& asked) const;
+
+  /// The plane of the first view.
+  Plane image(const Stage& s, const Asked& asked) const;
+
+  /// AO of the first view from 256 rays per pixel; of `like`, with that technique's own falloff.
+  Plane truth(const Stage& s, const Technique* like = nullptr) const;
+
+  /// RMSE over the surfaces of the first view.
+  double error(const Stage& s, const Plane& test, const Plane& truth) const;
+
+  /// Mean over the surfaces of the first view of what AO takes away.
+  double mean_taken(const Stage& s, const Plane& ao) const;
+
+  void tell(const std::string& what, double share = 0) const;
+  void fact(const std::string& figure, const std::string& row, const std::string& column, double value,
+            const std::string& unit);
+  void picture(const std::string& figure, const std::string& caption, const std::string& file,
+               const std::vector<Panel>& panels, int columns);
+
+  const PaperOptions& options() const { return options_; }
+  Device& device() const { return device_; }
+
+ private:
+  Device& device_;
+  const PaperOptions& options_;
+};
+
+}  // namespace gloam::bench

@@ -1,0 +1,38 @@
+// A paper's table of times: its rows run in turn, each over the base of its column.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study.h"
+
+namespace gloam::bench {
+
+/// One row of one column, and what of its passes counts.
+struct Entry {
+  std::string row, column;
+  Asked asked;
+  const Stage* stage;
+  std::optional<double> paper = {};  ///< milliseconds
+  bool is_base = false;              ///< of its column, or of all where no other is
+  std::function<bool(const std::string& pass)> counts = [](const std::string&) { return true; };
+};
+
+/// A part of the passes whose time is stated by itself too.
+struct Part {
+  std::string name;
+  std::function<bool(const std::string& pass)> counts;
+};
+
+struct TimedTable {
+  std::string name, base;  ///< base: what the ratios are to, in words
+  std::string parts_name;  ///< of the table of parts
+  std::vector<Part> parts = {};
+};
+
+/// Runs the entries in turn, and states each one's time over that of the base of its column (or of the first base).
+void measure(Study& study, const TimedTable& table, const std::vector<Entry>& entries);
+
+}  // namespace gloam::bench
