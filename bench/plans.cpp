@@ -59,8 +59,6 @@ bool reads_layers(const Technique& technique) {
                      [](const std::string& plane) { return is_stack(plane); });
 }
 
-bool makes_first_view_only(const Technique& technique) { return technique.views > 1; }
-
 bool any_makes_first_view_only(const std::vector<const Technique*>& techniques) {
   return std::any_of(techniques.begin(), techniques.end(),
                      [](const Technique* t) { return makes_first_view_only(*t); });

@@ -25,8 +25,7 @@ std::vector<std::string> depths_of(const Technique& technique);
 /// Whether it reads a stack of depth layers.
 bool reads_layers(const Technique& technique);
 
-/// Whether it needs two views and makes an image of the first, where others make one of each.
-bool makes_first_view_only(const Technique& technique);
+/// Whether any of them makes an image of the first of two views alone.
 bool any_makes_first_view_only(const std::vector<const Technique*>& techniques);
 
 /// The technique over all peeled layers: "dp-hbao+" for "hbao+", itself for one that reads layers already. None where the

@@ -36,6 +36,12 @@ std::optional<double> parse_number(const std::string& text, Parameter::Type type
   return value;
 }
 
+/// Choices are written as C names; people write no-back-check as well.
+std::string with_underscores(std::string text) {
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
 std::optional<double> parse(const Parameter& p, const std::string& text) {
   if (p.type == Parameter::Type::boolean) {
     if (text == "on" || text == "true" || text == "1") return 1;
@@ -43,7 +49,7 @@ std::optional<double> parse(const Parameter& p, const std::string& text) {
     return {};
   }
   if (p.type == Parameter::Type::choice) {
-    const auto found = std::find(p.choices.begin(), p.choices.end(), text);
+    const auto found = std::find(p.choices.begin(), p.choices.end(), with_underscores(text));
     if (found == p.choices.end()) return {};
     return double(found - p.choices.begin());
   }

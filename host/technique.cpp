@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gloam/error.h"
+#include "lists.h"
 
 namespace gloam {
 
@@ -25,6 +26,16 @@ std::vector<std::string> technique_names() {
   std::vector<std::string> names;
   for (const Technique& technique : registry()) names.push_back(technique.name);
   return names;
+}
+
+bool makes_first_view_only(const Technique& technique) {
+  if (technique.views < 2) return false;
+  const std::vector<Pass> passes = technique.passes(ParameterValues(technique.parameters));
+  return std::all_of(passes.begin(), passes.end(), [&](const Pass& pass) {
+    const bool is_output = std::any_of(pass.writes.begin(), pass.writes.end(),
+                                       [&](const Binding& b) { return contains(technique.writes, b.plane); });
+    return !is_output || pass.view == 0;
+  });
 }
 
 const Technique& find_technique(const std::string& name) {

@@ -125,7 +125,8 @@ void print_techniques_markdown() {
   for (const Technique& t : registry()) {
     fmt::print("\n## `{}`\n\n{}.{}\n", t.name, t.summary, t.paper.empty() ? "" : " Source: " + t.paper + ".");
     if (!t.then.empty()) fmt::print("Followed by `{}` unless `--filter` says otherwise.\n", t.then);
-    if (t.views > 1) fmt::print("Needs a frame of two views; it works on the first.\n");
+    if (t.views > 1)
+      fmt::print("Needs a frame of two views{}.\n", makes_first_view_only(t) ? "; it works on the first" : "");
     print_extras_markdown(t);
     if (!t.parameters.empty()) fmt::print("\n| parameter | default | allowed | meaning |\n|---|---|---|---|\n");
     const ParameterValues initial(t.parameters);

@@ -38,9 +38,7 @@ std::string no_ao(const Technique& technique) {
 }
 
 std::string needs_naming(const Technique& technique) {
-  return makes_first_view_only(technique)
-             ? "makes ao of the first of two views only: measured where --techniques names it"
-             : "";
+  return technique.views > 1 ? "needs frames of two views: measured where --techniques names it" : "";
 }
 
 namespace {

@@ -103,6 +103,9 @@ std::function<double(const ParameterValues&, double, double)> contribution_of(do
   };
 }
 
+/// Whether it needs two views and makes an image of the first alone, where others make one of each.
+bool makes_first_view_only(const Technique& technique);
+
 /// All techniques, sorted by name.
 const std::vector<Technique>& registry();
 

@@ -13,10 +13,9 @@
 #include "hbao_plus/params.h"
 #include "shared/fan.h"
 
-#if MULTIVIEW
-#include "shared/neighbour.h"
-#endif
-#if MULTIVIEW
+#if STEREO
+typedef StereoAoParams Params;
+#elif MULTIVIEW
 typedef MultiviewParams Params;
 #elif STOCHASTIC
 typedef SdHbaoPlusParams Params;
@@ -26,14 +25,27 @@ typedef HbaoPlusParams Params;
 #if STOCHASTIC
 #include "shared/hidden_depths.h"
 #endif
+#if MULTIVIEW || STEREO
+#include "shared/neighbour.h"
+#endif
+#if STEREO
+#include "shared/stereo_passes.h"
+#ifdef COLUMNS
+#include "shared/bilateral_filter.h"
+#include "shared/stereo_filter.h"
+#endif
+#endif
 
-// The largest contribution of all layers at an index from `here`, which lies (dx, dy) pixels from the point.
+// The largest contribution of all layers at an index from `here`, which lies (dx, dy) pixels from the point. `by_both`: whether
+// two eyes see the first layer (STEREO).
 static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Params params, DepthLayers layers,
-                                                                Receiver r, real dx, real dy, int here, integer place) {
+                                                                Receiver r, real dx, real dy, int here, integer place,
+                                                                mask* by_both) {
 #if GATHERS_ONLY
+  *by_both = (mask)(0);
   return sum_of_depths(layers, frame, here, place, r.farthest);
 #endif
-  const real depth = gather(layers.first + here, place);
+  const real depth = depth_seen(gather(layers.first + here, place), by_both);
   const real3 v = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, depth));
   const real by_first = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
   const mask rises = fused_dot3(r.normal, v) > params.bias * least_distance(r, dx, dy);
@@ -60,8 +72,9 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
       integer dx, dy;
       step_at(fan, k, &dx, &dy);
       const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+      mask by_both;
       const real found = obscurance_at(frame, params, layers, r, to_real(dx), to_real(dy), r.here,
-                                       index_within(frame, within, dx, dy));
+                                       index_within(frame, within, dx, dy), &by_both);
       sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
     }
     turn(&fan);
@@ -91,24 +104,32 @@ kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE no
   store_open(open_of(params, sum), r, ao_raw);
 }
 
-#if MULTIVIEW
-// The same around the pixel's point as the other view sees it.
-static inline real sum_around(Frame other, Params params, DepthLayers layers, Receiver r, Fan fan) {
+#if MULTIVIEW || STEREO
+// What step k finds around a point that need not lie on a pixel. Samples outside the image are moved onto its border.
+static inline __attribute__((always_inline)) real obscurance_around(Frame f, Params params, DepthLayers layers,
+                                                                    Receiver r, Fan fan, int k, mask* by_both) {
   const integer column = nearest(r.point.x), row = nearest(r.point.y);
+  integer dx, dy;
+  step_at(fan, k, &dx, &dy);
+  const integer x = clamp(column + dx, (integer)(0), (integer)(f.width - 1));
+  const integer y = clamp(row + dy, (integer)(0), (integer)(f.height - 1));
+  const real found = obscurance_at(f, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y, FRAME_GUARD,
+                                   y * f.pitch + x, by_both);
+  const mask is_inside = to_mask((x == column + dx) & (y == row + dy));
+  *by_both &= is_inside;
+  // At the border a sample may come down to the point's own pixel, of which only rounding is left.
+  mask counts = to_mask((x != column) | (y != row));
+  if (OUTSIDE_OPEN) counts &= is_inside;
+  return choose(counts, found, (real)(0));
+}
+#endif
+
+#if MULTIVIEW
+static inline real sum_around(Frame other, Params params, DepthLayers layers, Receiver r, Fan fan) {
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
-    for (int k = 0; k < STEPS; ++k) {
-      integer dx, dy;
-      step_at(fan, k, &dx, &dy);
-      const integer x = clamp(column + dx, (integer)(0), (integer)(other.width - 1));
-      const integer y = clamp(row + dy, (integer)(0), (integer)(other.height - 1));
-      const real found = obscurance_at(other, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y,
-                                       FRAME_GUARD, y * other.pitch + x);
-      // At the border a sample may come down to the point's own pixel, of which only rounding is left.
-      mask counts = to_mask((x != column) | (y != row));
-      if (OUTSIDE_OPEN) counts &= to_mask((x == column + dx) & (y == row + dy));
-      sum += choose(counts, found, (real)(0));
-    }
+    mask by_both;
+    for (int k = 0; k < STEPS; ++k) sum += obscurance_around(other, params, layers, r, fan, k, &by_both);
     turn(&fan);
   }
   return sum;
@@ -124,15 +145,80 @@ kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params
       project_into(neighbour, position_at(frame, here.point.x, here.point.y, here.depth), !here.point.background);
   real open = load(own, here.here);
   if (ANY(there.is_seen)) {
-    Receiver r = here;
-    r.depth = there.depth;
-    r.normal = rotated(neighbour, here.normal);
-    r.point = anchor_at(other, there.x, there.y, there.depth);
-    r.reach = reach_of(other, r.point, params.radius, params.max_reach * (scalar)other.width);
-    expect_behind(&r, other, params.radius);
-    const real sum = sum_around(other, params, LAYERS_FROM(other, other_depth), r, fan_of(r.reach, r.noise));
+    const Receiver r = receiver_of(other, params.radius, params.max_reach, there.x, there.y, there.depth,
+                                   rotated(neighbour, here.normal));
+    const real sum = sum_around(other, params, LAYERS_FROM(other, other_depth), r, fan_of(r.reach, here.noise));
     open = choose(there.is_seen, smaller(open_of(params, sum), open), open);
   }
   store_open(open, here, ao_raw);
+}
+#endif
+
+#if STEREO
+// Mean over samples of what both eyes find at them: their mean where both see the surface, else the larger (section 3.1).
+// `there`: the point as the other eye shows it, of use where `is_seen`.
+static inline real sum_of_both(Frame frame, Frame other, Params params, DepthLayers layers, DepthLayers other_layers,
+                               Receiver here, Receiver there, mask is_seen, Noise noise) {
+  Fan fan = fan_of(here.reach, noise), other_fan = fan_of(there.reach, noise);
+  real sum = 0;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+#pragma unroll 4
+    for (int k = 0; k < STEPS; ++k) {
+      mask by_both, by_both_there;
+      const real own = obscurance_around(frame, params, layers, here, fan, k, &by_both);
+      const real found = obscurance_around(other, params, other_layers, there, other_fan, k, &by_both_there);
+      const real together = choose(by_both & by_both_there, (scalar)0.5 * (own + found), larger(own, found));
+      sum += choose(is_seen, together, own);
+    }
+    turn(&fan);
+    turn(&other_fan);
+  }
+  return sum;
+}
+
+// The estimate for one point of each lane.
+static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
+                                DepthLayers other_layers, Receiver here, Noise noise) {
+  const Projection seen = project_into(
+      neighbour, position_at(frame, here.point.x, here.point.y, choose(here.point.background, (real)(1), here.depth)),
+      !here.point.background);
+#if ESTIMATE_MONO
+  const mask is_seen = (mask)(0);
+#else
+  const mask is_seen = seen.is_seen;
+#endif
+  const Receiver there = receiver_of(neighbour.frame, params.radius, params.max_reach, seen.x, seen.y, seen.depth,
+                                     rotated(neighbour, here.normal));
+  return open_of(params,
+                 sum_of_both(frame, neighbour.frame, params, layers, other_layers, here, there, is_seen, noise));
+}
+
+kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
+                             PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PLANE other_depth,
+                             OTHER_OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(FIRST_X + IOTA), (real)(ROW_Y),
+                                 fabs(load(depth, here)), load3(normal_x, normal_y, normal_z, here));
+  real open = (real)(1);
+  if (ANY(!r.point.background))
+    open =
+        open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                     OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, noise_at(FIRST_X + IOTA, ROW_Y, frame.seed));
+  store(choose(r.point.background, (real)(1), open), ao_raw, here);
+}
+
+// The same for the pixels of a list.
+kernel void hbao_plus_stereo_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
+                                  PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PIXEL_LIST newly_visible,
+                                  PLANE other_depth, OTHER_OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+  integer index;
+  if (!pixels_of_item(newly_visible, frame, &index)) return;
+  const integer x = column_of(frame, index), y = row_of(frame, index);
+  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(x), to_real(y),
+                                 fabs(gather(depth, index)), gather3(normal_x, normal_y, normal_z, index));
+  scatter(
+      open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth), OTHER_LAYERS_FROM(neighbour.frame, other_depth),
+                   r, noise_of(to_natural(x), to_natural(y), frame.seed)),
+      ao_raw, index);
 }
 #endif

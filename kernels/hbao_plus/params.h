@@ -1,4 +1,5 @@
 #include "shared/ambient_occlusion.h"
+#include "shared/stereo_params.h"
 
 #define HBAO_PLUS_PARAMS(P)                                                                                   \
   REACH_PARAMS(P)                                                                                             \
@@ -17,6 +18,11 @@
   SD_HBAO_PLUS_PARAMS(P)    \
   P(choice, other_resolution, full, (full, half, quarter), "of what is looked at of the second view")
 
+#define STEREO_AO_PARAMS(P) \
+  HBAO_PLUS_PARAMS(P)       \
+  STEREO_PARAMS(P)
+
 PARAMS(HbaoPlusParams, HBAO_PLUS_PARAMS)
 PARAMS(SdHbaoPlusParams, SD_HBAO_PLUS_PARAMS)
 PARAMS(MultiviewParams, MULTIVIEW_PARAMS)
+PARAMS(StereoAoParams, STEREO_AO_PARAMS)

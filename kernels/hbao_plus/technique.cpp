@@ -1,4 +1,5 @@
 #include "gloam/ambient_occlusion.h"
+#include "gloam/stereo.h"
 #include "hbao_plus/params.h"
 
 namespace gloam::techniques {
@@ -86,10 +87,27 @@ Technique multiview() {
   return t;
 }
 
+std::vector<Pass> stereo_ao_passes(const StereoAoParams& p) {
+  return stereo_passes(estimate_of(p), "hbao_plus_stereo", stereo_choices(p));
+}
+
+Technique stereo_ao() {
+  Technique t = over_depth();
+  t.name = "stereo-ao";
+  t.summary = "hbao+ for two eyes that agree on what both of them see";
+  t.paper = "Shi, Billeter, Eisemann 2022";
+  t.views = 2;
+  t.writes = t.outputs = {"ao", "ao_raw"};
+  t.then.clear();
+  t.parameters = StereoAoParams::table();
+  t.passes = passes_of(stereo_ao_passes);
+  return t;
+}
+
 }  // namespace
 
 std::vector<Technique> hbao_plus() {
-  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic(), multiview()};
+  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic(), multiview(), stereo_ao()};
 }
 
 }  // namespace gloam::techniques

@@ -56,6 +56,26 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 #define LAYERS_FROM(frame, depth) depth_layers(depth, depth)
 #endif
 
+// The same of the other of two views.
+#if OCCLUDERS_LAYERS
+#define OTHER_OCCLUDERS_ARGUMENT PLANE other_occluders,
+#define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, other_occluders)
+#else
+#define OTHER_OCCLUDERS_ARGUMENT
+#define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, depth)
+#endif
+
+// A depth of the first layer. `by_both`: whether two eyes see it, where the sign of the depth says so (stereo.h).
+static inline real depth_seen(real stored_depth, mask* by_both) {
+#if STEREO
+  *by_both = stored_depth < 0;
+  return fabs(stored_depth);
+#else
+  *by_both = (mask)(0);
+  return stored_depth;
+#endif
+}
+
 static inline global const float* layer_at(DepthLayers layers, Frame f, int layer) {
   return layer == 0 ? layers.first : layer_of(layers.further, f, layer - 1);
 }
@@ -176,18 +196,28 @@ static inline void expect_behind(Receiver* r, Frame f, scalar radius) {
 // depth: rays are no steeper than in the corners of the image.
 static inline real least_distance(Receiver r, real dx, real dy) { return fabs(dx) * r.clear_x + fabs(dy) * r.clear_y; }
 
-static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach, PLANE depth, PLANE normal_x,
-                                   PLANE normal_y, PLANE normal_z) {
+// A point that a view shows, or would show, at (x, y): column and row, not rounded. The rest of it is the caller's.
+static inline Receiver receiver_of(Frame frame, scalar radius, scalar max_reach, real x, real y, real depth,
+                                   real3 normal) {
   Receiver r;
-  r.y = ROW_Y;
-  r.x = FIRST_X + IOTA;
-  r.here = index_of(frame, FIRST_X, r.y);
-  r.depth = load(depth, r.here);
-  r.normal = load3(normal_x, normal_y, normal_z, r.here);
-  r.point = anchor_at(frame, to_real(r.x), (real)(r.y), r.depth);
+  r.depth = depth;
+  r.normal = normal;
+  r.point = anchor_at(frame, x, y, depth);
   r.reach = reach_of(frame, r.point, radius, max_reach * (scalar)frame.width);
   expect_behind(&r, frame, radius);
-  r.noise = noise_at(r.x, r.y, frame.seed);
+  return r;
+}
+
+static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach, PLANE depth, PLANE normal_x,
+                                   PLANE normal_y, PLANE normal_z) {
+  const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
+  const integer x = FIRST_X + IOTA;
+  Receiver r = receiver_of(frame, radius, max_reach, to_real(x), (real)(y), load(depth, here),
+                           load3(normal_x, normal_y, normal_z, here));
+  r.x = x;
+  r.y = y;
+  r.here = here;
+  r.noise = noise_at(x, y, frame.seed);
   return r;
 }
 

@@ -89,6 +89,15 @@ static inline natural bits_of(mask m) {
 #endif
 }
 
+// Per lane: what a mask is for integers, to choose between them.
+static inline integer integer_of(mask m) {
+#if LANES == 1
+  return m;
+#else
+  return JOIN(convert_, N_LANES(int))(m);
+#endif
+}
+
 // Per lane: m ? a : b.
 static inline real choose(mask m, real a, real b) { return m ? a : b; }
 

@@ -52,6 +52,22 @@ static inline real gather(PLANE plane, integer i) {
 #endif
 }
 
+static inline real3 gather3(PLANE x, PLANE y, PLANE z, integer i) {
+  return make3(gather(x, i), gather(y, i), gather(z, i));
+}
+
+// One value per lane to one index each. Lanes of the same index have the same value.
+static inline void scatter(real value, PLANE_OUT plane, integer i) {
+  const stored v = to_stored(value);
+#if LANES == 1
+  plane[i] = v;
+#else
+  const float* values = (const float*)&v;
+  const int* indices = (const int*)&i;
+  for (int k = 0; k < LANES; ++k) plane[indices[k]] = values[k];
+#endif
+}
+
 // Values of two planes stored side by side, pixel by pixel: `pairs` is where the first pixel's lie.
 static inline void gather_pair(global const float* pairs, integer i, real* first, real* second) {
 #if LANES == 1

@@ -17,6 +17,19 @@ static inline real3 position_at(Frame f, real x, real y, real depth) {
                (f.centre_y - y - (scalar)0.5) * f.scale_y * lateral, -depth);
 }
 
+// A point of this view's space in the other's, and back.
+static inline real3 into_other(Neighbour n, real3 p) {
+  const real3 r = rotated(n, p);
+  return make3(r.x + n.translation[0], r.y + n.translation[1], r.z + n.translation[2]);
+}
+
+static inline real3 back_from_other(Neighbour n, real3 q) {
+  const real x = q.x - n.translation[0], y = q.y - n.translation[1], z = q.z - n.translation[2];
+  return make3(n.rotation[0] * x + n.rotation[3] * y + n.rotation[6] * z,
+               n.rotation[1] * x + n.rotation[4] * y + n.rotation[7] * z,
+               n.rotation[2] * x + n.rotation[5] * y + n.rotation[8] * z);
+}
+
 // Where the other view shows it: column and row, not rounded, and its depth there. `is_seen`: it lies before that eye and in
 // its image, in front of other surfaces or behind them; elsewhere the numbers are safe and mean nothing.
 typedef struct {
@@ -25,8 +38,7 @@ typedef struct {
 } Projection;
 
 static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
-  const real3 r = rotated(n, p);
-  const real3 q = make3(r.x + n.translation[0], r.y + n.translation[1], r.z + n.translation[2]);
+  const real3 q = into_other(n, p);
   const Frame f = n.frame;
   Projection s;
   s.is_seen = is_there & (q.z < 0);

@@ -16,11 +16,10 @@ typedef struct {
   real turn, shift;
 } Noise;
 
-static inline Noise noise_at(integer x, int y, int seed) {
+static inline Noise noise_of(natural column, natural row, int seed) {
   Noise n;
 #if JITTER
-  const natural column = to_natural(x);
-  const uint row = (uint)y, first_turn = (uint)seed * 0x9e3779b9u, first_shift = (uint)seed * 0x6a09e667u;
+  const uint first_turn = (uint)seed * 0x9e3779b9u, first_shift = (uint)seed * 0x6a09e667u;
   n.turn = unit_random(column * 0x8e42b7fdu + (row * 0x4f2cbe3cu + first_turn));
   n.shift = unit_random(column * 0xc13fa9a9u + (row * 0x91e10da6u + first_shift));
 #else
@@ -29,6 +28,8 @@ static inline Noise noise_at(integer x, int y, int seed) {
 #endif
   return n;
 }
+
+static inline Noise noise_at(integer x, int y, int seed) { return noise_of(to_natural(x), (natural)((uint)y), seed); }
 
 // Turns by the golden angle, from point to point of a Fibonacci spiral.
 static inline void turn_golden(scalar* cosine, scalar* sine) {

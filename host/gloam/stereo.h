@@ -1,0 +1,42 @@
+// Techniques that estimate for two eyes together (Shi, Billeter, Eisemann 2022): what they have in common, whatever they
+// estimate.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gloam/technique.h"
+
+namespace gloam {
+
+/// The choices of STEREO_PARAMS (shared/stereo_params.h).
+struct StereoChoices {
+  bool estimate_both = true;  ///< estimate from what both eyes see, not from what one does
+  bool reproject = true, back_check = true;
+  enum class Filter { mono, stereo, stereo2d } filter = Filter::stereo;
+  int primary = 0;  ///< the view that is estimated first
+  int half_width = 0;
+};
+
+/// The passes of a technique for two eyes. `estimate`: for one eye, from "depth" and "normal" (the first two that it reads)
+/// to "ao_raw". The kernel of both eyes is called `both`, that for a list of pixels `both`_list: their arguments are the
+/// estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth, the list, and the same planes of the other
+/// eye but for normals.
+std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, const StereoChoices& choices);
+
+/// The filter alone, from "ao_raw" to "ao". Kernels: shared/bilateral_filter.h, shared/stereo_filter.h.
+std::vector<Pass> stereo_filter_passes(StereoChoices::Filter filter, int half_width);
+
+template <typename Params>
+StereoChoices stereo_choices(const Params& p) {
+  StereoChoices c;
+  c.estimate_both = p.estimate == Params::estimate_values::stereo;
+  c.reproject = p.reproject != Params::reproject_values::off;
+  c.back_check = p.reproject != Params::reproject_values::no_back_check;
+  c.filter = StereoChoices::Filter(p.filter);
+  c.primary = p.primary;
+  c.half_width = p.half_width;
+  return c;
+}
+
+}  // namespace gloam

@@ -1,0 +1,96 @@
+#include "gloam/stereo.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gloam {
+namespace {
+
+using Filter = StereoChoices::Filter;
+
+Pass visibility(const StereoChoices& c) {
+  Pass pass{.name = "visibility",
+            .kernel = "stereo_visibility",
+            .reads = {"depth", of_other({"other_depth", "depth"})},
+            .writes = {"stereo_depth"}};
+  if (c.reproject) pass.writes.push_back("newly_visible");
+  return pass;
+}
+
+/// Of both eyes: the same planes of the other one, but for the normals.
+Pass from_both(Pass estimate, const std::string& kernel) {
+  estimate.kernel = kernel;
+  estimate.reads.front().plane = "stereo_depth";
+  const std::vector<Binding> own = estimate.reads;
+  for (const Binding& read : own) {
+    if (read.plane != "normal" && read.plane != "newly_visible")
+      estimate.reads.push_back(of_other({"other_" + read.argument, read.plane, read.layers}));
+  }
+  return estimate;
+}
+
+Pass reprojection(const StereoChoices& c) {
+  return {
+      .name = "reproject",
+      .kernel = "stereo_reproject",
+      .reads = {{"depth", "stereo_depth"}, of_other({"other_depth", "stereo_depth"}), of_other({"other", "ao_raw"})},
+      .writes = {{"result", "ao_raw"}, "newly_visible"},
+      .defines = {{"NO_BACK_CHECK", !c.back_check}},
+      .view = 1 - c.primary};
+}
+
+/// What the second eye alone sees.
+Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& c) {
+  estimate.reads.push_back("newly_visible");
+  Pass pass = from_both(std::move(estimate), both + "_list");
+  pass.name = "newly visible";
+  pass.defines.emplace_back("ESTIMATE_MONO", !c.estimate_both);
+  pass.view = 1 - c.primary;
+  return pass;
+}
+
+Pass filter_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows,
+                 Filter filter) {
+  Pass pass{.name = name,
+            .kernel = filter == Filter::mono ? "bilateral" : "stereo_bilateral",
+            .reads = {{"source", from}, "depth", "normal"},
+            .writes = {{"result", to}},
+            .defines = {{"COLUMNS", columns}, {"ROWS", rows}}};
+  if (filter != Filter::mono) {
+    for (const Binding& other :
+         {Binding("other_source", from), Binding("other_depth", "depth"), Binding("other_normal", "normal")})
+      pass.reads.push_back(of_other(other));
+  }
+  return pass;
+}
+
+}  // namespace
+
+std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
+  if (filter == Filter::stereo2d) return {filter_pass("square", "ao_raw", "ao", taps, taps, filter)};
+  return {filter_pass("horizontal", "ao_raw", "ao_filtered_across", taps, 0, filter),
+          filter_pass("vertical", "ao_filtered_across", "ao", 0, taps, filter)};
+}
+
+std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, const StereoChoices& c) {
+  std::vector<Pass> passes;
+  if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
+  passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
+  if (c.reproject) {
+    passes.back().view = c.primary;
+    passes.push_back(reprojection(c));
+    passes.push_back(newly_visible(estimate, both, c));
+  }
+  for (Pass& pass : stereo_filter_passes(c.filter, c.half_width)) passes.push_back(std::move(pass));
+  for (Pass& pass : passes) {
+    // The whole program needs what its estimate does.
+    for (const auto& define : estimate.defines) {
+      if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
+        pass.defines.push_back(define);
+    }
+    pass.defines.insert(pass.defines.end(), {{"STEREO", 1}, {"WITH_PIXEL_LIST", c.reproject}});
+  }
+  return passes;
+}
+
+}  // namespace gloam

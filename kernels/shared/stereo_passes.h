@@ -1,0 +1,55 @@
+// Passes of two eyes (stereo.h), whatever is estimated.
+//
+// stereo_visibility   in : depth, other_depth  view-space z of either eye, scene units, +inf = background
+//                     out: stereo_depth        negative where both eyes see the surface
+// stereo_reproject    in : depth, other_depth  as left by stereo_visibility;  other  the other eye's result, 0 to 1
+//                     out: result              what the other eye found where both see the surface, 1 on background;
+//                          newly_visible       what is left to be computed (pixel_list.h)
+// -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST (stereo_visibility empties it)
+#ifndef GLOAM_STEREO_PASSES_H
+#define GLOAM_STEREO_PASSES_H
+
+#include "shared/pixel_list.h"
+#include "shared/stereo.h"
+
+#if WITH_PIXEL_LIST
+#define PIXEL_LIST_OUT_ARGUMENT , PIXEL_LIST_OUT newly_visible
+#else
+#define PIXEL_LIST_OUT_ARGUMENT
+#endif
+
+kernel void stereo_visibility(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE other_depth,
+                              PLANE_OUT stereo_depth PIXEL_LIST_OUT_ARGUMENT) {
+#if WITH_PIXEL_LIST
+  if (FIRST_X == 0 && ROW_Y == 0) empty_list(newly_visible);
+#endif
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real z = load(depth, here);
+  const mask is_seen = seen_by_both_eyes(frame, neighbour, params.back_check, z, other_depth);
+  store(stereo_depth_of(z, is_seen), stereo_depth, here);
+}
+
+#if WITH_PIXEL_LIST
+// Without a back-check what the other eye sees only has to be as far away as the pixel's surface.
+#define SAME_DEPTH ((scalar)0.02)
+
+kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE other_depth,
+                             PLANE other, PLANE_OUT result, PIXEL_LIST_OUT newly_visible) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y), stored_depth = load(depth, here), z = fabs(stored_depth);
+  const Projection there =
+      project_into(neighbour, position_at(frame, x, y, choose(is_background(z), (real)(1), z)), !is_background(z));
+  const integer index = nearest_index(neighbour.frame, there);
+#if NO_BACK_CHECK
+  const mask is_found =
+      there.is_seen & (fabs(fabs(gather(other_depth, index)) - there.depth) < SAME_DEPTH * there.depth);
+#else
+  const mask is_found = is_shared(stored_depth);
+#endif
+  store(choose(is_found, gather(other, index), (real)(1)), result, here);
+  const mask in_row = to_mask(FIRST_X + IOTA < frame.width);
+  append_pixels(newly_visible, here, !is_found & !is_background(z) & in_row);
+}
+#endif
+
+#endif

@@ -1,0 +1,19 @@
+// Passes for two eyes by themselves (Shi, Billeter, Eisemann 2022): which pixels both eyes see (section 3.1), and the filter
+// over what both see (section 3.3; stereo_filter.h).
+//
+// in : depth, other_depth  view-space z of either eye, scene units, +inf = background
+// out: seen_by_both        1 where both eyes see the surface, else 0
+#include "shared/stereo.h"
+#include "stereo/params.h"
+
+#ifdef COLUMNS
+typedef StereoBilateralParams Params;
+#include "shared/stereo_filter.h"
+#else
+kernel void stereo_seen_by_both(Frame frame, Neighbour neighbour, StereoVisibilityParams params, PLANE depth,
+                                PLANE other_depth, PLANE_OUT seen_by_both) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const mask is_seen = seen_by_both_eyes(frame, neighbour, params.back_check, load(depth, here), other_depth);
+  store(choose(is_seen, (real)(1), (real)(0)), seen_by_both, here);
+}
+#endif

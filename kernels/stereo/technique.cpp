@@ -1,0 +1,43 @@
+#include "gloam/stereo.h"
+#include "stereo/params.h"
+
+namespace gloam::techniques {
+namespace {
+
+std::vector<Pass> visibility_passes(const StereoVisibilityParams&) {
+  return {{.name = "visibility",
+           .kernel = "stereo_seen_by_both",
+           .reads = {"depth", of_other({"other_depth", "depth"})},
+           .writes = {"seen_by_both"}}};
+}
+
+std::vector<Pass> bilateral_passes(const StereoBilateralParams& p) {
+  const bool is_square = p.form == StereoBilateralParams::form_values::square;
+  return stereo_filter_passes(is_square ? StereoChoices::Filter::stereo2d : StereoChoices::Filter::stereo,
+                              p.half_width);
+}
+
+}  // namespace
+
+std::vector<Technique> stereo() {
+  return {{.name = "stereo-visibility",
+           .summary = "which pixels both of two eyes see, by projection there and back",
+           .paper = "Shi, Billeter, Eisemann 2022, section 3.1",
+           .source = "stereo/stereo.cl",
+           .reads = {"depth"},
+           .writes = {"seen_by_both"},
+           .views = 2,
+           .parameters = StereoVisibilityParams::table(),
+           .passes = passes_of(visibility_passes)},
+          {.name = "stereo-bilateral",
+           .summary = "bilateral filter for raw AO over what both of two eyes see, so that they agree",
+           .paper = "Shi, Billeter, Eisemann 2022, section 3.3",
+           .source = "stereo/stereo.cl",
+           .reads = {"ao_raw", "depth", "normal"},
+           .writes = {"ao"},
+           .views = 2,
+           .parameters = StereoBilateralParams::table(),
+           .passes = passes_of(bilateral_passes)}};
+}
+
+}  // namespace gloam::techniques

@@ -1,0 +1,276 @@
+// Ambient occlusion for two eyes (Shi, Billeter, Eisemann 2022): what must hold whatever the scene, and what both eyes see of
+// one whose hidden parts are known.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gloam/capture.h"
+#include "gloam/planes.h"
+#include "support/estimate.h"
+#include "support/surfaces.h"
+
+namespace gloam::test {
+namespace {
+
+using Planes = std::vector<std::string>;
+const Planes both_planes = {"ao", "ao_raw"};
+const RunOptions precise{.math = Math::precise};
+
+Frame run_on(const std::string& technique, const Frame& frame, const Settings& settings = {}, int resolution = 1) {
+  const PlanRequest request{.outputs = {technique}, .settings = settings, .resolution = resolution};
+  return run(make_plan(request, plane_names(frame), "the frame"), frame, device(), precise).frame;
+}
+
+/// The two eyes of a built-in scene, `distance` scene units apart.
+Frame captured(const std::string& scene_name, double distance, int width = 192, int height = 108) {
+  const gloam::Scene scene = load_scene(scene_name, {});
+  const Tracer tracer(scene);
+  Camera left = camera_for(scene.cameras.front(), width, height), right = left;
+  const glm::dvec3 to_the_right = glm::transpose(left.pose->world_to_view) * glm::dvec3(distance, 0, 0);
+  right.pose->position += to_the_right;
+  CaptureOptions options{.width = width, .height = height, .planes = {"depth", "normal"}};
+  options.views = {{"left", left, {}}, {"right", right, {}}};
+  return capture(tracer, options).frame;
+}
+
+Frame swapped(const Frame& frame) {
+  Frame other = clone(frame);
+  std::swap(other.views[0], other.views[1]);
+  return other;
+}
+
+const Channel& channel_of(const Frame& frame, size_t view, const std::string& plane) {
+  return frame.views.at(view).planes.at(plane).channels[0];
+}
+
+double largest_difference(const Channel& a, const Channel& b) {
+  double largest = 0;
+  for (int y = 0; y < a.layout().height; ++y) {
+    for (int x = 0; x < a.layout().width; ++x) largest = std::max(largest, std::abs(double(a.at(x, y)) - b.at(x, y)));
+  }
+  return largest;
+}
+
+bool same(const Channel& a, const Channel& b) {
+  for (int y = 0; y < a.layout().height; ++y) {
+    for (int x = 0; x < a.layout().width; ++x) {
+      if (a.at(x, y) != b.at(x, y)) return false;
+    }
+  }
+  return true;
+}
+
+struct Variant {
+  const char* name;
+  Settings settings;
+};
+
+/// The ablation of figure 10, and what else there is to choose.
+std::vector<Variant> variants() {
+  return {{"A", {{"estimate", "mono"}, {"reproject", "off"}, {"filter", "mono"}}},
+          {"B", {{"estimate", "stereo"}, {"reproject", "off"}, {"filter", "mono"}}},
+          {"C", {{"estimate", "stereo"}, {"reproject", "on"}, {"filter", "mono"}}},
+          {"D", {{"estimate", "stereo"}, {"reproject", "on"}, {"filter", "stereo"}}},
+          {"E", {{"estimate", "mono"}, {"reproject", "on"}, {"filter", "mono"}}},
+          {"square", {{"filter", "stereo2d"}}},
+          {"no back-check", {{"reproject", "no-back-check"}}}};
+}
+
+TEST(Stereo, WithoutAnythingStereoItIsTheMonoTechnique) {
+  const Frame frame = captured("courtyard", 0.065);
+  const Frame mono = run_on("hbao+", frame), stereo = run_on("stereo-ao", frame, variants()[0].settings);
+  for (const size_t view : {0, 1}) {
+    for (const std::string& plane : both_planes)
+      EXPECT_TRUE(same(channel_of(mono, view, plane), channel_of(stereo, view, plane))) << view << " " << plane;
+  }
+}
+
+/// What rounding leaves of a point that is projected to where it is.
+TEST(Stereo, EyesInOnePlaceSeeWhatOneDoes) {
+  const Frame frame = captured("courtyard", 0), mono = run_on("hbao+", frame);
+  for (const Variant& v : variants()) {
+    const Frame stereo = run_on("stereo-ao", frame, v.settings);
+    const bool is_square = std::string(v.name) == "square";
+    for (const size_t view : {0, 1}) {
+      EXPECT_LT(largest_difference(channel_of(mono, view, "ao_raw"), channel_of(stereo, view, "ao_raw")), 2e-3)
+          << v.name;
+      if (is_square) continue;
+      EXPECT_LT(largest_difference(channel_of(mono, view, "ao"), channel_of(stereo, view, "ao")), 2e-3) << v.name;
+    }
+  }
+}
+
+TEST(Stereo, SwappedEyesAndPrimarySwapTheResult) {
+  for (const double distance : {0.065, 0.5}) {
+    const Frame frame = captured("courtyard", distance), other = swapped(frame);
+    for (Variant v : variants()) {
+      const Frame first = run_on("stereo-ao", frame, v.settings);
+      v.settings.emplace_back("primary", "right");
+      const Frame second = run_on("stereo-ao", other, v.settings);
+      for (const size_t view : {0, 1}) {
+        for (const std::string& plane : both_planes)
+          EXPECT_TRUE(same(channel_of(first, view, plane), channel_of(second, 1 - view, plane)))
+              << v.name << ", " << view << " " << plane << ", " << distance << " apart";
+      }
+    }
+  }
+}
+
+/// An eye that sees nothing, or nothing that is a number.
+TEST(Stereo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
+  for (const float depth : {INFINITY, NAN}) {
+    for (const size_t blind : {0, 1}) {
+      Frame frame = captured("courtyard", 0.065);
+      Channel& blocked = frame.views[blind].planes.at("depth").channels[0];
+      for (int y = 0; y < frame.height(); ++y) std::fill_n(blocked.row(y), frame.width(), depth);
+      const Frame mono = run_on("hbao+", frame);
+      for (const Variant& v : variants()) {
+        const Frame stereo = run_on("stereo-ao", frame, v.settings);
+        EXPECT_TRUE(same(channel_of(mono, 1 - blind, "ao_raw"), channel_of(stereo, 1 - blind, "ao_raw")))
+            << v.name << ", eye " << blind;
+        EXPECT_LT(largest_difference(channel_of(mono, 1 - blind, "ao_raw"), channel_of(stereo, 1 - blind, "ao_raw")),
+                  1e-6);
+      }
+    }
+  }
+}
+
+/// The second eye takes what the first found, or estimates by itself what both eyes show: pixel by pixel one of the two.
+TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
+  const Frame frame = captured("courtyard", 0.2);
+  const Frame by_itself = run_on("stereo-ao", frame, {{"reproject", "off"}}), taken = run_on("stereo-ao", frame);
+  EXPECT_TRUE(same(channel_of(by_itself, 0, "ao_raw"), channel_of(taken, 0, "ao_raw")));
+  const Frame seen = run_on("stereo-visibility", frame);
+  const Channel &own = channel_of(by_itself, 1, "ao_raw"), &result = channel_of(taken, 1, "ao_raw"),
+                &first = channel_of(taken, 0, "ao_raw"), &shared = channel_of(seen, 1, "seen_by_both"),
+                &depth = channel_of(frame, 1, "depth");
+  const Camera &left = *frame.views[0].camera, &right = *frame.views[1].camera;
+  long long taken_over = 0, estimated = 0, wrong = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (std::isinf(depth.at(x, y))) continue;
+      if (shared.at(x, y) == 0) {
+        ++estimated;
+        wrong += result.at(x, y) != own.at(x, y);
+        continue;
+      }
+      ++taken_over;
+      const double z = depth.at(x, y), disparity = 0.2 * left.fx / z;
+      const int there = int(std::lround(x + disparity));
+      // Where rounding decides between two pixels, either is right.
+      const double fraction = std::abs(x + disparity - there);
+      wrong += fraction < 0.499 && (there >= frame.width() || result.at(x, y) != first.at(there, y));
+    }
+  }
+  EXPECT_EQ(left.fx, right.fx);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(taken_over, estimated);
+  EXPECT_GT(estimated, frame.width() * frame.height() / 100);
+}
+
+/// A wall at depth 4, and before it a screen at depth 2 that ends at x = 0 of either eye's middle.
+TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
+  constexpr int width = 200, height = 40;
+  constexpr double distance = 0.2;
+  const Shot shot = perspective(width, height);
+  const double fx = shot.camera.fx, cx = shot.camera.cx;
+  const auto eye = [&](double offset) {
+    Frame frame = shoot(shot, [=](const EyeRay& ray) -> std::optional<Surface> {
+      const double x = 2 * ray.direction.x / -ray.direction.z + offset;
+      return Surface{x < 0 ? 2.0 : 4.0, {0, 0, 1}};
+    });
+    frame.views[0].camera->pose = Pose{};
+    frame.views[0].camera->pose->position.x = offset;
+    return frame;
+  };
+  Frame frame = eye(-distance / 2), right = eye(distance / 2);
+  frame.views[0].name = "left";
+  right.views[0].name = "right";
+  frame.views.push_back(std::move(right.views[0]));
+  const Frame seen = run_on("stereo-visibility", frame);
+  const double near_disparity = fx * distance / 2, far_disparity = fx * distance / 4;
+  // In the right eye the screen ends here, and from here to there it hid the wall from the left one.
+  const double edge = cx - fx * distance / 4, hidden_to = edge + near_disparity - far_disparity;
+  const Channel& shared = channel_of(seen, 1, "seen_by_both");
+  for (int x = 0; x < width; ++x) {
+    const double disparity = x + 0.5 < edge ? near_disparity : far_disparity;
+    const double to_left_eye = x + 0.5 + disparity;
+    const bool is_near_an_end =
+        std::abs(x + 0.5 - edge) < 1.5 || std::abs(x + 0.5 - hidden_to) < 1.5 || std::abs(to_left_eye - width) < 1.5;
+    if (is_near_an_end) continue;
+    const bool is_hidden = (x + 0.5 > edge && x + 0.5 < hidden_to) || to_left_eye > width;
+    EXPECT_EQ(shared.at(x, height / 2), is_hidden ? 0 : 1) << "column " << x;
+  }
+  EXPECT_GT(hidden_to - edge, 4);
+}
+
+TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
+  const auto plane = [](const Pose& pose) {
+    const glm::dvec3 point = pose.world_to_view * (glm::dvec3(0, 0, -4) - pose.position);
+    const glm::dvec3 normal = pose.world_to_view * glm::normalize(glm::dvec3(0.2, 0.3, 1));
+    return [=](const EyeRay& ray) -> std::optional<Surface> {
+      const double depth = glm::dot(point - ray.origin, normal) / glm::dot(ray.direction, normal);
+      if (!(depth > 0)) return std::nullopt;
+      return Surface{depth, normal};
+    };
+  };
+  struct Eyes {
+    const char* name;
+    Shot first, second;
+    glm::dvec3 offset;
+    double degrees;
+  };
+  for (const Eyes& e : {Eyes{"parallel", perspective(96, 64), perspective(96, 64), {0.1, 0, 0}, 0},
+                        Eyes{"one above the other", perspective(96, 64), perspective(96, 64), {0, 0.3, 0}, 0},
+                        Eyes{"toed in", perspective(96, 64), perspective(96, 64), {0.5, 0, 0}, 8},
+                        Eyes{"other intrinsics", perspective(96, 64), perspective(96, 64, 50), {0.1, 0.02, 0}, 0},
+                        Eyes{"orthographic", orthographic(96, 64, 4), orthographic(96, 64, 5), {0.1, 0, 0}, 5}}) {
+    Pose pose;
+    pose.world_to_view = glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(e.degrees), glm::dvec3(0, -1, 0)));
+    pose.position = e.offset;
+    Frame frame = shoot(e.first, plane(Pose{}));
+    frame.views[0].camera->pose = Pose{};
+    Frame other = shoot(e.second, plane(pose));
+    other.views[0].name = "second";
+    other.views[0].camera->pose = pose;
+    frame.views.push_back(std::move(other.views[0]));
+    for (const Variant& v : variants()) {
+      const Frame result = run_on("stereo-ao", frame, v.settings);
+      for (const size_t view : {0, 1}) {
+        for (const std::string& name : both_planes) {
+          const Channel& ao = channel_of(result, view, name);
+          double least = 1;
+          for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 96; ++x) least = std::min(least, double(ao.at(x, y)));
+          }
+          EXPECT_EQ(least, 1) << e.name << ", " << v.name << ", " << view << " " << name;
+        }
+      }
+    }
+  }
+}
+
+double mean_difference(const Channel& a, const Channel& b) {
+  double sum = 0;
+  for (int y = 0; y < a.layout().height; ++y) {
+    for (int x = 0; x < a.layout().width; ++x) sum += std::abs(double(a.at(x, y)) - b.at(x, y));
+  }
+  return sum / (double(a.layout().width) * a.layout().height);
+}
+
+/// Half the resolution changes it no more than it changes the mono technique.
+TEST(Stereo, WorksAtHalfResolution) {
+  const Frame frame = captured("courtyard", 0.065);
+  const Frame full = run_on("stereo-ao", frame), half = run_on("stereo-ao", frame, {}, 2);
+  const Frame mono_full = run_on("hbao+", frame), mono_half = run_on("hbao+", frame, {}, 2);
+  for (const size_t view : {0, 1}) {
+    const double change = mean_difference(channel_of(full, view, "ao"), channel_of(half, view, "ao"));
+    EXPECT_LT(change, 1.1 * mean_difference(channel_of(mono_full, view, "ao"), channel_of(mono_half, view, "ao")));
+    EXPECT_GT(change, 0);
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test
