@@ -1,9 +1,10 @@
-// gloam compare TEST.exr REF.exr [-o difference.png]
+// gloam compare TEST.exr REF.exr [-o difference.png]; compare_stereo.cpp has the form with --stereo
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "compare_inputs.h"
+#include "compare_stereo.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
@@ -318,17 +319,29 @@ void compare_command(const CompareFlags& flags) {
 
 void add_compare(CLI::App& app) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* command = app.add_subcommand("compare", "how far an image is from the truth: figures and a picture");
+  auto stereo = std::make_shared<StereoFlags>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "how far an image is from the truth, or its two views from each other: figures and a picture");
   command->add_option("test", flags->test, "EXR file, such as gloam run writes")->required()->type_name("TEST.exr");
-  command->add_option("reference", flags->reference, "EXR file with the truth")->required()->type_name("REF.exr");
-  command->add_option("-o,--output", flags->picture, "picture of test, truth, difference and histogram")
+  command
+      ->add_option("reference", flags->reference,
+                   "EXR file with the truth; with --stereo: none, or the file of the second eye")
+      ->type_name("REF.exr");
+  command
+      ->add_option("-o,--output", flags->picture,
+                   "picture of test, truth, difference and histogram; with --stereo: of the first view's errors, or "
+                   "ERRORS.exr with those of both")
       ->type_name("DIFFERENCE.png");
   command
       ->add_option("--what", flags->plane,
                    "plane of the test to compare; default: the first that both have, results first. ao_raw goes with "
                    "the truth's ao where that has no ao_raw")
       ->type_name("PLANE");
-  command->add_option("--frame", flags->frame, "frame whose depth tells the background")->type_name("FRAME.exr");
+  command
+      ->add_option("--frame", flags->frame,
+                   "frame whose depth tells the background; with --stereo also its normals and cameras count")
+      ->type_name("FRAME.exr");
+  stereo->add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
@@ -336,8 +349,15 @@ void add_compare(CLI::App& app) {
       "  gloam compare ao.exr truth.exr -o difference.png\n"
       "  gloam compare ao.exr truth_left.exr --view left --json -\n"
       "  gloam compare ao.exr truth.exr --what ao_raw\n"
-      "  gloam compare ao.exr truth.exr --plane ao=Lamp.R");
-  command->callback([flags] { compare_command(*flags); });
+      "  gloam compare ao.exr truth.exr --plane ao=Lamp.R\n"
+      "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
+  command->callback([flags, stereo] {
+    if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
+    if (flags->reference.empty())
+      throw UsageError(
+          "compare: REF.exr is required, or --stereo for the two views of one file (gloam compare --help)");
+    compare_command(*flags);
+  });
 }
 
 }  // namespace gloam::cli
