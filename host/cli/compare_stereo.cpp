@@ -60,29 +60,43 @@ std::vector<Input> open_results(const CompareFlags& flags, const ReadOptions& op
   return results;
 }
 
-/// The plane asked for, else the first that all files have, results before inputs. A point's depth is another for each
-/// eye, so that depths are not compared.
-std::string plane_to_compare(const std::vector<Input>& results, const std::string& asked) {
-  std::vector<std::string> planes = results.front().file.common_planes();
-  if (asked.empty()) {
-    std::vector<std::string> order = results_among(planes);
-    for (const std::string& plane : inputs_among(planes)) order.push_back(plane);
-    planes = order;
+/// That of --frame, if any.
+std::vector<Input> open_frame(const CompareFlags& flags, const ReadOptions& options) {
+  std::vector<Input> frames;
+  if (!flags.frame.empty()) frames.push_back(opened(flags.frame, options_beside(options, flags.frame)));
+  return frames;
+}
+
+/// Reads of each file what it has of the geometry, and a plane.
+void read_all(std::vector<Input>& inputs, std::vector<std::string> geometry, const std::string& plane) {
+  add_new(geometry, plane);
+  for (Input& input : inputs) input.read(geometry);
+}
+
+/// The plane asked for. A point's depth is another for each eye, so that depths are not compared.
+std::string plane_asked_for(const std::vector<Input>& results, const std::string& asked) {
+  if (plane_kind(asked).meaning == PlaneKind::view_depth)
+    throw UsageError("--what {}: a point's depth is another for each eye; name a result", asked);
+  for (const Input& result : results) {
+    const std::vector<std::string> planes = result.file.common_planes();
+    if (!contains(planes, asked))
+      throw Error("{}: no plane '{}'{}; {}", result.name(), asked, suggestion(asked, planes), holdings(result.file));
   }
-  for (const std::string& plane : asked.empty() ? planes : std::vector<std::string>{asked}) {
-    if (plane_kind(plane).meaning == PlaneKind::view_depth) {
-      if (!asked.empty()) throw UsageError("--what {}: a point's depth is another for each eye; name a result", asked);
-      continue;
-    }
-    const auto lacks = std::find_if(results.begin(), results.end(),
-                                    [&](const Input& result) { return !contains(result.file.common_planes(), plane); });
-    if (lacks == results.end()) return plane;
-    if (!asked.empty())
-      throw Error("{}: no plane '{}'{}; {}", lacks->name(), asked, suggestion(asked, lacks->file.common_planes()),
-                  holdings(lacks->file));
+  return asked;
+}
+
+/// The first that all files have, results before inputs.
+std::string plane_to_compare(const std::vector<Input>& results) {
+  const FrameFile& first = results.front().file;
+  std::vector<std::string> order = results_among(first.common_planes());
+  for (const std::string& plane : inputs_among(first.common_planes())) order.push_back(plane);
+  for (const std::string& plane : order) {
+    const bool is_in_all = std::all_of(results.begin(), results.end(), [&](const Input& result) {
+      return contains(result.file.common_planes(), plane);
+    });
+    if (is_in_all && plane_kind(plane).meaning != PlaneKind::view_depth) return plane;
   }
-  throw Error("{}: nothing that can be compared between two eyes; {}", results.front().name(),
-              holdings(results.front().file));
+  throw Error("{}: nothing that can be compared between two eyes; {}", results.front().name(), holdings(first));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -140,6 +154,16 @@ bool have_cameras(const Sources& sources) {
                      [](const Source& s) { return s.view->camera && s.view->camera->pose.has_value(); });
 }
 
+/// --frame first, since the user named it. But what depth and normals mean may depend on the camera: files that have it
+/// go before one that had to do without.
+std::vector<Sources> sources_of(const std::vector<Input>& frames, const std::vector<Input>& results) {
+  std::vector<Sources> sources;
+  for (const Input& frame : frames) sources.push_back(sources_of(frame, results));
+  sources.push_back(sources_of(results));
+  std::stable_partition(sources.begin(), sources.end(), have_cameras);
+  return sources;
+}
+
 /// The first sources that have something for both eyes; null where none has.
 const Sources* first_with(const std::vector<Sources>& sources, const std::string& plane) {
   for (const Sources& s : sources) {
@@ -173,6 +197,10 @@ Frame pair_of(const Sources& results, const std::vector<Sources>& sources, const
         "--camera FILE.json the cameras",
         name, what_is_missing);
   const Sources& cameras = sources.front();
+  for (const Source& eye : results) {
+    if (!eye.view->find(plane))
+      throw Error("{}: '{}' is of no use: {}", eye.input->name(), plane, fmt::join(eye.input->frame.assumed, "; "));
+  }
   const Sources* depth = first_with(sources, "depth");
   if (!depth) throw Error("{}: no depth for both views{}", name, what_is_missing);
   Frame pair;
@@ -209,16 +237,22 @@ Json document_of(const StereoInconsistency& result, const Frame& pair, const std
           {"normal_check", result.normal_check ? Json(*result.normal_check) : Json()}};
 }
 
-void print_figures(const StereoInconsistency& result, const Frame& pair) {
+void print_result(const CompareFlags& flags, const StereoInconsistency& result, const Frame& pair,
+                  const std::string& plane, const std::vector<std::string>& written) {
+  fmt::print("{} of {}: stereo inconsistency{}\n", plane, printable(flags.test),
+             result.normal_check ? fmt::format(", normal-check {:g} degrees", *result.normal_check) : "");
   std::vector<std::vector<std::string>> rows = {{"view", "mean", "RMSE", "99 %", "max", "pixels", "rejected"}};
   const auto add = [&](const std::string& name, const StereoFigures& f) {
-    rows.push_back({name, fmt::format("{:.5f}", f.mean), fmt::format("{:.5f}", f.rmse), fmt::format("{:.5f}", f.p99),
-                    fmt::format("{:.5f}", f.max), std::to_string(f.counted),
-                    fmt::format("{:.2f} %", 100 * f.rejected_share())});
+    std::vector<std::string> row = {name};
+    for (const double value : {f.mean, f.rmse, f.p99, f.max}) row.push_back(fmt::format("{:.5f}", value));
+    row.push_back(std::to_string(f.counted));
+    row.push_back(fmt::format("{:.2f} %", 100 * f.rejected_share()));
+    rows.push_back(row);
   };
   for (size_t i = 0; i < 2; ++i) add(pair.views[i].name, result.views[i].figures);
   add("both", result.both);
   print_table(rows, 1);
+  for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }
 
 /// The raw errors of both views, with depth and cameras. NaN where a pixel does not count.
@@ -291,6 +325,13 @@ void check_names(const CompareFlags& flags, const StereoFlags& stereo) {
     throw UsageError("--view {}: --stereo needs two views; --views A,B says which", flags.frame_flags.view);
 }
 
+StereoOptions options_of(const StereoFlags& stereo) {
+  StereoOptions options;
+  options.normal_check = parse_number(stereo.normal_check, "--normal-check", smallest_angle, 180);
+  if (stereo.no_normal_check) options.normal_check.reset();
+  return options;
+}
+
 }  // namespace
 
 void StereoFlags::add_to(CLI::App& app) {
@@ -326,36 +367,24 @@ void StereoFlags::add_to(CLI::App& app) {
 
 void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   check_names(flags, stereo);
-  StereoOptions check;
-  check.normal_check = parse_number(stereo.normal_check, "--normal-check", smallest_angle, 180);
-  if (stereo.no_normal_check) check.normal_check.reset();
+  const StereoOptions check = options_of(stereo);
   const double magnify = parse_number(stereo.magnify, "--magnify", 1e-3, 1e6);
   ReadOptions options = flags.frame_flags.read_options();
   options.as_stored = true;
+  std::vector<Input> results = open_results(flags, options), frames = open_frame(flags, options);
+  const std::string plane = flags.plane.empty() ? plane_to_compare(results) : plane_asked_for(results, flags.plane);
+  std::vector<std::string> geometry = {"depth"};
+  if (check.normal_check) geometry.push_back("normal");
+  read_all(results, geometry, plane);
+  read_all(frames, geometry, "depth");
 
-  std::vector<Input> results = open_results(flags, options);
-  const std::string plane = plane_to_compare(results, flags.plane);
-  for (Input& result : results) result.read({plane, "depth", "normal"});
-  std::vector<Sources> sources = {sources_of(results)};
-  const Sources compared = sources.front();
-  std::optional<Input> extra;
-  if (!flags.frame.empty()) {
-    extra.emplace(opened(flags.frame, options_beside(options, flags.frame)));
-    extra->read({"depth", "normal"});
-    sources.insert(sources.begin(), sources_of(*extra, results));  // first, since the user named it
-  }
-  // What depth and normals mean may depend on the camera: a file that has it goes before one that had to do without.
-  std::stable_partition(sources.begin(), sources.end(), have_cameras);
-  Frame pair = pair_of(compared, sources, plane);
+  const std::vector<Sources> sources = sources_of(frames, results);
+  Frame pair = pair_of(sources_of(results), sources, plane);
   const StereoInconsistency result = stereo_inconsistency(pair, plane, check);
   note_assumptions(sources, check.normal_check && !result.normal_check);
   const std::vector<std::string> written = write_pictures(flags, stereo, magnify, pair, plane, result);
   flags.json.write(document_of(result, pair, plane), written);
-  if (flags.json.only_json()) return;
-  fmt::print("{} of {}: stereo inconsistency{}\n", plane, printable(flags.test),
-             result.normal_check ? fmt::format(", normal-check {:g} degrees", *result.normal_check) : "");
-  print_figures(result, pair);
-  for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
+  if (!flags.json.only_json()) print_result(flags, result, pair, plane, written);
 }
 
 }  // namespace gloam::cli

@@ -337,6 +337,32 @@ TEST_F(Cli, StereoFilesThatDoNotFitAreNamed) {
   refused({"none.exr"}, {"none.exr"});
 }
 
+/// Normals of a world that nobody knows how to turn.
+TEST_F(Cli, StereoNormalsOfNoUseAreNotCompared) {
+  Frame frame = pair_with_offset();
+  write_frame(path("frame.exr"), frame);
+  for (View& view : frame.views) view.camera.reset();
+  write_frame(path("normals.exr"), frame);
+  expect_refused(gloam({"compare", "--stereo", path("normals.exr"), "--frame", path("frame.exr"), "--what", "normal",
+                        "--normal-space", "world"}),
+                 1, {"normals.exr", "'normal' is of no use", "where the camera stands is not known"});
+}
+
+/// A frame without cameras knows neither how its depth nor how its normals are meant: the result's depth counts.
+TEST_F(Cli, StereoTakesCamerasFromTheResultWhereTheFrameHasNone) {
+  Frame frame = pair_with_offset();
+  write_frame(path("ao.exr"), frame);
+  for (View& view : frame.views) {
+    view.camera.reset();
+    view.planes["depth"].channels[0] = Channel(Layout(width, height), 1.0f);
+  }
+  write_frame(path("frame.exr"), frame);
+  const Result whole = gloam({"compare", "--stereo", path("ao.exr"), "--json", "-"});
+  const Result result = gloam({"compare", "--stereo", path("ao.exr"), "--frame", path("frame.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json(), whole.json());
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // A real frame
 
