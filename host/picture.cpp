@@ -75,14 +75,6 @@ cv::Mat resized(const cv::Mat& image, cv::Size size, Sampling sampling) {
   return out;
 }
 
-void hatch(cv::Mat& panel, const cv::Mat& background, double unit) {
-  const int period = std::max(6, cvRound(7 * unit)), line = std::max(1, cvRound(unit));
-  for (int y = 0; y < panel.rows; ++y)
-    for (int x = 0; x < panel.cols; ++x)
-      if (background.at<unsigned char>(y, x) > 127 && (x + y) % period < line)
-        panel.at<cv::Vec3b>(y, x) = background_line;
-}
-
 png_image header_of(const cv::Mat& image) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
@@ -188,6 +180,14 @@ PanelSize panel_size(int width, int height, const PanelLimits& limits) {
   else if (scale < 1)
     size.zoom_note = fmt::format("{:.0f} %", 100 * scale);
   return size;
+}
+
+void hatch(cv::Mat& image, const cv::Mat& background, double unit) {
+  const int period = std::max(6, cvRound(7 * unit)), line = std::max(1, cvRound(unit));
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      if (background.at<unsigned char>(y, x) > 127 && (x + y) % period < line)
+        image.at<cv::Vec3b>(y, x) = background_line;
 }
 
 void put_panel(cv::Mat& canvas, const cv::Mat& colours, const cv::Mat& background, cv::Point corner, cv::Size size,

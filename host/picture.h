@@ -84,6 +84,9 @@ PanelSize panel_size(int width, int height, const PanelLimits& limits);
 /// How an image gets its size on the sheet.
 enum class Sampling { average, point };
 
+/// Slanting lines over an image (CV_8UC3) where `background` (CV_8UC1, of the same size) is set. `unit` scales them.
+void hatch(cv::Mat& image, const cv::Mat& background, double unit);
+
 /// Draws an image (CV_8UC3) with a thin frame around it; where `background` (CV_8UC1) is set, hatched.
 /// Enlarged pixels stay squares; reduced ones are averaged over areas or, for identities, sampled at points.
 /// `unit` scales the hatching.

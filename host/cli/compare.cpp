@@ -1,8 +1,10 @@
-// gloam compare TEST.exr REF.exr [-o difference.png]
+// gloam compare TEST.exr REF.exr [-o difference.png]; compare_stereo.cpp has the form with --stereo
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "compare_inputs.h"
+#include "compare_stereo.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
@@ -11,39 +13,6 @@
 
 namespace gloam::cli {
 namespace {
-
-struct CompareCommand {
-  std::string test, reference, picture, frame, plane;
-  FrameFlags frame_flags;
-  JsonFlag json;
-};
-
-/// A plane of the test and the plane of the reference that it is measured against.
-struct PlanePair {
-  std::string test, reference;
-};
-
-/// What techniques make, by what it can be measured against, best first. AO is AO before a filter and after.
-const std::vector<PlanePair>& result_pairs() {
-  static const std::vector<PlanePair> pairs = {{"ao", "ao"},
-                                               {"ao_raw", "ao_raw"},
-                                               {"ao_raw", "ao"},
-                                               {"ao", "ao_raw"},
-                                               {"reflection", "reflection"},
-                                               {"bent_normal", "bent_normal"},
-                                               {"cone", "cone"},
-                                               {"hit", "hit"}};
-  return pairs;
-}
-
-/// Those of a file's planes that techniques make.
-std::vector<std::string> results_among(const std::vector<std::string>& planes) {
-  std::vector<std::string> results;
-  for (const PlanePair& pair : result_pairs()) {
-    if (contains(planes, pair.test)) add_new(results, pair.test);
-  }
-  return results;
-}
 
 /// What of the reference a plane of the test is measured against where the user names that plane.
 std::string counterpart(const std::string& plane, const FrameFile& reference) {
@@ -74,10 +43,8 @@ std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile&
   if (!results.empty() && !truths.empty())
     throw Error("{} has {} and {} has {}, which cannot be compared; --what PLANE compares another plane",
                 test.path().string(), enumerate(results), reference.path().string(), enumerate(truths));
-  std::vector<std::string> order = {"color", "normal", "mask", "outline_count", "depth"};
-  for (const std::string& plane : a) add_new(order, plane);
-  for (const std::string& plane : order) {
-    if (contains(a, plane) && contains(b, plane)) pairs.push_back({plane, plane});
+  for (const std::string& plane : inputs_among(a)) {
+    if (contains(b, plane)) pairs.push_back({plane, plane});
   }
   if (!pairs.empty()) return pairs;
   throw Error("{} and {} have no plane in common: {}; {}", test.path().string(), reference.path().string(),
@@ -175,16 +142,6 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_
               reference.path().string(), words(b));
 }
 
-/// The part of a channel that a window covers.
-Channel crop(const Channel& channel, const Window& from, const Window& to) {
-  Channel out{Layout(to.width(), to.height())};
-  for (int y = 0; y < to.height(); ++y) {
-    const float* source = channel.row(y + to.y0 - from.y0) + (to.x0 - from.x0);
-    std::copy(source, source + to.width(), out.row(y));
-  }
-  return out;
-}
-
 /// Both frames over the same pixels: their windows, or the display window where they share one and the windows differ.
 Window common_window(const Side& test, const Side& reference) {
   const Frame &a = test.frame, &b = reference.frame;
@@ -193,20 +150,6 @@ Window common_window(const Side& test, const Side& reference) {
   if (a.width() == b.width() && a.height() == b.height()) return {};  // same size, other origin
   throw Error("{} is {}x{} and {} is {}x{}; only images of one size can be compared", test.file.path().string(),
               a.width(), a.height(), reference.file.path().string(), b.width(), b.height());
-}
-
-Plane cropped(const Plane& plane, const Window& from, const Window& to) {
-  if (to == Window{} || from == to) return plane.clone();
-  Plane out{plane.name, {}};
-  for (const Channel& channel : plane.channels) out.channels.push_back(crop(channel, from, to));
-  return out;
-}
-
-/// Whether a frame covers a window, or has its size where the window is empty.
-bool covers(const Frame& frame, const Window& window, const Layout& layout) {
-  if (window == Window{}) return frame.width() == layout.width && frame.height() == layout.height;
-  const Window& w = frame.window;
-  return w.x0 <= window.x0 && w.y0 <= window.y0 && w.x1 >= window.x1 && w.y1 >= window.y1;
 }
 
 /// Foreground of a view of one frame; none where it has no depth for that view.
@@ -222,17 +165,6 @@ std::optional<Mask> foreground(const Frame& frame, const std::string& name, cons
       mask[size_t(y) * size_t(layout.width) + size_t(x)] = !is_background(z.channels[0].at(x, y));
   }
   return mask;
-}
-
-/// The view of a --frame that goes with a view of the test: of the same name, or the only one.
-std::string view_of(const Frame& frame, const std::string& name) {
-  if (frame.views.size() == 1) return frame.views[0].name;
-  for (const View& view : frame.views) {
-    if (view.name == name) return name;
-  }
-  std::vector<std::string> names;
-  for (const View& view : frame.views) names.push_back(view.name);
-  throw Error("--frame has the views {}, and '{}' is compared; --view NAME says which", enumerate(names), name);
 }
 
 Json metrics_document(const Metrics& m) {
@@ -278,7 +210,7 @@ std::string bias_words(double bias, const std::string& plane) {
 }
 
 /// "ao: ao.exr against truth.exr", or "ao_raw of ao.exr against ao of truth.exr".
-void print_heading(const PlanePair& planes, const CompareCommand& flags) {
+void print_heading(const PlanePair& planes, const CompareFlags& flags) {
   const std::string test = printable(flags.test), reference = printable(flags.reference);
   if (planes.test == planes.reference)
     fmt::print("{}: {} against {} (test - truth)\n", planes.test, test, reference);
@@ -320,19 +252,7 @@ void note_other_radius(const FrameFile& test, const FrameFile& reference) {
   note({fmt::format("the radius of the test is {:g}, and that of the truth {:g}", *used, *truth)});
 }
 
-/// Options for a file beside the test: its channels are not those of the test, and one unnamed view leaves nothing to
-/// choose.
-ReadOptions options_beside(const ReadOptions& options, const std::string& path) {
-  ReadOptions own = options;
-  own.channels.clear();
-  if (own.views.empty()) return own;
-  ReadOptions any = own;
-  any.views.clear();
-  if (FrameFile(path, any).views().size() == 1) own.views.clear();
-  return own;
-}
-
-Frame background_frame(const CompareCommand& flags, const ReadOptions& options) {
+Frame background_frame(const CompareFlags& flags, const ReadOptions& options) {
   if (flags.frame.empty()) return {};
   FrameFile file(flags.frame, options_beside(options, flags.frame));
   if (!contains(file.common_planes(), "depth"))
@@ -340,18 +260,8 @@ Frame background_frame(const CompareCommand& flags, const ReadOptions& options) 
   return file.read({"depth"});
 }
 
-/// What of --frame lies under the images: their window where it shows the same display window, all of it where it has
-/// their size. Throws Error for a frame of another size: which of its pixels are theirs is not known.
-Window window_under(const Frame& extra, const std::string& path, const Frame& test, const Window& window,
-                    const Layout& layout) {
-  if (extra.display == test.display && covers(extra, window, layout)) return window;
-  if (covers(extra, {}, layout)) return {};
-  throw Error("--frame {} is {}x{}, and the images are {}x{}; give the frame that they were made of", path,
-              extra.width(), extra.height(), layout.width, layout.height);
-}
-
 /// --frame first, since the user named it; then what the files themselves know.
-std::optional<Mask> mask_of(const CompareCommand& flags, const Frame& extra, const Side& test, const Side& reference,
+std::optional<Mask> mask_of(const CompareFlags& flags, const Frame& extra, const Side& test, const Side& reference,
                             const std::pair<std::string, std::string>& views, const Window& window,
                             const Layout& layout) {
   if (!flags.frame.empty())
@@ -361,7 +271,7 @@ std::optional<Mask> mask_of(const CompareCommand& flags, const Frame& extra, con
   return foreground(reference.frame, views.second, window, layout);
 }
 
-void compare_command(const CompareCommand& flags) {
+void compare_command(const CompareFlags& flags) {
   check_picture_name(flags.picture, "-o");
   check_paths({{"the test", flags.test}, {"the reference", flags.reference}, {"--frame", flags.frame}},
               {{"-o", flags.picture}, {"--json", flags.json.file()}});
@@ -408,18 +318,30 @@ void compare_command(const CompareCommand& flags) {
 }  // namespace
 
 void add_compare(CLI::App& app) {
-  auto flags = std::make_shared<CompareCommand>();
-  CLI::App* command = app.add_subcommand("compare", "how far an image is from the truth: figures and a picture");
+  auto flags = std::make_shared<CompareFlags>();
+  auto stereo = std::make_shared<StereoFlags>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "how far an image is from the truth, or its two views from each other: figures and a picture");
   command->add_option("test", flags->test, "EXR file, such as gloam run writes")->required()->type_name("TEST.exr");
-  command->add_option("reference", flags->reference, "EXR file with the truth")->required()->type_name("REF.exr");
-  command->add_option("-o,--output", flags->picture, "picture of test, truth, difference and histogram")
+  command
+      ->add_option("reference", flags->reference,
+                   "EXR file with the truth; with --stereo: none, or the file of the second eye")
+      ->type_name("REF.exr");
+  command
+      ->add_option("-o,--output", flags->picture,
+                   "picture of test, truth, difference and histogram; with --stereo: of the first view's errors, or "
+                   "ERRORS.exr with those of both")
       ->type_name("DIFFERENCE.png");
   command
       ->add_option("--what", flags->plane,
                    "plane of the test to compare; default: the first that both have, results first. ao_raw goes with "
                    "the truth's ao where that has no ao_raw")
       ->type_name("PLANE");
-  command->add_option("--frame", flags->frame, "frame whose depth tells the background")->type_name("FRAME.exr");
+  command
+      ->add_option("--frame", flags->frame,
+                   "frame whose depth tells the background; with --stereo also its normals and cameras count")
+      ->type_name("FRAME.exr");
+  stereo->add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
@@ -427,8 +349,15 @@ void add_compare(CLI::App& app) {
       "  gloam compare ao.exr truth.exr -o difference.png\n"
       "  gloam compare ao.exr truth_left.exr --view left --json -\n"
       "  gloam compare ao.exr truth.exr --what ao_raw\n"
-      "  gloam compare ao.exr truth.exr --plane ao=Lamp.R");
-  command->callback([flags] { compare_command(*flags); });
+      "  gloam compare ao.exr truth.exr --plane ao=Lamp.R\n"
+      "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
+  command->callback([flags, stereo] {
+    if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
+    if (flags->reference.empty())
+      throw UsageError(
+          "compare: REF.exr is required, or --stereo for the two views of one file (gloam compare --help)");
+    compare_command(*flags);
+  });
 }
 
 }  // namespace gloam::cli

@@ -1,0 +1,95 @@
+#include "compare_inputs.h"
+
+#include <algorithm>
+
+#include "gloam/error.h"
+
+namespace gloam::cli {
+namespace {
+
+/// The part of a channel that a window covers.
+Channel crop(const Channel& channel, const Window& from, const Window& to) {
+  Channel out{Layout(to.width(), to.height())};
+  for (int y = 0; y < to.height(); ++y) {
+    const float* source = channel.row(y + to.y0 - from.y0) + (to.x0 - from.x0);
+    std::copy(source, source + to.width(), out.row(y));
+  }
+  return out;
+}
+
+}  // namespace
+
+const std::vector<PlanePair>& result_pairs() {
+  static const std::vector<PlanePair> pairs = {{"ao", "ao"},
+                                               {"ao_raw", "ao_raw"},
+                                               {"ao_raw", "ao"},
+                                               {"ao", "ao_raw"},
+                                               {"reflection", "reflection"},
+                                               {"bent_normal", "bent_normal"},
+                                               {"cone", "cone"},
+                                               {"hit", "hit"}};
+  return pairs;
+}
+
+std::vector<std::string> results_among(const std::vector<std::string>& planes) {
+  std::vector<std::string> results;
+  for (const PlanePair& pair : result_pairs()) {
+    if (contains(planes, pair.test)) add_new(results, pair.test);
+  }
+  return results;
+}
+
+std::vector<std::string> inputs_among(const std::vector<std::string>& planes) {
+  std::vector<std::string> inputs;
+  for (const char* plane : {"color", "normal", "mask", "outline_count", "depth"}) {
+    if (contains(planes, plane)) add_new(inputs, plane);
+  }
+  const std::vector<std::string> results = results_among(planes);
+  for (const std::string& plane : planes) {
+    if (!contains(results, plane)) add_new(inputs, plane);
+  }
+  return inputs;
+}
+
+Plane cropped(const Plane& plane, const Window& from, const Window& to) {
+  if (to == Window{} || from == to) return plane.clone();
+  Plane out{plane.name, {}};
+  for (const Channel& channel : plane.channels) out.channels.push_back(crop(channel, from, to));
+  return out;
+}
+
+bool covers(const Frame& frame, const Window& window, const Layout& layout) {
+  if (window == Window{}) return frame.width() == layout.width && frame.height() == layout.height;
+  const Window& w = frame.window;
+  return w.x0 <= window.x0 && w.y0 <= window.y0 && w.x1 >= window.x1 && w.y1 >= window.y1;
+}
+
+std::string view_of(const Frame& frame, const std::string& name) {
+  if (frame.views.size() == 1) return frame.views[0].name;
+  for (const View& view : frame.views) {
+    if (view.name == name) return name;
+  }
+  std::vector<std::string> names;
+  for (const View& view : frame.views) names.push_back(view.name);
+  throw Error("--frame has the views {}, and '{}' is compared; --view NAME says which", enumerate(names), name);
+}
+
+ReadOptions options_beside(const ReadOptions& options, const std::string& path) {
+  ReadOptions own = options;
+  own.channels.clear();
+  if (own.views.empty()) return own;
+  ReadOptions any = own;
+  any.views.clear();
+  if (FrameFile(path, any).views().size() == 1) own.views.clear();
+  return own;
+}
+
+Window window_under(const Frame& extra, const std::string& path, const Frame& test, const Window& window,
+                    const Layout& layout) {
+  if (extra.display == test.display && covers(extra, window, layout)) return window;
+  if (covers(extra, {}, layout)) return {};
+  throw Error("--frame {} is {}x{}, and the images are {}x{}; give the frame that they were made of", path,
+              extra.width(), extra.height(), layout.width, layout.height);
+}
+
+}  // namespace gloam::cli

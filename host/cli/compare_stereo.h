@@ -1,0 +1,18 @@
+// gloam compare --stereo OUT.exr: how far the two views of a result are from each other.
+#pragma once
+
+#include <string>
+
+#include "compare_inputs.h"
+
+namespace gloam::cli {
+
+struct StereoFlags {
+  bool is_asked_for = false, no_normal_check = false;
+  std::string normal_check = "6", magnify = "20", anaglyph, side_by_side;
+  void add_to(CLI::App& app);
+};
+
+void stereo_command(const CompareFlags& flags, const StereoFlags& stereo);
+
+}  // namespace gloam::cli

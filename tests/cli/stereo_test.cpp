@@ -1,0 +1,400 @@
+// gloam compare --stereo: the document, the pictures, where depth, normals and cameras come from, and bad input.
+#include "support/stereo.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gloam_process.h"
+#include "unit/pictures.h"
+#include "unit/read_channel.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int width = 96, height = 64;
+constexpr float offset = 0.125f;
+const Scene wall = tilted_plane(4, 0, 0);
+
+/// A wall whose AO rises evenly, and reads `offset` too much in the second view.
+Frame pair_with_offset() {
+  const Shot shot = perspective(width, height);
+  Frame frame = shoot_pair({eye_at(shot, {-0.1, 0, 0}), eye_at(shot, {0.123, 0, 0})}, wall,
+                           [](const glm::dvec3& p) { return 0.5 + 0.1 * p.x; });
+  Channel& ao = frame.views[1].planes["ao"].channels[0];
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) ao.at(x, y) += offset;
+  }
+  return frame;
+}
+
+/// A frame as `gloam run` and a renderer leave it: the result without normals, the frame without a result.
+void write_result_and_frame(const fs::path& result, const fs::path& frame) {
+  Frame both = pair_with_offset();
+  for (View& view : both.views) view.planes.erase("normal");
+  write_frame(result, both);
+  both = pair_with_offset();
+  for (View& view : both.views) view.planes.erase("ao");
+  write_frame(frame, both);
+}
+
+/// One view alone: the plane, and nothing that tells where it was seen from.
+void write_eye(const fs::path& path, const char* view, const char* plane = "ao", int columns = width) {
+  Frame frame = pair_with_offset();
+  std::swap(frame.views[0], frame.view(view));
+  frame.views.pop_back();
+  Frame bare = blank(perspective(columns, height));
+  bare.views[0].camera.reset();
+  bare.views[0].planes[plane] = Plane{plane, {}};
+  bare.views[0].planes[plane].channels.emplace_back(Layout(columns, height), 0.0f);
+  if (columns == width) bare.views[0].planes[plane].channels[0] = std::move(frame.views[0].planes["ao"].channels[0]);
+  write_frame(path, bare);
+}
+
+TEST_F(Cli, StereoDocumentHasTheErrorOfBothViews) {
+  write_frame(path("pair.exr"), pair_with_offset());
+  const Result result = gloam({"compare", "--stereo", path("pair.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Json document = result.json();
+  for (const char* key : {"left", "right", "mean"}) EXPECT_NEAR(document["inconsistency"][key], offset, 1e-6) << key;
+  for (const char* key : {"rmse", "p99", "max"}) EXPECT_NEAR(document[key], offset, 1e-6) << key;
+  EXPECT_EQ(document["plane"], "ao");
+  EXPECT_EQ(document["views"], Json({"left", "right"}));
+  EXPECT_EQ(document["normal_check"], 6);
+  // 4.6 pixels of the 96 are out of the other image, and one more has a neighbour that is.
+  const long long rejected = 2 * 5 * height;
+  EXPECT_EQ(document["pixels"], 2 * width * height - rejected);
+  EXPECT_NEAR(document["rejected_share"], double(rejected) / (2 * width * height), 1e-12);
+  EXPECT_EQ(document["rejected"], Json({{"outside", rejected}, {"hidden", 0}, {"edge", 0}}));
+}
+
+TEST_F(Cli, StereoFiguresAreATableForPeople) {
+  write_frame(path("pair.exr"), pair_with_offset());
+  const Result result = gloam({"compare", "--stereo", path("pair.exr")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const char* words :
+       {"stereo inconsistency, normal-check 6 degrees", "\nleft ", "\nright ", "\nboth ", "0.12500"})
+    EXPECT_NE(result.out.find(words), std::string::npos) << words << ": " << result.out;
+}
+
+TEST_F(Cli, StereoTakesViewsInTheOrderAskedFor) {
+  Frame frame = pair_with_offset();
+  for (int y = 0; y < height; ++y) frame.views[0].planes["depth"].channels[0].at(60, y) = INFINITY;
+  write_frame(path("pair.exr"), frame);
+  const Json a = gloam({"compare", "--stereo", path("pair.exr"), "--json", "-"}).json();
+  const Json b = gloam({"compare", "--stereo", path("pair.exr"), "--views", "right,left", "--json", "-"}).json();
+  EXPECT_NE(a["inconsistency"]["left"], a["inconsistency"]["right"]);
+  EXPECT_EQ(a["inconsistency"]["left"], b["inconsistency"]["right"]);
+  EXPECT_EQ(a["inconsistency"]["right"], b["inconsistency"]["left"]);
+  EXPECT_EQ(b["views"], Json({"right", "left"}));
+}
+
+TEST_F(Cli, StereoTakesNormalsFromTheFrameAndSaysWhereThereAreNone) {
+  write_result_and_frame(path("ao.exr"), path("frame.exr"));
+  const Result without = gloam({"compare", "--stereo", path("ao.exr"), "--json", "-"});
+  ASSERT_EQ(without.status, 0) << without.err;
+  EXPECT_TRUE(without.json()["normal_check"].is_null());
+  EXPECT_NE(without.err.find("no normals for both views"), std::string::npos) << without.err;
+  EXPECT_NE(without.err.find("--frame"), std::string::npos) << without.err;
+  const Result with = gloam(
+      {"compare", "--stereo", path("ao.exr"), "--frame", path("frame.exr"), "--normal-check", "3", "--json", "-"});
+  ASSERT_EQ(with.status, 0) << with.err;
+  EXPECT_EQ(with.err, "");
+  EXPECT_EQ(with.json()["normal_check"], 3);
+  EXPECT_NEAR(with.json()["inconsistency"]["mean"], offset, 1e-6);
+  const Result off =
+      gloam({"compare", "--stereo", path("ao.exr"), "--frame", path("frame.exr"), "--no-normal-check", "--json", "-"});
+  EXPECT_TRUE(off.json()["normal_check"].is_null());
+  EXPECT_EQ(off.err, "") << "as asked";
+}
+
+/// The wall's normals in the second view lean by 20 degrees.
+TEST_F(Cli, StereoNormalCheckIsWhatTheFlagSays) {
+  Frame frame = pair_with_offset();
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width / 2; ++x) {
+      frame.views[1].planes["normal"].channels[1].at(x, y) = float(std::sin(20 * M_PI / 180));
+      frame.views[1].planes["normal"].channels[2].at(x, y) = float(std::cos(20 * M_PI / 180));
+    }
+  }
+  write_frame(path("pair.exr"), frame);
+  const auto edges = [&](const Arguments& more) {
+    Arguments all = {"compare", "--stereo", path("pair.exr"), "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return gloam(all).json()["rejected"]["edge"].get<int>();
+  };
+  EXPECT_GT(edges({}), width / 2 * height);
+  EXPECT_EQ(edges({"--normal-check", "19"}), edges({}));
+  EXPECT_EQ(edges({"--normal-check", "21"}), 0);
+  EXPECT_EQ(edges({"--no-normal-check"}), 0);
+}
+
+TEST_F(Cli, StereoComparesTwoFilesOfOneEyeEach) {
+  write_result_and_frame(path("ao.exr"), path("frame.exr"));
+  write_eye(path("a.exr"), "left");
+  write_eye(path("b.exr"), "right");
+  const Result whole = gloam({"compare", "--stereo", path("ao.exr"), "--frame", path("frame.exr"), "--json", "-"});
+  const Result result =
+      gloam({"compare", "--stereo", path("a.exr"), path("b.exr"), "--frame", path("frame.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json(), whole.json());
+  const Result other = gloam({"compare", "--stereo", path("a.exr"), path("b.exr"), "--frame", path("frame.exr"),
+                              "--views", "right,left", "--json", "-"});
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_GT(std::abs(other.json()["inconsistency"]["mean"].get<double>() - offset), 0.01) << "the wrong way round";
+}
+
+/// The frame was rendered beyond the display window, and the result covers that window alone.
+TEST_F(Cli, StereoFrameMayCoverMoreThanTheResult) {
+  Frame frame = pair_with_offset(), part = pair_with_offset();
+  frame.display = part.display = part.window = {16, 8, 80, 56};
+  for (View& view : part.views) {
+    view.planes.erase("depth");
+    view.planes.erase("normal");
+    view.camera.reset();
+    Channel cut(Layout(64, 48), 0.0f), &ao = view.planes["ao"].channels[0];
+    for (int y = 0; y < 48; ++y) std::copy_n(ao.row(y + 8) + 16, 64, cut.row(y));
+    ao = std::move(cut);
+  }
+  write_frame(path("frame.exr"), frame);
+  write_frame(path("part.exr"), part);
+  const Result result = gloam({"compare", "--stereo", path("part.exr"), "--frame", path("frame.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NEAR(result.json()["inconsistency"]["mean"], offset, 1e-6);
+  EXPECT_NEAR(result.json()["max"], offset, 1e-6);
+  EXPECT_EQ(result.json()["pixels"], 2 * (64 - 5) * 48);
+}
+
+/// Renderers lose the place of a crop: the pixels are the same, and start at another corner.
+TEST_F(Cli, StereoFrameMayStartAtAnotherCorner) {
+  Frame frame = pair_with_offset(), moved = pair_with_offset();
+  move_window(moved, 100, -50);
+  for (View& view : moved.views) {
+    view.planes.erase("depth");
+    view.planes.erase("normal");
+    view.camera.reset();
+  }
+  write_frame(path("frame.exr"), frame);
+  write_frame(path("moved.exr"), moved);
+  const Result whole = gloam({"compare", "--stereo", path("frame.exr"), "--json", "-"});
+  const Result result = gloam({"compare", "--stereo", path("moved.exr"), "--frame", path("frame.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json(), whole.json());
+}
+
+TEST_F(Cli, StereoPicturesHaveTheSizeOfTheImage) {
+  write_frame(path("pair.exr"), pair_with_offset());
+  const Result result =
+      gloam({"compare", "--stereo", path("pair.exr"), "-o", path("errors.png"), "--magnify", "4", "--anaglyph",
+             path("anaglyph.png"), "--side-by-side", path("beside.png"), "--json", path("figures.json")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(files(),
+            (std::vector<std::string>{"anaglyph.png", "beside.png", "errors.png", "figures.json", "pair.exr"}));
+  for (const char* name : {"errors.png", "anaglyph.png", "beside.png"})
+    EXPECT_NE(result.out.find(path(name).string()), std::string::npos) << "said to be written";
+  const Picture errors = read_png(path("errors.png")), anaglyph = read_png(path("anaglyph.png")),
+                beside = read_png(path("beside.png"));
+  EXPECT_EQ(errors.width, width);
+  EXPECT_EQ(errors.height, height);
+  EXPECT_EQ(anaglyph.width, width);
+  EXPECT_EQ(anaglyph.height, height);
+  EXPECT_EQ(beside.width, 2 * width);
+  EXPECT_EQ(beside.height, height);
+  EXPECT_EQ(errors.at(50, 30), (Pixel{128, 128, 128})) << "4 x 0.125";
+  const Pixel rejected = errors.at(0, 30);  // the wall's left end is out of the right eye's image
+  EXPECT_GT(rejected.r, rejected.g + 20);
+  EXPECT_EQ(anaglyph.at(50, 30).r, beside.at(50, 30).r);
+  EXPECT_EQ(anaglyph.at(50, 30).g, beside.at(width + 50, 30).g);
+  EXPECT_NEAR(anaglyph.at(50, 30).g - anaglyph.at(50, 30).r, 255 * (offset + 0.1 * 0.223), 2);
+}
+
+TEST_F(Cli, StereoErrorsAreWrittenAsTheyAre) {
+  write_frame(path("pair.exr"), pair_with_offset());
+  ASSERT_EQ(gloam({"compare", "--stereo", path("pair.exr"), "-o", path("errors.exr")}).status, 0);
+  const Channel left = read_channel(path("errors.exr"), "inconsistency");
+  const Channel right = read_channel(path("errors.exr"), "right.inconsistency");
+  EXPECT_NEAR(left.at(50, 30), offset, 1e-6);
+  EXPECT_NEAR(right.at(50, 30), offset, 1e-6);
+  EXPECT_TRUE(std::isnan(left.at(0, 30)));
+  EXPECT_FALSE(std::isnan(right.at(0, 30)));
+  EXPECT_TRUE(std::isnan(right.at(width - 1, 30)));
+  EXPECT_EQ(read_channel(path("errors.exr"), "Z").at(50, 30), 4);
+}
+
+TEST_F(Cli, StereoComparesTheResultFirst) {
+  const auto plane = [&](const std::vector<std::string>& planes, const Arguments& more = {}) {
+    Frame frame = pair_with_offset();
+    for (View& view : frame.views) {
+      const Plane ao = view.planes["ao"].clone();
+      view.planes.erase("ao");
+      for (const std::string& name : planes) {
+        view.planes[name] = {name, {}};
+        for (int i = 0; i < (name == "color" ? 3 : 1); ++i)
+          view.planes[name].channels.push_back(ao.channels[0].clone());
+      }
+    }
+    write_frame(path("pair.exr"), frame);
+    Arguments all = {"compare", "--stereo", path("pair.exr"), "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Json document = gloam(all).json();
+    return document["plane"].get<std::string>() + fmt::format(" {:.4f}", document["max"].get<double>());
+  };
+  EXPECT_EQ(plane({"color", "ao_raw", "ao"}), "ao 0.1250");
+  EXPECT_EQ(plane({"color", "ao_raw"}), "ao_raw 0.1250");
+  EXPECT_EQ(plane({"color", "ao_raw", "ao"}, {"--what", "color"}), "color 0.2165") << "the length: sqrt(3) / 8";
+  EXPECT_EQ(plane({"color", "roughness"}), "color 0.2165");
+  EXPECT_EQ(plane({}), "normal 0.0000") << "not the depth, which is the first";
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Bad input
+
+void expect_refused(const Result& result, int status, const std::vector<std::string>& words) {
+  EXPECT_EQ(result.status, status) << result.err;
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_TRUE(result.out.empty()) << result.out;
+  for (const std::string& word : words)
+    EXPECT_NE(result.err.find(word), std::string::npos) << "'" << word << "' is not in: " << result.err;
+}
+
+TEST_F(Cli, StereoWrongUsage) {
+  const std::string pair = path("pair.exr"), png = path("x.png");
+  write_frame(pair, pair_with_offset());
+  expect_refused(gloam({"compare", pair}), 2, {"REF.exr is required", "--stereo"});
+  for (const Arguments& flag :
+       {Arguments{"--anaglyph", png}, Arguments{"--side-by-side", png}, Arguments{"--no-normal-check"},
+        Arguments{"--normal-check", "6"}, Arguments{"--magnify", "2"}}) {
+    Arguments all = {"compare", pair, pair};
+    all.insert(all.end(), flag.begin(), flag.end());
+    expect_refused(gloam(all), 2, {flag[0], "requires --stereo"});
+  }
+  const auto stereo = [&](const Arguments& more) {
+    Arguments all = {"compare", "--stereo", pair};
+    all.insert(all.end(), more.begin(), more.end());
+    return gloam(all);
+  };
+  expect_refused(stereo({"--normal-check", "0"}), 2, {"--normal-check", "0.1 to 180"});
+  expect_refused(stereo({"--normal-check", "x"}), 2, {"--normal-check x", "0.1 to 180"});
+  expect_refused(stereo({"--normal-check", "6", "--no-normal-check"}), 2, {"--no-normal-check"});
+  expect_refused(stereo({"--magnify", "0"}), 2, {"--magnify"});
+  expect_refused(stereo({"-o", path("x.jpg")}), 2, {"-o", ".png"});
+  expect_refused(stereo({"--anaglyph", path("x.exr")}), 2, {"--anaglyph", ".png"});
+  expect_refused(stereo({"--side-by-side", path("x.exr")}), 2, {"--side-by-side", ".png"});
+  expect_refused(stereo({"--anaglyph", png, "--side-by-side", png}), 2, {"--side-by-side", "also --anaglyph"});
+  expect_refused(stereo({"-o", pair}), 2, {"also the result"});
+  expect_refused(stereo({"--view", "left"}), 2, {"--view left", "--views A,B"});
+  expect_refused(stereo({"--what", "depth"}), 2, {"--what depth"});
+  EXPECT_EQ(files(), std::vector<std::string>{"pair.exr"});
+}
+
+TEST_F(Cli, StereoNamesWhatIsMissing) {
+  const std::string pair = path("pair.exr"), out = path("x.png");
+  const auto refused = [&](const std::function<void(Frame&)>& spoil, const std::vector<std::string>& words,
+                           const Arguments& more = {}) {
+    Frame frame = pair_with_offset();
+    spoil(frame);
+    write_frame(pair, frame);
+    Arguments all = {"compare", "--stereo", pair, "-o", out};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_refused(gloam(all), 1, words);
+    EXPECT_FALSE(fs::exists(out));
+  };
+  refused([](Frame& f) { f.views.pop_back(); }, {"pair.exr", "one view", "file of the other eye"});
+  refused([](Frame& f) { f.views.push_back(std::move(pair_with_offset().views[0])), f.views[2].name = "third"; },
+          {"pair.exr", "left, right and third", "--views A,B"});
+  refused([](Frame& f) { f.views[1].camera->pose.reset(); }, {"pair.exr", "camera with a pose", "--camera FILE"});
+  refused([](Frame& f) { f.views[0].planes.erase("depth"); }, {"pair.exr", "no depth", "--frame"});
+  refused([](Frame&) {}, {"pair.exr", "no plane 'oa'", "did you mean 'ao'"}, {"--what", "oa"});
+  refused([](Frame& f) { f.views[1].camera->pose->position.x += 50; }, {"no surface in common"});
+  refused([](Frame& f) { f.views[1].planes["ao"].channels[0].at(40, 20) = NAN; }, {"'ao' is not finite", "'left'"});
+  const auto only_depth = [](Frame& f) {
+    for (View& view : f.views) view.planes.erase("ao"), view.planes.erase("normal");
+  };
+  refused(only_depth, {"pair.exr", "nothing that can be compared"});
+}
+
+TEST_F(Cli, StereoFilesThatDoNotFitAreNamed) {
+  write_result_and_frame(path("ao.exr"), path("frame.exr"));
+  write_eye(path("a.exr"), "left");
+  write_eye(path("b.exr"), "right");
+  write_eye(path("small.exr"), "right", "ao", 40);
+  write_eye(path("raw.exr"), "right", "ao_raw");
+  const auto refused = [&](const Arguments& files, const std::vector<std::string>& words) {
+    Arguments all = {"compare", "--stereo"};
+    for (const std::string& file : files) all.push_back(file[0] == '-' ? file : path(file).string());
+    expect_refused(gloam(all), 1, words);
+  };
+  refused({"a.exr", "b.exr"}, {"a.exr", "camera with a pose", "--frame"});
+  refused({"a.exr", "small.exr", "--frame", "frame.exr"}, {"a.exr", "96x64", "small.exr", "40x64"});
+  refused({"small.exr", "small.exr", "--frame", "frame.exr"}, {"frame.exr", "96x64", "40x64"});
+  refused({"a.exr", "raw.exr", "--frame", "frame.exr"}, {"nothing that can be compared"});
+  refused({"a.exr", "ao.exr", "--frame", "frame.exr"}, {"ao.exr", "left and right", "of two files each holds one"});
+  refused({"ao.exr", "--frame", "a.exr"}, {"a.exr", "one view"});
+  refused({"ao.exr", "--frame", "none.exr"}, {"none.exr"});
+  refused({"none.exr"}, {"none.exr"});
+}
+
+/// Normals of a world that nobody knows how to turn.
+TEST_F(Cli, StereoNormalsOfNoUseAreNotCompared) {
+  Frame frame = pair_with_offset();
+  write_frame(path("frame.exr"), frame);
+  for (View& view : frame.views) view.camera.reset();
+  write_frame(path("normals.exr"), frame);
+  expect_refused(gloam({"compare", "--stereo", path("normals.exr"), "--frame", path("frame.exr"), "--what", "normal",
+                        "--normal-space", "world"}),
+                 1, {"normals.exr", "'normal' is of no use", "where the camera stands is not known"});
+}
+
+/// A frame without cameras knows neither how its depth nor how its normals are meant: the result's depth counts.
+TEST_F(Cli, StereoTakesCamerasFromTheResultWhereTheFrameHasNone) {
+  Frame frame = pair_with_offset();
+  write_frame(path("ao.exr"), frame);
+  for (View& view : frame.views) {
+    view.camera.reset();
+    view.planes["depth"].channels[0] = Channel(Layout(width, height), 1.0f);
+  }
+  write_frame(path("frame.exr"), frame);
+  const Result whole = gloam({"compare", "--stereo", path("ao.exr"), "--json", "-"});
+  const Result result = gloam({"compare", "--stereo", path("ao.exr"), "--frame", path("frame.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json(), whole.json());
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// A real frame
+
+/// AO by 256 rays per pixel for each eye: what differs is noise and what lies between pixels.
+TEST_F(Cli, StereoOfTheApartmentsReference) {
+  if (!fs::exists(captures)) GTEST_SKIP() << "no captures at " << captures;
+  const fs::path folder = captures / "apartment_stereo";
+  const auto inconsistency = [&](const Arguments& more) {
+    Arguments all = {"compare",
+                     "--stereo",
+                     folder / "apartment_stereo_ao_ref_left.exr",
+                     folder / "apartment_stereo_ao_ref_right.exr",
+                     "--frame",
+                     folder / "apartment_stereo_exact.exr",
+                     "--json",
+                     "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Result result = gloam(all);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.json();
+  };
+  const Json with = inconsistency({}), without = inconsistency({"--no-normal-check"});
+  const Json swapped = inconsistency({"--views", "right,left"});
+  std::printf("apartment: inconsistency of the reference %.5f, without the normal-check %.5f, eyes swapped %.5f\n",
+              with["inconsistency"]["mean"].get<double>(), without["inconsistency"]["mean"].get<double>(),
+              swapped["inconsistency"]["mean"].get<double>());
+  EXPECT_NEAR(with["inconsistency"]["mean"], 0.0045, 0.0002);
+  EXPECT_NEAR(with["rejected_share"], 0.062, 0.005);
+  EXPECT_GT(without["inconsistency"]["mean"], 1.2 * with["inconsistency"]["mean"].get<double>());
+  EXPECT_LT(without["rejected_share"], with["rejected_share"]);
+  EXPECT_GT(swapped["inconsistency"]["mean"], 2 * with["inconsistency"]["mean"].get<double>()) << "the wrong images";
+}
+
+}  // namespace
+}  // namespace gloam::test

@@ -1,0 +1,33 @@
+// Frames with two views of one world, in closed form.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "support/frames.h"
+
+namespace gloam::test {
+
+/// A camera in the world.
+struct Eye {
+  Shot shot;
+  Pose pose;
+};
+
+/// An eye at a place, turned about the upright axis; degrees, positive to the left.
+Eye eye_at(const Shot& shot, const glm::dvec3& position, double turned = 0);
+
+/// AO painted onto surfaces.
+using Paint = std::function<double(const glm::dvec3& world)>;
+
+/// Depth, normals and painted `ao` of two views, "left" and "right", of a scene whose rays start in the world. Background
+/// has the AO 1.
+Frame shoot_pair(const std::array<Eye, 2>& eyes, const Scene& world, const Paint& paint);
+
+/// What an eye sees of a scene whose rays start in the world.
+Scene seen_by(const Pose& pose, const Scene& world);
+
+/// The same frame with its data window elsewhere.
+void move_window(Frame& frame, int x, int y);
+
+}  // namespace gloam::test

@@ -1,0 +1,85 @@
+#include "gloam/stereo_pictures.h"
+
+#include <gtest/gtest.h>
+
+#include "message_of.h"
+#include "pictures.h"
+
+namespace gloam {
+namespace {
+
+using namespace test;
+
+class StereoPictures : public PictureTest {};
+
+/// Grey levels are whole numbers of 255, so that no rounding is at stake.
+float grey(int byte) { return float(byte) / 255; }
+
+StereoErrors errors_of(const std::vector<StereoPixel>& pixels, const std::vector<float>& values) {
+  StereoErrors errors;
+  errors.pixels = pixels;
+  errors.error = Channel(Layout(int(values.size()), 1), 0);
+  for (size_t x = 0; x < values.size(); ++x) errors.error.at(int(x), 0) = values[x];
+  return errors;
+}
+
+TEST_F(StereoPictures, ErrorsAreMagnifiedGreyAndWhatDoesNotCountIsPurpleOverThePlane) {
+  const auto path = folder / "errors.png";
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  using P = StereoPixel;
+  const StereoErrors errors =
+      errors_of({P::counted, P::counted, P::counted, P::hidden, P::outside, P::edge, P::background},
+                {0, grey(5), grey(200), nan, nan, nan, nan});
+  const Plane ao = plane_of("ao", 7, 1, {[](int x, int) { return x == 4 ? 0.0f : 1.0f; }});
+  write_inconsistency_picture(path, ao, errors, 20);
+  const Picture picture = read_png(path);
+  ASSERT_EQ(picture.width, 7);
+  ASSERT_EQ(picture.height, 1);
+  EXPECT_EQ(picture.at(0, 0), (Pixel{0, 0, 0}));
+  EXPECT_EQ(picture.at(1, 0), (Pixel{100, 100, 100}));
+  EXPECT_EQ(picture.at(2, 0), (Pixel{255, 255, 255}));
+  const Pixel bright = picture.at(3, 0), dark = picture.at(4, 0), background = picture.at(6, 0);
+  for (const Pixel& purple : {bright, dark}) {
+    EXPECT_GT(purple.r, purple.g + 20);
+    EXPECT_GT(purple.b, purple.g + 20);
+  }
+  EXPECT_GT(bright.g, dark.g + 100) << "the plane shows through";
+  EXPECT_EQ(picture.at(5, 0), bright);
+  EXPECT_EQ(background.r, background.g);
+  EXPECT_EQ(background.g, background.b);
+}
+
+TEST_F(StereoPictures, TheAnaglyphIsRedOfTheLeftAndCyanOfTheRight) {
+  const auto path = folder / "both.png";
+  write_anaglyph(path, plane_of("ao", 3, 2, {level(grey(40))}), plane_of("ao", 3, 2, {level(grey(90))}));
+  const Picture picture = read_png(path);
+  ASSERT_EQ(picture.width, 3);
+  ASSERT_EQ(picture.height, 2);
+  EXPECT_EQ(picture.at(2, 1), (Pixel{40, 90, 90}));
+  // Colours too: 1 and 0 are the same through any curve.
+  write_anaglyph(path, plane_of("color", 3, 2, {level(1), level(0), level(0)}),
+                 plane_of("color", 3, 2, {level(0), level(1), level(0)}));
+  EXPECT_EQ(read_png(path).at(0, 0), (Pixel{255, 255, 0}));
+}
+
+TEST_F(StereoPictures, TheLeftViewIsOnTheLeft) {
+  const auto path = folder / "both.png";
+  write_side_by_side(path, plane_of("ao", 3, 2, {level(grey(40))}), plane_of("ao", 3, 2, {level(grey(90))}));
+  const Picture picture = read_png(path);
+  ASSERT_EQ(picture.width, 6);
+  ASSERT_EQ(picture.height, 2);
+  EXPECT_EQ(picture.at(2, 1), (Pixel{40, 40, 40}));
+  EXPECT_EQ(picture.at(3, 0), (Pixel{90, 90, 90}));
+}
+
+TEST_F(StereoPictures, ViewsOfDifferentSizeAreRefused) {
+  const Plane small = plane_of("ao", 3, 2, {level(0)}), large = plane_of("ao", 4, 2, {level(0)});
+  for (const auto write : {write_anaglyph, write_side_by_side}) {
+    const std::string message = message_of([&] { write(folder / "both.png", small, large); });
+    EXPECT_NE(message.find("the left image is 3x2 and the right one 4x2"), std::string::npos) << message;
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+}  // namespace
+}  // namespace gloam
