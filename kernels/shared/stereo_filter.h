@@ -131,7 +131,7 @@ kernel void stereo_bilateral(Frame frame, Neighbour neighbour, Params params, PL
     // Without a weight of its own, the other eye has nothing to say.
     const mask counts = taps.weights > 0;
     const real found = taps.sum / choose(counts, taps.weights, (real)(1));
-    const real w = smooth_step((scalar)0.5 - params.blend, (scalar)0.5, own.weights / (own.weights + taps.weights));
+    const real w = smooth_step((scalar)0.5 - params.blend, (scalar)0.5 + params.blend, own.weights / (own.weights + taps.weights));
     open = choose(counts, found + w * (mean - found), mean);
   }
   store(choose(is_surface, open, (real)(1)), result, here);
