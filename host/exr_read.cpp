@@ -31,6 +31,7 @@
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "lists.h"
+#include "view_planes.h"
 
 namespace gloam {
 namespace {
@@ -307,7 +308,9 @@ struct FrameFile::Impl {
   std::map<std::string, Camera> cameras;
   std::map<std::string, Pose> poses;  // of views whose header tells the pose and nothing else
   std::string json_name;              // of the camera JSON that was read
-  bool json_misfits = false;          // it was found, not asked for, and has no camera for some view
+  bool json_is_shared = false;        // it is that of the other eye's file too
+  std::string json_misfit;            // why it is not used: found, not asked for, and without a camera for some view
+  std::optional<Eye> eye;             // the file is one of two eyes
   std::vector<std::string> camera_notes;
   std::string convention, space;
   bool background_seen = false;  // some pixel has the depth that --background names
@@ -317,6 +320,8 @@ struct FrameFile::Impl {
   void check_parts() const;
   void find_planes();
   void find_window();
+  void set_window(const Box& box);
+  void become(const Eye& as);
   void find_cameras();
   std::vector<FileChannel> list_channels() const;
   std::vector<std::string> multi_view() const;
@@ -328,7 +333,6 @@ struct FrameFile::Impl {
   std::map<std::string, Camera> json_cameras();
   std::optional<Camera> json_camera(const std::map<std::string, Camera>& from_json, const std::string& view);
   const PlaneSource* source(const std::string& plane, const std::string& view) const;
-  bool is_empty_layer(const std::string& plane, const std::string& view) const;
   bool has(const std::string& plane, const std::string& view) const;
   std::string any_text(const std::string& name) const;
   bool any_attribute(const std::string& name) const;
@@ -385,6 +389,7 @@ std::vector<std::string> FrameFile::Impl::multi_view() const {
 
 void FrameFile::Impl::find_planes() {
   const std::vector<FileChannel> channels = list_channels();
+  channel_names.clear();
   for (const FileChannel& channel : channels) channel_names.push_back(channel.name);
   named(path, [&] { names = name_planes(channels, multi_view(), {options.views, options.channels}); });
   // Mitsuba's depth is the length of the ray, whatever the user called it.
@@ -399,6 +404,10 @@ void FrameFile::Impl::find_window() {
   for (const PlaneSource& plane : names.planes)
     for (const ChannelSource& channel : plane.channels)
       box = united(box, box_of(file->header(channel.part).dataWindow()));
+  set_window(box);
+}
+
+void FrameFile::Impl::set_window(const Box& box) {
   check_size(path, box, "display and data");
   // Rows are padded: a frame of one column takes sixteen.
   const Layout layout(int(box.x1 - box.x0), int(box.y1 - box.y0));
@@ -457,6 +466,9 @@ std::map<std::string, Camera> FrameFile::Impl::json_cameras() {
   if (json->empty()) json = find_camera_file(path, &camera_notes);
   if (!json) return {};
   json_name = json->filename().string();
+  const std::optional<fs::path> others = eye && options.camera_file.empty() ? find_camera_file(eye->other) : json;
+  std::error_code unknown;
+  json_is_shared = eye && others && fs::equivalent(*others, *json, unknown);
   return read_camera_file(*json, display, camera_notes);
 }
 
@@ -464,14 +476,16 @@ std::map<std::string, Camera> FrameFile::Impl::json_cameras() {
 std::optional<Camera> FrameFile::Impl::json_camera(const std::map<std::string, Camera>& from_json,
                                                    const std::string& view) {
   if (from_json.empty()) return {};
-  if (const auto exact = from_json.find(view); exact != from_json.end()) return exact->second;
+  const std::vector<std::string> wanted = eye ? std::vector<std::string>{eye->name} : names.views;
+  if (const auto exact = from_json.find(eye ? eye->name : view); exact != from_json.end()) return exact->second;
   // A single camera serves a single view, under any name; two eyes do not share one.
-  if (const auto single = from_json.find(""); single != from_json.end() && names.views.size() == 1)
-    return single->second;
-  const std::string why = misfit(json_name, from_json, path.filename().string(), names.views);
+  const auto single = from_json.find("");
+  if (single != from_json.end() && wanted.size() == 1 && !json_is_shared) return single->second;
+  const std::string why = misfit(json_name, from_json, path.filename().string(), wanted);
   if (!options.camera_file.empty())
-    throw Error("{}; give a JSON with {}", why, view.empty() ? "one camera" : "a camera for each of the frame's views");
-  json_misfits = true;
+    throw Error("{}; give a JSON with {}", why,
+                wanted.front().empty() ? "one camera" : "a camera for each of the frame's views");
+  json_misfit = why;
   append_new(camera_notes, {fmt::format("camera: {}: it is not used", why)});
   return {};
 }
@@ -510,28 +524,11 @@ void FrameFile::Impl::find_cameras() {
 }
 
 const PlaneSource* FrameFile::Impl::source(const std::string& plane, const std::string& view) const {
-  for (const PlaneSource& candidate : names.planes)
-    if (candidate.plane == plane && candidate.view == view) return &candidate;
-  return nullptr;
-}
-
-/// Whether a view's stack ends before this layer, and another view's does not: nothing is seen in it then.
-bool FrameFile::Impl::is_empty_layer(const std::string& plane, const std::string& view) const {
-  const std::optional<StackLayer> layer = stack_layer(plane);
-  if (!layer) return false;
-  int here = -1;
-  bool elsewhere = false;
-  for (const PlaneSource& candidate : names.planes) {
-    const std::optional<StackLayer> other = stack_layer(candidate.plane);
-    if (!other || other->stack != layer->stack) continue;
-    if (candidate.view == view) here = std::max(here, other->number);
-    elsewhere |= candidate.plane == plane;
-  }
-  return elsewhere && here >= 0 && here < layer->number;
+  return find_source(names.planes, plane, view);
 }
 
 bool FrameFile::Impl::has(const std::string& plane, const std::string& view) const {
-  return source(plane, view) || is_empty_layer(plane, view);
+  return has_plane(names.planes, plane, view);
 }
 
 std::string FrameFile::Impl::any_text(const std::string& name) const {
@@ -617,7 +614,8 @@ void FrameFile::Impl::settle_camera(View& view, Frame& frame) const {
   const auto pose = poses.find(view.name);
   if (pose != poses.end()) view.camera->pose = pose->second;
   // Why a JSON or half a header was of no use is said by its own sentence.
-  const char* none = json_misfits || pose != poses.end() ? "" : "none by flag, header or a JSON beside the file; ";
+  const char* none =
+      !json_misfit.empty() || pose != poses.end() ? "" : "none by flag, header or a JSON beside the file; ";
   if (view.find("depth") || view.find("normal"))
     append_new(frame.assumed,
                {fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed (--fov, --camera)", none,
@@ -649,6 +647,24 @@ void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
     notes.push_back(fmt::format("depth: no pixel{} has a usable depth; all of it is background",
                                 view.name.empty() ? "" : " of view '" + view.name + "'"));
   append_new(frame.assumed, notes);
+}
+
+/// One picture of a file that lists several views is the eye's, not that of the first view.
+void FrameFile::Impl::become(const Eye& as) {
+  eye = as;
+  if (names.view_is_assumed && contains(multi_view(), as.name)) {
+    options.views = {as.name};
+    guarded(path, [&] { find_planes(); });
+  }
+  set_window({as.window.x0, as.window.y0, as.window.x1, as.window.y1});
+  find_cameras();
+  const std::string& view = names.views.front();
+  if (poses.contains(view) || (cameras.contains(view) && cameras.at(view).pose)) return;
+  const std::string why = json_misfit.empty() ? "" : fmt::format(" ({}: it is not used)", json_misfit);
+  throw Error(
+      "{}: has no camera that tells where it stands{}, and two files are two eyes; give --camera FILE with a pose for "
+      "each of the views '{}' and '{}'",
+      path.string(), why, as.name, as.other_name);
 }
 
 /// What flags, the header and the names say about the space of the normals.
@@ -692,17 +708,26 @@ void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
   append_new(frame.assumed, notes);
 }
 
-FrameFile::FrameFile(const fs::path& path, const ReadOptions& options) : impl_(std::make_unique<Impl>()) {
-  impl_->path = path;
-  impl_->options = options;
+FrameFile::FrameFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+FrameFile FrameFile::without_cameras(const fs::path& path, const ReadOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  impl->path = path;
+  impl->options = options;
   check_flags(options);
-  impl_->open();
+  impl->open();
   guarded(path, [&] {
-    impl_->find_planes();
-    impl_->find_window();
+    impl->find_planes();
+    impl->find_window();
   });
+  return FrameFile(std::move(impl));
+}
+
+FrameFile::FrameFile(const fs::path& path, const ReadOptions& options) : FrameFile(without_cameras(path, options)) {
   impl_->find_cameras();
 }
+
+void FrameFile::become(const Eye& eye) { impl_->become(eye); }
 
 FrameFile::~FrameFile() = default;
 FrameFile::FrameFile(FrameFile&&) noexcept = default;
@@ -736,24 +761,10 @@ long long FrameFile::nonfinite(const std::string& plane, const std::string& view
   return found == impl_->nonfinite.end() ? 0 : found->second;
 }
 
-std::vector<std::string> FrameFile::common_planes() const {
-  std::vector<std::string> common;
-  for (const PlaneSource& plane : planes()) {
-    const bool everywhere = std::all_of(views().begin(), views().end(),
-                                        [&](const std::string& view) { return impl_->has(plane.plane, view); });
-    if (everywhere) append_new(common, {plane.plane});
-  }
-  return common;
-}
+std::vector<std::string> FrameFile::common_planes() const { return gloam::common_planes(planes(), views()); }
 
 std::string FrameFile::why_missing(const std::string& plane) const {
-  const std::string needed = is_stack(plane) ? layer_name(plane, 0) : plane;
-  std::vector<std::string> lacking;
-  for (const std::string& view : views())
-    if (!impl_->has(needed, view)) lacking.push_back("'" + view + "'");
-  if (lacking.empty() || lacking.size() == views().size()) return "";
-  return printable(fmt::format("view{} {} {} no {}", lacking.size() == 1 ? "" : "s", enumerate(lacking),
-                               lacking.size() == 1 ? "has" : "have", plane));
+  return gloam::why_missing(this->planes(), views(), plane);
 }
 
 bool FrameFile::view_is_assumed() const { return impl_->names.view_is_assumed; }
@@ -791,11 +802,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
   for (const std::string& plane : needed)
     if (const auto notes = impl_->names.assumed.find(plane); notes != impl_->names.assumed.end())
       append_new(frame.assumed, notes->second);
-  std::vector<std::string> expected = {"depth", "normal"};
-  append_new(expected, planes);
-  for (const std::string& plane : expected)
-    if (const std::string why = why_missing(plane); !why.empty())
-      append_new(frame.assumed, {why + ", so that no view is used with it (--view chooses one)"});
+  append_new(frame.assumed, unused_planes(this->planes(), views(), planes, "--view chooses one"));
   append_new(frame.assumed, impl_->camera_notes);
   impl_->background_seen = false;
   for (View& view : frame.views) {

@@ -20,8 +20,8 @@ namespace {
 
 struct CaptureCommand {
   std::string out, size = "1920x1080", planes, peel = "0", path, picture, compression = "zip";
-  std::string stochastic, alpha, stochastic_seed, view2;
-  bool half = false;
+  std::string stochastic, alpha, stochastic_seed, view2, stereo, convergence;
+  bool half = false, toe_in = false;
   SceneFlags scene;
   SceneCameraFlags camera;
   JsonFlag json;
@@ -60,18 +60,42 @@ std::optional<double> second_view_of(const CaptureCommand& flags) {
   if (flags.view2.empty()) return {};
   const double degrees = parse_number(flags.view2, "--view2", -90, 90);
   if (degrees == 0) throw UsageError("--view2 0 would be the first view again; give -90 to 90 degrees, but not 0");
-  if (!flags.path.empty())
-    throw UsageError("--view2 cannot be given with --camera-path, whose frames have one view; give one of them");
   return degrees;
 }
 
-/// A camera file may hold more than the one view that a second goes beside.
+/// How two eyes stand to each other; none where one view is wanted.
+std::optional<StereoRig> stereo_of(const CaptureCommand& flags) {
+  if (flags.stereo.empty()) {
+    if (!flags.convergence.empty()) throw UsageError("--convergence is of two eyes; give --stereo IPD too");
+    if (flags.toe_in) throw UsageError("--toe-in is of two eyes; give --stereo IPD and --convergence D too");
+    return {};
+  }
+  StereoRig rig{parse_number(flags.stereo, "--stereo", 0, 1e30), {}, flags.toe_in};
+  if (!flags.convergence.empty()) rig.convergence = parse_number(flags.convergence, "--convergence", 1e-30, 1e30);
+  if (flags.toe_in && !rig.convergence)
+    throw UsageError("--toe-in turns the eyes towards a depth; give --convergence D too");
+  return rig;
+}
+
+/// --view2 and --stereo make two views of one, which the frames of a path have no place for.
+void check_second_view_flags(const CaptureCommand& flags) {
+  std::vector<std::string> given;
+  if (!flags.view2.empty()) given.push_back("--view2");
+  if (!flags.stereo.empty()) given.push_back("--stereo");
+  if (!flags.path.empty()) given.push_back("--camera-path");
+  if (given.size() > 1)
+    throw UsageError("{} cannot be given together, as each says which views a frame has; give one of them",
+                     enumerate(given));
+}
+
+/// A camera file may hold more than the one view that two are made of.
 void check_single_view(const CaptureCommand& flags, const std::vector<CaptureView>& views) {
-  if (flags.view2.empty() || views.size() == 1) return;
+  if ((flags.view2.empty() && flags.stereo.empty()) || views.size() == 1) return;
   std::vector<std::string> names;
   for (const CaptureView& view : views) names.push_back("'" + view.name + "'");
-  throw UsageError("--view2 goes beside one view, and {} has {}; leave out --view2, or give a camera of one view",
-                   flags.camera.camera, enumerate(names));
+  const char* flag = flags.view2.empty() ? "--stereo" : "--view2";
+  throw UsageError("{} makes two views of one, and {} has {}; leave out {}, or give a camera of one view", flag,
+                   flags.camera.camera, enumerate(names), flag);
 }
 
 /// "frame.exr" and 7 make "frame.0007.exr".
@@ -137,6 +161,7 @@ struct Figures {
   long long surfaces = 0;                ///< pixels that show one
   std::optional<VisibleDepths> visible;  ///< what the second view holds
   std::optional<Camera> second;          ///< its camera
+  double shift = 0;                      ///< of each eye's principal point, pixels
   std::vector<std::string> files;
 };
 
@@ -158,6 +183,8 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   figures.surfaces += result.surfaces;
   figures.visible = result.visible;
   if (result.visible) figures.second = result.frame.views.back().camera;
+  if (options.stereo)
+    figures.shift = 0.5 * (result.frame.views.back().camera->cx - result.frame.views.front().camera->cx);
   const auto start = std::chrono::steady_clock::now();
   write_frame(shot.file, result.frame, write);
   write_colour(shot, result.frame);
@@ -186,6 +213,23 @@ Json second_view_document(const CaptureOptions& options, const Figures& f) {
           {f.second->orthographic ? "units_across" : "degrees_across", span_of(*f.second, options.width)}};
 }
 
+Json stereo_document(const CaptureOptions& options, const Figures& f) {
+  if (!options.stereo) return nullptr;
+  const StereoRig& rig = *options.stereo;
+  return {{"interpupillary_distance", rig.interpupillary_distance},
+          {"convergence", rig.convergence ? Json(*rig.convergence) : Json()},
+          {"toe_in_degrees", toe_in_degrees(rig)},
+          {"shift_pixels", f.shift}};
+}
+
+/// "parallel", "converging at depth 2: images shifted by 6.9 pixels each"
+std::string convergence_in_words(const StereoRig& rig, double shift) {
+  if (!rig.convergence) return "parallel";
+  return fmt::format("converging at depth {:g}: {}", *rig.convergence,
+                     rig.toe_in ? fmt::format("each turned by {:.3g} degrees", toe_in_degrees(rig))
+                                : fmt::format("images shifted by {:.3g} pixels each", shift));
+}
+
 Json document(const Scene& scene, const CaptureOptions& options, const Figures& f) {
   Json layers = nullptr;
   if (options.peel > 0) layers = {{"stored", options.peel}, {"mean", f.layers.mean()}, {"max", f.layers.most}};
@@ -198,6 +242,7 @@ Json document(const Scene& scene, const CaptureOptions& options, const Figures& 
       {"layers", layers},
       {"stochastic", stochastic_document(options.stochastic)},
       {"view2", second_view_document(options, f)},
+      {"stereo", stereo_document(options, f)},
       {"ao_radius", scene.ao_radius},
       {"rays", f.rays},
       {"rays_per_second", f.trace > 0 ? double(f.rays) / f.trace : 0},
@@ -218,6 +263,9 @@ void print(const Scene& scene, const CaptureOptions& options, const Figures& f) 
     fmt::print("view2: turned {:g} degrees about depth {:g}, holds depths {:g} to {:g}, {:.3g} {} across\n",
                *options.second_view, f.visible->median, f.visible->nearest, f.visible->farthest,
                span_of(*f.second, options.width), f.second->orthographic ? "scene units" : "degrees");
+  if (options.stereo)
+    fmt::print("stereo: eyes {:g} scene units apart, {}\n", options.stereo->interpupillary_distance,
+               convergence_in_words(*options.stereo, f.shift));
   fmt::print("load {:.2f} s, build {:.2f} s, trace {:.2f} s ({:.1f} million rays per second), write {:.2f} s\n", f.load,
              f.build, f.trace, f.trace > 0 ? double(f.rays) / f.trace * 1e-6 : 0.0, f.write);
   if (f.files.size() == 1)
@@ -230,6 +278,7 @@ void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
   check(write);
   check_picture_name(flags.picture, "--picture");
   check_frame_name(flags.out, "-o");
+  check_second_view_flags(flags);
   if (!flags.path.empty() && flags.camera.any())
     throw UsageError(
         "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "
@@ -261,6 +310,7 @@ void capture_command(const CaptureCommand& flags) {
   options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
   options.stochastic = stochastic_of(flags);
   options.second_view = second_view_of(flags);
+  options.stereo = stereo_of(flags);
   Figures figures;
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = flags.scene.load();
@@ -306,6 +356,14 @@ void add_capture(CLI::App& app) {
   command->add_option("--stochastic-seed", flags->stochastic_seed, "of its random choices; default 0")->type_name("N");
   command->add_option("--view2", flags->view2, "also a second view, turned by that many degrees, -90 to 90")
       ->type_name("ANGLE");
+  command
+      ->add_option("--stereo", flags->stereo,
+                   "two views, left and right: eyes that many scene units apart, the camera between")
+      ->type_name("IPD");
+  command
+      ->add_option("--convergence", flags->convergence, "with --stereo: depth of no disparity; default: parallel eyes")
+      ->type_name("D");
+  command->add_flag("--toe-in", flags->toe_in, "with --convergence: turn the eyes, instead of shifting their frusta");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
@@ -319,6 +377,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture colonnade -o colonnade.exr --size 960x540 --picture colonnade.png\n"
       "  gloam capture statue --faces 500000 -o statue.exr --peel 8\n"
       "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
+      "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
       "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");

@@ -145,6 +145,17 @@ std::vector<std::string> split_list(const std::string& text, const std::string& 
   return items;
 }
 
+void FrameArguments::add_to(CLI::App& app) {
+  app.add_option("frame", frame, "EXR file")->required()->type_name("FRAME.exr");
+  app.add_option("other_eye", other_eye, "the second eye, where FRAME.exr holds one view and this file the other")
+      ->type_name("RIGHT.exr");
+}
+
+std::vector<std::string> FrameArguments::paths() const {
+  if (other_eye.empty()) return {frame};
+  return {frame, other_eye};
+}
+
 void FrameFlags::add_to(CLI::App& app) {
   app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")
       ->type_name("FILE")
@@ -319,11 +330,14 @@ Json plan_document(const Plan& plan, const std::vector<std::string>& decoded) {
   return document;
 }
 
-std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFile& file) {
+std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFiles& files) {
   std::vector<std::string> names;
-  for (const PlaneSource& source : file.planes()) {
-    if (std::find(planes.begin(), planes.end(), source.plane) == planes.end()) continue;
-    for (const ChannelSource& channel : source.channels) names.push_back(channel.name);
+  for (const FrameFile& file : files.files()) {
+    const std::string prefix = files.files().size() > 1 ? file.path().filename().string() + ": " : "";
+    for (const PlaneSource& source : file.planes()) {
+      if (!contains(planes, source.plane)) continue;
+      for (const ChannelSource& channel : source.channels) names.push_back(prefix + channel.name);
+    }
   }
   return names;
 }
@@ -341,18 +355,25 @@ std::string holdings(const FrameFile& file) {
   return names.empty() ? name + " has no channels" : fmt::format("{} has only {}", name, first_names(names));
 }
 
-Plan plan_for(const FrameFile& file, const PlanRequest& request) {
+std::string holdings(const FrameFiles& files) {
+  std::vector<std::string> words;
+  for (const FrameFile& file : files.files()) words.push_back(holdings(file));
+  return enumerate(words);
+}
+
+Plan plan_for(const FrameFiles& files, const PlanRequest& request) {
   try {
-    return make_plan(request, file.common_planes(), holdings(file));
+    return make_plan(request, files.common_planes(), holdings(files));
   } catch (const MissingPlanes& missing) {
     // Where one view has what another lacks, the list of channels would only confuse.
     std::vector<std::string> wanted = missing.planes;
     for (const auto& [plane, instead] : missing.instead) wanted.push_back(instead);
     for (const std::string& plane : wanted) {
-      const std::string why = file.why_missing(plane);
+      const std::string why = files.why_missing(plane);
       if (!why.empty()) {
-        throw Error("{}: needs '{}', and in {} {}; --view NAME chooses another view", request.outputs.front(), plane,
-                    file.path().filename().string(), why);
+        throw Error(
+            "{}: needs '{}', and in {} {}; {}", request.outputs.front(), plane, files.name(), why,
+            files.files().size() > 1 ? "give the file of the other view alone" : "--view NAME chooses another view");
       }
     }
     throw;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gloam/exr.h"
+#include "gloam/frame_files.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
 #include "lists.h"
@@ -15,6 +16,9 @@
 namespace gloam::cli {
 
 using Json = nlohmann::ordered_json;
+
+/// A path with what it is on the command line: {"-o", "out.exr"}.
+using NamedPath = std::pair<std::string, std::string>;
 
 /// How to read a frame.
 struct FrameFlags {
@@ -24,6 +28,16 @@ struct FrameFlags {
   void add_to(CLI::App& app);
   /// Throws UsageError for values out of range.
   ReadOptions read_options() const;
+};
+
+/// The arguments of a command that takes a frame in one file, or its two eyes in two.
+struct FrameArguments {
+  std::string frame, other_eye;
+  void add_to(CLI::App& app);
+  /// One or two.
+  std::vector<std::string> paths() const;
+  /// For `check_paths`.
+  std::vector<NamedPath> inputs() const { return {{"the frame", frame}, {"the frame", other_eye}}; }
 };
 
 /// Which techniques, and with which parameters.
@@ -53,8 +67,6 @@ struct JsonFlag {
   void write(const Json& document, const std::vector<std::string>& complete = {}) const;
 };
 
-/// A path with what it is on the command line: {"-o", "out.exr"}.
-using NamedPath = std::pair<std::string, std::string>;
 /// Throws before anything is computed when an output is also an input or another output, when its folder cannot be
 /// written to, or when it is a folder or a device itself. Empty paths are passed over.
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
@@ -68,17 +80,18 @@ Json milliseconds(std::vector<double> ms);
 /// A plan as the contract has it.
 Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);
 
-/// Full channel names of the planes that a plan decodes.
-std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFile& file);
+/// Full channel names of the planes that a plan decodes; of two files with the file's: "pair_L.exr: Z".
+std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFiles& files);
 
 /// "R, G, B and 7 more": no more names than a person reads.
 std::string first_names(std::vector<std::string> names);
 
 /// "beauty.exr has only R, G, B": what a file holds, for error messages.
 std::string holdings(const FrameFile& file);
+std::string holdings(const FrameFiles& files);
 
-/// A plan for a file; `MissingPlanes` names what it does hold.
-Plan plan_for(const FrameFile& file, const PlanRequest& request);
+/// A plan for a frame; `MissingPlanes` names what it does hold.
+Plan plan_for(const FrameFiles& files, const PlanRequest& request);
 
 /// Frames are EXR; throws UsageError for another ending.
 void check_frame_name(const std::string& path, const std::string& flag);

@@ -23,7 +23,8 @@ void print_plan(const Plan& plan, const std::vector<std::string>& decoded) {
 
 void add_plan(CLI::App& app) {
   struct Flags {
-    std::string outputs, frame;
+    std::string outputs;
+    FrameArguments frame;
     FrameFlags frame_flags;
     TechniqueFlags technique;
     JsonFlag json;
@@ -33,17 +34,19 @@ void add_plan(CLI::App& app) {
   command->add_option("outputs", flags->outputs, "planes or techniques, separated by commas")
       ->required()
       ->type_name("OUTPUT[,OUTPUT]");
-  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  flags->frame.add_to(*command);
   flags->technique.add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
-  command->footer("Examples:\n  gloam plan ao frame.exr\n  gloam plan normals,hbao+ frame.exr --json -");
+  command->footer(
+      "Examples:\n  gloam plan ao frame.exr\n  gloam plan normals,hbao+ frame.exr --json -\n"
+      "  gloam plan multiview pair_L.exr pair_R.exr");
   command->callback([flags] {
-    check_paths({{"the frame", flags->frame}}, {{"--json", flags->json.file()}});
+    check_paths(flags->frame.inputs(), {{"--json", flags->json.file()}});
     const PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
-    const FrameFile file(flags->frame, flags->frame_flags.read_options());
-    const Plan plan = plan_for(file, request);
-    const std::vector<std::string> decoded = decoded_channels(plan.inputs, file);
+    const FrameFiles files(flags->frame.paths(), flags->frame_flags.read_options());
+    const Plan plan = plan_for(files, request);
+    const std::vector<std::string> decoded = decoded_channels(plan.inputs, files);
     flags->json.write(plan_document(plan, decoded));
     if (!flags->json.only_json()) print_plan(plan, decoded);
   });

@@ -14,8 +14,9 @@ namespace gloam::cli {
 namespace {
 
 struct RunCommand {
-  std::string technique, frame, out, outputs, picture, compression = "zip";
+  std::string technique, out, outputs, picture, compression = "zip";
   bool bare = false, half = false;
+  FrameArguments frame;
   FrameFlags frame_flags;
   TechniqueFlags technique_flags;
   RunFlags run_flags;
@@ -189,14 +190,15 @@ void run_command(const RunCommand& flags) {
   check(writing);
   check_frame_name(flags.out, "-o");
   check_picture_name(flags.picture, "--picture");
-  check_paths({{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}},
-              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
-  FrameFile file(flags.frame, flags.frame_flags.read_options());
-  Plan plan = plan_for(file, request);
+  std::vector<NamedPath> inputs = flags.frame.inputs();
+  inputs.emplace_back("--camera", flags.frame_flags.camera);
+  check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+  FrameFiles files(flags.frame.paths(), flags.frame_flags.read_options());
+  Plan plan = plan_for(files, request);
   watch.lap("open");
   // The device starts up and compiles while the planes are decoded. A large frame waits to hear that the device has the
   // memory for it.
-  const Layout layout(file.window().width(), file.window().height());
+  const Layout layout(files.window().width(), files.window().height());
   std::promise<void> checked;
   std::future<Device> starting = std::async(std::launch::async, [&, plan] {
     try {
@@ -212,14 +214,14 @@ void run_command(const RunCommand& flags) {
   });
   if (device_bytes(plan, layout) > (1ull << 30)) checked.get_future().get();
   std::vector<std::string> planes = plan.inputs;
-  const std::vector<std::string> available = file.common_planes();
+  const std::vector<std::string> available = files.common_planes();
   if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");
-  Frame frame = file.read(planes);
+  Frame frame = files.read(planes);
   watch.lap("decode");
   note(frame.assumed);
   const std::vector<std::string> left = planes_left(frame, plan.inputs);
   // A plane turned out to be of no use (normals in the space of an unknown camera): make it instead.
-  if (left.size() < plan.inputs.size()) plan = make_plan(request, left, holdings(file));
+  if (left.size() < plan.inputs.size()) plan = make_plan(request, left, holdings(files));
   check_radius(plan, frame);
   Device device = starting.get();
   watch.lap("device");
@@ -233,7 +235,7 @@ void run_command(const RunCommand& flags) {
   watch.lap("write");
   std::vector<std::string> written = {flags.out};
   written.insert(written.end(), pictures.begin(), pictures.end());
-  flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, file), watch), written);
+  flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, files), watch), written);
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
   fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
@@ -248,7 +250,7 @@ void add_run(CLI::App& app) {
   command->add_option("technique", flags->technique, "gloam list techniques shows them")
       ->required()
       ->type_name("TECHNIQUE");
-  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  flags->frame.add_to(*command);
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
   command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
       ->type_name("A,B");
@@ -265,6 +267,7 @@ void add_run(CLI::App& app) {
       "Examples:\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
+      "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"
       "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
       "Every parameter of the technique is a flag (gloam list techniques).");
   command->callback([flags] { run_command(*flags); });

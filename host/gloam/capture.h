@@ -8,6 +8,7 @@
 
 #include "gloam/frame.h"
 #include "gloam/secondary_camera.h"
+#include "gloam/stereo_cameras.h"
 #include "gloam/tracer.h"
 
 namespace gloam {
@@ -35,6 +36,8 @@ struct CaptureOptions {
   /// Beside the only view a second one, "view2", by `secondary_camera`: degrees, -90 to 90, not 0. A view without a name
   /// becomes "main" then.
   std::optional<double> second_view;
+  /// In place of the only view two, "left" and "right", by `stereo_cameras`; the view's camera is the middle between them.
+  std::optional<StereoRig> stereo;
   std::function<void(int done, int of)> progress;
 };
 
@@ -54,10 +57,12 @@ const std::vector<std::string>& capture_planes();
 /// Point-sampled at pixel centres. Every plane as docs/gbuffer.md has it; `peel_count` is the number of all surfaces
 /// under the pixel centre, stored or not. `instance` is the mesh's index + 1; 0 is background.
 /// The frame says in its attributes which scene it shows (gloamScene), how its stochastic depth map was made
-/// (gloamStochasticAlpha, gloamStochasticSeed) and by how much its second view is turned (gloamSecondView, degrees).
+/// (gloamStochasticAlpha, gloamStochasticSeed), by how much its second view is turned (gloamSecondView, degrees) and how
+/// its eyes stand to each other (gloamStereo and gloamConvergence, scene units, and gloamToeIn, degrees).
 /// Cameras' near and far planes clip.
-/// Throws UsageError for an unknown plane, a size, a number of layers or samples out of range, a second view beside
-/// several or with motion; Error for a camera without a pose, and for a second view where the first shows nothing.
+/// Throws UsageError for an unknown plane, a size, a number of layers or samples out of range, a second view or a pair of
+/// eyes where there are several views or motion, both at once, and a rig that `stereo_cameras` refuses; Error for a
+/// camera without a pose, and for a second view where the first shows nothing.
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
 
 /// The ray through a point of the image, in pixels (centres at +0.5). Distances along it are planar view-space depths.

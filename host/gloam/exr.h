@@ -107,7 +107,19 @@ class FrameFile {
   std::string normal_space() const;
 
  private:
+  friend class FrameFiles;
+  /// What a file of one view is in a frame of two.
+  struct Eye {
+    std::string name, other_name;
+    std::filesystem::path other;  ///< the other eye's file
+    Window window;                ///< that the frame's planes cover
+  };
   struct Impl;
+  explicit FrameFile(std::unique_ptr<Impl> impl);
+  /// Open as far as views, planes and windows go: which camera is an eye's is known when its name is.
+  static FrameFile without_cameras(const std::filesystem::path& path, const ReadOptions& options);
+  /// Finds the camera of that eye. Throws Error where none with a pose is found.
+  void become(const Eye& eye);
   std::unique_ptr<Impl> impl_;
 };
 

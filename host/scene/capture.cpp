@@ -243,15 +243,21 @@ void check_stochastic(const StochasticOptions& options) {
   if (options.seed < 0) throw UsageError("seed {} is negative; give 0 or more", options.seed);
 }
 
+/// `what` makes two views of the only one.
+void check_can_become_two(const CaptureOptions& options, const char* what, const char* how) {
+  if (options.second_view && options.stereo)
+    throw UsageError("a second view and a pair of eyes cannot be had together; leave out one of them");
+  if (options.views.size() != 1) throw UsageError("{} {} one view, and there are {}", what, how, options.views.size());
+  if (contains(options.planes, "motion")) throw UsageError("{} has no motion; leave out one of them", what);
+}
+
 void check_second_view(const CaptureOptions& options) {
   const double degrees = *options.second_view;
   if (!(std::abs(degrees) <= 90) || degrees == 0)
     throw UsageError("a second view turned by {:g} degrees cannot be had; -90 to 90 can, but not 0", degrees);
-  if (options.views.size() != 1)
-    throw UsageError("a second view goes beside one view, and there are {}", options.views.size());
+  check_can_become_two(options, "a second view", "goes beside");
   if (options.views[0].name == second_view_name)
     throw UsageError("the first view is called '{}', as the second would be; give it another name", second_view_name);
-  if (contains(options.planes, "motion")) throw UsageError("a second view has no motion; leave out one of them");
 }
 
 void check_options(const CaptureOptions& options) {
@@ -266,6 +272,7 @@ void check_options(const CaptureOptions& options) {
   }
   check_stochastic(options.stochastic);
   if (options.second_view) check_second_view(options);
+  if (options.stereo) check_can_become_two(options, "a pair of eyes", "takes the place of");
   for (const CaptureView& view : options.views) {
     if (!view.camera.pose) throw Error("view '{}' has a camera without a pose; give its camera_to_world", view.name);
   }
@@ -320,6 +327,20 @@ CaptureView second_view(const CaptureOptions& options, CaptureResult& result) {
     throw Error("the first view shows nothing that a second could turn about; another camera may see it");
   return {second_view_name, secondary_camera(options.views[0].camera, options.width, options.height, *result.visible,
                                              *options.second_view)};
+}
+
+/// With the eyes in place of the camera that is the middle between them.
+CaptureOptions with_both_eyes(CaptureOptions options) {
+  if (!options.stereo) return options;
+  const auto [left, right] = stereo_cameras(options.views[0].camera, *options.stereo);
+  options.views = {{"left", left, {}}, {"right", right, {}}};
+  return options;
+}
+
+void say_stereo(Frame& frame, const StereoRig& rig) {
+  frame.numbers["gloamStereo"] = rig.interpupillary_distance;
+  if (rig.convergence) frame.numbers["gloamConvergence"] = *rig.convergence;
+  if (rig.toe_in) frame.numbers["gloamToeIn"] = toe_in_degrees(rig);
 }
 
 }  // namespace
@@ -383,8 +404,9 @@ vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed) {
   return material.emission + diffuse * irradiance / glm::pi<float>();
 }
 
-CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
-  check_options(options);
+CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
+  check_options(asked);
+  const CaptureOptions options = with_both_eyes(asked);
   const auto start = std::chrono::steady_clock::now();
   CaptureResult result;
   Frame& frame = result.frame;
@@ -396,6 +418,7 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& options) {
     capture_view(tracer, second_view(options, result), options, result);
     frame.numbers["gloamSecondView"] = *options.second_view;
   }
+  if (options.stereo) say_stereo(frame, *options.stereo);
   if (options.stochastic.samples > 0) {
     frame.numbers["gloamStochasticAlpha"] = options.stochastic.alpha;
     frame.attributes["gloamStochasticSeed"] = std::to_string(options.stochastic.seed);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gloam/error.h"
+#include "turned_pose.h"
 
 namespace gloam {
 namespace {
@@ -21,12 +22,6 @@ using glm::dvec3;
 constexpr double widest_degrees = 60;
 /// How much larger the image is than what it has to hold.
 constexpr double spare = 1.01;
-
-/// A turn about the y axis; positive takes z towards x.
-glm::dmat3 turn(double degrees) {
-  const double cosine = std::cos(glm::radians(degrees)), sine = std::sin(glm::radians(degrees));
-  return {dvec3(cosine, 0, -sine), dvec3(0, 1, 0), dvec3(sine, 0, cosine)};
-}
 
 using Corners = std::array<dvec3, 8>;
 
@@ -120,8 +115,7 @@ Camera secondary_camera(const Camera& first, int width, int height, const Visibl
   const double distance = fitting_distance(first, width, height, corners, depths.median);
   Camera second = fitted(first, width, height, corners, distance);
   const dvec3 eye = dvec3(0, 0, -depths.median) + turn(degrees) * dvec3(0, 0, distance);
-  second.pose->position += glm::transpose(first.pose->world_to_view) * eye;
-  second.pose->world_to_view = glm::transpose(turn(degrees)) * first.pose->world_to_view;
+  second.pose = moved(*first.pose, eye, degrees);
   second.near.reset();
   second.far.reset();
   second.source = fmt::format("{}, turned {:g} degrees", first.source, degrees);

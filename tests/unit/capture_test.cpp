@@ -668,6 +668,35 @@ TEST(SecondView, RefusesWhatItCannotDo) {
   EXPECT_NO_THROW(capture(tracer, with([](CaptureOptions&) {})));
 }
 
+TEST(PairOfEyes, RefusesWhatItCannotDo) {
+  const Scene scene = boxes();
+  const Tracer tracer(scene);
+  CaptureOptions options;
+  options.width = options.height = 8;
+  options.views = {{"", camera_for(scene.cameras[0], 8, 8), {}}};
+  options.stereo = StereoRig{0.1, 2, false};
+  const CaptureResult pair = capture(tracer, options);
+  ASSERT_EQ(pair.frame.views.size(), 2u);
+  EXPECT_EQ(pair.frame.views[1].name, "right");
+  const auto refused = [&](const std::function<void(CaptureOptions&)>& change) {
+    CaptureOptions changed = options;
+    change(changed);
+    EXPECT_THROW(capture(tracer, changed), UsageError);
+  };
+  refused([](CaptureOptions& o) { o.second_view = 30; });
+  refused([](CaptureOptions& o) { o.views.push_back(o.views[0]); });
+  refused([](CaptureOptions& o) { o.planes = {"motion"}; });
+  refused([](CaptureOptions& o) { o.views[0].camera.orthographic = true; });
+  for (const StereoRig& rig : std::initializer_list<StereoRig>{{-0.1, 2, false},
+                                                               {NAN, 2, false},
+                                                               {INFINITY, 2, false},
+                                                               {0.1, 0, false},
+                                                               {0.1, NAN, true},
+                                                               {0.1, {}, true},
+                                                               {0.1, 1e-12, false}})
+    refused([&](CaptureOptions& o) { o.stereo = rig; });
+}
+
 TEST(Capture, RefusesWhatItCannotDo) {
   const Scene scene = boxes();
   const Tracer tracer(scene);
