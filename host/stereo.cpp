@@ -30,13 +30,15 @@ Pass from_both(Pass estimate, const std::string& kernel) {
 }
 
 Pass reprojection(const StereoChoices& c) {
-  return {
-      .name = "reproject",
-      .kernel = "stereo_reproject",
-      .reads = {{"depth", "stereo_depth"}, of_other({"other_depth", "stereo_depth"}), of_other({"other", "ao_raw"})},
-      .writes = {{"result", "ao_raw"}, "newly_visible"},
-      .defines = {{"NO_BACK_CHECK", !c.back_check}},
-      .view = 1 - c.primary};
+  return {.name = "reproject",
+          .kernel = "stereo_reproject",
+          .reads = {{"depth", "stereo_depth"},
+                    "normal",
+                    of_other({"other_depth", "stereo_depth"}),
+                    of_other({"other", "ao_raw"})},
+          .writes = {{"result", "ao_raw"}, "newly_visible"},
+          .defines = {{"NO_BACK_CHECK", !c.back_check}},
+          .view = 1 - c.primary};
 }
 
 /// What the second eye alone sees.
