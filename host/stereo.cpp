@@ -51,27 +51,51 @@ Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& 
   return pass;
 }
 
-Pass filter_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows,
-                 Filter filter) {
-  Pass pass{.name = name,
-            .kernel = filter == Filter::mono ? "bilateral" : "stereo_bilateral",
-            .reads = {{"source", from}, "depth", "normal"},
-            .writes = {{"result", to}},
-            .defines = {{"COLUMNS", columns}, {"ROWS", rows}}};
-  if (filter != Filter::mono) {
-    for (const Binding& other :
-         {Binding("other_source", from), Binding("other_depth", "depth"), Binding("other_normal", "normal")})
-      pass.reads.push_back(of_other(other));
+Pass filter_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows) {
+  return {.name = name,
+          .kernel = "bilateral",
+          .reads = {{"source", from}, "depth", "normal"},
+          .writes = {{"result", to}},
+          .defines = {{"COLUMNS", columns}, {"ROWS", rows}}};
+}
+
+std::vector<Pass> filter_of_one_eye(Filter filter, int taps, const std::string& to) {
+  if (filter == Filter::stereo2d) return {filter_pass("square", "ao_raw", to, taps, taps)};
+  return {filter_pass("horizontal", "ao_raw", "ao_filtered_across", taps, 0),
+          filter_pass("vertical", "ao_filtered_across", to, 0, taps)};
+}
+
+/// Each pass leaves the sum of its weights too, times that of the one before.
+void keep_weights(std::vector<Pass>& passes) {
+  for (size_t i = 0; i < passes.size(); ++i) {
+    Pass& pass = passes[i];
+    pass.kernel = "bilateral_weighted";
+    if (i > 0) pass.reads.insert(pass.reads.begin() + 1, Binding("source_weights", passes[i - 1].writes.back().plane));
+    pass.writes.push_back({"result_weights", pass.writes.front().plane + "_weights"});
+    pass.defines.emplace_back("WITH_SOURCE_WEIGHTS", i > 0);
   }
+}
+
+Pass blend(const Pass& last) {
+  Pass pass{.name = "blend",
+            .kernel = "stereo_blend",
+            .reads = {{"source", last.writes[0].plane}, {"source_weights", last.writes[1].plane}, "depth", "normal"},
+            .writes = {{"result", "ao"}},
+            .defines = last.defines};
+  for (const Binding& other : {Binding("other_source", last.writes[0].plane),
+                               Binding("other_weights", last.writes[1].plane), Binding("other_depth", "depth")})
+    pass.reads.push_back(of_other(other));
   return pass;
 }
 
 }  // namespace
 
 std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
-  if (filter == Filter::stereo2d) return {filter_pass("square", "ao_raw", "ao", taps, taps, filter)};
-  return {filter_pass("horizontal", "ao_raw", "ao_filtered_across", taps, 0, filter),
-          filter_pass("vertical", "ao_filtered_across", "ao", 0, taps, filter)};
+  if (filter == Filter::mono) return filter_of_one_eye(filter, taps, "ao");
+  std::vector<Pass> passes = filter_of_one_eye(filter, taps, "ao_of_one_eye");
+  keep_weights(passes);
+  passes.push_back(blend(passes.back()));
+  return passes;
 }
 
 std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, const StereoChoices& c) {

@@ -1,0 +1,76 @@
+// What the other eye has of this eye's surfaces, fetched between its pixels: of the four around a place those that show the
+// surface count, by how near they are and by their distance from its tangent plane.
+#ifndef GLOAM_STEREO_FETCH_H
+#define GLOAM_STEREO_FETCH_H
+
+#include "shared/neighbour.h"
+#include "shared/pixel_row.h"
+#include "shared/surface.h"
+
+typedef struct {
+  PixelRow pixels;  // the upper left of the four
+  int in_a_row;
+  real weights[4];  // of all four, 1 together where the place is known
+  real share;       // how far what is seen around is the surface: 0 to 1
+  mask is_known;
+} Between;
+
+static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame f, TangentPlane plane,
+                                                               Projection there, global const float* other_depth,
+                                                               int in_a_row) {
+  const real x = larger(there.x - to_real(b->pixels.column), (real)(0));
+  const real y = larger(there.y - to_real(b->pixels.row), (real)(0));
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const int i = k % 2, j = k / 2;
+    const real step = ((scalar)i - x) * plane.per_column + ((scalar)j - y) * plane.per_row;
+    const real depth = fabs(value_at(f, other_depth, &b->pixels, i, j, in_a_row));
+    const real distance = fabs(distance_from(plane, f, step, depth));
+    const real near = (i ? x : 1 - x) * (j ? y : 1 - y);
+    b->weights[k] = choose(distance < 1, near * (1 - distance), (real)(0));
+  }
+}
+
+// Of the row of pixels that the work-item computes, at depth z. `distance`, `angle`: tangent_plane_at.
+static inline __attribute__((always_inline)) void between_pixels(Frame frame, Neighbour neighbour, real z, real3 normal,
+                                                                 scalar distance, scalar angle,
+                                                                 global const float* other_depth, Between* b) {
+  const Frame other = neighbour.frame;
+  const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);
+  const Projection there =
+      project_into(neighbour, position_at(frame, x, y, choose(is_background(z), (real)(1), z)), !is_background(z));
+  b->share = (real)(0);
+  b->is_known = there.is_seen;
+  b->in_a_row = 0;
+  if (!ANY(there.is_seen)) return;
+  const TangentPlane plane =
+      tangent_plane_at(other, there.x, there.y, there.depth, rotated(neighbour, normal), distance, angle);
+  // Of parallel eyes the place lies in this row but for rounding, which must not choose between rows lane by lane.
+  const integer column = nearest(floor(there.x + (scalar)0x1p-10)), row = nearest(floor(there.y + (scalar)0x1p-10));
+  b->in_a_row = follow_in_a_row(column, row, there.is_seen, &b->pixels);
+  if (b->in_a_row)
+    weigh_pixels(b, other, plane, there, other_depth, 1);
+  else
+    weigh_pixels(b, other, plane, there, other_depth, 0);
+  b->share = b->weights[0] + b->weights[1] + b->weights[2] + b->weights[3];
+  b->is_known &= b->share > (scalar)1e-3f;
+  const real normalise = (scalar)1 / choose(b->is_known, b->share, (real)(1));
+  for (int k = 0; k < 4; ++k) b->weights[k] *= normalise;
+}
+
+static inline __attribute__((always_inline)) real weighted_sum(const Between* b, Frame f, global const float* plane,
+                                                               int in_a_row) {
+  real sum = b->weights[0] * value_at(f, plane, &b->pixels, 0, 0, in_a_row);
+#pragma unroll
+  for (int k = 1; k < 4; ++k)
+    sum = multiply_add(b->weights[k], value_at(f, plane, &b->pixels, k % 2, k / 2, in_a_row), sum);
+  return sum;
+}
+
+// A plane of the other eye; of use where it is known.
+static inline __attribute__((always_inline)) real fetch_between(const Between* b, Frame other,
+                                                                global const float* plane) {
+  return b->in_a_row ? weighted_sum(b, other, plane, 1) : weighted_sum(b, other, plane, 0);
+}
+
+#endif
