@@ -105,20 +105,39 @@ kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE no
 }
 
 #if MULTIVIEW || STEREO
-// What step k finds around a point that need not lie on a pixel. Samples outside the image are moved onto its border.
+// A point that need not lie on a pixel, and the pixel nearest to it.
+typedef struct {
+  integer column, row, index;
+  real left, up;  // from the point to the pixel
+} Centre;
+
+static inline Centre centre_of(Frame f, Anchor point) {
+  Centre c;
+  c.column = nearest(point.x);
+  c.row = nearest(point.y);
+  c.index = FRAME_GUARD + c.row * f.pitch + c.column;
+  c.left = to_real(c.column) - point.x;
+  c.up = to_real(c.row) - point.y;
+  return c;
+}
+
+// What step k finds around it. `within`: SAMPLES_INSIDE, or SAMPLES_CLAMPED: samples outside the image are moved onto its border.
 static inline __attribute__((always_inline)) real obscurance_around(Frame f, Params params, DepthLayers layers,
-                                                                    Receiver r, Fan fan, int k, mask* by_both) {
-  const integer column = nearest(r.point.x), row = nearest(r.point.y);
+                                                                    Receiver r, Centre c, Fan fan, int k, int within,
+                                                                    mask* by_both) {
   integer dx, dy;
   step_at(fan, k, &dx, &dy);
-  const integer x = clamp(column + dx, (integer)(0), (integer)(f.width - 1));
-  const integer y = clamp(row + dy, (integer)(0), (integer)(f.height - 1));
+  if (within == SAMPLES_INSIDE)
+    return obscurance_at(f, params, layers, r, to_real(dx) + c.left, to_real(dy) + c.up, 0,
+                         c.index + index_near_short(f, dx - IOTA, dy), by_both);
+  const integer x = clamp(c.column + dx, (integer)(0), (integer)(f.width - 1));
+  const integer y = clamp(c.row + dy, (integer)(0), (integer)(f.height - 1));
   const real found = obscurance_at(f, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y, FRAME_GUARD,
                                    y * f.pitch + x, by_both);
-  const mask is_inside = to_mask((x == column + dx) & (y == row + dy));
+  const mask is_inside = to_mask((x == c.column + dx) & (y == c.row + dy));
   *by_both &= is_inside;
   // At the border a sample may come down to the point's own pixel, of which only rounding is left.
-  mask counts = to_mask((x != column) | (y != row));
+  mask counts = to_mask((x != c.column) | (y != c.row));
   if (OUTSIDE_OPEN) counts &= is_inside;
   return choose(counts, found, (real)(0));
 }
@@ -126,10 +145,12 @@ static inline __attribute__((always_inline)) real obscurance_around(Frame f, Par
 
 #if MULTIVIEW
 static inline real sum_around(Frame other, Params params, DepthLayers layers, Receiver r, Fan fan) {
+  const Centre centre = centre_of(other, r.point);
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
     mask by_both;
-    for (int k = 0; k < STEPS; ++k) sum += obscurance_around(other, params, layers, r, fan, k, &by_both);
+    for (int k = 0; k < STEPS; ++k)
+      sum += obscurance_around(other, params, layers, r, centre, fan, k, SAMPLES_CLAMPED, &by_both);
     turn(&fan);
   }
   return sum;
@@ -157,16 +178,20 @@ kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params
 #if STEREO
 // Mean over samples of what both eyes find at them: their mean where both see the surface, else the larger (section 3.1).
 // `there`: the point as the other eye shows it, of use where `is_seen`.
-static inline real sum_of_both(Frame frame, Frame other, Params params, DepthLayers layers, DepthLayers other_layers,
-                               Receiver here, Receiver there, mask is_seen, Noise noise) {
+static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame other, Params params,
+                                                              DepthLayers layers, DepthLayers other_layers,
+                                                              Receiver here, Receiver there, mask is_seen, Noise noise,
+                                                              int within) {
+  const Centre centre = centre_of(frame, here.point), other_centre = centre_of(other, there.point);
   Fan fan = fan_of(here.reach, noise), other_fan = fan_of(there.reach, noise);
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
 #pragma unroll 4
     for (int k = 0; k < STEPS; ++k) {
       mask by_both, by_both_there;
-      const real own = obscurance_around(frame, params, layers, here, fan, k, &by_both);
-      const real found = obscurance_around(other, params, other_layers, there, other_fan, k, &by_both_there);
+      const real own = obscurance_around(frame, params, layers, here, centre, fan, k, within, &by_both);
+      const real found =
+          obscurance_around(other, params, other_layers, there, other_centre, other_fan, k, within, &by_both_there);
       const real together = choose(by_both & by_both_there, (scalar)0.5 * (own + found), larger(own, found));
       sum += choose(is_seen, together, own);
     }
@@ -179,18 +204,26 @@ static inline real sum_of_both(Frame frame, Frame other, Params params, DepthLay
 // The estimate for one point of each lane.
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
                                 DepthLayers other_layers, Receiver here, Noise noise) {
+  const Frame other = neighbour.frame;
+  const mask is_surface = !here.point.background;
   const Projection seen = project_into(
-      neighbour, position_at(frame, here.point.x, here.point.y, choose(here.point.background, (real)(1), here.depth)),
-      !here.point.background);
+      neighbour, position_at(frame, here.point.x, here.point.y, choose(is_surface, here.depth, (real)(1))), is_surface);
 #if ESTIMATE_MONO
   const mask is_seen = (mask)(0);
 #else
   const mask is_seen = seen.is_seen;
 #endif
-  const Receiver there = receiver_of(neighbour.frame, params.radius, params.max_reach, seen.x, seen.y, seen.depth,
+  // Lanes that the other eye does not see read what is there at the same place, and make nothing of it.
+  const Receiver there = receiver_of(other, params.radius, params.max_reach, choose(is_seen, seen.x, here.point.x),
+                                     choose(is_seen, seen.y, here.point.y), choose(is_seen, seen.depth, here.depth),
                                      rotated(neighbour, here.normal));
-  return open_of(params,
-                 sum_of_both(frame, neighbour.frame, params, layers, other_layers, here, there, is_seen, noise));
+  real sum;
+  if (frame.pitch < SHORT_PITCH && reaches_only_inside(frame, here.point, here.reach) &&
+      reaches_only_inside(other, there.point, there.reach))
+    sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, noise, SAMPLES_INSIDE);
+  else
+    sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, noise, SAMPLES_CLAMPED);
+  return open_of(params, sum);
 }
 
 kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,

@@ -10,8 +10,8 @@
 typedef struct {
   PixelRow pixels;  // the upper left of the four
   int in_a_row;
-  real weights[4];  // of all four, 1 together where the place is known
-  real share;       // how far what is seen around is the surface: 0 to 1
+  real weights[4];  // of all four
+  real share;       // their sum, 0 to 1: how far what is seen around is the surface
   mask is_known;
 } Between;
 
@@ -54,8 +54,6 @@ static inline __attribute__((always_inline)) void between_pixels(Frame frame, Ne
     weigh_pixels(b, other, plane, there, other_depth, 0);
   b->share = b->weights[0] + b->weights[1] + b->weights[2] + b->weights[3];
   b->is_known &= b->share > (scalar)1e-3f;
-  const real normalise = (scalar)1 / choose(b->is_known, b->share, (real)(1));
-  for (int k = 0; k < 4; ++k) b->weights[k] *= normalise;
 }
 
 static inline __attribute__((always_inline)) real weighted_sum(const Between* b, Frame f, global const float* plane,
@@ -70,7 +68,9 @@ static inline __attribute__((always_inline)) real weighted_sum(const Between* b,
 // A plane of the other eye; of use where it is known.
 static inline __attribute__((always_inline)) real fetch_between(const Between* b, Frame other,
                                                                 global const float* plane) {
-  return b->in_a_row ? weighted_sum(b, other, plane, 1) : weighted_sum(b, other, plane, 0);
+  const real sum = b->in_a_row ? weighted_sum(b, other, plane, 1) : weighted_sum(b, other, plane, 0);
+  // Divided exactly, so that what is open all around stays just that.
+  return sum / choose(b->is_known, b->share, (real)(1));
 }
 
 #endif
