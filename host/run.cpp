@@ -526,7 +526,7 @@ bool needs_two_views(const Plan& plan) {
 void check_two_views(const Plan& plan, const Frame& frame) {
   if (frame.views.size() != 2)
     throw Error(
-        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE makes one, "
+        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo IPD makes one, "
         "--views A,B takes two of more",
         plan.technique, frame.views.size());
   for (const View& view : frame.views) {
