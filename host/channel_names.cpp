@@ -187,6 +187,7 @@ const std::vector<Spelling>& spellings() {
       {"instance", "shapeindex", "i|x|r|y", generic},
       {"peel_count", "peel", "count", own},
       {"outline_count", "outline", "count", own},
+      {"seen_by_both", "", "both", own},
       {"mask", "", "mask", own},
       {"mask", "mask", "r|v|x|y|z|a|mask", generic},
       // Blender's Vector holds previous - current in x and y, y up.

@@ -35,6 +35,7 @@ Pass reprojection(const StereoChoices& c) {
           .reads = {{"depth", "stereo_depth"},
                     "normal",
                     of_other({"other_depth", "stereo_depth"}),
+                    of_other({"other_normal", "normal"}),
                     of_other({"other", "ao_raw"})},
           .writes = {{"result", "ao_raw"}, "newly_visible"},
           .defines = {{"NO_BACK_CHECK", !c.back_check}},
@@ -82,8 +83,9 @@ Pass blend(const Pass& last) {
             .reads = {{"source", last.writes[0].plane}, {"source_weights", last.writes[1].plane}, "depth", "normal"},
             .writes = {{"result", "ao"}},
             .defines = last.defines};
-  for (const Binding& other : {Binding("other_source", last.writes[0].plane),
-                               Binding("other_weights", last.writes[1].plane), Binding("other_depth", "depth")})
+  for (const Binding& other :
+       {Binding("other_source", last.writes[0].plane), Binding("other_weights", last.writes[1].plane),
+        Binding("other_depth", "depth"), Binding("other_normal", "normal")})
     pass.reads.push_back(of_other(other));
   return pass;
 }

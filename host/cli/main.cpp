@@ -15,10 +15,15 @@ namespace gloam::cli {
 namespace {
 
 /// What --set of a command can set: parameters of techniques, or of built-in scenes.
-std::set<std::string> settable_by(const std::string& command) {
+std::set<std::string> settable_by(const CLI::App* command_line) {
   std::set<std::string> names;
+  if (!command_line) return names;
+  const std::string command = command_line->get_name();
+  // Where a command has a flag of that name, --set alone sets the parameter.
   const auto add = [&](const std::vector<Parameter>& parameters) {
-    for (const Parameter& p : parameters) names.insert(p.name);
+    for (const Parameter& p : parameters) {
+      if (!command_line->get_option_no_throw("--" + p.name)) names.insert(p.name);
+    }
   };
   if (command == "run" || command == "plan") {
     for (const Technique& t : registry()) add(t.parameters);
@@ -29,9 +34,16 @@ std::set<std::string> settable_by(const std::string& command) {
   return names;
 }
 
+/// The command that the arguments begin with; null where it is none.
+const CLI::App* command_of(CLI::App& app, int argc, char** argv) {
+  const std::vector<CLI::App*> found =
+      app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; });
+  return found.empty() ? nullptr : found.front();
+}
+
 /// Every parameter is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
-std::vector<std::string> with_parameter_flags(int argc, char** argv) {
-  const std::set<std::string> names = settable_by(argc > 1 ? argv[1] : "");
+std::vector<std::string> with_parameter_flags(CLI::App& app, int argc, char** argv) {
+  const std::set<std::string> names = settable_by(command_of(app, argc, argv));
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -65,7 +77,7 @@ std::vector<std::string> flag_names(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  for (const std::string& name : settable_by(command.get_name())) names.push_back("--" + name);
+  for (const std::string& name : settable_by(&command)) names.push_back("--" + name);
   return names;
 }
 
@@ -92,24 +104,29 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{}{} {}", command, command.empty() ? "" : ": ", message, help);
 }
 
-void print_parameters(const std::string& owner, const std::vector<Parameter>& parameters) {
+/// `settable`: those that are flags.
+void print_parameters(const std::string& owner, const std::vector<Parameter>& parameters,
+                      const std::set<std::string>& settable) {
   if (parameters.empty()) return;
   const ParameterValues initial(parameters);
   std::vector<std::vector<std::string>> rows;
   for (const Parameter& p : parameters) {
-    rows.push_back({"  --" + p.name, initial.text(p.name), "(" + allowed_values(p) + ")", p.help});
+    rows.push_back({(settable.count(p.name) ? "  --" : "  --set ") + p.name, initial.text(p.name),
+                    "(" + allowed_values(p) + ")", p.help});
   }
   fmt::print("\nParameters of {}:\n", owner);
   print_table(rows, 4);
 }
 
 /// `gloam run hbao+ --help` and `gloam capture statue --help` also show what can be set.
-void print_parameters_of(int argc, char** argv) {
+void print_parameters_of(CLI::App& app, int argc, char** argv) {
+  const std::set<std::string> settable = settable_by(command_of(app, argc, argv));
   for (int i = 1; i < argc; ++i) {
     const std::vector<std::string> names = technique_names();
     if (std::find(names.begin(), names.end(), argv[i]) != names.end())
-      print_parameters(argv[i], find_technique(argv[i]).parameters);
-    if (const SceneRecipe* recipe = find_builtin_scene(argv[i])) print_parameters(recipe->name, recipe->parameters);
+      print_parameters(argv[i], find_technique(argv[i]).parameters, settable);
+    if (const SceneRecipe* recipe = find_builtin_scene(argv[i]))
+      print_parameters(recipe->name, recipe->parameters, settable);
   }
 }
 
@@ -140,10 +157,10 @@ int run_command(int argc, char** argv) {
   add_pick(app);
   add_report(app);
   try {
-    app.parse(with_parameter_flags(argc, argv));
+    app.parse(with_parameter_flags(app, argc, argv));
   } catch (const CLI::Success& success) {
     const int status = app.exit(success);  // --help, --version
-    print_parameters_of(argc, argv);
+    print_parameters_of(app, argc, argv);
     return status;
   } catch (const CLI::ParseError& error) {
     throw UsageError("{}", usage_message(app, error));

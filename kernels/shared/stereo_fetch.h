@@ -1,11 +1,26 @@
 // What the other eye has of this eye's surfaces, fetched between its pixels: of the four around a place those that show the
-// surface count, by how near they are and by their distance from its tangent plane.
+// surface count, by how near they are, by their distance from its tangent plane and by the angle between the normals.
 #ifndef GLOAM_STEREO_FETCH_H
 #define GLOAM_STEREO_FETCH_H
 
 #include "shared/neighbour.h"
 #include "shared/pixel_row.h"
 #include "shared/surface.h"
+
+// The planes of the other eye that tell its surfaces.
+typedef struct {
+  global const float *depth, *normal_x, *normal_y, *normal_z;
+} SurfacePlanes;
+
+static inline SurfacePlanes surface_planes(global const float* depth, global const float* normal_x,
+                                           global const float* normal_y, global const float* normal_z) {
+  SurfacePlanes p;
+  p.depth = depth;
+  p.normal_x = normal_x;
+  p.normal_y = normal_y;
+  p.normal_z = normal_z;
+  return p;
+}
 
 typedef struct {
   PixelRow pixels;  // the upper left of the four
@@ -16,25 +31,27 @@ typedef struct {
 } Between;
 
 static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame f, TangentPlane plane,
-                                                               Projection there, global const float* other_depth,
-                                                               int in_a_row) {
+                                                               Projection there, SurfacePlanes planes, int in_a_row) {
   const real x = larger(there.x - to_real(b->pixels.column), (real)(0));
   const real y = larger(there.y - to_real(b->pixels.row), (real)(0));
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
     const int i = k % 2, j = k / 2;
     const real step = ((scalar)i - x) * plane.per_column + ((scalar)j - y) * plane.per_row;
-    const real depth = fabs(value_at(f, other_depth, &b->pixels, i, j, in_a_row));
-    const real distance = fabs(distance_from(plane, f, step, depth));
+    const real depth = fabs(value_at(f, planes.depth, &b->pixels, i, j, in_a_row));
+    const real3 n = make3(value_at(f, planes.normal_x, &b->pixels, i, j, in_a_row),
+                          value_at(f, planes.normal_y, &b->pixels, i, j, in_a_row),
+                          value_at(f, planes.normal_z, &b->pixels, i, j, in_a_row));
     const real near = (i ? x : 1 - x) * (j ? y : 1 - y);
-    b->weights[k] = choose(distance < 1, near * (1 - distance), (real)(0));
+    const real weight = near * same_surface(plane, f, step, depth, n);
+    b->weights[k] = choose(is_background(depth), (real)(0), weight);
   }
 }
 
 // Of the row of pixels that the work-item computes, at depth z. `distance`, `angle`: tangent_plane_at.
 static inline __attribute__((always_inline)) void between_pixels(Frame frame, Neighbour neighbour, real z, real3 normal,
-                                                                 scalar distance, scalar angle,
-                                                                 global const float* other_depth, Between* b) {
+                                                                 scalar distance, scalar angle, SurfacePlanes planes,
+                                                                 Between* b) {
   const Frame other = neighbour.frame;
   const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);
   const Projection there =
@@ -49,9 +66,9 @@ static inline __attribute__((always_inline)) void between_pixels(Frame frame, Ne
   const integer column = nearest(floor(there.x + (scalar)0x1p-10)), row = nearest(floor(there.y + (scalar)0x1p-10));
   b->in_a_row = follow_in_a_row(column, row, there.is_seen, &b->pixels);
   if (b->in_a_row)
-    weigh_pixels(b, other, plane, there, other_depth, 1);
+    weigh_pixels(b, other, plane, there, planes, 1);
   else
-    weigh_pixels(b, other, plane, there, other_depth, 0);
+    weigh_pixels(b, other, plane, there, planes, 0);
   b->share = b->weights[0] + b->weights[1] + b->weights[2] + b->weights[3];
   b->is_known &= b->share > (scalar)1e-3f;
 }

@@ -54,12 +54,14 @@ static inline real smooth_step(scalar from, scalar to, real value) {
 
 kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANE source, PLANE source_weights,
                          PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE other_source,
-                         PLANE other_weights, PLANE other_depth, PLANE_OUT result) {
+                         PLANE other_weights, PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y,
+                         PLANE other_normal_z, PLANE_OUT result) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here), own = load(source, here), own_weight = load(source_weights, here);
   Between b;
   between_pixels(frame, neighbour, z, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
-                 params.normal_tolerance, other_depth, &b);
+                 params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
+                 &b);
   real open = own;
   if (ANY(b.is_known)) {
     const real weight = b.share * fetch_between(&b, neighbour.frame, other_weights);

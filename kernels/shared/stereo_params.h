@@ -4,13 +4,14 @@
 
 #include "shared/bilateral_params.h"
 
-#define BACK_CHECK_PARAMS(P)               \
-  P(float, back_check, 1, 0, 64, "pixels", \
+#define BACK_CHECK_PARAMS(P)                  \
+  P(float, back_check, 0.6f, 0, 64, "pixels", \
     "how far from itself a pixel may come back, projected to the other eye and back, and count as seen by both")
 
-#define STEREO_FILTER_PARAMS(P) \
-  BILATERAL_PARAMS(P)           \
-  P(float, blend, 0.05f, 0, 0.5f, "", "how far below one half an eye's share of the weight still counts")
+#define STEREO_FILTER_PARAMS(P)       \
+  BILATERAL_PARAMS(P)                 \
+  P(float, blend, 0.05f, 0, 0.5f, "", \
+    "how far from one half an eye's share of the weight may be before one eye alone counts")
 
 #define STEREO_PARAMS(P)                                                                                         \
   P(choice, estimate, stereo, (mono, stereo), "from what one eye sees, or both")                                 \

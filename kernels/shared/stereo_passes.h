@@ -35,7 +35,8 @@ kernel void stereo_visibility(Frame frame, Neighbour neighbour, Params params, P
 #define SAME_DEPTH ((scalar)0.02)
 
 kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                             PLANE normal_y, PLANE normal_z, PLANE other_depth, PLANE other, PLANE_OUT result,
+                             PLANE normal_y, PLANE normal_z, PLANE other_depth, PLANE other_normal_x,
+                             PLANE other_normal_y, PLANE other_normal_z, PLANE other, PLANE_OUT result,
                              PIXEL_LIST_OUT newly_visible) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y), stored_depth = load(depth, here), z = fabs(stored_depth);
@@ -49,7 +50,8 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
 #endif
   Between b;
   between_pixels(frame, neighbour, z, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
-                 params.normal_tolerance, other_depth, &b);
+                 params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
+                 &b);
   real found = (real)(1);
   // What both eyes see may lie across an edge all the same.
   if (ANY(is_found))

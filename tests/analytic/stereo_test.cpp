@@ -256,6 +256,19 @@ TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
   }
 }
 
+/// Eyes a hair apart see what one does; eyes of which neither sees what the other does are two single ones.
+TEST(Stereo, AnyDistanceBetweenTheEyesIsFine) {
+  for (const double distance : {1e-6, 1e4}) {
+    const Frame frame = captured("courtyard", distance), mono = run_on("hbao+", frame);
+    for (const Variant& v : variants()) {
+      const Frame stereo = run_on("stereo-ao", frame, v.settings);
+      EXPECT_EQ(violation(stereo), "") << v.name << ", " << distance << " apart";
+      EXPECT_LT(largest_difference(channel_of(mono, 0, "ao_raw"), channel_of(stereo, 0, "ao_raw")), 2e-3)
+          << v.name << ", " << distance << " apart";
+    }
+  }
+}
+
 double mean_difference(const Channel& a, const Channel& b) {
   double sum = 0;
   for (int y = 0; y < a.layout().height; ++y) {

@@ -396,5 +396,41 @@ TEST_F(Cli, StereoOfTheApartmentsReference) {
   EXPECT_GT(swapped["inconsistency"]["mean"], 2 * with["inconsistency"]["mean"].get<double>()) << "the wrong images";
 }
 
+/// The ablation of figure 10: each part brings the eyes nearer to one another.
+TEST_F(Cli, EachPartOfStereoAoBringsTheEyesTogether) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("pair.exr"), "--size", "240x135", "--stereo", "0.065"}).status, 0);
+  const auto inconsistency = [&](const char* estimate, const char* reproject, const char* filter) {
+    const Result run = gloam({"run", "stereo-ao", path("pair.exr"), "-o", path("ao.exr"), "--set",
+                              fmt::format("estimate={}", estimate), "--set", fmt::format("reproject={}", reproject),
+                              "--set", fmt::format("filter={}", filter)});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const Result compared = gloam({"compare", "--stereo", path("ao.exr"), "--frame", path("pair.exr"), "--json", "-"});
+    EXPECT_EQ(compared.status, 0) << compared.err;
+    return compared.json()["inconsistency"]["mean"].get<double>();
+  };
+  const double a = inconsistency("mono", "off", "mono"), b = inconsistency("stereo", "off", "mono"),
+               c = inconsistency("stereo", "on", "mono"), d = inconsistency("stereo", "on", "stereo");
+  EXPECT_GT(a, b);
+  EXPECT_GT(b, c);
+  EXPECT_GT(c, d);
+  EXPECT_LT(d, 0.4 * a);
+  EXPECT_LT(inconsistency("stereo", "no-back-check", "stereo2d"), 0.4 * a);
+}
+
+TEST_F(Cli, StereoAoNeedsTwoViewsAndPoses) {
+  ASSERT_EQ(gloam({"capture", "plane", "-o", path("one.exr"), "--size", "32x18"}).status, 0);
+  const Result one = gloam({"run", "stereo-ao", path("one.exr"), "-o", path("ao.exr")});
+  EXPECT_EQ(one.status, 1);
+  EXPECT_EQ(one.lines_of_error(), 1) << one.err;
+  EXPECT_NE(one.err.find("--stereo IPD"), std::string::npos) << one.err;
+  ASSERT_EQ(gloam({"capture", "plane", "-o", path("two.exr"), "--size", "32x18", "--stereo", "0.1"}).status, 0);
+  const Result wrong = gloam({"run", "stereo-ao", path("two.exr"), "-o", path("ao.exr"), "--set", "primary=middle"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.lines_of_error(), 1) << wrong.err;
+  EXPECT_FALSE(std::filesystem::exists(path("ao.exr")));
+  // A filter for two eyes follows any estimate.
+  EXPECT_EQ(gloam({"run", "hbao+", path("two.exr"), "-o", path("ao.exr"), "--filter", "stereo-bilateral"}).status, 0);
+}
+
 }  // namespace
 }  // namespace gloam::test

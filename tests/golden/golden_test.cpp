@@ -39,23 +39,27 @@ struct Change {
   double values = 0, changed = 0, worst = 0;
 };
 
-Change change_of(const Frame& found, const Frame& expected) {
-  Change change;
-  for (const auto& [name, plane] : found.views[0].planes) {
-    const Plane* other = expected.views[0].find(name);
-    for (size_t i = 0; i < plane.channels.size(); ++i) {
-      for (int y = 0; y < found.height(); ++y) {
-        for (int x = 0; x < found.width(); ++x) {
-          const float a = plane.channels[i].at(x, y), b = other->channels[i].at(x, y);
-          const double off = a == b                                 ? 0
-                             : std::isfinite(a) && std::isfinite(b) ? std::abs(double(a) - double(b))
-                                                                    : INFINITY;
-          ++change.values;
-          change.changed += off > per_value;
-          change.worst = std::max(change.worst, off);
-        }
+void add_change(Change& change, const Plane& found, const Plane& expected) {
+  for (size_t i = 0; i < found.channels.size(); ++i) {
+    const Layout& layout = found.channels[i].layout();
+    for (int y = 0; y < layout.height; ++y) {
+      for (int x = 0; x < layout.width; ++x) {
+        const float a = found.channels[i].at(x, y), b = expected.channels[i].at(x, y);
+        const double off = a == b                                 ? 0
+                           : std::isfinite(a) && std::isfinite(b) ? std::abs(double(a) - double(b))
+                                                                  : INFINITY;
+        ++change.values;
+        change.changed += off > per_value;
+        change.worst = std::max(change.worst, off);
       }
     }
+  }
+}
+
+Change change_of(const Frame& found, const Frame& expected) {
+  Change change;
+  for (size_t i = 0; i < found.views.size(); ++i) {
+    for (const auto& [name, plane] : found.views[i].planes) add_change(change, plane, *expected.views.at(i).find(name));
   }
   return change;
 }

@@ -77,6 +77,7 @@ namespace {
 /// A second view that shows the same from the same place: what holds for one view holds for both.
 void add_second_view(Frame& frame) {
   View& first = frame.views.front();
+  if (first.name.empty()) first.name = "first";
   if (!first.camera->pose) first.camera->pose = Pose{};
   View second{.name = "second", .camera = first.camera, .origin = first.origin, .planes = {}};
   for (const auto& [name, plane] : first.planes) second.planes.emplace(name, plane.clone());
@@ -136,18 +137,24 @@ std::vector<std::string> unit_interval_outputs(const Plan& plan) {
   return planes;
 }
 
-bool same_bits(const Frame& a, const Frame& b) {
-  if (plane_names(a) != plane_names(b) || a.width() != b.width() || a.height() != b.height()) return false;
-  for (const auto& [name, plane] : a.views[0].planes) {
-    const Plane& other = *b.views[0].find(name);
-    for (size_t i = 0; i < plane.channels.size(); ++i) {
-      for (int y = 0; y < a.height(); ++y) {
-        if (std::memcmp(plane.channels[i].row(y), other.channels[i].row(y), size_t(a.width()) * sizeof(float)) != 0)
-          return false;
-      }
+bool same_bits(const Plane& a, const Plane& b) {
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    const Layout& layout = a.channels[i].layout();
+    for (int y = 0; y < layout.height; ++y) {
+      if (std::memcmp(a.channels[i].row(y), b.channels[i].row(y), size_t(layout.width) * sizeof(float)) != 0)
+        return false;
     }
   }
   return true;
+}
+
+bool same_bits(const Frame& a, const Frame& b) {
+  if (plane_names(a) != plane_names(b) || a.width() != b.width() || a.height() != b.height()) return false;
+  return a.views.size() == b.views.size() &&
+         std::equal(a.views.begin(), a.views.end(), b.views.begin(), [](const View& one, const View& other) {
+           return std::all_of(one.planes.begin(), one.planes.end(),
+                              [&](const auto& named) { return same_bits(named.second, *other.find(named.first)); });
+         });
 }
 
 Difference difference(const Plane& a, const Plane& b) {
@@ -170,19 +177,22 @@ Difference difference(const Plane& a, const Plane& b) {
 
 Difference difference(const Frame& a, const Frame& b) {
   Difference worst;
-  for (const auto& [name, plane] : a.views[0].planes) {
-    const Difference d = difference(plane, *b.views[0].find(name));
-    worst.max = std::max(worst.max, d.max);
-    worst.mean = std::max(worst.mean, d.mean);
+  for (size_t i = 0; i < a.views.size(); ++i) {
+    for (const auto& [name, plane] : a.views[i].planes) {
+      const Difference d = difference(plane, *b.views.at(i).find(name));
+      worst.max = std::max(worst.max, d.max);
+      worst.mean = std::max(worst.mean, d.mean);
+    }
   }
   return worst;
 }
 
-std::string violation(const Frame& frame) {
-  for (const auto& [name, plane] : frame.views[0].planes) {
+std::string violation(const View& view) {
+  for (const auto& [name, plane] : view.planes) {
     const PlaneKind kind = plane_kind(name);
-    for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) {
+    const Layout& layout = plane.channels[0].layout();
+    for (int y = 0; y < layout.height; ++y) {
+      for (int x = 0; x < layout.width; ++x) {
         for (const Channel& channel : plane.channels) {
           if (!allowed(kind.meaning, channel.at(x, y)))
             return fmt::format("{} = {} at ({}, {})", name, channel.at(x, y), x, y);
@@ -193,6 +203,13 @@ std::string violation(const Frame& frame) {
         }
       }
     }
+  }
+  return "";
+}
+
+std::string violation(const Frame& frame) {
+  for (const View& view : frame.views) {
+    if (const std::string found = violation(view); !found.empty()) return found;
   }
   return "";
 }
