@@ -39,7 +39,7 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("instance", {""}, {"instance"}, 0, K::value, "identity of the instance seen"),
       kind("peel_count", {""}, {"peel.count"}, 0, K::value, "how many surfaces lie under the pixel centre"),
       kind("outline_count", {""}, {"outline.count"}, 0, K::value, "signed crossings in front of the surface"),
-      kind("seen_by_both", {""}, {"both"}, 0, K::unit_interval, "1 where both of two eyes see the surface"),
+      kind("seen_by_both", {""}, {"both"}, 0, K::value, "1 where both of two eyes see the surface"),
       kind("mask", {""}, {"mask"}, 0, K::unit_interval, "where an effect is wanted"),
       kind("motion", {"x", "y"}, {"motion.X", "motion.Y"}, 0, K::value, "pixels, current to previous frame, y down"),
       kind("ao", {""}, {"AO"}, 1, K::unit_interval, "ambient occlusion; 1 is open"),
