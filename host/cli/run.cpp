@@ -134,15 +134,20 @@ std::string pictured(const Plan& plan) {
   return is_stack(first) ? layer_name(first, 0) : first;
 }
 
-/// What the output carries besides the results: depth and cameras, so that `compare` knows the background by itself.
+/// What the output carries besides the results: depth and cameras, so that `compare` knows the background by itself; of two
+/// views normals too, so that `compare --stereo` knows the edges.
 void carry_over(Frame& from, Frame& to, bool bare) {
+  std::vector<std::string> carried = {"depth"};
+  if (from.views.size() == 2) carried.push_back("normal");
   for (View& view : to.views) {
     if (bare) {
       view.camera.reset();
       continue;
     }
     std::map<std::string, Plane>& given = from.view(view.name).planes;
-    if (!view.find("depth") && given.count("depth")) view.planes["depth"] = std::move(given["depth"]);
+    for (const std::string& plane : carried) {
+      if (!view.find(plane) && given.count(plane)) view.planes[plane] = std::move(given[plane]);
+    }
   }
 }
 
@@ -255,7 +260,7 @@ void add_run(CLI::App& app) {
   command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
       ->type_name("A,B");
   command->add_option("--picture", flags->picture, "the first output as a picture for people")->type_name("OUT.png");
-  command->add_flag("--bare", flags->bare, "leave depth and cameras out of OUT.exr");
+  command->add_flag("--bare", flags->bare, "leave depth, normals and cameras out of OUT.exr");
   command->add_flag("--half", flags->half, "write AO as half instead of float");
   command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")
       ->type_name("NAME");
