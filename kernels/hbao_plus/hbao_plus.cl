@@ -132,8 +132,9 @@ static inline __attribute__((always_inline)) real obscurance_around(Frame f, Par
                          c.index + index_near_short(f, dx - IOTA, dy), by_both);
   const integer x = clamp(c.column + dx, (integer)(0), (integer)(f.width - 1));
   const integer y = clamp(c.row + dy, (integer)(0), (integer)(f.height - 1));
-  const real found = obscurance_at(f, params, layers, r, to_real(x) - r.point.x, to_real(y) - r.point.y, FRAME_GUARD,
-                                   y * f.pitch + x, by_both);
+  // As above where it lies inside, to the last bit: lanes must not depend on one another.
+  const real found = obscurance_at(f, params, layers, r, to_real(x - c.column) + c.left, to_real(y - c.row) + c.up, 0,
+                                   FRAME_GUARD + y * f.pitch + x, by_both);
   const mask is_inside = to_mask((x == c.column + dx) & (y == c.row + dy));
   *by_both &= is_inside;
   // At the border a sample may come down to the point's own pixel, of which only rounding is left.

@@ -30,6 +30,7 @@ static inline real squared_distance_on_screen(Frame f, real3 p, real x, real y) 
   const real dy = f.centre_y - (scalar)0.5 - p.y * lateral * ((scalar)1 / f.scale_y) - y;
   return choose(p.z < 0, dx * dx + dy * dy, REAL_INFINITY);
 }
+
 // Whether both eyes see the surface at depth z of each pixel of the row: projected to the other eye, and what that sees at its
 // nearest pixel back again, it comes to lie within `back_check` pixels.
 static inline mask seen_by_both_eyes(Frame frame, Neighbour neighbour, scalar back_check, real z, PLANE other_depth) {

@@ -44,7 +44,9 @@ static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame
                           value_at(f, planes.normal_z, &b->pixels, i, j, in_a_row));
     const real near = (i ? x : 1 - x) * (j ? y : 1 - y);
     const real weight = near * same_surface(plane, f, step, depth, n);
-    b->weights[k] = choose(is_background(depth), (real)(0), weight);
+    const mask is_inside = to_mask((to_natural(b->pixels.column + i) < (natural)((uint)f.width)) &
+                                   (to_natural(b->pixels.row + j) < (natural)((uint)f.height)));
+    b->weights[k] = choose(is_inside & !is_background(depth), weight, (real)(0));
   }
 }
 

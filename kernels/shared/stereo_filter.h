@@ -3,12 +3,12 @@
 // blend, 0.5 + blend, W / (W + W*)): the eye that sees more of the surface decides, and both eyes decide alike.
 //
 // The paper filters the other eye's pixels anew around each of this eye's. Here each eye filters its own once, and F* and W*
-// are fetched between the other's pixels, as far as they show the surface: a third of the work. Its step ends at one half, so
+// are fetched between the other's pixels, as far as they show the surface: half the work. Its step ends at one half, so
 // that each eye keeps its own value of what both see alike; one about one half gives both eyes the same.
 //
 // bilateral_weighted  in : source, source_weights, depth, normal  source_weights: of the pass before (WITH_SOURCE_WEIGHTS)
 //                     out: result, result_weights                 F and W
-// stereo_blend        in : source, source_weights, depth, normal, and the other eye's but for the normal
+// stereo_blend        in : source, source_weights, depth, normal  of this eye, and the same of the other
 //                     out: result                                 1 on background
 // -D COLUMNS, ROWS
 #ifndef GLOAM_STEREO_FILTER_H
@@ -19,10 +19,8 @@
 
 #if WITH_SOURCE_WEIGHTS
 #define SOURCE_WEIGHTS_ARGUMENT PLANE source_weights,
-#define SOURCE_WEIGHTS source_weights
 #else
 #define SOURCE_WEIGHTS_ARGUMENT
-#define SOURCE_WEIGHTS 0
 #endif
 
 kernel void bilateral_weighted(Frame frame, Params params, PLANE source, SOURCE_WEIGHTS_ARGUMENT PLANE depth,

@@ -2,9 +2,11 @@
 //
 // stereo_visibility   in : depth, other_depth  view-space z of either eye, scene units, +inf = background
 //                     out: stereo_depth        negative where both eyes see the surface
-// stereo_reproject    in : depth, other_depth  as left by stereo_visibility;  other  the other eye's result, 0 to 1
-//                     out: result              what the other eye found where both see the surface, 1 on background;
-//                          newly_visible       what is left to be computed (pixel_list.h)
+// stereo_reproject    in : depth, other_depth    as left by stereo_visibility
+//                          normal, other_normal  unit, view space
+//                          other                 the other eye's result, 0 to 1
+//                     out: result                what the other eye found where both see the surface; else 1
+//                          newly_visible         what is left to be computed (pixel_list.h)
 // -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST (stereo_visibility empties it)
 #ifndef GLOAM_STEREO_PASSES_H
 #define GLOAM_STEREO_PASSES_H

@@ -256,6 +256,20 @@ TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
   }
 }
 
+/// The list's order and what lies beside a pixel in its row of lanes are of no matter.
+TEST(Stereo, TheSameWithAnyNumberOfLanesAndEveryTime) {
+  const Frame frame = captured("courtyard", 0.2);
+  for (const Variant& v : variants()) {
+    const Plan plan = make_plan({.outputs = {"stereo-ao"}, .settings = v.settings}, plane_names(frame), "the frame");
+    const Frame first = run(plan, frame, device(), precise).frame;
+    for (const int lanes : usual_lanes(device())) {
+      RunOptions options = precise;
+      options.lanes = lanes;
+      EXPECT_TRUE(same_bits(first, run(plan, frame, device(), options).frame)) << v.name << ", " << lanes << " lanes";
+    }
+  }
+}
+
 /// Eyes a hair apart see what one does; eyes of which neither sees what the other does are two single ones.
 TEST(Stereo, AnyDistanceBetweenTheEyesIsFine) {
   for (const double distance : {1e-6, 1e4}) {
