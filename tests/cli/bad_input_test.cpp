@@ -72,11 +72,11 @@ TEST_F(Cli, EmptyArgumentsAndNumbersThatAreNone) {
 
 TEST_F(Cli, FiltersThatDoNotFit) {
   expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "normals"}), 2,
-                 {"normals", "bilateral, gaussian and none"});
+                 {"normals", "bilateral, gaussian, stereo-bilateral and none"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "hbao+"}), 2,
-                 {"hbao+", "bilateral, gaussian and none"});
+                 {"hbao+", "bilateral, gaussian, stereo-bilateral and none"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "foo"}), 2,
-                 {"--filter foo", "bilateral, gaussian and none"});
+                 {"--filter foo", "bilateral, gaussian, stereo-bilateral and none"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--filter", "bilatral"}), 2,
                  {"--filter bilatral", "did you mean 'bilateral'"});
   expect_refused(gloam({"run", "normals", loggia, "-o", path("n.exr"), "--filter", "bilateral"}), 2,

@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 
 #include <cmath>
+#include <set>
 
 #include "gloam_process.h"
 #include "support/frames.h"
@@ -458,15 +459,22 @@ TEST_F(Cli, TheFrameThatTellsTheBackgroundMayStartElsewhereOrReachFarther) {
   }
 }
 
+/// A parameter of a flag's name is set by --set, and its help says so.
 TEST_F(Cli, NoParameterHidesAFlag) {
   const std::string help = gloam({"run", "--help"}).out;
+  std::set<std::string> hidden;
   for (const Json& technique : gloam({"list", "techniques", "--json", "-"}).json()) {
+    const std::string own = gloam({"run", technique["name"].get<std::string>(), "--help"}).out;
     for (const Json& p : technique["parameters"]) {
-      const std::string flag = "--" + p["name"].get<std::string>();
-      EXPECT_EQ(help.find("\n  " + flag + " "), std::string::npos)
-          << technique["name"] << ": " << flag << " is a flag of run";
+      const std::string name = p["name"];
+      if (help.find("\n  --" + name + " ") == std::string::npos) continue;
+      hidden.insert(name);
+      EXPECT_NE(own.find("\n  --set " + name + " "), std::string::npos) << technique["name"] << ": " << name;
     }
   }
+  EXPECT_EQ(hidden, std::set<std::string>{"filter"});
+  const Json plan = gloam({"plan", "hbao+", loggia, "--filter", "none", "--json", "-"}).json();
+  EXPECT_EQ(plan["passes"].size(), 1) << plan;
 }
 
 TEST_F(Cli, HelpOfARunShowsTheTechniquesParameters) {
