@@ -1,6 +1,23 @@
 #include "gloam/ambient_occlusion.h"
 
 namespace gloam {
+namespace {
+
+Pass bilateral_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows) {
+  return {.name = name,
+          .kernel = "bilateral",
+          .reads = {{"source", from}, "depth", "normal"},
+          .writes = {{"result", to}},
+          .defines = {{"COLUMNS", columns}, {"ROWS", rows}}};
+}
+
+}  // namespace
+
+std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& result) {
+  if (is_square) return {bilateral_pass("square", "ao_raw", result, half_width, half_width)};
+  return {bilateral_pass("horizontal", "ao_raw", "ao_filtered_across", half_width, 0),
+          bilateral_pass("vertical", "ao_filtered_across", result, 0, half_width)};
+}
 
 Technique ambient_occlusion(std::string name, std::string summary, std::string paper, std::string source) {
   return {.name = std::move(name),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gloam/ambient_occlusion.h"
+
 namespace gloam {
 namespace {
 
@@ -52,20 +54,6 @@ Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& 
   return pass;
 }
 
-Pass filter_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows) {
-  return {.name = name,
-          .kernel = "bilateral",
-          .reads = {{"source", from}, "depth", "normal"},
-          .writes = {{"result", to}},
-          .defines = {{"COLUMNS", columns}, {"ROWS", rows}}};
-}
-
-std::vector<Pass> filter_of_one_eye(Filter filter, int taps, const std::string& to) {
-  if (filter == Filter::stereo2d) return {filter_pass("square", "ao_raw", to, taps, taps)};
-  return {filter_pass("horizontal", "ao_raw", "ao_filtered_across", taps, 0),
-          filter_pass("vertical", "ao_filtered_across", to, 0, taps)};
-}
-
 /// Each pass leaves the sum of its weights too, times that of the one before.
 void keep_weights(std::vector<Pass>& passes) {
   for (size_t i = 0; i < passes.size(); ++i) {
@@ -93,8 +81,8 @@ Pass blend(const Pass& last) {
 }  // namespace
 
 std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
-  if (filter == Filter::mono) return filter_of_one_eye(filter, taps, "ao");
-  std::vector<Pass> passes = filter_of_one_eye(filter, taps, "ao_of_one_eye");
+  if (filter == Filter::mono) return bilateral_passes(taps, false, "ao");
+  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, "ao_of_one_eye");
   keep_weights(passes);
   passes.push_back(blend(passes.back()));
   return passes;

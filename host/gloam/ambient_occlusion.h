@@ -37,6 +37,10 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
           .defines = std::move(defines)};
 }
 
+/// The cross-bilateral filter (shared/bilateral_filter.h) from "ao_raw" to `result`, along rows and then columns, or over all
+/// taps of a square at once. `half_width`: taps on either side, pixels.
+std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& result);
+
 /// The same technique with every layer of the peeled depth as an occluder: "dp-" before its name, and its estimate reads
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);

@@ -53,4 +53,11 @@ static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
   return s;
 }
 
+// What the row of pixels that the work-item computes shows, at depth z.
+static inline Projection project_row(Frame f, Neighbour n, real z) {
+  const mask is_surface = !is_background(z);
+  return project_into(n, position_at(f, to_real(FIRST_X + IOTA), (real)(ROW_Y), choose(is_surface, z, (real)(1))),
+                      is_surface);
+}
+
 #endif

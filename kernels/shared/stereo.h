@@ -35,8 +35,7 @@ static inline real squared_distance_on_screen(Frame f, real3 p, real x, real y) 
 // nearest pixel back again, it comes to lie within `back_check` pixels.
 static inline mask seen_by_both_eyes(Frame frame, Neighbour neighbour, scalar back_check, real z, PLANE other_depth) {
   const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);
-  const Projection there =
-      project_into(neighbour, position_at(frame, x, y, choose(is_background(z), (real)(1), z)), !is_background(z));
+  const Projection there = project_row(frame, neighbour, z);
   mask is_known;
   const real3 p = seen_there(neighbour, there, gather(other_depth, nearest_index(neighbour.frame, there)), &is_known);
   return is_known & (squared_distance_on_screen(frame, p, x, y) <= back_check * back_check);

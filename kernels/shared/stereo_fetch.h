@@ -50,14 +50,11 @@ static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame
   }
 }
 
-// Of the row of pixels that the work-item computes, at depth z. `distance`, `angle`: tangent_plane_at.
-static inline __attribute__((always_inline)) void between_pixels(Frame frame, Neighbour neighbour, real z, real3 normal,
+// Around where the other eye shows a surface. `normal`: its, in this eye's space; `distance`, `angle`: tangent_plane_at.
+static inline __attribute__((always_inline)) void between_pixels(Neighbour neighbour, Projection there, real3 normal,
                                                                  scalar distance, scalar angle, SurfacePlanes planes,
                                                                  Between* b) {
   const Frame other = neighbour.frame;
-  const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);
-  const Projection there =
-      project_into(neighbour, position_at(frame, x, y, choose(is_background(z), (real)(1), z)), !is_background(z));
   b->share = (real)(0);
   b->is_known = there.is_seen;
   b->in_a_row = 0;

@@ -57,9 +57,9 @@ kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANE 
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here), own = load(source, here), own_weight = load(source_weights, here);
   Between b;
-  between_pixels(frame, neighbour, z, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
-                 params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
-                 &b);
+  between_pixels(neighbour, project_row(frame, neighbour, z), load3(normal_x, normal_y, normal_z, here),
+                 params.depth_tolerance * params.radius, params.normal_tolerance,
+                 surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z), &b);
   real open = own;
   if (ANY(b.is_known)) {
     const real weight = b.share * fetch_between(&b, neighbour.frame, other_weights);

@@ -41,9 +41,8 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
                              PLANE other_normal_y, PLANE other_normal_z, PLANE other, PLANE_OUT result,
                              PIXEL_LIST_OUT newly_visible) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y), stored_depth = load(depth, here), z = fabs(stored_depth);
-  const Projection there =
-      project_into(neighbour, position_at(frame, x, y, choose(is_background(z), (real)(1), z)), !is_background(z));
+  const real stored_depth = load(depth, here), z = fabs(stored_depth);
+  const Projection there = project_row(frame, neighbour, z);
 #if NO_BACK_CHECK
   const real depth_there = fabs(gather(other_depth, nearest_index(neighbour.frame, there)));
   const mask is_found = there.is_seen & (fabs(depth_there - there.depth) < SAME_DEPTH * there.depth);
@@ -51,7 +50,7 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
   const mask is_found = is_shared(stored_depth);
 #endif
   Between b;
-  between_pixels(frame, neighbour, z, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
+  between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
                  params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
                  &b);
   real found = (real)(1);
