@@ -34,7 +34,8 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
           .kernel = std::move(kernel),
           .reads = {"depth", "normal"},
           .writes = {"ao_raw"},
-          .defines = std::move(defines)};
+          .defines = std::move(defines),
+          .looks_around = true};
 }
 
 /// The cross-bilateral filter (shared/bilateral_filter.h) from "ao_raw" to `result`, along rows and then columns, or over all

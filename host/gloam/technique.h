@@ -50,6 +50,8 @@ struct Pass {
   int scale = 1;
   /// The view that it runs on, by number; -1: on every one. Passes that read what it makes run there too.
   int view = -1;
+  /// Each pixel reads many others at some distance: launched in an order that keeps these in the cache.
+  bool looks_around = false;
 };
 
 /// A named set of parameter values.
