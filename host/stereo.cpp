@@ -16,7 +16,17 @@ Pass visibility(const StereoChoices& c) {
             .reads = {"depth", of_other({"other_depth", "depth"})},
             .writes = {"stereo_depth"}};
   if (c.reproject) pass.writes.push_back("newly_visible");
+  if (c.near_half_occluded()) pass.writes.push_back("half_occluded");
   return pass;
+}
+
+/// Of the eye that the other one's estimate looks at.
+Pass half_occlusion(const StereoChoices& c) {
+  return {.name = "half-occlusion",
+          .kernel = "stereo_half_occlusion",
+          .reads = {{"depth", "stereo_depth"}},
+          .writes = {"half_occluded"},
+          .view = c.reproject ? 1 - c.primary : -1};
 }
 
 /// Of both eyes: the same planes of the other one, but for the normals.
@@ -92,6 +102,10 @@ std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, c
   std::vector<Pass> passes;
   if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
   passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
+  if (c.near_half_occluded()) {
+    passes.back().reads.push_back(of_other({"other_half_occluded", "half_occluded"}));
+    passes.insert(passes.end() - 1, half_occlusion(c));
+  }
   if (c.reproject) {
     passes.back().view = c.primary;
     passes.push_back(reprojection(c));
@@ -104,7 +118,9 @@ std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, c
       if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
         pass.defines.push_back(define);
     }
-    pass.defines.insert(pass.defines.end(), {{"STEREO", 1}, {"WITH_PIXEL_LIST", c.reproject}});
+    pass.defines.insert(
+        pass.defines.end(),
+        {{"STEREO", 1}, {"WITH_PIXEL_LIST", c.reproject}, {"WITH_HALF_OCCLUSION", c.near_half_occluded()}});
   }
   return passes;
 }

@@ -16,12 +16,14 @@ struct StereoChoices {
   enum class Filter { mono, stereo, stereo2d } filter = Filter::stereo;
   int primary = 0;  ///< the view that is estimated first
   int half_width = 0;
+  bool everywhere = false;  ///< look at the other eye for every pixel, not only near what it alone sees
+  bool near_half_occluded() const { return estimate_both && !everywhere; }
 };
 
 /// The passes of a technique for two eyes. `estimate`: for one eye, from "depth" and "normal" (the first two that it reads)
 /// to "ao_raw". The kernel of both eyes is called `both`, that for a list of pixels `both`_list: their arguments are the
 /// estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth, the list, and the same planes of the other
-/// eye but for normals.
+/// eye but for normals; the first also takes HALF_OCCLUDED_ARGUMENT (shared/half_occlusion.h).
 std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, const StereoChoices& choices);
 
 /// The filter alone, from "ao_raw" to "ao". Kernels: shared/bilateral_filter.h, shared/stereo_filter.h.
@@ -36,6 +38,7 @@ StereoChoices stereo_choices(const Params& p) {
   c.filter = StereoChoices::Filter(p.filter);
   c.primary = p.primary;
   c.half_width = p.half_width;
+  c.everywhere = p.other_eye == Params::other_eye_values::everywhere;
   return c;
 }
 

@@ -8,7 +8,8 @@
 //      other_depth, occluders  of the other view, at a resolution of their own (hbao_plus_other_view)
 //      own        what hbao_plus_estimate found
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
-// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, MULTIVIEW
+// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED,
+//    MULTIVIEW, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "estimators/obscurance.h"
 #include "hbao_plus/params.h"
 #include "shared/fan.h"
@@ -29,6 +30,7 @@ typedef HbaoPlusParams Params;
 #include "shared/neighbour.h"
 #endif
 #if STEREO
+#include "shared/half_occlusion.h"
 #include "shared/stereo_passes.h"
 #ifdef COLUMNS
 #include "shared/bilateral_filter.h"
@@ -144,18 +146,23 @@ static inline __attribute__((always_inline)) real obscurance_around(Frame f, Par
 }
 #endif
 
-#if MULTIVIEW
-static inline real sum_around(Frame other, Params params, DepthLayers layers, Receiver r, Fan fan) {
-  const Centre centre = centre_of(other, r.point);
+#if MULTIVIEW || STEREO
+// What one view shows around a point that need not lie on a pixel.
+static inline __attribute__((always_inline)) real sum_around(Frame f, Params params, DepthLayers layers, Receiver r,
+                                                             Fan fan, int within) {
+  const Centre centre = centre_of(f, r.point);
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
     mask by_both;
-    for (int k = 0; k < STEPS; ++k)
-      sum += obscurance_around(other, params, layers, r, centre, fan, k, SAMPLES_CLAMPED, &by_both);
+#pragma unroll 4
+    for (int k = 0; k < STEPS; ++k) sum += obscurance_around(f, params, layers, r, centre, fan, k, within, &by_both);
     turn(&fan);
   }
   return sum;
 }
+#endif
+
+#if MULTIVIEW
 
 // Algorithm 3: of both views the one that occludes more.
 kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
@@ -169,7 +176,8 @@ kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params
   if (ANY(there.is_seen)) {
     const Receiver r = receiver_of(other, params.radius, params.max_reach, there.x, there.y, there.depth,
                                    rotated(neighbour, here.normal));
-    const real sum = sum_around(other, params, LAYERS_FROM(other, other_depth), r, fan_of(r.reach, here.noise));
+    const real sum =
+        sum_around(other, params, LAYERS_FROM(other, other_depth), r, fan_of(r.reach, here.noise), SAMPLES_CLAMPED);
     open = choose(there.is_seen, smaller(open_of(params, sum), open), open);
   }
   store_open(open, here, ao_raw);
@@ -202,25 +210,31 @@ static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame
   return sum;
 }
 
-// The estimate for one point of each lane.
+static inline real3 position_of(Frame f, Receiver r) {
+  return position_at(f, r.point.x, r.point.y, choose(r.point.background, (real)(1), r.depth));
+}
+
+// The estimate for one point of each lane. `may_differ`: for which the other eye is looked at.
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
-                                DepthLayers other_layers, Receiver here, Noise noise) {
+                                DepthLayers other_layers, Receiver here, Noise noise, mask may_differ) {
   const Frame other = neighbour.frame;
-  const mask is_surface = !here.point.background;
-  const Projection seen = project_into(
-      neighbour, position_at(frame, here.point.x, here.point.y, choose(is_surface, here.depth, (real)(1))), is_surface);
 #if ESTIMATE_MONO
-  const mask is_seen = (mask)(0);
-#else
-  const mask is_seen = seen.is_seen;
+  may_differ = (mask)(0);
 #endif
+  const int is_inside = frame.pitch < SHORT_PITCH && reaches_only_inside(frame, here.point, here.reach);
+  const Projection seen = project_into(neighbour, position_of(frame, here), (!here.point.background) & may_differ);
+  const mask is_seen = seen.is_seen;
+  if (!ANY(is_seen)) {
+    const Fan fan = fan_of(here.reach, noise);
+    return open_of(params, is_inside ? sum_around(frame, params, layers, here, fan, SAMPLES_INSIDE)
+                                     : sum_around(frame, params, layers, here, fan, SAMPLES_CLAMPED));
+  }
   // Lanes that the other eye does not see read what is there at the same place, and make nothing of it.
   const Receiver there = receiver_of(other, params.radius, params.max_reach, choose(is_seen, seen.x, here.point.x),
                                      choose(is_seen, seen.y, here.point.y), choose(is_seen, seen.depth, here.depth),
                                      rotated(neighbour, here.normal));
   real sum;
-  if (frame.pitch < SHORT_PITCH && reaches_only_inside(frame, here.point, here.reach) &&
-      reaches_only_inside(other, there.point, there.reach))
+  if (is_inside && reaches_only_inside(other, there.point, there.reach))
     sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, noise, SAMPLES_INSIDE);
   else
     sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, noise, SAMPLES_CLAMPED);
@@ -229,15 +243,15 @@ static inline real open_to_both(Frame frame, Neighbour neighbour, Params params,
 
 kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
                              PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PLANE other_depth,
-                             OTHER_OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+                             OTHER_OCCLUDERS_ARGUMENT HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(FIRST_X + IOTA), (real)(ROW_Y),
                                  fabs(load(depth, here)), load3(normal_x, normal_y, normal_z, here));
   real open = (real)(1);
   if (ANY(!r.point.background))
-    open =
-        open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
-                     OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, noise_at(FIRST_X + IOTA, ROW_Y, frame.seed));
+    open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, noise_at(FIRST_X + IOTA, ROW_Y, frame.seed),
+                        MAY_DIFFER(neighbour, position_of(frame, r), params.radius));
   store(choose(r.point.background, (real)(1), open), ao_raw, here);
 }
 
@@ -252,7 +266,7 @@ kernel void hbao_plus_stereo_list(Frame frame, Neighbour neighbour, Params param
                                  fabs(gather(depth, index)), gather3(normal_x, normal_y, normal_z, index));
   scatter(
       open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth), OTHER_LAYERS_FROM(neighbour.frame, other_depth),
-                   r, noise_of(to_natural(x), to_natural(y), frame.seed)),
+                   r, noise_of(to_natural(x), to_natural(y), frame.seed), EVERY_LANE),
       ao_raw, index);
 }
 #endif

@@ -36,7 +36,8 @@ static inline void append_pixels(PIXEL_LIST_OUT list, int here, mask which) {
 // image. Lanes for which nothing is left have the first lane's pixel.
 static inline int pixels_of_item(PIXEL_LIST list, Frame f, integer* index) {
   global const int* entries = (global const int*)list;
-  const int first = ROW_Y * f.pitch + FIRST_X, count = entries[0];
+  // Down the columns of items: devices hand out the image row by row, and the first rows would get all there is to do.
+  const int first = FIRST_X * f.height + ROW_Y * LANES, count = entries[0];
   if (first >= count) return 0;
   entries += FRAME_GUARD + first;
 #if LANES == 1

@@ -7,10 +7,13 @@
 //                          other                 the other eye's result, 0 to 1
 //                     out: result                what the other eye found where both see the surface; else 1
 //                          newly_visible         what is left to be computed (pixel_list.h)
-// -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST (stereo_visibility empties it)
+// stereo_half_occlusion in : depth           as left by stereo_visibility
+//                       out: half_occluded   where what this eye alone sees may matter (half_occlusion.h)
+// -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST, WITH_HALF_OCCLUSION (stereo_visibility empties these)
 #ifndef GLOAM_STEREO_PASSES_H
 #define GLOAM_STEREO_PASSES_H
 
+#include "shared/half_occlusion.h"
 #include "shared/pixel_list.h"
 #include "shared/stereo.h"
 #include "shared/stereo_fetch.h"
@@ -20,17 +23,33 @@
 #else
 #define PIXEL_LIST_OUT_ARGUMENT
 #endif
+#if WITH_HALF_OCCLUSION
+#define HALF_OCCLUDED_OUT_ARGUMENT , PLANE_OUT half_occluded
+#else
+#define HALF_OCCLUDED_OUT_ARGUMENT
+#endif
 
 kernel void stereo_visibility(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE other_depth,
-                              PLANE_OUT stereo_depth PIXEL_LIST_OUT_ARGUMENT) {
+                              PLANE_OUT stereo_depth PIXEL_LIST_OUT_ARGUMENT HALF_OCCLUDED_OUT_ARGUMENT) {
 #if WITH_PIXEL_LIST
   if (FIRST_X == 0 && ROW_Y == 0) empty_list(newly_visible);
 #endif
   const int here = index_of(frame, FIRST_X, ROW_Y);
+#if WITH_HALF_OCCLUSION
+  empty_cells(half_occluded, frame, here);
+#endif
   const real z = load(depth, here);
   const mask is_seen = seen_by_both_eyes(frame, neighbour, params.back_check, z, other_depth);
   store(stereo_depth_of(z, is_seen), stereo_depth, here);
 }
+
+#if WITH_HALF_OCCLUSION
+kernel void stereo_half_occlusion(Frame frame, Params params, PLANE depth, PLANE_OUT half_occluded) {
+  const real z = fabs(load(depth, index_of(frame, FIRST_X, ROW_Y)));
+  mark_around_all(half_occluded, frame, position_at(frame, to_real(FIRST_X + IOTA), (real)(ROW_Y), z), params.radius,
+                  is_half_occluded(depth, frame));
+}
+#endif
 
 #if WITH_PIXEL_LIST
 // Without a back-check what the other eye sees only has to be as far away as the pixel's surface.

@@ -74,6 +74,7 @@ std::vector<Variant> variants() {
           {"C", {{"estimate", "stereo"}, {"reproject", "on"}, {"filter", "mono"}}},
           {"D", {{"estimate", "stereo"}, {"reproject", "on"}, {"filter", "stereo"}}},
           {"E", {{"estimate", "mono"}, {"reproject", "on"}, {"filter", "mono"}}},
+          {"everywhere", {{"other_eye", "everywhere"}}},
           {"square", {{"filter", "stereo2d"}}},
           {"no back-check", {{"reproject", "no-back-check"}}}};
 }
@@ -140,7 +141,8 @@ TEST(Stereo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
 /// The second eye takes what the first found, or estimates by itself what both eyes show: pixel by pixel one of the two.
 TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
   const Frame frame = captured("courtyard", 0.2);
-  const Frame by_itself = run_on("stereo-ao", frame, {{"reproject", "off"}}), taken = run_on("stereo-ao", frame);
+  const Frame by_itself = run_on("stereo-ao", frame, {{"reproject", "off"}, {"other_eye", "everywhere"}}),
+              taken = run_on("stereo-ao", frame, {{"other_eye", "everywhere"}});
   EXPECT_TRUE(same(channel_of(by_itself, 0, "ao_raw"), channel_of(taken, 0, "ao_raw")));
   const Frame seen = run_on("stereo-visibility", frame);
   const Channel &own = channel_of(by_itself, 1, "ao_raw"), &result = channel_of(taken, 1, "ao_raw"),
@@ -172,6 +174,63 @@ TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(taken_over, estimated);
   EXPECT_GT(estimated, frame.width() * frame.height() / 100);
+}
+
+/// What a perspective camera shows at a pixel's centre, in its space.
+glm::dvec3 point_of(const Camera& c, int x, int y, double depth) {
+  return {(x + 0.5 - c.cx) / c.fx * depth, (c.cy - (y + 0.5)) / c.fy * depth, -depth};
+}
+
+/// What the right eye alone sees, two pixels of a row at least, in the space of the left one.
+std::vector<glm::dvec3> half_occluded(const Frame& frame, double distance) {
+  const Frame seen = run_on("stereo-visibility", frame);
+  const Channel &shared = channel_of(seen, 1, "seen_by_both"), &depth = channel_of(frame, 1, "depth");
+  const auto is_alone = [&](int x, int y) { return x >= 0 && x < frame.width() && shared.at(x, y) == 0; };
+  std::vector<glm::dvec3> points;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (!is_alone(x, y) || std::isinf(depth.at(x, y)) || !(is_alone(x - 1, y) || is_alone(x + 1, y))) continue;
+      points.push_back(point_of(*frame.views[1].camera, x, y, depth.at(x, y)) + glm::dvec3(distance, 0, 0));
+    }
+  }
+  return points;
+}
+
+/// Within the radius of what the other eye alone sees it is as if that were looked at everywhere; far from it, but for a few
+/// pixels that share a place in the table, the eye's own estimate is left.
+TEST(Stereo, LooksAtTheOtherEyeWhereItMayDiffer) {
+  constexpr double distance = 0.1;
+  const Frame frame = captured("colonnade", distance);
+  const Channel& depth = channel_of(frame, 0, "depth");
+  const std::vector<glm::dvec3> hidden = half_occluded(frame, distance);
+  const Channel mono = channel_of(run_on("hbao+", frame, {{"radius", "0.2"}}), 0, "ao_raw").clone();
+  const auto with = [&](const char* other_eye) {
+    const Settings settings = {{"radius", "0.2"}, {"other_eye", other_eye}};
+    return channel_of(run_on("stereo-ao", frame, settings), 0, "ao_raw").clone();
+  };
+  const Channel near = with("near"), everywhere = with("everywhere");
+  long long within = 0, missed = 0, beyond = 0, spared = 0, changed = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (std::isinf(depth.at(x, y))) continue;
+      const glm::dvec3 point = point_of(*frame.views[0].camera, x, y, depth.at(x, y));
+      double nearest = INFINITY;
+      for (const glm::dvec3& p : hidden) nearest = std::min(nearest, glm::distance(p, point));
+      if (nearest < 0.199) {
+        ++within;
+        missed += near.at(x, y) != everywhere.at(x, y);
+        changed += near.at(x, y) != mono.at(x, y);
+      } else if (nearest > 0.2 * 2 * std::sqrt(3)) {  // two cells from corner to corner
+        ++beyond;
+        spared += near.at(x, y) == mono.at(x, y);
+      }
+    }
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_GT(changed, within / 2);
+  EXPECT_GT(double(spared), 0.9 * double(beyond));
+  EXPECT_GT(within, 1000);
+  EXPECT_GT(beyond, 1000);
 }
 
 /// A wall at depth 4, and before it a screen at depth 2 that ends at x = 0 of either eye's middle.
