@@ -158,6 +158,7 @@ Json document_of(const PaperTime& t) {
           {"column", t.column},
           {"ms", t.ms},
           {"ratio", number(t.ratio)},
+          {"paper_ms", number(t.paper_ms)},
           {"paper_ratio", number(t.paper_ratio)},
           {"base", t.base}};
 }

@@ -25,10 +25,11 @@ struct Grid {
 };
 
 std::string text_of(const PaperTime& t) {
-  std::string text = fmt::format("{:.1f} ms", t.ms);
+  std::string text = fmt::format("{:.{}f} ms", t.ms, t.ms < 10 ? 2 : 1), paper;
   if (t.ratio) text += fmt::format(", {:.2f}", *t.ratio);
-  if (t.paper_ratio) text += fmt::format(" ({:.2f})", *t.paper_ratio);
-  return text;
+  if (t.paper_ms) paper += fmt::format("{:.2f} ms", *t.paper_ms);
+  if (t.paper_ratio) paper += fmt::format(", {:.2f}", *t.paper_ratio);
+  return paper.empty() ? text : fmt::format("{} ({})", text, paper);
 }
 
 std::string text_of(const PaperFact& f) {

@@ -16,6 +16,7 @@ struct PaperTime {
   std::string table, row, column;
   double ms = 0;                      ///< median of the rounds
   std::optional<double> ratio;        ///< to `base`, median of the rounds' ratios; none for the base itself
+  std::optional<double> paper_ms;     ///< the paper's own, on its device
   std::optional<double> paper_ratio;  ///< the same of the paper's own figures
   std::string base;                   ///< what the ratio is to
 };

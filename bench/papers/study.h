@@ -27,6 +27,7 @@ struct Asked {
   Settings settings;
   int resolution = 1;
   std::string plane = "ao_raw";
+  bool operator==(const Asked&) const = default;
 };
 
 Asked with(Asked asked, const std::string& name, const std::string& value);
