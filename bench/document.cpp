@@ -224,6 +224,7 @@ Json document_of(const PaperResult& result, const PaperOptions& options, const D
   document.update({{"rounds", options.rounds},
                    {"width", options.width},
                    {"height", options.height},
+                   {"rays", options.rays},
                    {"results", Json::array()},
                    {"paper", list_of(result.times)},
                    {"facts", list_of(result.facts)},

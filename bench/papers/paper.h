@@ -47,6 +47,7 @@ struct PaperOptions {
   /// Told of what takes long; may be empty.
   std::function<void(const std::string& what, double share_done)> progress;
 };
+  int rays = 256;  ///< per pixel, of truths that are traced
 
 struct Paper {
   std::string name;   ///< as users type it: "vermeer2021"
@@ -54,6 +55,7 @@ struct Paper {
   std::function<PaperResult(Device&, const PaperOptions&)> reproduce;
 };
 
+  int rays;           ///< where nothing else is asked for
 /// All papers that can be measured again.
 const std::vector<Paper>& papers();
 

@@ -55,12 +55,21 @@ Plane Study::image(const Stage& s, const Asked& asked) const {
 }
 
 Plane Study::truth(const Stage& s, const Technique* like) const {
-  AoReferenceOptions rays{.radius = s.radius, .samples = 256};
+  AoReferenceOptions rays{.samples = options_.rays};
   if (like)
+Image Study::images(const Stage& s, const Asked& asked) const {
+  return image_of(run(plan_of(s, asked), s.frame, device_).frame, asked.plane);
+}
+
+Image Study::traced(const Stage& s, AoReferenceOptions rays) const {
+  rays.radius = s.radius;
+  return image_of(ao_reference(*s.tracer, s.frame, rays).frame, "ao");
+}
+
     rays.contribution = [like, defaults = ParameterValues(like->parameters)](double cosine, double distance) {
       return like->contribution(defaults, cosine, distance);
     };
-  return std::move(ao_reference(*s.tracer, s.frame, rays).frame.views[0].planes.at("ao"));
+  return std::move(traced(s, rays).at(s.frame.views[0].name));
 }
 
 double Study::error(const Stage& s, const Plane& test, const Plane& truth) const {

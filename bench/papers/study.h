@@ -72,7 +72,13 @@ class Study {
   /// The plane of the first view.
   Plane image(const Stage& s, const Asked& asked) const;
 
-  /// AO of the first view from 256 rays per pixel; of `like`, with that technique's own falloff.
+  /// The plane of each view.
+  Image images(const Stage& s, const Asked& asked) const;
+
+  /// AO of each view from so many rays per pixel.
+  Image traced(const Stage& s, AoReferenceOptions rays) const;
+
+  /// AO of the first view from `PaperOptions::rays`; of `like`, with that technique's own falloff.
   Plane truth(const Stage& s, const Technique* like = nullptr) const;
 
   /// RMSE over the surfaces of the first view.
