@@ -21,6 +21,9 @@ struct PaperTime {
   std::string base;                   ///< what the ratio is to
 };
 
+/// Of a difference between two eyes, a mean over pixels (gloam/stereo_consistency.h).
+inline constexpr const char* inconsistency_unit = "mean inconsistency times 100 000";
+
 /// A figure that is no time: an error, a share. Many belong to what the paper shows in pictures only.
 struct PaperFact {
   std::string figure, row, column;
@@ -44,18 +47,18 @@ struct PaperOptions {
   std::filesystem::path folder;  ///< for pictures; there
   int width = 1920, height = 1080;
   int rounds = 9;
+  int rays = 256;  ///< per pixel, of truths that are traced
   /// Told of what takes long; may be empty.
   std::function<void(const std::string& what, double share_done)> progress;
 };
-  int rays = 256;  ///< per pixel, of truths that are traced
 
 struct Paper {
   std::string name;   ///< as users type it: "vermeer2021"
   std::string title;  ///< authors and year
+  int rays;           ///< where nothing else is asked for
   std::function<PaperResult(Device&, const PaperOptions&)> reproduce;
 };
 
-  int rays;           ///< where nothing else is asked for
 /// All papers that can be measured again.
 const std::vector<Paper>& papers();
 

@@ -44,6 +44,9 @@ struct Stage {
   Foreground surfaces;
 };
 
+/// "1920x1080"
+std::string size_of(const Stage& s);
+
 /// What of a scene is captured: depth, normal and so many peeled layers.
 struct Shot {
   std::string scene;
@@ -51,6 +54,7 @@ struct Shot {
   Settings settings = {};  ///< of the scene
   int camera = 0;
   std::optional<double> second_view = {};  ///< degrees
+  std::optional<double> eyes_apart = {};   ///< two eyes in the camera's place, scene units
 };
 
 class Study {
@@ -64,8 +68,8 @@ class Study {
   /// In the size of tables.
   Stage timed_stage(const Shot& shot) const { return stage(shot, options_.width, options_.height); }
 
-  /// A quarter of the pixels, at least: errors and pictures do not need more.
-  Stage small_stage(const Shot& shot) const;
+  /// One `divisor`-th of the width and of the height: errors and pictures do not need more.
+  Stage small_stage(const Shot& shot, int divisor = 2) const;
 
   Plan plan_of(const Stage& s, const Asked& asked) const;
 
@@ -83,6 +87,9 @@ class Study {
 
   /// RMSE over the surfaces of the first view.
   double error(const Stage& s, const Plane& test, const Plane& truth) const;
+
+  /// RMSE over the surfaces of every view.
+  double error(const Stage& s, const Image& test, const Image& truth) const { return rmse(test, truth, s.surfaces); }
 
   /// Mean over the surfaces of the first view of what AO takes away.
   double mean_taken(const Stage& s, const Plane& ao) const;
