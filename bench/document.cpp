@@ -158,6 +158,7 @@ Json document_of(const PaperTime& t) {
           {"column", t.column},
           {"ms", t.ms},
           {"ratio", number(t.ratio)},
+          {"paper_ms", number(t.paper_ms)},
           {"paper_ratio", number(t.paper_ratio)},
           {"base", t.base}};
 }
@@ -223,6 +224,7 @@ Json document_of(const PaperResult& result, const PaperOptions& options, const D
   document.update({{"rounds", options.rounds},
                    {"width", options.width},
                    {"height", options.height},
+                   {"rays", options.rays},
                    {"results", Json::array()},
                    {"paper", list_of(result.times)},
                    {"facts", list_of(result.facts)},

@@ -41,7 +41,9 @@ double TimedPlan::run() {
   for (Pass& pass : passes_) {
     double ms = 0;  // of all views that it ran on
     for (const PassTime& time : result.passes) {
-      if (time.name == pass.name) ms += time.ms.back();
+      if (time.name != pass.name) continue;
+      ms += time.ms.back();
+      pass.of_views[time.view].push_back(time.ms.back());
     }
     pass.ms.push_back(ms);
   }

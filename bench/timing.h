@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ class TimedPlan {
   double first_view_ms() const { return first_view_ms_; }
 
   struct Pass {
-    std::string name;  ///< "hbao+/estimate"
-    Series ms;         ///< one per call of `run`, the sum over views
+    std::string name;                        ///< "hbao+/estimate"
+    Series ms;                               ///< one per call of `run`, the sum over views
+    std::map<std::string, Series> of_views;  ///< the same by the view's name, of those that it runs on
   };
   const std::vector<Pass>& passes() const { return passes_; }
   const Plan& plan() const { return plan_; }

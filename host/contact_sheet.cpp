@@ -292,10 +292,7 @@ bool comes_from_image_of(Look look) { return look == Look::direction || look == 
 cv::Mat colours_of(const Tile& tile, const std::vector<Range>& ranges) {
   cv::Mat image(tile.layout().height, tile.layout().width, CV_8UC3);
   const bool ready = comes_from_image_of(tile.look);
-  if (ready) {
-    image = image_of(*tile.plane);
-    if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
-  }
+  if (ready) image = coloured(*tile.plane);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       if (tile.is_background(x, y)) continue;  // drawn as background

@@ -96,6 +96,12 @@ cv::Mat image_of(const Plane& plane) {
   return plane.channels.size() == 1 ? grey_image(plane.channels[0]) : colour_image(plane);
 }
 
+cv::Mat coloured(const Plane& plane) {
+  cv::Mat image = image_of(plane);
+  if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
+  return image;
+}
+
 void write_png(const std::filesystem::path& path, const cv::Mat& image) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     png_image png = header_of(image);

@@ -28,6 +28,9 @@ double srgb(double v);
 /// 0..1 through sRGB. A missing component is 0. CV_8UC1 or CV_8UC3.
 cv::Mat image_of(const Plane& plane);
 
+/// The same with three channels always, CV_8UC3: grey is red, green and blue alike.
+cv::Mat coloured(const Plane& plane);
+
 /// CV_8UC1, CV_8UC2 (grey and alpha, not multiplied by it) or CV_8UC3, written atomically. Throws Error naming `path`.
 void write_png(const std::filesystem::path& path, const cv::Mat& image);
 

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
+#include "inconsistency_image.h"
 #include "picture.h"
 
 namespace gloam {
@@ -13,12 +13,6 @@ namespace {
 /// Blue, green, red. What does not count is this at half strength over the plane: it stays dark where that is dark, and
 /// purple where that is bright.
 const cv::Vec3d purple(200, 40, 150);
-
-cv::Mat coloured(const Plane& plane) {
-  cv::Mat image = image_of(plane);
-  if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
-  return image;
-}
 
 cv::Vec3b toned(const cv::Vec3b& colour) {
   cv::Vec3b out;
@@ -37,8 +31,7 @@ std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& l
 
 }  // namespace
 
-void write_inconsistency_picture(const std::filesystem::path& path, const Plane& shown, const StereoErrors& errors,
-                                 double magnify) {
+cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, double magnify) {
   cv::Mat image = coloured(shown), background(image.size(), CV_8UC1);
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
@@ -51,7 +44,12 @@ void write_inconsistency_picture(const std::filesystem::path& path, const Plane&
   }
   image.setTo(background_tone, background);
   hatch(image, background, 1);
-  write_png(path, image);
+  return image;
+}
+
+void write_inconsistency_picture(const std::filesystem::path& path, const Plane& shown, const StereoErrors& errors,
+                                 double magnify) {
+  write_png(path, inconsistency_image(shown, errors, magnify));
 }
 
 void write_anaglyph(const std::filesystem::path& path, const Plane& left, const Plane& right) {

@@ -1,8 +1,9 @@
 #include "panels.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
+#include "inconsistency_image.h"
 #include "picture.h"
 
 namespace gloam::bench {
@@ -11,10 +12,8 @@ namespace {
 constexpr PanelLimits limits{240, 640, 640};
 constexpr int gap = 12, label_height = 26;
 
-cv::Mat coloured(const Plane& plane) {
-  cv::Mat image = image_of(plane);
-  if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
-  return image;
+cv::Mat shown(const Panel& panel) {
+  return panel.errors ? inconsistency_image(panel.plane, *panel.errors, error_magnification) : coloured(panel.plane);
 }
 
 }  // namespace
@@ -30,7 +29,7 @@ void write_panels(const std::filesystem::path& path, const std::vector<Panel>& p
     const int x = gap + int(i) % columns * across, y = gap + int(i) / columns * down;
     const Style style{10, ink, true};
     put_text(canvas, shortened(panels[i].label, size.box, style), {x, y + 16}, style);
-    const cv::Mat colours = coloured(panels[i].plane), nothing = cv::Mat::zeros(colours.size(), CV_8UC1);
+    const cv::Mat colours = shown(panels[i]), nothing = cv::Mat::zeros(colours.size(), CV_8UC1);
     put_panel(canvas, colours, nothing, {x, y + label_height}, size.image, 1);
   }
   write_png(path, canvas);

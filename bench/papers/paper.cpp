@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "document.h"
 #include "lists.h"
 #include "report/markdown_text.h"
+#include "shi2022.h"
 #include "vermeer2021.h"
 
 namespace gloam::bench {
@@ -24,16 +26,21 @@ struct Grid {
   }
 };
 
+/// After the point, of units for which four are too many.
+const std::map<std::string, int> digits_of_units = {{inconsistency_unit, 1}, {"pixels of 100 000", 1}, {"dB", 2}};
+
 std::string text_of(const PaperTime& t) {
-  std::string text = fmt::format("{:.1f} ms", t.ms);
+  std::string text = fmt::format("{:.{}f} ms", t.ms, t.ms < 10 ? 2 : 1), paper;
   if (t.ratio) text += fmt::format(", {:.2f}", *t.ratio);
-  if (t.paper_ratio) text += fmt::format(" ({:.2f})", *t.paper_ratio);
-  return text;
+  if (t.paper_ms) paper += fmt::format("{:.2f} ms", *t.paper_ms);
+  if (t.paper_ratio) paper += fmt::format(", {:.2f}", *t.paper_ratio);
+  return paper.empty() ? text : fmt::format("{} ({})", text, paper);
 }
 
 std::string text_of(const PaperFact& f) {
   if (f.unit == "share") return fmt::format("{:.1f} %", 100 * f.value);
-  return fmt::format("{:.4f}", f.value);
+  const auto digits = digits_of_units.find(f.unit);
+  return fmt::format("{:.{}f}", f.value, digits == digits_of_units.end() ? 4 : digits->second);
 }
 
 template <typename Entry>
@@ -72,7 +79,7 @@ void add_tables(std::string& text, const std::vector<Entry>& entries, std::strin
 }  // namespace
 
 const std::vector<Paper>& papers() {
-  static const std::vector<Paper> all = {vermeer2021()};
+  static const std::vector<Paper> all = {vermeer2021(), shi2022()};
   return all;
 }
 

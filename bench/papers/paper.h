@@ -16,9 +16,13 @@ struct PaperTime {
   std::string table, row, column;
   double ms = 0;                      ///< median of the rounds
   std::optional<double> ratio;        ///< to `base`, median of the rounds' ratios; none for the base itself
+  std::optional<double> paper_ms;     ///< the paper's own, on its device
   std::optional<double> paper_ratio;  ///< the same of the paper's own figures
   std::string base;                   ///< what the ratio is to
 };
+
+/// Of a difference between two eyes, a mean over pixels (gloam/stereo_consistency.h).
+inline constexpr const char* inconsistency_unit = "mean inconsistency times 100 000";
 
 /// A figure that is no time: an error, a share. Many belong to what the paper shows in pictures only.
 struct PaperFact {
@@ -43,6 +47,7 @@ struct PaperOptions {
   std::filesystem::path folder;  ///< for pictures; there
   int width = 1920, height = 1080;
   int rounds = 9;
+  int rays = 256;  ///< per pixel, of truths that are traced
   /// Told of what takes long; may be empty.
   std::function<void(const std::string& what, double share_done)> progress;
 };
@@ -50,6 +55,7 @@ struct PaperOptions {
 struct Paper {
   std::string name;   ///< as users type it: "vermeer2021"
   std::string title;  ///< authors and year
+  int rays;           ///< where nothing else is asked for
   std::function<PaperResult(Device&, const PaperOptions&)> reproduce;
 };
 

@@ -25,6 +25,8 @@ Asked filtered(Asked asked) {
   return asked;
 }
 
+std::string size_of(const Stage& s) { return fmt::format("{}x{}", s.frame.width(), s.frame.height()); }
+
 Stage Study::stage(const Shot& shot, int width, int height) const {
   Stage s;
   s.scene = load_scene(shot.scene, shot.settings);
@@ -33,13 +35,14 @@ Stage Study::stage(const Shot& shot, int width, int height) const {
   CaptureOptions capture{.width = width, .height = height, .planes = {"depth", "normal"}, .peel = shot.layers};
   capture.views = {{"", camera_for(s.scene.cameras.at(size_t(shot.camera)), width, height), {}}};
   capture.second_view = shot.second_view;
+  if (shot.eyes_apart) capture.stereo = StereoRig{.interpupillary_distance = *shot.eyes_apart};
   s.frame = gloam::capture(*s.tracer, capture).frame;
   s.surfaces = foreground(s.frame);
   return s;
 }
 
-Stage Study::small_stage(const Shot& shot) const {
-  return stage(shot, std::max(options_.width / 2, 16), std::max(options_.height / 2, 9));
+Stage Study::small_stage(const Shot& shot, int divisor) const {
+  return stage(shot, std::max(options_.width / divisor, 16), std::max(options_.height / divisor, 9));
 }
 
 Plan Study::plan_of(const Stage& s, const Asked& asked) const {
@@ -54,13 +57,22 @@ Plane Study::image(const Stage& s, const Asked& asked) const {
   return std::move(run(plan_of(s, asked), s.frame, device_).frame.views[0].planes.at(asked.plane));
 }
 
+Image Study::images(const Stage& s, const Asked& asked) const {
+  return image_of(run(plan_of(s, asked), s.frame, device_).frame, asked.plane);
+}
+
+Image Study::traced(const Stage& s, AoReferenceOptions rays) const {
+  rays.radius = s.radius;
+  return image_of(ao_reference(*s.tracer, s.frame, rays).frame, "ao");
+}
+
 Plane Study::truth(const Stage& s, const Technique* like) const {
-  AoReferenceOptions rays{.radius = s.radius, .samples = 256};
+  AoReferenceOptions rays{.samples = options_.rays};
   if (like)
     rays.contribution = [like, defaults = ParameterValues(like->parameters)](double cosine, double distance) {
       return like->contribution(defaults, cosine, distance);
     };
-  return std::move(ao_reference(*s.tracer, s.frame, rays).frame.views[0].planes.at("ao"));
+  return std::move(traced(s, rays).at(s.frame.views[0].name));
 }
 
 double Study::error(const Stage& s, const Plane& test, const Plane& truth) const {

@@ -27,6 +27,7 @@ struct Asked {
   Settings settings;
   int resolution = 1;
   std::string plane = "ao_raw";
+  bool operator==(const Asked&) const = default;
 };
 
 Asked with(Asked asked, const std::string& name, const std::string& value);
@@ -43,6 +44,9 @@ struct Stage {
   Foreground surfaces;
 };
 
+/// "1920x1080"
+std::string size_of(const Stage& s);
+
 /// What of a scene is captured: depth, normal and so many peeled layers.
 struct Shot {
   std::string scene;
@@ -50,6 +54,7 @@ struct Shot {
   Settings settings = {};  ///< of the scene
   int camera = 0;
   std::optional<double> second_view = {};  ///< degrees
+  std::optional<double> eyes_apart = {};   ///< two eyes in the camera's place, scene units
 };
 
 class Study {
@@ -63,19 +68,28 @@ class Study {
   /// In the size of tables.
   Stage timed_stage(const Shot& shot) const { return stage(shot, options_.width, options_.height); }
 
-  /// A quarter of the pixels, at least: errors and pictures do not need more.
-  Stage small_stage(const Shot& shot) const;
+  /// One `divisor`-th of the width and of the height: errors and pictures do not need more.
+  Stage small_stage(const Shot& shot, int divisor = 2) const;
 
   Plan plan_of(const Stage& s, const Asked& asked) const;
 
   /// The plane of the first view.
   Plane image(const Stage& s, const Asked& asked) const;
 
-  /// AO of the first view from 256 rays per pixel; of `like`, with that technique's own falloff.
+  /// The plane of each view.
+  Image images(const Stage& s, const Asked& asked) const;
+
+  /// AO of each view from so many rays per pixel.
+  Image traced(const Stage& s, AoReferenceOptions rays) const;
+
+  /// AO of the first view from `PaperOptions::rays`; of `like`, with that technique's own falloff.
   Plane truth(const Stage& s, const Technique* like = nullptr) const;
 
   /// RMSE over the surfaces of the first view.
   double error(const Stage& s, const Plane& test, const Plane& truth) const;
+
+  /// RMSE over the surfaces of every view.
+  double error(const Stage& s, const Image& test, const Image& truth) const { return rmse(test, truth, s.surfaces); }
 
   /// Mean over the surfaces of the first view of what AO takes away.
   double mean_taken(const Stage& s, const Plane& ao) const;

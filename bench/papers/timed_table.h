@@ -10,7 +10,7 @@
 
 namespace gloam::bench {
 
-/// One row of one column, and what of its passes counts.
+/// One row of one column, and what of its passes counts. Those that ask for the same of the same stage share their runs.
 struct Entry {
   std::string row, column;
   Asked asked;
@@ -18,6 +18,7 @@ struct Entry {
   std::optional<double> paper = {};  ///< milliseconds
   bool is_base = false;              ///< of its column, or of all where no other is
   std::function<bool(const std::string& pass)> counts = [](const std::string&) { return true; };
+  std::string view = {};  ///< that counts; empty: all
 };
 
 /// A part of the passes whose time is stated by itself too.

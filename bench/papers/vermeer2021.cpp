@@ -331,7 +331,7 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
 }  // namespace
 
 Paper vermeer2021() {
-  return {"vermeer2021", "Stochastic-Depth Ambient Occlusion (Vermeer, Scandolo, Eisemann 2021)", reproduce};
+  return {"vermeer2021", "Stochastic-Depth Ambient Occlusion (Vermeer, Scandolo, Eisemann 2021)", 256, reproduce};
 }
 
 }  // namespace gloam::bench

@@ -23,8 +23,8 @@ constexpr int peeled_layers = 8;
 constexpr size_t most_swept = 1000;
 
 struct BenchCommand {
-  std::string paper, folder, techniques, scenes, presets, frame, truth, size, rays = "256", radius, rounds = "9",
-                                                                              device, variants, ladder = "presets";
+  std::string paper, folder, techniques, scenes, presets, frame, truth, size, rays, radius,
+      rounds = "9", device, variants, ladder = "presets";
   std::vector<std::string> sweeps;
   bool no_growth = false, no_checks = false, no_images = false;
   FrameFlags frame_flags;
@@ -181,7 +181,7 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   std::tie(options.scene.width, options.scene.height) =
       parse_size(flags.size.empty() ? "960x540" : flags.size, "--size");
   options.scene.layers = peeled_layers;
-  options.scene.rays = parse_whole_number(flags.rays, "--rays", 1, 1 << 24);
+  if (!flags.rays.empty()) options.scene.rays = parse_rays(flags.rays);
   if (!flags.radius.empty()) options.scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
   options.scene.folder = std::filesystem::path(flags.folder) / "scenes";
   options.scene.progress = options.progress = show_status;
@@ -251,7 +251,7 @@ void print(const Measurement& result, const Options& options, const DeviceInfo& 
 
 void bench_command(const BenchCommand& flags) {
   if (!flags.paper.empty()) {
-    bench_paper({flags.paper, flags.folder, flags.size, flags.rounds, flags.device}, flags.json);
+    bench_paper({flags.paper, flags.folder, flags.size, flags.rounds, flags.rays, flags.device}, flags.json);
     return;
   }
   if (!make_openmp_wait_passively())
@@ -314,7 +314,10 @@ void add_bench(CLI::App& app) {
       command->add_option("--size", flags->size, "of the scenes' images; default 960x540, with --paper 1920x1080")
           ->type_name("WxH");
   frame->excludes(scenes)->excludes(size);
-  command->add_option("--rays", flags->rays, "per pixel, for truths that are traced; default 256")->type_name("N");
+  command
+      ->add_option("--rays", flags->rays,
+                   "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need")
+      ->type_name("N");
   command
       ->add_option("--radius", flags->radius,
                    "scene units; default: the truth's, else a built-in scene's own, else 0.5")
@@ -348,7 +351,7 @@ void add_bench(CLI::App& app) {
                        "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()))
           ->type_name("NAME");
   flags->frame_flags.add_to(*command);
-  const std::vector<std::string> shared = {"--output", "--size", "--rounds", "--device", "--help", "--paper"};
+  const std::vector<std::string> shared = {"--output", "--size", "--rounds", "--rays", "--device", "--help", "--paper"};
   for (CLI::Option* option : command->get_options()) {
     if (!contains(shared, option->get_name())) option->excludes(paper);
   }
@@ -361,7 +364,7 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/bench\n"
       "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
       "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
-      "  gloam bench -o out/vermeer2021 --paper vermeer2021\n"
+      "  gloam bench -o out/shi2022 --paper shi2022\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium");
   command->callback([flags] { bench_command(*flags); });
 }

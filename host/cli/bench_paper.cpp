@@ -35,9 +35,10 @@ std::vector<std::string> paper_names() {
 void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   const Paper& paper = find_paper(flags.paper);
   Device device(flags.device);
-  PaperOptions options{.folder = flags.folder, .progress = show_status};
+  PaperOptions options{.folder = flags.folder, .rays = paper.rays, .progress = show_status};
   if (!flags.size.empty()) std::tie(options.width, options.height) = parse_size(flags.size, "--size");
   options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
+  if (!flags.rays.empty()) options.rays = parse_rays(flags.rays);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
   if (error) throw Error("-o {}: cannot be made ({})", options.folder.string(), error.message());

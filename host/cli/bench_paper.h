@@ -9,7 +9,7 @@
 namespace gloam::cli {
 
 struct PaperFlags {
-  std::string paper, folder, size, rounds, device;
+  std::string paper, folder, size, rounds, rays, device;
 };
 
 std::vector<std::string> paper_names();

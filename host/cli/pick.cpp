@@ -150,7 +150,7 @@ void pick_command(const PickCommand& flags) {
   const ScratchFolder scratch;
   SceneOptions scene;
   scene.folder = scratch.path();
-  scene.rays = parse_whole_number(flags.rays, "--rays", 1, 1 << 24);
+  scene.rays = parse_rays(flags.rays);
   if (!flags.radius.empty()) scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
   scene.progress = show_status;
   Device device(flags.device);

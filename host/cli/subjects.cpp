@@ -93,6 +93,8 @@ void trace_truth(Subject& subject) {
 
 }  // namespace
 
+int parse_rays(const std::string& text) { return parse_whole_number(text, "--rays", 1, 1 << 24); }
+
 Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                         const SceneOptions& options) {
   Subject subject;

@@ -21,6 +21,9 @@ std::string no_ao(const Technique& technique);
 /// Why a technique is left out where nobody names it; empty for most.
 std::string needs_naming(const Technique& technique);
 
+/// --rays of the commands that measure. Throws UsageError.
+int parse_rays(const std::string& text);
+
 /// A built-in scene from its first camera, with its truth.
 bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                                const bench::SceneOptions& options);

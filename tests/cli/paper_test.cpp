@@ -4,6 +4,7 @@
 #include <map>
 
 #include "gloam_process.h"
+#include "unit/pictures.h"
 
 namespace gloam::test {
 namespace {
@@ -43,10 +44,104 @@ TEST_F(Cli, APaperIsMeasuredAgain) {
   EXPECT_TRUE(std::filesystem::exists(path("paper/vermeer2021.md")));
 }
 
+/// What a row of a table starts with, by column.
+std::map<std::string, double> sums(const Json& document, const std::string& table, const std::string& start,
+                                   const std::string& except) {
+  std::map<std::string, double> sums;
+  for (const Json& row : document["paper"]) {
+    const std::string name = row["row"];
+    if (row["table"].get<std::string>().rfind(table, 0) != 0 || name.rfind(start, 0) != 0 || name == except) continue;
+    sums[row["column"]] += row["ms"].get<double>();
+  }
+  return sums;
+}
+
+/// The values of a figure by row and column.
+std::map<std::string, std::map<std::string, double>> values_of(const Json& document, const std::string& figure) {
+  std::map<std::string, std::map<std::string, double>> values;
+  for (const Json& fact : document["facts"]) {
+    if (fact["figure"] == figure) values[fact["row"]][fact["column"]] = fact["value"];
+  }
+  return values;
+}
+
+/// How many pixels of the left and of the right half are purple: what does not count, over white.
+std::pair<int, int> purple_halves(const Picture& picture) {
+  std::pair<int, int> halves;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const Pixel p = picture.at(x, y);
+      if (p.r > p.g + 30 && p.b > p.r) ++(x < picture.width / 2 ? halves.first : halves.second);
+    }
+  }
+  return halves;
+}
+
+TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
+  const Result result = gloam({"bench", "--paper", "shi2022", "-o", path("paper"), "--size", "256x144", "--rounds", "1",
+                               "--rays", "100", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  EXPECT_EQ(document["rays"], 100);
+
+  // Of one round the passes add up to the total: all rows of a column have the same runs, and each pass its own eye.
+  std::map<std::string, Json> totals;
+  for (const Json& row : document["paper"]) {
+    EXPECT_GT(row["ms"], 0) << row;
+    if (row["row"] == "stereo: total") totals[row["table"].get<std::string>().substr(0, 7)][row["column"]] = row;
+  }
+  for (const std::string table : {"Table 1", "Table 2"}) {
+    for (const std::string kind : {"mono", "stereo"}) {
+      const auto parts = sums(document, table, kind, kind + ": total");
+      const auto total = sums(document, table, kind + ": total", "");
+      EXPECT_EQ(total.size(), 4) << table;
+      for (const auto& [column, ms] : total) EXPECT_NEAR(parts.at(column), ms, 1e-9 * ms) << table << kind << column;
+    }
+  }
+  const Json& total = totals["Table 1"]["329x365, full"];
+  EXPECT_EQ(total["paper_ms"], 10.72);
+  EXPECT_NEAR(total["paper_ratio"], 10.72 / 6.66, 1e-9);
+  EXPECT_TRUE(totals["Table 2"]["256x144, half"]["paper_ms"].is_null());
+
+  // Each step of the technique makes the eyes agree more, on every scene.
+  auto mean = values_of(document, "Figure 10, 256x144: mean inconsistency");
+  ASSERT_EQ(mean.size(), 5);
+  const auto letter = [&](const std::string& l) { return mean.lower_bound(l)->second; };
+  EXPECT_EQ(letter("A").size(), 4);
+  for (const auto& [scene, a] : letter("A")) {
+    EXPECT_LT(letter("B")[scene], a) << scene;
+    EXPECT_LT(letter("C")[scene], letter("B")[scene]) << scene;
+    EXPECT_LT(letter("D")[scene], 0.6 * letter("C")[scene]) << scene;
+  }
+  // 128 rays: a half is rounded up to 64. They are spread more evenly than independent ones.
+  auto noise = values_of(document, "Figure 10: noise of F");
+  EXPECT_EQ(noise.size(), 3);
+  for (auto& [scene, by] : noise) {
+    EXPECT_GT(by["half the difference of its halves"], 0) << scene;
+    EXPECT_LT(by["half the difference of its halves"], by["of independent rays, sqrt(p (1 - p) / rays)"]) << scene;
+  }
+  auto rays = values_of(document, "Figure 10: F with half of the rays, and with all");
+  for (auto& [scene, by] : rays) EXPECT_LT(by["all"], by["first half"]) << scene;
+
+  std::map<std::string, int> pictures;
+  for (const Json& picture : document["pictures"]) {
+    const std::string file = picture["file"];
+    ++pictures[file.substr(0, file.rfind('_'))];
+    EXPECT_TRUE(fs::exists(path("paper") / file)) << file;
+  }
+  EXPECT_EQ(pictures, (std::map<std::string, int>{{"figure_5", 4}, {"figure_9", 3}, {"figure_10", 3}}));
+  const auto [any, checked] = purple_halves(read_png(path("paper/figure_9_courtyard.png")));
+  EXPECT_GT(any, 0);
+  EXPECT_GT(checked, 2 * any);
+}
+
 TEST_F(Cli, OnlyPapersThatAreKnown) {
   const Result unknown = gloam({"bench", "--paper", "vermer2021", "-o", path("paper")});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_NE(unknown.err.find("did you mean 'vermeer2021'?"), std::string::npos) << unknown.err;
+  const Result other = gloam({"bench", "--paper", "shi2202", "-o", path("paper")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("did you mean 'shi2022'?"), std::string::npos) << other.err;
   const Result both = gloam({"bench", "--paper", "vermeer2021", "-o", path("paper"), "--techniques", "hbao"});
   EXPECT_EQ(both.status, 2);
   EXPECT_EQ(both.lines_of_error(), 1) << both.err;
