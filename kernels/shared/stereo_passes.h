@@ -5,7 +5,7 @@
 // stereo_reproject    in : depth, other_depth    as left by stereo_visibility
 //                          normal, other_normal  unit, view space
 //                          other                 the other eye's result, 0 to 1
-//                     out: result                what the other eye found where both see the surface; else 1
+//                     out: result                what the other eye found where both see the surface and it shows around; else 1
 //                          newly_visible         what is left to be computed (pixel_list.h)
 // stereo_half_occlusion in : depth           as left by stereo_visibility
 //                       out: half_occluded   where what this eye alone sees may matter (half_occlusion.h)
@@ -66,14 +66,16 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
   const real depth_there = fabs(gather(other_depth, nearest_index(neighbour.frame, there)));
   const mask is_found = there.is_seen & (fabs(depth_there - there.depth) < SAME_DEPTH * there.depth);
 #else
-  const mask is_found = is_shared(stored_depth);
+  mask is_found = is_shared(stored_depth);
 #endif
   Between b;
   between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
                  params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
                  &b);
   real found = (real)(1);
-  // What both eyes see may lie across an edge all the same.
+#if !NO_BACK_CHECK
+  is_found &= b.is_known;
+#endif
   if (ANY(is_found))
     found = choose(b.is_known, fetch_between(&b, neighbour.frame, other),
                    gather(other, nearest_index(neighbour.frame, there)));
