@@ -8,6 +8,7 @@
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "support/frames.h"
+#include "support/stereo.h"
 #include "support/techniques.h"
 
 namespace gloam::test {
@@ -25,8 +26,25 @@ std::filesystem::path file_of(const Technique& technique) {
   return std::filesystem::path(GLOAM_SOURCE_DIR) / "tests" / "golden" / (technique.name + ".exr");
 }
 
+/// What a technique of two views asks for, from two eyes that each see what the other does not.
+Frame two_eyes(const Technique& technique) {
+  Frame pair;
+  for (const double offset : {0.0, 0.3}) {
+    const Eye eye = eye_at(perspective(64, 48), {offset, 0, 0});
+    Frame frame = shoot(eye.shot, seen_by(eye.pose, room()));
+    plan_for(technique, frame);  // invents what is lacking
+    View& view = frame.views[0];
+    view.name = pair.views.empty() ? "left" : "right";
+    view.camera->pose = eye.pose;
+    pair.display = frame.display;
+    pair.window = frame.window;
+    pair.views.push_back(std::move(view));
+  }
+  return pair;
+}
+
 Frame result_of(const Technique& technique) {
-  Frame frame = shoot(perspective(64, 48), room());
+  Frame frame = technique.views == 2 ? two_eyes(technique) : shoot(perspective(64, 48), room());
   return outputs_of(technique, frame, {}, {.math = Math::precise, .seed = 1});
 }
 
