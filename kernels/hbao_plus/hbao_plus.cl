@@ -29,6 +29,7 @@ typedef HbaoPlusParams Params;
 #include "shared/neighbour.h"
 #endif
 #if STEREO
+#include "shared/stereo_estimate.h"
 #include "shared/stereo_passes.h"
 #ifdef COLUMNS
 #include "shared/bilateral_filter.h"
@@ -105,40 +106,19 @@ kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE no
 }
 
 #if MULTIVIEW || STEREO
-// A point that need not lie on a pixel, and the pixel nearest to it.
-typedef struct {
-  integer column, row, index;
-  real left, up;  // from the point to the pixel
-} Centre;
-
-static inline Centre centre_of(Frame f, Anchor point) {
-  Centre c;
-  c.column = nearest(point.x);
-  c.row = nearest(point.y);
-  c.index = FRAME_GUARD + c.row * f.pitch + c.column;
-  c.left = to_real(c.column) - point.x;
-  c.up = to_real(c.row) - point.y;
-  return c;
-}
-
-// What step k finds around it. `within`: SAMPLES_INSIDE, or SAMPLES_CLAMPED: samples outside the image are moved onto its border.
+// What step k finds around a point. `within`: place_around.
 static inline __attribute__((always_inline)) real obscurance_around(Frame f, Params params, DepthLayers layers,
                                                                     Receiver r, Centre c, Fan fan, int k, int within,
                                                                     mask* by_both) {
   integer dx, dy;
   step_at(fan, k, &dx, &dy);
-  if (within == SAMPLES_INSIDE)
-    return obscurance_at(f, params, layers, r, to_real(dx) + c.left, to_real(dy) + c.up, 0,
-                         c.index + index_near_short(f, dx - IOTA, dy), by_both);
-  const integer x = clamp(c.column + dx, (integer)(0), (integer)(f.width - 1));
-  const integer y = clamp(c.row + dy, (integer)(0), (integer)(f.height - 1));
-  // As above where it lies inside, to the last bit: lanes must not depend on one another.
-  const real found = obscurance_at(f, params, layers, r, to_real(x - c.column) + c.left, to_real(y - c.row) + c.up, 0,
-                                   FRAME_GUARD + y * f.pitch + x, by_both);
-  const mask is_inside = to_mask((x == c.column + dx) & (y == c.row + dy));
+  mask is_inside;
+  const integer place = place_around(f, c, within, &dx, &dy, &is_inside);
+  const real found = obscurance_at(f, params, layers, r, to_real(dx) + c.left, to_real(dy) + c.up, 0, place, by_both);
+  if (within == SAMPLES_INSIDE) return found;
   *by_both &= is_inside;
   // At the border a sample may come down to the point's own pixel, of which only rounding is left.
-  mask counts = to_mask((x != c.column) | (y != c.row));
+  mask counts = to_mask((dx != 0) | (dy != 0));
   if (OUTSIDE_OPEN) counts &= is_inside;
   return choose(counts, found, (real)(0));
 }
@@ -206,18 +186,8 @@ static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
                                 DepthLayers other_layers, Receiver here, Noise noise) {
   const Frame other = neighbour.frame;
-  const mask is_surface = !here.point.background;
-  const Projection seen = project_into(
-      neighbour, position_at(frame, here.point.x, here.point.y, choose(is_surface, here.depth, (real)(1))), is_surface);
-#if ESTIMATE_MONO
-  const mask is_seen = (mask)(0);
-#else
-  const mask is_seen = seen.is_seen;
-#endif
-  // Lanes that the other eye does not see read what is there at the same place, and make nothing of it.
-  const Receiver there = receiver_of(other, params.radius, params.max_reach, choose(is_seen, seen.x, here.point.x),
-                                     choose(is_seen, seen.y, here.point.y), choose(is_seen, seen.depth, here.depth),
-                                     rotated(neighbour, here.normal));
+  mask is_seen;
+  const Receiver there = receiver_there(frame, neighbour, params.radius, params.max_reach, here, &is_seen);
   real sum;
   if (frame.pitch < SHORT_PITCH && reaches_only_inside(frame, here.point, here.reach) &&
       reaches_only_inside(other, there.point, there.reach))
