@@ -92,15 +92,8 @@ std::vector<Pass> stereo_ao_passes(const StereoAoParams& p) {
 }
 
 Technique stereo_ao() {
-  Technique t = over_depth();
+  Technique t = over_two_eyes(over_depth(), StereoAoParams::table(), passes_of(stereo_ao_passes));
   t.name = "stereo-ao";
-  t.summary = "hbao+ for two eyes that agree on what both of them see";
-  t.paper = "Shi, Billeter, Eisemann 2022";
-  t.views = 2;
-  t.writes = t.outputs = {"ao", "ao_raw"};
-  t.then.clear();
-  t.parameters = StereoAoParams::table();
-  t.passes = passes_of(stereo_ao_passes);
   return t;
 }
 

@@ -53,6 +53,15 @@ double largest_difference(const Channel& a, const Channel& b) {
   return largest;
 }
 
+/// Share of the pixels that differ by more than rounding does where all samples stay in place.
+double changed_share(const Channel& a, const Channel& b) {
+  int changed = 0;
+  for (int y = 0; y < a.layout().height; ++y) {
+    for (int x = 0; x < a.layout().width; ++x) changed += !(std::abs(double(a.at(x, y)) - b.at(x, y)) < 2e-3);
+  }
+  return changed / (double(a.layout().width) * a.layout().height);
+}
+
 bool same(const Channel& a, const Channel& b) {
   for (int y = 0; y < a.layout().height; ++y) {
     for (int x = 0; x < a.layout().width; ++x) {
@@ -78,37 +87,59 @@ std::vector<Variant> variants() {
           {"no back-check", {{"reproject", "no-back-check"}}}};
 }
 
-TEST(Stereo, WithoutAnythingStereoItIsTheMonoTechnique) {
+/// A technique for two eyes, and what it is for one.
+struct Estimator {
+  const char *mono, *stereo;
+  /// Share of the pixels that rounding may change: of the estimate, where it moves a sample to the next pixel; of the filtered
+  /// image.
+  double may_change, may_change_filtered;
+};
+
+class StereoAo : public testing::TestWithParam<Estimator> {
+ protected:
+  std::string mono = GetParam().mono, stereo = GetParam().stereo;
+};
+
+INSTANTIATE_TEST_SUITE_P(, StereoAo,
+                         testing::Values(Estimator{"hbao+", "stereo-ao", 0, 0},
+                                         Estimator{"gtao", "stereo-gtao", 1e-3, 1e-2},
+                                         Estimator{"bitmask", "stereo-bitmask", 1e-3, 1e-2}),
+                         [](const auto& info) { return identifier(info.param.stereo); });
+
+TEST_P(StereoAo, WithoutAnythingStereoItIsTheMonoTechnique) {
   const Frame frame = captured("courtyard", 0.065);
-  const Frame mono = run_on("hbao+", frame), stereo = run_on("stereo-ao", frame, variants()[0].settings);
+  const Frame of_one = run_on(mono, frame), of_two = run_on(stereo, frame, variants()[0].settings);
   for (const size_t view : {0, 1}) {
     for (const std::string& plane : both_planes)
-      EXPECT_TRUE(same(channel_of(mono, view, plane), channel_of(stereo, view, plane))) << view << " " << plane;
+      EXPECT_TRUE(same(channel_of(of_one, view, plane), channel_of(of_two, view, plane))) << view << " " << plane;
   }
 }
 
 /// What rounding leaves of a point that is projected to where it is.
-TEST(Stereo, EyesInOnePlaceSeeWhatOneDoes) {
-  const Frame frame = captured("courtyard", 0), mono = run_on("hbao+", frame);
+TEST_P(StereoAo, EyesInOnePlaceSeeWhatOneDoes) {
+  const Frame frame = captured("courtyard", 0), of_one = run_on(mono, frame);
   for (const Variant& v : variants()) {
-    const Frame stereo = run_on("stereo-ao", frame, v.settings);
+    const Frame of_two = run_on(stereo, frame, v.settings);
     const bool is_square = std::string(v.name) == "square";
     for (const size_t view : {0, 1}) {
-      EXPECT_LT(largest_difference(channel_of(mono, view, "ao_raw"), channel_of(stereo, view, "ao_raw")), 2e-3)
+      EXPECT_LE(changed_share(channel_of(of_one, view, "ao_raw"), channel_of(of_two, view, "ao_raw")),
+                GetParam().may_change)
           << v.name;
       if (is_square) continue;
-      EXPECT_LT(largest_difference(channel_of(mono, view, "ao"), channel_of(stereo, view, "ao")), 2e-3) << v.name;
+      EXPECT_LE(changed_share(channel_of(of_one, view, "ao"), channel_of(of_two, view, "ao")),
+                GetParam().may_change_filtered)
+          << v.name;
     }
   }
 }
 
-TEST(Stereo, SwappedEyesAndPrimarySwapTheResult) {
+TEST_P(StereoAo, SwappedEyesAndPrimarySwapTheResult) {
   for (const double distance : {0.065, 0.5}) {
     const Frame frame = captured("courtyard", distance), other = swapped(frame);
     for (Variant v : variants()) {
-      const Frame first = run_on("stereo-ao", frame, v.settings);
+      const Frame first = run_on(stereo, frame, v.settings);
       v.settings.emplace_back("primary", "right");
-      const Frame second = run_on("stereo-ao", other, v.settings);
+      const Frame second = run_on(stereo, other, v.settings);
       for (const size_t view : {0, 1}) {
         for (const std::string& plane : both_planes)
           EXPECT_TRUE(same(channel_of(first, view, plane), channel_of(second, 1 - view, plane)))
@@ -119,18 +150,18 @@ TEST(Stereo, SwappedEyesAndPrimarySwapTheResult) {
 }
 
 /// An eye that sees nothing, or nothing that is a number.
-TEST(Stereo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
+TEST_P(StereoAo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
   for (const float depth : {INFINITY, NAN}) {
     for (const size_t blind : {0, 1}) {
       Frame frame = captured("courtyard", 0.065);
       Channel& blocked = frame.views[blind].planes.at("depth").channels[0];
       for (int y = 0; y < frame.height(); ++y) std::fill_n(blocked.row(y), frame.width(), depth);
-      const Frame mono = run_on("hbao+", frame);
+      const Frame of_one = run_on(mono, frame);
       for (const Variant& v : variants()) {
-        const Frame stereo = run_on("stereo-ao", frame, v.settings);
-        EXPECT_TRUE(same(channel_of(mono, 1 - blind, "ao_raw"), channel_of(stereo, 1 - blind, "ao_raw")))
+        const Frame of_two = run_on(stereo, frame, v.settings);
+        EXPECT_TRUE(same(channel_of(of_one, 1 - blind, "ao_raw"), channel_of(of_two, 1 - blind, "ao_raw")))
             << v.name << ", eye " << blind;
-        EXPECT_LT(largest_difference(channel_of(mono, 1 - blind, "ao_raw"), channel_of(stereo, 1 - blind, "ao_raw")),
+        EXPECT_LT(largest_difference(channel_of(of_one, 1 - blind, "ao_raw"), channel_of(of_two, 1 - blind, "ao_raw")),
                   1e-6);
       }
     }
@@ -138,9 +169,9 @@ TEST(Stereo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
 }
 
 /// The second eye takes what the first found, or estimates by itself what both eyes show: pixel by pixel one of the two.
-TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
+TEST_P(StereoAo, TheSecondEyeTakesOverOrEstimatesItself) {
   const Frame frame = captured("courtyard", 0.2);
-  const Frame by_itself = run_on("stereo-ao", frame, {{"reproject", "off"}}), taken = run_on("stereo-ao", frame);
+  const Frame by_itself = run_on(stereo, frame, {{"reproject", "off"}}), taken = run_on(stereo, frame);
   EXPECT_TRUE(same(channel_of(by_itself, 0, "ao_raw"), channel_of(taken, 0, "ao_raw")));
   const Frame seen = run_on("stereo-visibility", frame);
   const Channel &own = channel_of(by_itself, 1, "ao_raw"), &result = channel_of(taken, 1, "ao_raw"),
@@ -165,7 +196,8 @@ TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
         least = std::min(least, first.at(i, y));
         most = std::max(most, first.at(i, y));
       }
-      wrong += result.at(x, y) < least - 1e-6f || result.at(x, y) > most + 1e-6f;
+      // Rounding of the row leaves the one below a weight of a few millionths.
+      wrong += result.at(x, y) < least - 1e-5f || result.at(x, y) > most + 1e-5f;
     }
   }
   EXPECT_EQ(left.fx, right.fx);
@@ -210,7 +242,7 @@ TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
   EXPECT_GT(hidden_to - edge, 4);
 }
 
-TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
+TEST_P(StereoAo, APlaneIsOpenToEyesOfEveryPose) {
   const auto plane = [](const Pose& pose) {
     const glm::dvec3 point = pose.world_to_view * (glm::dvec3(0, 0, -4) - pose.position);
     const glm::dvec3 normal = pose.world_to_view * glm::normalize(glm::dvec3(0.2, 0.3, 1));
@@ -241,7 +273,7 @@ TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
     other.views[0].camera->pose = pose;
     frame.views.push_back(std::move(other.views[0]));
     for (const Variant& v : variants()) {
-      const Frame result = run_on("stereo-ao", frame, v.settings);
+      const Frame result = run_on(stereo, frame, v.settings);
       for (const size_t view : {0, 1}) {
         for (const std::string& name : both_planes) {
           const Channel& ao = channel_of(result, view, name);
@@ -257,10 +289,10 @@ TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
 }
 
 /// The list's order and what lies beside a pixel in its row of lanes are of no matter.
-TEST(Stereo, TheSameWithAnyNumberOfLanesAndEveryTime) {
+TEST_P(StereoAo, TheSameWithAnyNumberOfLanesAndEveryTime) {
   const Frame frame = captured("courtyard", 0.2);
   for (const Variant& v : variants()) {
-    const Plan plan = make_plan({.outputs = {"stereo-ao"}, .settings = v.settings}, plane_names(frame), "the frame");
+    const Plan plan = make_plan({.outputs = {stereo}, .settings = v.settings}, plane_names(frame), "the frame");
     const Frame first = run(plan, frame, device(), precise).frame;
     for (const int lanes : usual_lanes(device())) {
       RunOptions options = precise;
@@ -271,13 +303,13 @@ TEST(Stereo, TheSameWithAnyNumberOfLanesAndEveryTime) {
 }
 
 /// Eyes a hair apart see what one does; eyes of which neither sees what the other does are two single ones.
-TEST(Stereo, AnyDistanceBetweenTheEyesIsFine) {
+TEST_P(StereoAo, AnyDistanceBetweenTheEyesIsFine) {
   for (const double distance : {1e-6, 1e4}) {
-    const Frame frame = captured("courtyard", distance), mono = run_on("hbao+", frame);
+    const Frame frame = captured("courtyard", distance), of_one = run_on(mono, frame);
     for (const Variant& v : variants()) {
-      const Frame stereo = run_on("stereo-ao", frame, v.settings);
-      EXPECT_EQ(violation(stereo), "") << v.name << ", " << distance << " apart";
-      EXPECT_LT(largest_difference(channel_of(mono, 0, "ao_raw"), channel_of(stereo, 0, "ao_raw")), 2e-3)
+      const Frame of_two = run_on(stereo, frame, v.settings);
+      EXPECT_EQ(violation(of_two), "") << v.name << ", " << distance << " apart";
+      EXPECT_LE(changed_share(channel_of(of_one, 0, "ao_raw"), channel_of(of_two, 0, "ao_raw")), GetParam().may_change)
           << v.name << ", " << distance << " apart";
     }
   }
@@ -292,10 +324,10 @@ double mean_difference(const Channel& a, const Channel& b) {
 }
 
 /// Half the resolution changes it no more than it changes the mono technique.
-TEST(Stereo, WorksAtHalfResolution) {
+TEST_P(StereoAo, WorksAtHalfResolution) {
   const Frame frame = captured("courtyard", 0.065);
-  const Frame full = run_on("stereo-ao", frame), half = run_on("stereo-ao", frame, {}, 2);
-  const Frame mono_full = run_on("hbao+", frame), mono_half = run_on("hbao+", frame, {}, 2);
+  const Frame full = run_on(stereo, frame), half = run_on(stereo, frame, {}, 2);
+  const Frame mono_full = run_on(mono, frame), mono_half = run_on(mono, frame, {}, 2);
   for (const size_t view : {0, 1}) {
     const double change = mean_difference(channel_of(full, view, "ao"), channel_of(half, view, "ao"));
     EXPECT_LT(change, 1.1 * mean_difference(channel_of(mono_full, view, "ao"), channel_of(mono_half, view, "ao")));
