@@ -242,6 +242,45 @@ TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
   EXPECT_GT(hidden_to - edge, 4);
 }
 
+/// A wall that both eyes see, whole pixels apart, and before it a box that the right one alone sees.
+TEST_P(StereoAo, WhatOneEyeAloneSeesClosesForBoth) {
+  constexpr int width = 120, height = 80, disparity = 5;
+  constexpr double wall = 4;
+  const Shot shot = perspective(width, height);
+  const double fx = shot.camera.fx, cx = shot.camera.cx, cy = shot.camera.cy;
+  const auto is_box = [&](double x, double y) { return std::abs(x - 60) < 10 && std::abs(y - 40) < 10; };
+  Frame frame = shoot(shot, [](const EyeRay&) -> std::optional<Surface> { return Surface{wall, {0, 0, 1}}; });
+  Frame right = shoot(shot, [=](const EyeRay& ray) -> std::optional<Surface> {
+    const double per_depth = fx / -ray.direction.z;
+    const bool hit = is_box(cx + ray.direction.x * per_depth, cy - ray.direction.y * per_depth);
+    return Surface{hit ? 3.2 : wall, {0, 0, 1}};
+  });
+  frame.views[0].camera->pose = right.views[0].camera->pose = Pose{};
+  right.views[0].camera->pose->position.x = disparity * wall / fx;
+  frame.views[0].name = "left";
+  right.views[0].name = "right";
+  frame.views.push_back(std::move(right.views[0]));
+
+  const Settings where = {{"radius", "1.5"}, {"max_reach", "0.15"}, {"jitter", "off"}};
+  Settings by_both = where;
+  by_both.insert(by_both.end(), {{"reproject", "off"}, {"filter", "mono"}});
+  const Frame of_one = run_on(mono, frame, where), of_two = run_on(stereo, frame, by_both);
+  const Channel &truth = channel_of(of_one, 1, "ao_raw"), &of_left = channel_of(of_two, 0, "ao_raw"),
+                &of_right = channel_of(of_two, 1, "ao_raw");
+  int closed = 0;
+  constexpr int margin = 25;  // pixels from where samples leave an image
+  for (int y = margin; y < height - margin; ++y) {
+    for (int x = margin; x < width - margin; ++x) {
+      EXPECT_NEAR(of_right.at(x, y), truth.at(x, y), 1e-5) << x << ", " << y;
+      if (is_box(x + 0.5, y + 0.5)) continue;
+      EXPECT_NEAR(of_left.at(x + disparity, y), truth.at(x, y), 1e-5) << x << ", " << y;
+      EXPECT_EQ(channel_of(of_one, 0, "ao_raw").at(x, y), 1);
+      closed += truth.at(x, y) < 0.9;
+    }
+  }
+  EXPECT_GT(closed, 100);
+}
+
 TEST_P(StereoAo, APlaneIsOpenToEyesOfEveryPose) {
   const auto plane = [](const Pose& pose) {
     const glm::dvec3 point = pose.world_to_view * (glm::dvec3(0, 0, -4) - pose.position);
