@@ -298,8 +298,8 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 }
 
 #if STEREO
-// One slice of either eye, at the same angle about its own line to the point. Each eye's occluders lie in its own slice and are
-// measured there, as shares of its mass: moved into the other eye's slice they would lie beside it.
+// One slice as one eye sees it. Each eye has its own, at the same angle about its own line to the point, and measures in it what
+// it finds: there its samples lie. Moved into the other eye's slice they lie beside it, and the eyes agree less.
 typedef struct {
   Slice slice;
   Side right, left;
@@ -361,8 +361,9 @@ static inline Taken taken_by_either(Taken a, Taken b) {
 #endif
 }
 
-// What both eyes see is closed as each of them sees it: the mean counts. What one eye alone sees is closed for both (section
-// 3.1, where samples are combined one by one; of horizons and sectors the mean of all samples that both see is less noisy).
+// What both eyes see is closed as each of them sees it, and the mean counts; what one eye alone sees is closed for both. Section
+// 3.1 combines obscurance sample by sample; horizons combined so are too low, as two samples rarely meet the highest occluder
+// alike, and sectors of one eye alone leave twice the noise.
 static inline real closed_by_both(View* own, View* other, real sine, real other_sine, Side* side, Side* other_side) {
   const Taken alone = taken_by_either(taken_of(own->slice, sine, side->scale, &side->closed),
                                       taken_of(other->slice, other_sine, other_side->scale, &other_side->closed));
