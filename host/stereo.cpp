@@ -112,9 +112,11 @@ std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
   return passes;
 }
 
-std::vector<Pass> stereo_passes(Pass estimate, const std::string& both, const StereoChoices& c) {
+std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& c) {
+  Pass estimate = std::move(mono.back());
   estimate.extras.clear();
-  std::vector<Pass> passes;
+  mono.pop_back();
+  std::vector<Pass> passes = std::move(mono);
   if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
   passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
   if (c.reproject) {

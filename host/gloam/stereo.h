@@ -19,11 +19,11 @@ struct StereoChoices {
   int half_width = 0;
 };
 
-/// The passes of a technique for two eyes. `estimate`: for one eye, from "depth" and "normal" (the first two that it reads)
-/// to "ao_raw". The kernel of both eyes is called `both`, that for a list of pixels `both`_list: their arguments are the
-/// estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth, the list, and the same planes of the other
-/// eye but for normals. Extra planes are not made.
-std::vector<Pass> stereo_passes(Pass estimate, const std::string& both, const StereoChoices& choices);
+/// The passes of a technique for two eyes. `mono`: its passes for one eye up to the estimate, the last, which is from "depth"
+/// and "normal" (the first two that it reads) to "ao_raw". The kernel of both eyes is called `both`, that for a list of
+/// pixels `both`_list: their arguments are the estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth,
+/// the list, and the same planes of the other eye but for normals. Extra planes are not made.
+std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& choices);
 
 /// The technique `mono` for two eyes: "stereo-" before its name, with parameters and passes of its own, and no extra
 /// planes. The filter, which follows `mono`, is one of its passes.

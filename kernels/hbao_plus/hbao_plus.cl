@@ -8,12 +8,14 @@
 //      other_depth, occluders  of the other view, at a resolution of their own (hbao_plus_other_view)
 //      own        what hbao_plus_estimate found
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
-// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, MULTIVIEW
+// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, MULTIVIEW, STEREO
 #include "estimators/obscurance.h"
 #include "hbao_plus/params.h"
 #include "shared/fan.h"
 
-#if STEREO
+#if STEREO && STOCHASTIC
+typedef StereoSdHbaoPlusParams Params;
+#elif STEREO
 typedef StereoAoParams Params;
 #elif MULTIVIEW
 typedef MultiviewParams Params;

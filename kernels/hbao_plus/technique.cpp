@@ -88,7 +88,12 @@ Technique multiview() {
 }
 
 std::vector<Pass> stereo_ao_passes(const StereoAoParams& p) {
-  return stereo_passes(estimate_of(p), "hbao_plus_stereo", stereo_choices(p));
+  return stereo_passes({estimate_of(p)}, "hbao_plus_stereo", stereo_choices(p));
+}
+
+/// Each eye with its own hidden depths.
+std::vector<Pass> stereo_sd_passes(const StereoSdHbaoPlusParams& p) {
+  return stereo_passes(behind_depth(estimate_of(p), p), "hbao_plus_stereo", stereo_choices(p));
 }
 
 Technique stereo_ao() {
@@ -100,7 +105,12 @@ Technique stereo_ao() {
 }  // namespace
 
 std::vector<Technique> hbao_plus() {
-  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic(), multiview(), stereo_ao()};
+  return {over_depth(),
+          over_peeled_layers(over_depth()),
+          over_stochastic(),
+          multiview(),
+          stereo_ao(),
+          over_two_eyes(over_stochastic(), StereoSdHbaoPlusParams::table(), passes_of(stereo_sd_passes))};
 }
 
 }  // namespace gloam::techniques
