@@ -363,7 +363,7 @@ static inline Taken taken_by_either(Taken a, Taken b) {
 
 // What both eyes see is closed as each of them sees it, and the mean counts; what one eye alone sees is closed for both. Section
 // 3.1 combines obscurance sample by sample; horizons combined so are too low, as two samples rarely meet the highest occluder
-// alike, and sectors of one eye alone leave twice the noise.
+// alike, and sectors of one eye alone are noisier.
 static inline real closed_by_both(View* own, View* other, real sine, real other_sine, Side* side, Side* other_side) {
   const Taken alone = taken_by_either(taken_of(own->slice, sine, side->scale, &side->closed),
                                       taken_of(other->slice, other_sine, other_side->scale, &other_side->closed));
