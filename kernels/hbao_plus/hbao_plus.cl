@@ -169,7 +169,12 @@ static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame
   Fan fan = fan_of(here.reach, noise), other_fan = fan_of(there.reach, noise);
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
+#if LAYERS == 1
 #pragma unroll 4
+#else
+// As fast, and a third less to compile.
+#pragma unroll 1
+#endif
     for (int k = 0; k < STEPS; ++k) {
       mask by_both, by_both_there;
       const real own = obscurance_around(frame, params, layers, here, centre, fan, k, within, &by_both);
