@@ -78,7 +78,9 @@ typedef struct {
   Scale scale;
   Closed closed;           // of two eyes: by what this one alone sees
   Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
+#if STEREO
   Closed closed_for_both;  // by what both eyes see (STEREO)
+#endif
 } Side;
 
 static inline Side side_of(Slice slice, Search search, real sign) {
@@ -91,7 +93,9 @@ static inline Side side_of(Slice slice, Search search, real sign) {
   s.closed.horizon = (real)(NO_HORIZON);
   s.closed.covered = (natural)(0u);
   s.closed_by_depth = s.closed;
+#if STEREO
   s.closed_for_both = s.closed;
+#endif
   return s;
 }
 
