@@ -88,7 +88,31 @@ Pass blend(const Pass& last) {
   return pass;
 }
 
+/// The filter is the technique's own, and has its settings.
+void set_initial(std::vector<Parameter>& parameters, const std::string& name, const std::string& value) {
+  for (Parameter& p : parameters) {
+    if (p.name == name) p.initial = std::stod(value);
+  }
+}
+
 }  // namespace
+
+Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
+                        std::function<std::vector<Pass>(const ParameterValues&)> passes) {
+  Technique t = std::move(mono);
+  t.summary = t.name + " for two eyes that agree on what both of them see";
+  t.name.insert(0, "stereo-");
+  t.paper += "; for two eyes Shi, Billeter, Eisemann 2022";
+  t.views = 2;
+  t.writes = t.outputs = {"ao", "ao_raw"};
+  t.default_for.clear();
+  t.extras.clear();
+  t.parameters = std::move(parameters);
+  for (const auto& [name, value] : std::exchange(t.then_with, {})) set_initial(t.parameters, name, value);
+  t.then.clear();
+  t.passes = std::move(passes);
+  return t;
+}
 
 std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
   if (filter == Filter::mono) return bilateral_passes(taps, false, "ao");
@@ -98,8 +122,11 @@ std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
   return passes;
 }
 
-std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, const StereoChoices& c) {
-  std::vector<Pass> passes;
+std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& c) {
+  Pass estimate = std::move(mono.back());
+  estimate.extras.clear();
+  mono.pop_back();
+  std::vector<Pass> passes = std::move(mono);
   if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
   passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
   if (c.near_half_occluded()) {

@@ -2,6 +2,7 @@
 // estimate.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,17 @@ struct StereoChoices {
   bool near_half_occluded() const { return estimate_both && !everywhere; }
 };
 
-/// The passes of a technique for two eyes. `estimate`: for one eye, from "depth" and "normal" (the first two that it reads)
-/// to "ao_raw". The kernel of both eyes is called `both`, that for a list of pixels `both`_list: their arguments are the
-/// estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth, the list, and the same planes of the other
-/// eye but for normals; the first also takes HALF_OCCLUDED_ARGUMENT (shared/half_occlusion.h).
-std::vector<Pass> stereo_passes(const Pass& estimate, const std::string& both, const StereoChoices& choices);
+/// The passes of a technique for two eyes. `mono`: its passes for one eye up to the estimate, the last, which is from "depth"
+/// and "normal" (the first two that it reads) to "ao_raw". The kernel of both eyes is called `both`, that for a list of
+/// pixels `both`_list: their arguments are the estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth,
+/// the list, and the same planes of the other eye but for normals; the first also takes HALF_OCCLUDED_ARGUMENT
+/// (shared/half_occlusion.h). Extra planes are not made.
+std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& choices);
+
+/// The technique `mono` for two eyes: "stereo-" before its name, with parameters and passes of its own, and no extra
+/// planes. The filter, which follows `mono`, is one of its passes.
+Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
+                        std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
 /// The filter alone, from "ao_raw" to "ao". Kernels: shared/bilateral_filter.h, shared/stereo_filter.h.
 std::vector<Pass> stereo_filter_passes(StereoChoices::Filter filter, int half_width);

@@ -5,16 +5,23 @@
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
 //      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
+//      other_depth  of the other eye (gtao_stereo); both with the sign of stereo.h
+//      newly_visible  which pixels gtao_stereo_list computes
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED
+// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, STEREO,
+//    ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "estimators/arc.h"
 #include "estimators/bent_normal.h"
 #include "estimators/sectors.h"
 #include "gtao/params.h"
 
-#if BITMASK && STOCHASTIC
+#if BITMASK && STEREO
+typedef StereoBitmaskParams Params;
+#elif STEREO
+typedef StereoGtaoParams Params;
+#elif BITMASK && STOCHASTIC
 typedef SdBitmaskParams Params;
 #elif BITMASK
 typedef BitmaskParams Params;
@@ -26,6 +33,14 @@ typedef GtaoParams Params;
 #if STOCHASTIC
 #include "shared/hidden_depths.h"
 #endif
+#if STEREO
+#include "shared/stereo_estimate.h"
+#include "shared/stereo_passes.h"
+#ifdef COLUMNS
+#include "shared/bilateral_filter.h"
+#include "shared/stereo_filter.h"
+#endif
+#endif
 
 // What a row of pixels looks for, the same on both sides of all slices.
 typedef struct {
@@ -33,6 +48,21 @@ typedef struct {
   Surface surface;
   real radius_square, thickness;  // units of the pixel's depth
 } Search;
+
+static inline Search search_of(Params params, Receiver r) {
+  Search search;
+  search.receiver = r;
+  search.surface = surface_at(r.point, r.normal);
+  const real radius = (scalar)params.radius * r.point.inverse_depth;
+  // Background is further away than any radius, an infinite one too.
+  search.radius_square = smaller(radius * radius, (real)(FARTHEST));
+#if BITMASK
+  search.thickness = (scalar)params.thickness * radius;
+#else
+  search.thickness = 0;
+#endif
+  return search;
+}
 
 // What is closed of one side of a slice.
 typedef struct {
@@ -47,8 +77,11 @@ typedef struct {
   real slope, above_e;              // slice.h
   real deeper_along, deeper_above;  // from the front of an occluder to its back
   Scale scale;
-  Closed closed;
+  Closed closed;           // of two eyes: by what this one alone sees
   Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
+#if STEREO
+  Closed closed_for_both;  // by what both eyes see (STEREO)
+#endif
 } Side;
 
 static inline Side side_of(Slice slice, Search search, real sign) {
@@ -61,6 +94,9 @@ static inline Side side_of(Slice slice, Search search, real sign) {
   s.closed.horizon = (real)(NO_HORIZON);
   s.closed.covered = (natural)(0u);
   s.closed_by_depth = s.closed;
+#if STEREO
+  s.closed_for_both = s.closed;
+#endif
   return s;
 }
 
@@ -103,16 +139,22 @@ static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params
   return counts & asks_further(above > side->least, e < 0, square >= search.radius_square);
 }
 
-// Every layer at an offset in pixels.
+// Every layer at an index from `here`. `is_shared`: where the point is one that two eyes compare (STEREO).
 static inline __attribute__((always_inline)) void look(Frame frame, Params params, DepthLayers layers, Search search,
-                                                       integer dx, integer dy, mask in_frame, int within, Side* side) {
+                                                       int here, integer place, mask in_frame, mask is_shared,
+                                                       Side* side) {
   const Receiver r = search.receiver;
-  const integer place = index_within(frame, within, dx, dy);
 #if GATHERS_ONLY
-  side->closed.horizon = smaller(side->closed.horizon, sum_of_depths(layers, frame, r.here, place, r.farthest));
+  side->closed.horizon = smaller(side->closed.horizon, sum_of_depths(layers, frame, here, place, r.farthest));
   return;
 #endif
-  const real depth = gather(layers.first + r.here, place);
+  mask by_both;
+  const real depth = depth_seen(gather(layers.first + here, place), &by_both);
+#if STEREO
+  by_both &= is_shared;
+  take_depth(frame, params, search, side, depth, in_frame & by_both, &side->closed_for_both);
+  in_frame &= !by_both;
+#endif
   const mask asked = take_depth(frame, params, search, side, depth, in_frame, &side->closed);
 #if COMPENSATED
   take_depth(frame, params, search, side, depth, in_frame, &side->closed_by_depth);
@@ -120,19 +162,25 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
   Behind behind;
 #pragma unroll 4
   for (int k = 0; k < LAYERS - 1; ++k) {
-    if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
+    if (!look_behind(layers, frame, k, here, place, asked, r.farthest, &behind)) break;
     take_depth(frame, params, search, side, behind.next, behind.counts, &side->closed);
   }
 }
 
-// Samples on both sides, denser towards the pixel.
+// How far from the pixel sample k lies, in reaches: denser towards the pixel.
+static inline real place_of_step(int k, Noise noise) {
+  const real even = (k + noise.shift) * (scalar)(1.0f / STEPS);
+  return even * ((scalar)0.4f + (scalar)0.6f * even);
+}
+
+// Samples on both sides.
 static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params, DepthLayers layers,
                                                                Search search, Slice slice, int within, Side* right,
                                                                Side* left) {
   const Receiver r = search.receiver;
   const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
   for (int k = 0; k < STEPS; ++k) {
-    const real even = (k + r.noise.shift) * (scalar)(1.0f / STEPS), t = even * ((scalar)0.4f + (scalar)0.6f * even);
+    const real t = place_of_step(k, r.noise);
     integer dx = nearest(reach_x * t), dy = nearest(reach_y * t), other_dx = -dx, other_dy = -dy;
     // Of the sample's own place: at the border `along` may come down to rounding.
     right->least = left->least = params.bias * (to_real(dx) * slice.along_x + to_real(dy) * slice.along_y);
@@ -147,19 +195,39 @@ static inline __attribute__((always_inline)) void search_slice(Frame frame, Para
       left->along = -(to_real(other_dx) * slice.along_x + to_real(other_dy) * slice.along_y);
       left->above = to_real(other_dx) * slice.above_x + to_real(other_dy) * slice.above_y;
     }
-    look(frame, params, layers, search, dx, dy, in_frame, within, right);
-    look(frame, params, layers, search, other_dx, other_dy, other_in_frame, within, left);
+    look(frame, params, layers, search, r.here, index_within(frame, within, dx, dy), in_frame, (mask)(0), right);
+    look(frame, params, layers, search, r.here, index_within(frame, within, other_dx, other_dy), other_in_frame,
+         (mask)(0), left);
   }
 }
 
-// Share of a slice's mass on one side; `sine` is the normal's lean towards it. Horizons become sectors.
-static inline real closed_share(Slice slice, real sine, Scale scale, Closed* closed) {
+// What is taken of a slice's mass on one side: sectors, or the share of all.
+#if BITMASK
+typedef natural Taken;
+#else
+typedef real Taken;
+#endif
+
+// `sine` is the normal's lean towards this side. Horizons become sectors.
+static inline Taken taken_of(Slice slice, real sine, Scale scale, Closed* closed) {
 #if BITMASK
   closed->covered |= sectors_between((real)(0), sectors_below_horizon(closed->horizon, scale));
-  return count_of(closed->covered) * (1 / SECTORS);
+  return closed->covered;
 #else
   return share_below(closed->horizon, slice.cosine, sine, slice.mass);
 #endif
+}
+
+static inline real share_of(Taken taken) {
+#if BITMASK
+  return count_of(taken) * (1 / SECTORS);
+#else
+  return taken;
+#endif
+}
+
+static inline real closed_share(Slice slice, real sine, Scale scale, Closed* closed) {
+  return share_of(taken_of(slice, sine, scale, closed));
 }
 
 static inline real closed_side(Params params, Slice slice, real sine, Side* side) {
@@ -225,17 +293,7 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
   OpenDirections directions = whole_hemisphere(r.normal);
   real open = 1;
   if (ANY(!r.point.background)) {
-    Search search;
-    search.receiver = r;
-    search.surface = surface_at(r.point, r.normal);
-    const real radius = (scalar)params.radius * r.point.inverse_depth;
-    // Background is further away than any radius, an infinite one too.
-    search.radius_square = smaller(radius * radius, (real)(FARTHEST));
-#if BITMASK
-    search.thickness = (scalar)params.thickness * radius;
-#else
-    search.thickness = 0;
-#endif
+    const Search search = search_of(params, r);
     // Along a slice that is not square to the view the radius reaches further on the screen.
     const Reach widest = longer(r.reach, search.surface.length);
     LOOK_AROUND(open, frame, r, widest, open_share(frame, params, layers, search, within, &directions))
@@ -243,3 +301,150 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
   store_open(open, r, ao_raw);
   STORE_OPEN_DIRECTIONS(directions, r)
 }
+
+#if STEREO
+// One slice as one eye sees it. Each eye has its own, at the same angle about its own line to the point, and measures in it what
+// it finds: there its samples lie. Moved into the other eye's slice they lie beside it, and the eyes agree less.
+typedef struct {
+  Slice slice;
+  Side right, left;
+} View;
+
+static inline void start_view(View* view, Search search, real cosine, real sine) {
+  view->slice = slice_at(search.receiver.point, search.surface, cosine, sine);
+  view->right = side_of(view->slice, search, (real)(1));
+  view->left = side_of(view->slice, search, (real)(-1));
+}
+
+// The sample of a side that is to lie (x, y) pixels from a centre. `least_along`: from where along the tangent it counts.
+static inline __attribute__((always_inline)) void look_around(Frame frame, Params params, DepthLayers layers,
+                                                              Search search, Slice slice, Centre c, real x, real y,
+                                                              real sign, real least_along, mask is_read, mask is_seen,
+                                                              int within, Side* side) {
+  integer dx = nearest(x - c.left), dy = nearest(y - c.up);
+  const real along = sign * ((to_real(dx) + c.left) * slice.along_x + (to_real(dy) + c.up) * slice.along_y);
+  // Of the sample's own place, as in search_slice.
+  side->least = params.bias * along;
+  mask is_inside;
+  const integer place = place_around(frame, c, within, &dx, &dy, &is_inside);
+  // Of the point's own pixel only rounding is left.
+  mask counts = is_read & (along >= least_along) & to_mask((dx != 0) | (dy != 0));
+  if (OUTSIDE_OPEN) counts &= is_inside;
+  const real right = to_real(dx) + c.left, below = to_real(dy) + c.up;
+  side->along = sign * (right * slice.along_x + below * slice.along_y);
+  side->above = right * slice.above_x + below * slice.above_y;
+  look(frame, params, layers, search, 0, place, counts, is_seen & is_inside, side);
+}
+
+// search_slice around a point that need not lie on a pixel.
+static inline __attribute__((always_inline)) void search_view(Frame frame, Params params, DepthLayers layers,
+                                                              Search search, mask is_read, mask is_seen, int within,
+                                                              View* view) {
+  const Receiver r = search.receiver;
+  const Slice slice = view->slice;
+  const Centre c = centre_of(frame, r.point);
+  const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
+  // Around a point between pixels some lie beside it rather than along the slice, so that the little they rise would look steep.
+  // From a point on a pixel no other is less than this away.
+  const real half_a_pixel = (scalar)0.5 * (reach_x * slice.along_x + reach_y * slice.along_y) *
+                            inverse_sqrt(reach_x * reach_x + reach_y * reach_y);
+  const real least_along = choose((c.left == 0) & (c.up == 0), (real)(0), half_a_pixel);
+  for (int k = 0; k < STEPS; ++k) {
+    const real t = place_of_step(k, r.noise), x = reach_x * t, y = reach_y * t;
+    look_around(frame, params, layers, search, slice, c, x, y, (real)(1), least_along, is_read, is_seen, within,
+                &view->right);
+    look_around(frame, params, layers, search, slice, c, -x, -y, (real)(-1), least_along, is_read, is_seen, within,
+                &view->left);
+  }
+}
+
+static inline Taken taken_by_either(Taken a, Taken b) {
+#if BITMASK
+  return a | b;
+#else
+  return larger(a, b);
+#endif
+}
+
+// What both eyes see is closed as each of them sees it, and the mean counts; what one eye alone sees is closed for both. Section
+// 3.1 combines obscurance sample by sample; horizons combined so are too low, as two samples rarely meet the highest occluder
+// alike, and sectors of one eye alone are noisier.
+static inline real closed_by_both(View* own, View* other, real sine, real other_sine, Side* side, Side* other_side) {
+  const Taken alone = taken_by_either(taken_of(own->slice, sine, side->scale, &side->closed),
+                                      taken_of(other->slice, other_sine, other_side->scale, &other_side->closed));
+  const Taken by_own = taken_of(own->slice, sine, side->scale, &side->closed_for_both);
+  const Taken by_other = taken_of(other->slice, other_sine, other_side->scale, &other_side->closed_for_both);
+  return (scalar)0.5 * (share_of(taken_by_either(by_own, alone)) + share_of(taken_by_either(by_other, alone)));
+}
+
+// `there`: the point as the other eye shows it, of use where `is_seen`.
+static inline __attribute__((always_inline)) real share_open_to_both(Frame frame, Frame other, Params params,
+                                                                     DepthLayers layers, DepthLayers other_layers,
+                                                                     Search here, Search there, mask is_seen,
+                                                                     int within) {
+  real open = 0, weights = 0;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+    real cosine, sine;
+    cosine_sine_of_turns(((scalar)d + here.receiver.noise.turn) * (scalar)(0.5f / DIRECTIONS), &cosine, &sine);
+    View own, others;
+    start_view(&own, here, cosine, sine);
+    start_view(&others, there, cosine, sine);
+    search_view(frame, params, layers, here, EVERY_LANE, is_seen, within, &own);
+    if (ANY(is_seen)) search_view(other, params, other_layers, there, is_seen, is_seen, within, &others);
+    const real closed = closed_by_both(&own, &others, own.slice.sine, others.slice.sine, &own.right, &others.right) +
+                        closed_by_both(&own, &others, -own.slice.sine, -others.slice.sine, &own.left, &others.left);
+    const real share = larger(1 - closed, (real)(0));
+    if (DIRECTIONS == 1) return share;
+    open += own.slice.weight * share;
+    weights += own.slice.weight;
+  }
+  return open / weights;
+}
+
+// The estimate for one point of each lane. `may_differ`: for which the other eye is looked at.
+static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
+                                DepthLayers other_layers, Receiver receiver, Noise noise, mask may_differ) {
+  const Frame other = neighbour.frame;
+  mask is_seen;
+  Receiver receiver_of_other =
+      receiver_there(frame, neighbour, params.radius, params.max_reach, receiver, may_differ, &is_seen);
+  receiver.noise = receiver_of_other.noise = noise;
+  const Search here = search_of(params, receiver), there = search_of(params, receiver_of_other);
+  real open;
+  if (frame.pitch < SHORT_PITCH &&
+      reaches_only_inside(frame, receiver.point, longer(receiver.reach, here.surface.length)) &&
+      reaches_only_inside(other, receiver_of_other.point, longer(receiver_of_other.reach, there.surface.length)))
+    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
+  else
+    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
+  return choose(receiver.point.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1)));
+}
+
+kernel void gtao_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                        PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(FIRST_X + IOTA), (real)(ROW_Y),
+                                 fabs(load(depth, here)), load3(normal_x, normal_y, normal_z, here));
+  real open = (real)(1);
+  if (ANY(!r.point.background))
+    open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, noise_at(FIRST_X + IOTA, ROW_Y, frame.seed),
+                        MAY_DIFFER(frame, neighbour, params.radius, r));
+  store(open, ao_raw, here);
+}
+
+// The same for the pixels of a list.
+kernel void gtao_stereo_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
+                             PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible, PLANE other_depth,
+                             PLANE_OUT ao_raw) {
+  integer index;
+  if (!pixels_of_item(newly_visible, frame, &index)) return;
+  const integer x = column_of(frame, index), y = row_of(frame, index);
+  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(x), to_real(y),
+                                 fabs(gather(depth, index)), gather3(normal_x, normal_y, normal_z, index));
+  scatter(
+      open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth), OTHER_LAYERS_FROM(neighbour.frame, other_depth),
+                   r, noise_of(to_natural(x), to_natural(y), frame.seed), EVERY_LANE),
+      ao_raw, index);
+}
+#endif

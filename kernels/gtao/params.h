@@ -1,4 +1,5 @@
 #include "shared/ambient_occlusion.h"
+#include "shared/stereo_params.h"
 
 #define SLICE_PARAMS(P)                                                                             \
   REACH_PARAMS(P)                                                                                   \
@@ -25,7 +26,17 @@
   BITMASK_PARAMS(P)          \
   STOCHASTIC_PARAMS(P)
 
+#define STEREO_GTAO_PARAMS(P) \
+  GTAO_PARAMS(P)              \
+  STEREO_PARAMS(P)
+
+#define STEREO_BITMASK_PARAMS(P) \
+  BITMASK_PARAMS(P)              \
+  STEREO_PARAMS(P)
+
 PARAMS(GtaoParams, GTAO_PARAMS)
 PARAMS(BitmaskParams, BITMASK_PARAMS)
 PARAMS(SdGtaoParams, SD_GTAO_PARAMS)
 PARAMS(SdBitmaskParams, SD_BITMASK_PARAMS)
+PARAMS(StereoGtaoParams, STEREO_GTAO_PARAMS)
+PARAMS(StereoBitmaskParams, STEREO_BITMASK_PARAMS)

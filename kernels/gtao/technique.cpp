@@ -1,4 +1,5 @@
 #include "gloam/ambient_occlusion.h"
+#include "gloam/stereo.h"
 #include "gtao/params.h"
 
 namespace gloam::techniques {
@@ -26,6 +27,14 @@ std::vector<Pass> gtao_passes(const GtaoParams& p) { return {gtao_pass(p)}; }
 std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {bitmask_pass(p)}; }
 std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return behind_depth(gtao_pass(p), p); }
 std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return behind_depth(bitmask_pass(p), p); }
+
+std::vector<Pass> stereo_gtao_passes(const StereoGtaoParams& p) {
+  return stereo_passes({gtao_pass(p)}, "gtao_stereo", stereo_choices(p));
+}
+
+std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
+  return stereo_passes({bitmask_pass(p)}, "gtao_stereo", stereo_choices(p));
+}
 
 /// On both sides of each slice.
 int samples(const ParameterValues& values) { return 2 * directions_times_steps(values); }
@@ -67,7 +76,9 @@ std::vector<Technique> gtao() {
           over_peeled_layers(gtao_over_depth()),
           over_peeled_layers(bitmask_over_depth()),
           over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
-          over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes))};
+          over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
+          over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
+          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes))};
 }
 
 }  // namespace gloam::techniques

@@ -88,26 +88,29 @@ Technique multiview() {
 }
 
 std::vector<Pass> stereo_ao_passes(const StereoAoParams& p) {
-  return stereo_passes(estimate_of(p), "hbao_plus_stereo", stereo_choices(p));
+  return stereo_passes({estimate_of(p)}, "hbao_plus_stereo", stereo_choices(p));
+}
+
+/// Each eye with its own hidden depths.
+std::vector<Pass> stereo_sd_passes(const StereoSdHbaoPlusParams& p) {
+  return stereo_passes(behind_depth(estimate_of(p), p), "hbao_plus_stereo", stereo_choices(p));
 }
 
 Technique stereo_ao() {
-  Technique t = over_depth();
+  Technique t = over_two_eyes(over_depth(), StereoAoParams::table(), passes_of(stereo_ao_passes));
   t.name = "stereo-ao";
-  t.summary = "hbao+ for two eyes that agree on what both of them see";
-  t.paper = "Shi, Billeter, Eisemann 2022";
-  t.views = 2;
-  t.writes = t.outputs = {"ao", "ao_raw"};
-  t.then.clear();
-  t.parameters = StereoAoParams::table();
-  t.passes = passes_of(stereo_ao_passes);
   return t;
 }
 
 }  // namespace
 
 std::vector<Technique> hbao_plus() {
-  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic(), multiview(), stereo_ao()};
+  return {over_depth(),
+          over_peeled_layers(over_depth()),
+          over_stochastic(),
+          multiview(),
+          stereo_ao(),
+          over_two_eyes(over_stochastic(), StereoSdHbaoPlusParams::table(), passes_of(stereo_sd_passes))};
 }
 
 }  // namespace gloam::techniques

@@ -117,7 +117,9 @@ typedef struct {
 // before `farthest` from there on, for none of the lanes that ask. To be called with k = 0, 1, ... in order.
 static inline __attribute__((always_inline)) int look_behind(DepthLayers layers, Frame f, int k, int here,
                                                              integer index, mask asked, real farthest, Behind* behind) {
-  if (k == 0 && EARLY_OUT && !ANY(asked)) return 0;
+#if EARLY_OUT
+  if (k == 0 && !ANY(asked)) return 0;
+#endif
 #if GROUP == 1
   behind->next = gather(layer_of(layers.further, f, k) + here, index);
 #else

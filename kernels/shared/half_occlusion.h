@@ -75,17 +75,6 @@ static inline mask is_near_marked(PLANE cells, Frame f, real3 p, scalar radius) 
   return gather(cells, place_of(f, cell_of(p, radius))) > 0;
 }
 
-// The mask of lanes for which the other eye is worth a look: all without a table. A kernel's argument, after the other eye's
-// planes: HALF_OCCLUDED_ARGUMENT.
-#if WITH_HALF_OCCLUSION
-#define HALF_OCCLUDED_ARGUMENT PLANE other_half_occluded,
-#define MAY_DIFFER(neighbour, point, radius) \
-  is_near_marked(other_half_occluded, (neighbour).frame, into_other(neighbour, point), radius)
-#else
-#define HALF_OCCLUDED_ARGUMENT
-#define MAY_DIFFER(neighbour, point, radius) EVERY_LANE
-#endif
-
 // Fewer pixels of a row than this that one eye alone sees are left by rounding and by slopes; nothing of note hides there.
 #define LEAST_WIDTH 2
 

@@ -3,6 +3,7 @@
 #define GLOAM_NEIGHBOUR_H
 
 #include "shared/camera.h"
+#include "shared/sample.h"
 
 static inline real3 rotated(Neighbour n, real3 v) {
   return make3(n.rotation[0] * v.x + n.rotation[1] * v.y + n.rotation[2] * v.z,
@@ -58,6 +59,37 @@ static inline Projection project_row(Frame f, Neighbour n, real z) {
   const mask is_surface = !is_background(z);
   return project_into(n, position_at(f, to_real(FIRST_X + IOTA), (real)(ROW_Y), choose(is_surface, z, (real)(1))),
                       is_surface);
+}
+
+// A point that need not lie on a pixel, and the pixel nearest to it.
+typedef struct {
+  integer column, row, index;
+  real left, up;  // from the point to the pixel
+} Centre;
+
+static inline Centre centre_of(Frame f, Anchor point) {
+  Centre c;
+  c.column = nearest(point.x);
+  c.row = nearest(point.y);
+  c.index = FRAME_GUARD + c.row * f.pitch + c.column;
+  c.left = to_real(c.column) - point.x;
+  c.up = to_real(c.row) - point.y;
+  return c;
+}
+
+// The pixel (dx, dy) from a centre, as an index from the plane's start. `within`: SAMPLES_INSIDE, or SAMPLES_CLAMPED: what lies
+// outside the image is moved onto its border, and then is not inside. Both are the same to the last bit for what lies inside:
+// lanes must not depend on one another.
+static inline __attribute__((always_inline)) integer place_around(Frame f, Centre c, int within, integer* dx,
+                                                                  integer* dy, mask* is_inside) {
+  *is_inside = EVERY_LANE;
+  if (within == SAMPLES_INSIDE) return c.index + index_near_short(f, *dx - IOTA, *dy);
+  const integer x = clamp(c.column + *dx, (integer)(0), (integer)(f.width - 1));
+  const integer y = clamp(c.row + *dy, (integer)(0), (integer)(f.height - 1));
+  *is_inside = to_mask((x == c.column + *dx) & (y == c.row + *dy));
+  *dx = x - c.column;
+  *dy = y - c.row;
+  return FRAME_GUARD + y * f.pitch + x;
 }
 
 #endif

@@ -23,16 +23,32 @@ Frame run_on(const std::string& technique, const Frame& frame, const Settings& s
   return run(make_plan(request, plane_names(frame), "the frame"), frame, device(), precise).frame;
 }
 
-/// The two eyes of a built-in scene, `distance` scene units apart.
+/// The two eyes of a built-in scene, `distance` scene units apart, with what is hidden.
 Frame captured(const std::string& scene_name, double distance, int width = 192, int height = 108) {
   const gloam::Scene scene = load_scene(scene_name, {});
   const Tracer tracer(scene);
   Camera left = camera_for(scene.cameras.front(), width, height), right = left;
   const glm::dvec3 to_the_right = glm::transpose(left.pose->world_to_view) * glm::dvec3(distance, 0, 0);
   right.pose->position += to_the_right;
-  CaptureOptions options{.width = width, .height = height, .planes = {"depth", "normal"}};
+  CaptureOptions options{.width = width, .height = height, .planes = {"depth", "normal"}, .peel = 3};
   options.views = {{"left", left, {}}, {"right", right, {}}};
   return capture(tracer, options).frame;
+}
+
+/// The same frame, where nothing is hidden behind the depth.
+Frame with_nothing_hidden(Frame frame) {
+  Frame copy = clone(frame);
+  for (size_t i = 0; i < frame.views.size(); ++i)
+    frame.views[i].planes.emplace("peel.00", std::move(copy.views[i].planes.at("depth")));
+  return frame;
+}
+
+void blind(View& view, float depth) {
+  for (auto& [name, plane] : view.planes) {
+    if (name != "depth" && !name.starts_with("peel.")) continue;
+    Channel& values = plane.channels[0];
+    for (int y = 0; y < values.layout().height; ++y) std::fill_n(values.row(y), values.layout().width, depth);
+  }
 }
 
 Frame swapped(const Frame& frame) {
@@ -51,6 +67,15 @@ double largest_difference(const Channel& a, const Channel& b) {
     for (int x = 0; x < a.layout().width; ++x) largest = std::max(largest, std::abs(double(a.at(x, y)) - b.at(x, y)));
   }
   return largest;
+}
+
+/// Share of the pixels that differ by more than rounding does where all samples stay in place.
+double changed_share(const Channel& a, const Channel& b) {
+  int changed = 0;
+  for (int y = 0; y < a.layout().height; ++y) {
+    for (int x = 0; x < a.layout().width; ++x) changed += !(std::abs(double(a.at(x, y)) - b.at(x, y)) < 2e-3);
+  }
+  return changed / (double(a.layout().width) * a.layout().height);
 }
 
 bool same(const Channel& a, const Channel& b) {
@@ -79,37 +104,59 @@ std::vector<Variant> variants() {
           {"no back-check", {{"reproject", "no-back-check"}}}};
 }
 
-TEST(Stereo, WithoutAnythingStereoItIsTheMonoTechnique) {
+/// A technique for two eyes, and what it is for one.
+struct Estimator {
+  const char *mono, *stereo;
+  /// Share of the pixels that rounding may change: of the estimate, where it moves a sample to the next pixel; of the filtered
+  /// image; of the estimate of eyes a hair apart, where it changes a stochastic depth map.
+  double estimate, filtered, hair_apart;
+};
+
+class StereoAo : public testing::TestWithParam<Estimator> {
+ protected:
+  std::string mono = GetParam().mono, stereo = GetParam().stereo;
+};
+
+INSTANTIATE_TEST_SUITE_P(, StereoAo,
+                         testing::Values(Estimator{"hbao+", "stereo-ao", 0, 0, 0},
+                                         Estimator{"gtao", "stereo-gtao", 1e-3, 1e-2, 1e-3},
+                                         Estimator{"bitmask", "stereo-bitmask", 1e-3, 1e-2, 1e-3},
+                                         Estimator{"sd-hbao+", "stereo-sd-hbao+", 0, 0, 0.15}),
+                         [](const auto& info) { return identifier(info.param.stereo); });
+
+TEST_P(StereoAo, WithoutAnythingStereoItIsTheMonoTechnique) {
   const Frame frame = captured("courtyard", 0.065);
-  const Frame mono = run_on("hbao+", frame), stereo = run_on("stereo-ao", frame, variants()[0].settings);
+  const Frame of_one = run_on(mono, frame), of_two = run_on(stereo, frame, variants()[0].settings);
   for (const size_t view : {0, 1}) {
     for (const std::string& plane : both_planes)
-      EXPECT_TRUE(same(channel_of(mono, view, plane), channel_of(stereo, view, plane))) << view << " " << plane;
+      EXPECT_TRUE(same(channel_of(of_one, view, plane), channel_of(of_two, view, plane))) << view << " " << plane;
   }
 }
 
 /// What rounding leaves of a point that is projected to where it is.
-TEST(Stereo, EyesInOnePlaceSeeWhatOneDoes) {
-  const Frame frame = captured("courtyard", 0), mono = run_on("hbao+", frame);
+TEST_P(StereoAo, EyesInOnePlaceSeeWhatOneDoes) {
+  const Frame frame = captured("courtyard", 0), of_one = run_on(mono, frame);
   for (const Variant& v : variants()) {
-    const Frame stereo = run_on("stereo-ao", frame, v.settings);
+    const Frame of_two = run_on(stereo, frame, v.settings);
     const bool is_square = std::string(v.name) == "square";
     for (const size_t view : {0, 1}) {
-      EXPECT_LT(largest_difference(channel_of(mono, view, "ao_raw"), channel_of(stereo, view, "ao_raw")), 2e-3)
+      EXPECT_LE(changed_share(channel_of(of_one, view, "ao_raw"), channel_of(of_two, view, "ao_raw")),
+                GetParam().estimate)
           << v.name;
       if (is_square) continue;
-      EXPECT_LT(largest_difference(channel_of(mono, view, "ao"), channel_of(stereo, view, "ao")), 2e-3) << v.name;
+      EXPECT_LE(changed_share(channel_of(of_one, view, "ao"), channel_of(of_two, view, "ao")), GetParam().filtered)
+          << v.name;
     }
   }
 }
 
-TEST(Stereo, SwappedEyesAndPrimarySwapTheResult) {
+TEST_P(StereoAo, SwappedEyesAndPrimarySwapTheResult) {
   for (const double distance : {0.065, 0.5}) {
     const Frame frame = captured("courtyard", distance), other = swapped(frame);
     for (Variant v : variants()) {
-      const Frame first = run_on("stereo-ao", frame, v.settings);
+      const Frame first = run_on(stereo, frame, v.settings);
       v.settings.emplace_back("primary", "right");
-      const Frame second = run_on("stereo-ao", other, v.settings);
+      const Frame second = run_on(stereo, other, v.settings);
       for (const size_t view : {0, 1}) {
         for (const std::string& plane : both_planes)
           EXPECT_TRUE(same(channel_of(first, view, plane), channel_of(second, 1 - view, plane)))
@@ -120,19 +167,19 @@ TEST(Stereo, SwappedEyesAndPrimarySwapTheResult) {
 }
 
 /// An eye that sees nothing, or nothing that is a number.
-TEST(Stereo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
+TEST_P(StereoAo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
   for (const float depth : {INFINITY, NAN}) {
-    for (const size_t blind : {0, 1}) {
+    for (const size_t closed : {0, 1}) {
       Frame frame = captured("courtyard", 0.065);
-      Channel& blocked = frame.views[blind].planes.at("depth").channels[0];
-      for (int y = 0; y < frame.height(); ++y) std::fill_n(blocked.row(y), frame.width(), depth);
-      const Frame mono = run_on("hbao+", frame);
+      blind(frame.views[closed], depth);
+      const Frame of_one = run_on(mono, frame);
       for (const Variant& v : variants()) {
-        const Frame stereo = run_on("stereo-ao", frame, v.settings);
-        EXPECT_TRUE(same(channel_of(mono, 1 - blind, "ao_raw"), channel_of(stereo, 1 - blind, "ao_raw")))
-            << v.name << ", eye " << blind;
-        EXPECT_LT(largest_difference(channel_of(mono, 1 - blind, "ao_raw"), channel_of(stereo, 1 - blind, "ao_raw")),
-                  1e-6);
+        const Frame of_two = run_on(stereo, frame, v.settings);
+        EXPECT_TRUE(same(channel_of(of_one, 1 - closed, "ao_raw"), channel_of(of_two, 1 - closed, "ao_raw")))
+            << v.name << ", eye " << closed;
+        EXPECT_LT(
+            largest_difference(channel_of(of_one, 1 - closed, "ao_raw"), channel_of(of_two, 1 - closed, "ao_raw")),
+            1e-6);
       }
     }
   }
@@ -158,11 +205,11 @@ double distance_from(const View& view, int x, int y, const glm::dvec3& point, co
 }
 
 /// The second eye takes what the first found, or estimates by itself what both eyes show: pixel by pixel one of the two.
-TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
+TEST_P(StereoAo, TheSecondEyeTakesOverOrEstimatesItself) {
   constexpr double distance = 0.2;
   const Frame frame = captured("courtyard", distance);
-  const Frame by_itself = run_on("stereo-ao", frame, {{"reproject", "off"}, {"other_eye", "everywhere"}}),
-              taken = run_on("stereo-ao", frame, {{"other_eye", "everywhere"}});
+  const Frame by_itself = run_on(stereo, frame, {{"reproject", "off"}, {"other_eye", "everywhere"}}),
+              taken = run_on(stereo, frame, {{"other_eye", "everywhere"}});
   EXPECT_TRUE(same(channel_of(by_itself, 0, "ao_raw"), channel_of(taken, 0, "ao_raw")));
   const Frame seen = run_on("stereo-visibility", frame);
   const Channel &own = channel_of(by_itself, 1, "ao_raw"), &result = channel_of(taken, 1, "ao_raw"),
@@ -192,7 +239,8 @@ TEST(Stereo, TheSecondEyeTakesOverOrEstimatesItself) {
         is_shown |= away < 0.95 && std::abs(i - place) < 0.95;
         may_be_shown |= away < 1.01;
       }
-      const bool is_taken = result.at(x, y) >= least - 1e-6f && result.at(x, y) <= most + 1e-6f,
+      // Rounding of the row leaves the one below a weight of a few millionths.
+      const bool is_taken = result.at(x, y) >= least - 1e-5f && result.at(x, y) <= most + 1e-5f,
                  is_estimated = result.at(x, y) == own.at(x, y);
       wrong += !(is_taken && may_be_shown) && !(is_estimated && !is_shown);
       taken_over += is_shown;
@@ -292,7 +340,47 @@ TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
   EXPECT_GT(hidden_to - edge, 4);
 }
 
-TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
+/// A wall that both eyes see, whole pixels apart, and before it a box that the right one alone sees.
+TEST_P(StereoAo, WhatOneEyeAloneSeesClosesForBoth) {
+  constexpr int width = 120, height = 80, disparity = 5;
+  constexpr double wall = 4;
+  const Shot shot = perspective(width, height);
+  const double fx = shot.camera.fx, cx = shot.camera.cx, cy = shot.camera.cy;
+  const auto is_box = [&](double x, double y) { return std::abs(x - 60) < 10 && std::abs(y - 40) < 10; };
+  Frame frame = shoot(shot, [](const EyeRay&) -> std::optional<Surface> { return Surface{wall, {0, 0, 1}}; });
+  Frame right = shoot(shot, [=](const EyeRay& ray) -> std::optional<Surface> {
+    const double per_depth = fx / -ray.direction.z;
+    const bool hit = is_box(cx + ray.direction.x * per_depth, cy - ray.direction.y * per_depth);
+    return Surface{hit ? 3.2 : wall, {0, 0, 1}};
+  });
+  frame.views[0].camera->pose = right.views[0].camera->pose = Pose{};
+  right.views[0].camera->pose->position.x = disparity * wall / fx;
+  frame.views[0].name = "left";
+  right.views[0].name = "right";
+  frame.views.push_back(std::move(right.views[0]));
+  frame = with_nothing_hidden(std::move(frame));
+
+  const Settings where = {{"radius", "1.5"}, {"max_reach", "0.15"}, {"jitter", "off"}};
+  Settings by_both = where;
+  by_both.insert(by_both.end(), {{"reproject", "off"}, {"filter", "mono"}});
+  const Frame of_one = run_on(mono, frame, where), of_two = run_on(stereo, frame, by_both);
+  const Channel &truth = channel_of(of_one, 1, "ao_raw"), &of_left = channel_of(of_two, 0, "ao_raw"),
+                &of_right = channel_of(of_two, 1, "ao_raw");
+  int closed = 0;
+  constexpr int margin = 25;  // pixels from where samples leave an image
+  for (int y = margin; y < height - margin; ++y) {
+    for (int x = margin; x < width - margin; ++x) {
+      EXPECT_NEAR(of_right.at(x, y), truth.at(x, y), 1e-5) << x << ", " << y;
+      if (is_box(x + 0.5, y + 0.5)) continue;
+      EXPECT_NEAR(of_left.at(x + disparity, y), truth.at(x, y), 1e-5) << x << ", " << y;
+      EXPECT_EQ(channel_of(of_one, 0, "ao_raw").at(x, y), 1);
+      closed += truth.at(x, y) < 0.9;
+    }
+  }
+  EXPECT_GT(closed, 100);
+}
+
+TEST_P(StereoAo, APlaneIsOpenToEyesOfEveryPose) {
   const auto plane = [](const Pose& pose) {
     const glm::dvec3 point = pose.world_to_view * (glm::dvec3(0, 0, -4) - pose.position);
     const glm::dvec3 normal = pose.world_to_view * glm::normalize(glm::dvec3(0.2, 0.3, 1));
@@ -322,8 +410,9 @@ TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
     other.views[0].name = "second";
     other.views[0].camera->pose = pose;
     frame.views.push_back(std::move(other.views[0]));
+    frame = with_nothing_hidden(std::move(frame));
     for (const Variant& v : variants()) {
-      const Frame result = run_on("stereo-ao", frame, v.settings);
+      const Frame result = run_on(stereo, frame, v.settings);
       for (const size_t view : {0, 1}) {
         for (const std::string& name : both_planes) {
           const Channel& ao = channel_of(result, view, name);
@@ -339,10 +428,10 @@ TEST(Stereo, APlaneIsOpenToEyesOfEveryPose) {
 }
 
 /// The list's order and what lies beside a pixel in its row of lanes are of no matter.
-TEST(Stereo, TheSameWithAnyNumberOfLanesAndEveryTime) {
+TEST_P(StereoAo, TheSameWithAnyNumberOfLanesAndEveryTime) {
   const Frame frame = captured("courtyard", 0.2);
   for (const Variant& v : variants()) {
-    const Plan plan = make_plan({.outputs = {"stereo-ao"}, .settings = v.settings}, plane_names(frame), "the frame");
+    const Plan plan = make_plan({.outputs = {stereo}, .settings = v.settings}, plane_names(frame), "the frame");
     const Frame first = run(plan, frame, device(), precise).frame;
     for (const int lanes : usual_lanes(device())) {
       RunOptions options = precise;
@@ -353,13 +442,14 @@ TEST(Stereo, TheSameWithAnyNumberOfLanesAndEveryTime) {
 }
 
 /// Eyes a hair apart see what one does; eyes of which neither sees what the other does are two single ones.
-TEST(Stereo, AnyDistanceBetweenTheEyesIsFine) {
+TEST_P(StereoAo, AnyDistanceBetweenTheEyesIsFine) {
   for (const double distance : {1e-6, 1e4}) {
-    const Frame frame = captured("courtyard", distance), mono = run_on("hbao+", frame);
+    const Frame frame = captured("courtyard", distance), of_one = run_on(mono, frame);
     for (const Variant& v : variants()) {
-      const Frame stereo = run_on("stereo-ao", frame, v.settings);
-      EXPECT_EQ(violation(stereo), "") << v.name << ", " << distance << " apart";
-      EXPECT_LT(largest_difference(channel_of(mono, 0, "ao_raw"), channel_of(stereo, 0, "ao_raw")), 2e-3)
+      const Frame of_two = run_on(stereo, frame, v.settings);
+      EXPECT_EQ(violation(of_two), "") << v.name << ", " << distance << " apart";
+      EXPECT_LE(changed_share(channel_of(of_one, 0, "ao_raw"), channel_of(of_two, 0, "ao_raw")),
+                distance < 1 ? GetParam().hair_apart : GetParam().estimate)
           << v.name << ", " << distance << " apart";
     }
   }
@@ -374,10 +464,10 @@ double mean_difference(const Channel& a, const Channel& b) {
 }
 
 /// Half the resolution changes it no more than it changes the mono technique.
-TEST(Stereo, WorksAtHalfResolution) {
+TEST_P(StereoAo, WorksAtHalfResolution) {
   const Frame frame = captured("courtyard", 0.065);
-  const Frame full = run_on("stereo-ao", frame), half = run_on("stereo-ao", frame, {}, 2);
-  const Frame mono_full = run_on("hbao+", frame), mono_half = run_on("hbao+", frame, {}, 2);
+  const Frame full = run_on(stereo, frame), half = run_on(stereo, frame, {}, 2);
+  const Frame mono_full = run_on(mono, frame), mono_half = run_on(mono, frame, {}, 2);
   for (const size_t view : {0, 1}) {
     const double change = mean_difference(channel_of(full, view, "ao"), channel_of(half, view, "ao"));
     EXPECT_LT(change, 1.1 * mean_difference(channel_of(mono_full, view, "ao"), channel_of(mono_half, view, "ao")));

@@ -399,23 +399,29 @@ TEST_F(Cli, StereoOfTheApartmentsReference) {
 /// The ablation of figure 10: each part brings the eyes nearer to one another.
 TEST_F(Cli, EachPartOfStereoAoBringsTheEyesTogether) {
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("pair.exr"), "--size", "240x135", "--stereo", "0.065"}).status, 0);
-  const auto inconsistency = [&](const char* estimate, const char* reproject, const char* filter) {
-    const Result run = gloam({"run", "stereo-ao", path("pair.exr"), "-o", path("ao.exr"), "--set",
-                              fmt::format("estimate={}", estimate), "--set", fmt::format("reproject={}", reproject),
-                              "--set", fmt::format("filter={}", filter)});
+  const auto inconsistency = [&](const char* technique, const char* estimate, const char* reproject,
+                                 const char* filter) {
+    const Result run =
+        gloam({"run", technique, path("pair.exr"), "-o", path("ao.exr"), "--set", fmt::format("estimate={}", estimate),
+               "--set", fmt::format("reproject={}", reproject), "--set", fmt::format("filter={}", filter)});
     EXPECT_EQ(run.status, 0) << run.err;
     const Result compared = gloam({"compare", "--stereo", path("ao.exr"), "--json", "-"});
     EXPECT_EQ(compared.status, 0) << compared.err;
     EXPECT_EQ(compared.json()["normal_check"], 6);  // normals travel with the result
     return compared.json()["inconsistency"]["mean"].get<double>();
   };
-  const double a = inconsistency("mono", "off", "mono"), b = inconsistency("stereo", "off", "mono"),
-               c = inconsistency("stereo", "on", "mono"), d = inconsistency("stereo", "on", "stereo");
-  EXPECT_GT(a, b);
-  EXPECT_GT(b, c);
-  EXPECT_GT(c, d);
-  EXPECT_LT(d, 0.4 * a);
-  EXPECT_LT(inconsistency("stereo", "no-back-check", "stereo2d"), 0.4 * a);
+  for (const char* technique : {"stereo-ao", "stereo-gtao", "stereo-bitmask"}) {
+    SCOPED_TRACE(technique);
+    const double a = inconsistency(technique, "mono", "off", "mono"),
+                 b = inconsistency(technique, "stereo", "off", "mono"),
+                 c = inconsistency(technique, "stereo", "on", "mono"),
+                 d = inconsistency(technique, "stereo", "on", "stereo");
+    EXPECT_GT(a, b);
+    EXPECT_GT(b, c);
+    EXPECT_GT(c, d);
+    EXPECT_LT(d, 0.4 * a);
+    EXPECT_LT(inconsistency(technique, "stereo", "no-back-check", "stereo2d"), 0.4 * a);
+  }
 }
 
 TEST_F(Cli, StereoAoNeedsTwoViewsAndPoses) {

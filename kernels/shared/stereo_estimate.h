@@ -1,0 +1,38 @@
+// A point of one eye as an estimate from both eyes looks at it (Shi, Billeter, Eisemann 2022, section 3.1).
+// -D ESTIMATE_MONO: no point is seen by the other eye; WITH_HALF_OCCLUSION: only those where the eyes may differ
+#ifndef GLOAM_STEREO_ESTIMATE_H
+#define GLOAM_STEREO_ESTIMATE_H
+
+#include "shared/ambient_occlusion.h"
+#include "shared/half_occlusion.h"
+
+static inline real3 position_of(Frame f, Receiver r) {
+  return position_at(f, r.point.x, r.point.y, choose(r.point.background, (real)(1), r.depth));
+}
+
+// The mask of lanes for which the other eye is worth a look (half_occlusion.h). A kernel has the argument
+// HALF_OCCLUDED_ARGUMENT after the other eye's planes.
+#if WITH_HALF_OCCLUSION
+#define HALF_OCCLUDED_ARGUMENT PLANE other_half_occluded,
+#define MAY_DIFFER(frame, neighbour, radius, receiver) \
+  is_near_marked(other_half_occluded, (neighbour).frame, into_other(neighbour, position_of(frame, receiver)), radius)
+#else
+#define HALF_OCCLUDED_ARGUMENT
+#define MAY_DIFFER(frame, neighbour, radius, receiver) EVERY_LANE
+#endif
+
+// The point as the other eye shows it, of use where that sees it and is looked at: where it `may_differ`.
+static inline Receiver receiver_there(Frame frame, Neighbour neighbour, scalar radius, scalar max_reach, Receiver here,
+                                      mask may_differ, mask* is_seen) {
+#if ESTIMATE_MONO
+  may_differ = (mask)(0);
+#endif
+  const Projection seen = project_into(neighbour, position_of(frame, here), (!here.point.background) & may_differ);
+  *is_seen = seen.is_seen;
+  // Lanes that the other eye does not see read what is there at the same place, and make nothing of it.
+  return receiver_of(neighbour.frame, radius, max_reach, choose(*is_seen, seen.x, here.point.x),
+                     choose(*is_seen, seen.y, here.point.y), choose(*is_seen, seen.depth, here.depth),
+                     rotated(neighbour, here.normal));
+}
+
+#endif
