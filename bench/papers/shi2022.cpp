@@ -325,7 +325,8 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
       "more, `blend`, puts both together; the total has all three.",
       "The paper's figure 5 takes the nearest pixel whatever it shows; here `no-back-check` still asks that its depth "
       "be "
-      "within 2 % of the pixel's own, and `reproject=on` asks only that the way back ends where it began.",
+      "within 2 % of the pixel's own, and `reproject=on` that the way back ends where it began and one of the pixels "
+      "around shows the surface.",
       fmt::format(
           "F is traced with {} rays per pixel, and `error to F` is to it. No falloff dims what its rays meet, and "
           "no filter blurs it: so it is darker than A to E and has sharper edges, where eyes disagree most.",

@@ -269,15 +269,15 @@ std::vector<glm::dvec3> half_occluded(const Frame& frame, double distance) {
 
 /// Within the radius of what the other eye alone sees it is as if that were looked at everywhere; far from it, but for a few
 /// pixels that share a place in the table, the eye's own estimate is left.
-TEST(Stereo, LooksAtTheOtherEyeWhereItMayDiffer) {
+TEST_P(StereoAo, LooksAtTheOtherEyeWhereItMayDiffer) {
   constexpr double distance = 0.1;
   const Frame frame = captured("colonnade", distance);
   const Channel& depth = channel_of(frame, 0, "depth");
   const std::vector<glm::dvec3> hidden = half_occluded(frame, distance);
-  const Channel mono = channel_of(run_on("hbao+", frame, {{"radius", "0.2"}}), 0, "ao_raw").clone();
+  const Channel of_one = channel_of(run_on(mono, frame, {{"radius", "0.2"}}), 0, "ao_raw").clone();
   const auto with = [&](const char* other_eye) {
     const Settings settings = {{"radius", "0.2"}, {"other_eye", other_eye}};
-    return channel_of(run_on("stereo-ao", frame, settings), 0, "ao_raw").clone();
+    return channel_of(run_on(stereo, frame, settings), 0, "ao_raw").clone();
   };
   const Channel near = with("near"), everywhere = with("everywhere");
   long long within = 0, missed = 0, beyond = 0, spared = 0, changed = 0;
@@ -290,15 +290,15 @@ TEST(Stereo, LooksAtTheOtherEyeWhereItMayDiffer) {
       if (nearest < 0.199) {
         ++within;
         missed += near.at(x, y) != everywhere.at(x, y);
-        changed += near.at(x, y) != mono.at(x, y);
+        changed += near.at(x, y) != of_one.at(x, y);
       } else if (nearest > 0.2 * 2 * std::sqrt(3)) {  // two cells from corner to corner
         ++beyond;
-        spared += near.at(x, y) == mono.at(x, y);
+        spared += near.at(x, y) == of_one.at(x, y);
       }
     }
   }
   EXPECT_EQ(missed, 0);
-  EXPECT_GT(changed, within / 2);
+  EXPECT_GT(changed, within / 5);  // of sectors that one eye closes the other often closes the same
   EXPECT_GT(double(spared), 0.9 * double(beyond));
   EXPECT_GT(within, 1000);
   EXPECT_GT(beyond, 1000);
