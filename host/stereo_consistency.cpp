@@ -183,6 +183,17 @@ StereoPixel look_up(const Lookup& lookup, int x, int y, float& error) {
   return verdict;
 }
 
+bool sees_any(const Lookup& lookup) {
+  for (int y = 0; y < lookup.own.window.height(); ++y) {
+    for (int x = 0; x < lookup.own.window.width(); ++x) {
+      if (is_background(lookup.own.depth.at(x, y))) continue;
+      const glm::dvec2 place = place_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
+      if (is_inside(lookup.other, place) && comes_back(lookup, x, y, place)) return true;
+    }
+  }
+  return false;
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // All pixels
 
@@ -298,7 +309,23 @@ Eye eye_of(const Frame& frame, const View& view, const std::string& plane, bool 
           are_directions};
 }
 
+/// From eye to eye, both ways. `cosine`: of the normal-check.
+std::array<Lookup, 2> lookups(const Frame& frame, const std::array<Eye, 2>& eyes, double cosine) {
+  const Pose &first = *frame.views[0].camera->pose, &second = *frame.views[1].camera->pose;
+  const Motion there = motion_between(first, second), back = motion_between(second, first);
+  return {{{eyes[0], eyes[1], there, back, cosine}, {eyes[1], eyes[0], back, there, cosine}}};
+}
+
 }  // namespace
+
+bool have_surface_in_common(const Frame& frame) {
+  const Layout layout(frame.width(), frame.height());
+  check_views(frame, "depth", layout);
+  const std::array<Eye, 2> eyes = {eye_of(frame, frame.views[0], "depth", false, layout),
+                                   eye_of(frame, frame.views[1], "depth", false, layout)};
+  const std::array<Lookup, 2> both = lookups(frame, eyes, 0);
+  return sees_any(both[0]) || sees_any(both[1]);
+}
 
 StereoInconsistency stereo_inconsistency(const Frame& frame, const std::string& plane, const StereoOptions& options) {
   const Layout layout(frame.width(), frame.height());
@@ -310,10 +337,8 @@ StereoInconsistency stereo_inconsistency(const Frame& frame, const std::string& 
     return eye_of(frame, frame.views[i], plane, result.normal_check.has_value(), layout);
   };
   const std::array<Eye, 2> eyes = {eye(0), eye(1)};
-  for (size_t i = 0; i < 2; ++i) {
-    const Pose &own = *frame.views[i].camera->pose, &other = *frame.views[1 - i].camera->pose;
-    result.views[i] = errors_of({eyes[i], eyes[1 - i], motion_between(own, other), motion_between(other, own), cosine});
-  }
+  const std::array<Lookup, 2> both = lookups(frame, eyes, cosine);
+  for (size_t i = 0; i < 2; ++i) result.views[i] = errors_of(both[i]);
   for (size_t i = 0; i < 2; ++i) {
     check_finite(result.views[i], frame.views[i].name, plane);
     result.views[i].figures = figures_of({&result.views[i]});

@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/stereo_consistency.h"
 #include "gloam/visualise.h"
 #include "options.h"
 #include "statistics.h"
@@ -72,6 +73,21 @@ void check_radius(const Plan& plan, const Frame& frame) {
                        radius, pixels)});
     }
     return;
+  }
+}
+
+/// Eyes of a technique for two that share nothing most likely are of two scenes, or have each other's cameras.
+void check_views(const Plan& plan, const Frame& frame) {
+  const auto is_of_two = [](const PlannedPass& planned) { return planned.technique->views == 2; };
+  if (!std::any_of(plan.passes.begin(), plan.passes.end(), is_of_two) || frame.views.size() != 2) return;
+  for (const View& view : frame.views) {
+    if (!view.find("depth") || !view.camera || !view.camera->pose) return;  // which is said elsewhere
+  }
+  if (!have_surface_in_common(frame)) {
+    note({fmt::format(
+        "the views '{}' and '{}' have no surface in common, and each gets a result of its own; do both show "
+        "one scene, each with its own camera?",
+        frame.views[0].name, frame.views[1].name)});
   }
 }
 
@@ -228,6 +244,7 @@ void run_command(const RunCommand& flags) {
   // A plane turned out to be of no use (normals in the space of an unknown camera): make it instead.
   if (left.size() < plan.inputs.size()) plan = make_plan(request, left, holdings(files));
   check_radius(plan, frame);
+  check_views(plan, frame);
   Device device = starting.get();
   watch.lap("device");
   options.progress = progress_bar();

@@ -69,4 +69,8 @@ struct StereoInconsistency {
 StereoInconsistency stereo_inconsistency(const Frame& frame, const std::string& plane,
                                          const StereoOptions& options = {});
 
+/// Whether there is a pixel of one of two views whose surface the other sees as well, by the back-check. Both have depth and
+/// a camera with a pose.
+bool have_surface_in_common(const Frame& frame);
+
 }  // namespace gloam

@@ -424,6 +424,18 @@ TEST_F(Cli, EachPartOfStereoAoBringsTheEyesTogether) {
   }
 }
 
+TEST_F(Cli, StereoAoSaysWhereTheEyesHaveNothingInCommon) {
+  const Shot shot = perspective(width, height);
+  for (const double apart : {0.1, 100.0}) {
+    write_frame(path("pair.exr"), shoot_pair({eye_at(shot, {0, 0, 0}), eye_at(shot, {apart, 0, 0})}, wall,
+                                             [](const glm::dvec3&) { return 1; }));
+    const Result result = gloam({"run", "stereo-ao", path("pair.exr"), "-o", path("out.exr")});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err.find("the views 'left' and 'right' have no surface in common") != std::string::npos, apart > 1)
+        << result.err;
+  }
+}
+
 TEST_F(Cli, StereoAoNeedsTwoViewsAndPoses) {
   ASSERT_EQ(gloam({"capture", "plane", "-o", path("one.exr"), "--size", "32x18"}).status, 0);
   const Result one = gloam({"run", "stereo-ao", path("one.exr"), "-o", path("ao.exr")});
