@@ -15,8 +15,8 @@ namespace gloam {
 /// (`normal_x`, `normal_y`, `normal_z`).
 ///
 /// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
-/// the technique's own resolution whatever the pass's, or with `as_launched` of the pass's. A pass that reads and writes such a stack names it once, as
-/// written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
+/// the technique's own resolution whatever the pass's, or with `as_launched` of the pass's. A pass that reads and writes
+/// such a stack names it once, as written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
 ///
 /// With `of_other` it is the plane of the other of two views (`Technique::views`).
 struct Binding {

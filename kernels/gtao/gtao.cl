@@ -10,8 +10,8 @@
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED, STEREO,
-//    ESTIMATE_MONO, WITH_HALF_OCCLUSION
+// -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT,
+//    COMPENSATED, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "estimators/arc.h"
 #include "estimators/bent_normal.h"
 #include "estimators/sectors.h"
@@ -80,7 +80,7 @@ typedef struct {
   Closed closed;           // of two eyes: by what this one alone sees
   Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
 #if STEREO
-  Closed closed_for_both;  // by what both eyes see (STEREO)
+  Closed closed_for_both;  // by what both eyes see
 #endif
 } Side;
 
