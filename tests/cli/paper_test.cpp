@@ -88,7 +88,10 @@ TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
   std::map<std::string, Json> totals;
   for (const Json& row : document["paper"]) {
     EXPECT_GT(row["ms"], 0) << row;
-    if (row["row"] == "stereo: total") totals[row["table"].get<std::string>().substr(0, 7)][row["column"]] = row;
+    // The paper looks at the other eye everywhere.
+    const std::string table = row["table"].get<std::string>().substr(0, 7);
+    const bool is_the_papers = row["row"] == (table == "Table 1" ? "everywhere: total" : "stereo: total");
+    if (is_the_papers) totals[table][row["column"]] = row;
   }
   for (const std::string table : {"Table 1", "Table 2"}) {
     for (const std::string kind : {"mono", "stereo"}) {
