@@ -319,13 +319,11 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
       "HBAO+ with 10 x 4 samples, a filter of 13 x 13 taps. Times at half resolution are without the passes that bring "
       "images there and back.",
       "`everywhere` looks at the other eye for every pixel, as the paper does, and so does B; the others only where "
-      "that "
-      "can differ.",
+      "that can differ.",
       "The paper's filter looks at both eyes in its passes X and Y. Here each eye is filtered by itself, and one pass "
       "more, `blend`, puts both together; the total has all three.",
       "The paper's figure 5 takes the nearest pixel whatever it shows; here `no-back-check` still asks that its depth "
-      "be "
-      "within 2 % of the pixel's own, and `reproject=on` that the way back ends where it began and one of the pixels "
+      "be within 2 % of the pixel's own, and `reproject=on` that the way back ends where it began and one of the pixels "
       "around shows the surface.",
       fmt::format(
           "F is traced with {} rays per pixel, and `error to F` is to it. No falloff dims what its rays meet, and "

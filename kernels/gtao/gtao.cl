@@ -36,10 +36,6 @@ typedef GtaoParams Params;
 #if STEREO
 #include "shared/stereo_estimate.h"
 #include "shared/stereo_passes.h"
-#ifdef COLUMNS
-#include "shared/bilateral_filter.h"
-#include "shared/stereo_filter.h"
-#endif
 #endif
 
 // What a row of pixels looks for, the same on both sides of all slices.
@@ -403,12 +399,12 @@ static inline __attribute__((always_inline)) real share_open_to_both(Frame frame
 
 // The estimate for one point of each lane. `may_differ`: for which the other eye is looked at.
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
-                                DepthLayers other_layers, Receiver receiver, Noise noise, mask may_differ) {
+                                DepthLayers other_layers, Receiver receiver, mask may_differ) {
   const Frame other = neighbour.frame;
   mask is_seen;
   Receiver receiver_of_other =
       receiver_there(frame, neighbour, params.radius, params.max_reach, receiver, may_differ, &is_seen);
-  receiver.noise = receiver_of_other.noise = noise;
+  receiver_of_other.noise = receiver.noise;
   const Search here = search_of(params, receiver), there = search_of(params, receiver_of_other);
   real open;
   if (frame.pitch < SHORT_PITCH &&
@@ -422,15 +418,13 @@ static inline real open_to_both(Frame frame, Neighbour neighbour, Params params,
 
 kernel void gtao_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                         PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
-  const int here = index_of(frame, FIRST_X, ROW_Y);
-  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(FIRST_X + IOTA), (real)(ROW_Y),
-                                 fabs(load(depth, here)), load3(normal_x, normal_y, normal_z, here));
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real open = (real)(1);
   if (ANY(!r.point.background))
     open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
-                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, noise_at(FIRST_X + IOTA, ROW_Y, frame.seed),
+                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r,
                         MAY_DIFFER(frame, neighbour, params.radius, r));
-  store(open, ao_raw, here);
+  store(open, ao_raw, r.here);
 }
 
 // The same for the pixels of a list.
@@ -439,12 +433,10 @@ kernel void gtao_stereo_list(Frame frame, Neighbour neighbour, Params params, PL
                              PLANE_OUT ao_raw) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
-  const integer x = column_of(frame, index), y = row_of(frame, index);
-  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(x), to_real(y),
-                                 fabs(gather(depth, index)), gather3(normal_x, normal_y, normal_z, index));
-  scatter(
-      open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth), OTHER_LAYERS_FROM(neighbour.frame, other_depth),
-                   r, noise_of(to_natural(x), to_natural(y), frame.seed), EVERY_LANE),
-      ao_raw, index);
+  const Receiver r =
+      receiver_at_index(frame, params.radius, params.max_reach, index, depth, normal_x, normal_y, normal_z);
+  scatter(open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                       OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE),
+          ao_raw, index);
 }
 #endif

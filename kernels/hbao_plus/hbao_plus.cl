@@ -34,10 +34,6 @@ typedef HbaoPlusParams Params;
 #if STEREO
 #include "shared/stereo_estimate.h"
 #include "shared/stereo_passes.h"
-#ifdef COLUMNS
-#include "shared/bilateral_filter.h"
-#include "shared/stereo_filter.h"
-#endif
 #endif
 
 // The largest contribution of all layers at an index from `here`, which lies (dx, dy) pixels from the point. `by_both`: whether
@@ -167,10 +163,9 @@ kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params
 // `there`: the point as the other eye shows it, of use where `is_seen`.
 static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame other, Params params,
                                                               DepthLayers layers, DepthLayers other_layers,
-                                                              Receiver here, Receiver there, mask is_seen, Noise noise,
-                                                              int within) {
+                                                              Receiver here, Receiver there, mask is_seen, int within) {
   const Centre centre = centre_of(frame, here.point), other_centre = centre_of(other, there.point);
-  Fan fan = fan_of(here.reach, noise), other_fan = fan_of(there.reach, noise);
+  Fan fan = fan_of(here.reach, here.noise), other_fan = fan_of(there.reach, here.noise);
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
 #if LAYERS == 1
@@ -195,36 +190,34 @@ static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame
 
 // The estimate for one point of each lane. `may_differ`: for which the other eye is looked at.
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
-                                DepthLayers other_layers, Receiver here, Noise noise, mask may_differ) {
+                                DepthLayers other_layers, Receiver here, mask may_differ) {
   const Frame other = neighbour.frame;
   mask is_seen;
   const Receiver there = receiver_there(frame, neighbour, params.radius, params.max_reach, here, may_differ, &is_seen);
   const int is_inside = frame.pitch < SHORT_PITCH && reaches_only_inside(frame, here.point, here.reach);
   if (!ANY(is_seen)) {
-    const Fan fan = fan_of(here.reach, noise);
+    const Fan fan = fan_of(here.reach, here.noise);
     return open_of(params, is_inside ? sum_around(frame, params, layers, here, fan, SAMPLES_INSIDE)
                                      : sum_around(frame, params, layers, here, fan, SAMPLES_CLAMPED));
   }
   real sum;
   if (is_inside && reaches_only_inside(other, there.point, there.reach))
-    sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, noise, SAMPLES_INSIDE);
+    sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
   else
-    sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, noise, SAMPLES_CLAMPED);
+    sum = sum_of_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
   return open_of(params, sum);
 }
 
 kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
                              PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PLANE other_depth,
                              OTHER_OCCLUDERS_ARGUMENT HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
-  const int here = index_of(frame, FIRST_X, ROW_Y);
-  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(FIRST_X + IOTA), (real)(ROW_Y),
-                                 fabs(load(depth, here)), load3(normal_x, normal_y, normal_z, here));
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real open = (real)(1);
   if (ANY(!r.point.background))
     open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
-                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, noise_at(FIRST_X + IOTA, ROW_Y, frame.seed),
+                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r,
                         MAY_DIFFER(frame, neighbour, params.radius, r));
-  store(choose(r.point.background, (real)(1), open), ao_raw, here);
+  store(choose(r.point.background, (real)(1), open), ao_raw, r.here);
 }
 
 // The same for the pixels of a list.
@@ -233,12 +226,10 @@ kernel void hbao_plus_stereo_list(Frame frame, Neighbour neighbour, Params param
                                   PLANE other_depth, OTHER_OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
-  const integer x = column_of(frame, index), y = row_of(frame, index);
-  const Receiver r = receiver_of(frame, params.radius, params.max_reach, to_real(x), to_real(y),
-                                 fabs(gather(depth, index)), gather3(normal_x, normal_y, normal_z, index));
-  scatter(
-      open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth), OTHER_LAYERS_FROM(neighbour.frame, other_depth),
-                   r, noise_of(to_natural(x), to_natural(y), frame.seed), EVERY_LANE),
-      ao_raw, index);
+  const Receiver r =
+      receiver_at_index(frame, params.radius, params.max_reach, index, depth, normal_x, normal_y, normal_z);
+  scatter(open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                       OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE),
+          ao_raw, index);
 }
 #endif

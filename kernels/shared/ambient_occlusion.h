@@ -214,7 +214,8 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
                                    PLANE normal_y, PLANE normal_z) {
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
   const integer x = FIRST_X + IOTA;
-  Receiver r = receiver_of(frame, radius, max_reach, to_real(x), (real)(y), load(depth, here),
+  mask by_both;
+  Receiver r = receiver_of(frame, radius, max_reach, to_real(x), (real)(y), depth_seen(load(depth, here), &by_both),
                            load3(normal_x, normal_y, normal_z, here));
   r.x = x;
   r.y = y;

@@ -85,4 +85,10 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
 }
 #endif
 
+// The filters, where a pass has the taps for them.
+#ifdef COLUMNS
+#include "shared/bilateral_filter.h"
+#include "shared/stereo_filter.h"
+#endif
+
 #endif
