@@ -8,7 +8,10 @@ Pass bilateral_pass(const std::string& name, const std::string& from, const std:
           .kernel = "bilateral",
           .reads = {{"source", from}, "depth", "normal"},
           .writes = {{"result", to}},
-          .defines = {{"COLUMNS", columns}, {"ROWS", rows}}};
+          .defines = {{"COLUMNS", columns}, {"ROWS", rows}},
+          .can_skip = true,
+          .reach_x = columns,
+          .reach_y = rows};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "gloam/planes.h"
 #include "lists.h"
+#include "mask.h"
 #include "resample.h"
 
 namespace gloam {
@@ -170,12 +171,36 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
   return wanted;
 }
 
+/// The plane that a request's mask names: the one that a technique of that name makes, or the name itself. What makes it joins
+/// the makers.
+std::string want_mask(Wanted& wanted, const std::string& mask, const std::vector<std::string>& available) {
+  if (mask.empty()) return "";
+  std::string plane = mask;
+  if (const Technique* technique = technique_named(mask)) {
+    plane = technique->writes.front();
+    wanted.makers.push_back(technique);
+  } else if (!contains(available, plane) && !maker_of(plane, nullptr, wanted.makers)) {
+    std::vector<std::string> names = plane_and_technique_names();
+    names.insert(names.end(), available.begin(), available.end());
+    throw UsageError(
+        "--only {}: is neither a plane at hand nor a technique that makes one{}; --plane mask=CHANNEL takes any "
+        "channel of the "
+        "file as 'mask'",
+        mask, suggestion(mask, names));
+  }
+  if (plane_kind(plane).components.size() != 1 || is_stack(plane))
+    throw UsageError("--only {}: '{}' is no single value per pixel; corner-mask makes a mask", mask, plane);
+  return plane;
+}
+
 /// Walks back from planes to what makes them, and to the planes at hand.
 class Walk {
  public:
-  /// `also`: planes that are needed beside the outputs.
-  Walk(const Wanted& wanted, std::vector<std::string> available, const std::vector<std::string>& also)
+  /// `also`: planes that are needed beside the outputs. `mask`: one that is needed before them; may be empty.
+  Walk(const Wanted& wanted, std::vector<std::string> available, const std::vector<std::string>& also,
+       const std::string& mask)
       : wanted_(wanted), available_(std::move(available)) {
+    if (!mask.empty()) need(mask, nullptr);
     for (const std::string& output : wanted.outputs) need(output, nullptr);
     for (const std::string& plane : also) need(plane, nullptr);
   }
@@ -252,9 +277,10 @@ std::map<std::string, std::string> substitutes(const Wanted& wanted, const std::
   return instead;
 }
 
-/// "gloam capture --peel N makes 'peel'"; empty for what is no stack.
+/// "gloam capture --peel N makes 'peel'"; empty where that is not known.
 std::string source_of(const std::string& plane) {
-  return is_stack(plane) ? fmt::format("{} makes '{}'", stack_kind(plane).source, plane) : "";
+  const std::string source = is_stack(plane) ? stack_kind(plane).source : plane_kind(plane).source;
+  return source.empty() ? "" : fmt::format("{} makes '{}'", source, plane);
 }
 
 /// Planes that are not at hand, in words; what would take least first.
@@ -443,6 +469,19 @@ void pass_on_to_stacks(const std::vector<const Technique*>& order, std::vector<P
   }
 }
 
+/// A mask is made for the technique that it restricts: parameters of the same name, such as the radius.
+void pass_on_to_mask(const std::vector<const Technique*>& order, const Technique& restricted, const std::string& mask,
+                     std::vector<ParameterValues>& values) {
+  const size_t asks = size_t(std::find(order.begin(), order.end(), &restricted) - order.begin());
+  if (asks == order.size()) return;
+  for (size_t maker = 0; maker < order.size(); ++maker) {
+    if (!contains(order[maker]->writes, mask)) continue;
+    for (const Parameter& p : restricted.parameters) {
+      if (values[maker].has(p.name)) values[maker].set(p.name, values[asks].text(p.name), order[maker]->name);
+    }
+  }
+}
+
 std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& values) {
   return technique.passes ? technique.passes(values) : std::vector<Pass>();
 }
@@ -459,9 +498,11 @@ bool reads_from(const Technique& reader, const Technique& writer) {
 }
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
-  const Wanted wanted = wanted_by(request, available);
+  Wanted wanted = wanted_by(request, available);
+  const std::vector<const Technique*> asked_for = wanted.makers;
+  const std::string mask = want_mask(wanted, request.mask, available);
   const bool is_reduced = request.resolution > 1;
-  Walk walk(wanted, with_stacks(available), is_reduced ? resampling().reads : std::vector<std::string>());
+  Walk walk(wanted, with_stacks(available), is_reduced ? resampling().reads : std::vector<std::string>(), mask);
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   take_inputs(plan, walk.inputs, available, walk.missing);
@@ -475,6 +516,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   apply(request, walk.order, plan.technique, values);
   inherit(walk.order, values);
   pass_on_to_stacks(walk.order, values);
+  if (!mask.empty() && !asked_for.empty()) pass_on_to_mask(walk.order, *asked_for.front(), mask, values);
   apply(request, walk.order, plan.technique, values);
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
@@ -486,7 +528,9 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   trim_stacks(plan);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;
-  if (is_reduced) reduce(plan, wanted.makers, values.back());
+  if (is_reduced) reduce(plan, asked_for, values.back());
+  plan.mask = mask;
+  if (!mask.empty()) restrict_to_mask(plan, asked_for);
   plan.skipped = walk.skipped;
   skip_the_rest(plan, available);
   if (contains(plan.inputs, "depth"))

@@ -13,8 +13,9 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity();
 
 PlaneKind kind(std::string name, std::vector<std::string> components, std::vector<std::string> channels, float outside,
-               PlaneKind::Meaning meaning, std::string help) {
-  return {std::move(name), std::move(components), std::move(channels), outside, meaning, std::move(help)};
+               PlaneKind::Meaning meaning, std::string help, std::string source = "") {
+  return {std::move(name), std::move(components), std::move(channels), outside,
+          meaning,         std::move(help),       std::move(source)};
 }
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
@@ -38,7 +39,8 @@ const std::vector<PlaneKind>& plane_kinds() {
            "first back face of the same instance behind the visible surface"),
       kind("instance", {""}, {"instance"}, 0, K::value, "identity of the instance seen"),
       kind("peel_count", {""}, {"peel.count"}, 0, K::value, "how many surfaces lie under the pixel centre"),
-      kind("outline_count", {""}, {"outline.count"}, 0, K::value, "signed crossings in front of the surface"),
+      kind("outline_count", {""}, {"outline.count"}, 0, K::value, "signed crossings in front of the surface",
+           "gloam capture --outlines EXTENT"),
       kind("seen_by_both", {""}, {"both"}, 0, K::value, "1 where both of two eyes see the surface"),
       kind("mask", {""}, {"mask"}, 0, K::unit_interval, "where an effect is wanted"),
       kind("motion", {"x", "y"}, {"motion.X", "motion.Y"}, 0, K::value, "pixels, current to previous frame, y down"),

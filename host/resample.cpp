@@ -47,7 +47,8 @@ Pass upsample(const std::string& plane, int resolution) {
                     "depth",
                     "normal"},
           .writes = {{"result", plane}},
-          .defines = {{"SCALE", resolution}, {"OUTSIDE", int(plane_kind(plane).outside)}}};
+          .defines = {{"SCALE", resolution}, {"OUTSIDE", int(plane_kind(plane).outside)}},
+          .can_skip = true};
 }
 
 /// Passes of a plan, rewritten one by one.

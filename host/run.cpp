@@ -1,6 +1,7 @@
 #include "gloam/run.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "lists.h"
+#include "mask.h"
 
 namespace gloam {
 namespace {
@@ -179,6 +181,13 @@ class Buffers {
       planes.push_back(std::move(plane));
     }
     return planes;
+  }
+
+  /// Bits of what is wanted (shared/wanted.h), in a plane's memory.
+  Channel download_bits(const std::string& name, const Layout& layout) {
+    Channel bits(layout);
+    device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, 0, layout.bytes(), bits.data());
+    return bits;
   }
 
   /// Takes a computed plane back to the host; it is no longer on the device then.
@@ -500,9 +509,31 @@ void download(const Plan& plan, Target& target, View& out) {
   }
 }
 
+/// Pixels that a mask lets an estimate skip, of all that there are.
+struct Skipped {
+  double pixels = 0, of = 0;
+};
+
+/// A row of lanes is skipped where none of them is wanted.
+void count_skipped(const Plan& plan, std::vector<Target>& targets, int lanes, Skipped& skipped) {
+  if (plan.wanted.empty()) return;
+  const uint32_t row_of_lanes = uint32_t((1ull << lanes) - 1);
+  for (Target& target : targets) {
+    const Layout layout = target.layouts.of(plan.wanted);
+    const Channel bits = target.buffers.download_bits(plan.wanted, layout);
+    for (int y = 0; y < layout.height; ++y) {
+      for (int x = 0; x < layout.width; x += lanes) {
+        const uint32_t word = std::bit_cast<uint32_t>(bits.at(x / 32, y));
+        if ((word >> (x % 32) & row_of_lanes) == 0) skipped.pixels += std::min(lanes, layout.width - x);
+      }
+    }
+    skipped.of += double(layout.width) * layout.height;
+  }
+}
+
 /// Views that are on the device together.
 void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
-               const RunOptions& options, int lanes, RunResult& result) {
+               const RunOptions& options, int lanes, RunResult& result, Skipped& skipped) {
   const Layout layout(frame.width(), frame.height());
   std::vector<Target> targets;
   for (const View* view : views) {
@@ -525,6 +556,7 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
       if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
     });
   }
+  count_skipped(plan, targets, lanes, skipped);
   for (Target& target : targets) {
     View out{.name = target.view.name, .camera = target.view.camera, .origin = target.view.origin, .planes = {}};
     download(plan, target, out);
@@ -591,13 +623,15 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   if (needs_two_views(plan)) check_two_views(plan, frame);
   std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
   for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
+  Skipped skipped;
   for (const std::vector<const View*>& views : groups) {
     try {
-      run_views(plan, frame, views, impl, options, result.lanes, result);
+      run_views(plan, frame, views, impl, options, result.lanes, result, skipped);
     } catch (const cl::Error& error) {
       throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
     }
   }
+  if (skipped.of > 0) result.skipped_share = skipped.pixels / skipped.of;
   result.total_ms.assign(size_t(std::max(options.repeat, 0)), 0.0);
   for (const PassTime& pass : result.passes) {
     for (size_t i = 0; i < pass.ms.size(); ++i) result.total_ms[i] += pass.ms[i];

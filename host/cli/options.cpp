@@ -260,11 +260,17 @@ void TechniqueFlags::add_to(CLI::App& app) {
          "full, half or quarter: estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
       ->type_name("NAME")
       ->group("Technique");
+  app.add_option("--only", only,
+                 "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
+                 "technique that makes a mask, such as corner-mask")
+      ->type_name("MASK")
+      ->group("Technique");
 }
 
 PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
   PlanRequest request{.outputs = outputs, .then = then, .preset = preset};
   request.settings = parse_settings(settings, "--set");
+  request.mask = only;
   if (!with.empty()) request.with = split_list(with, "--with");
   request.resolution = one_of<int>(resolution, "--resolution", {{"full", 1}, {"half", 2}, {"quarter", 4}});
   return request;

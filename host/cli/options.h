@@ -43,7 +43,7 @@ struct FrameArguments {
 /// Which techniques, and with which parameters.
 struct TechniqueFlags {
   std::vector<std::string> settings;
-  std::string preset, then, with, resolution = "full";
+  std::string preset, then, with, resolution = "full", only;
   void add_to(CLI::App& app);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };

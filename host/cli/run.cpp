@@ -128,7 +128,7 @@ Json document(const RunCommand& flags, const Plan& plan, const RunResult& result
           {"passes", passes},
           {"total_ms", milliseconds(result.total_ms)},
           {"plan", plan_document(plan, decoded)},
-          {"skipped_share", 0.0},
+          {"skipped_share", result.skipped_share},
           {"device_bytes", result.device_bytes},
           {"wall_ms", wall}};
 }
@@ -260,6 +260,8 @@ void run_command(const RunCommand& flags) {
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, files), watch), written);
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
+  if (!plan.mask.empty())
+    fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
   fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
@@ -290,6 +292,7 @@ void add_run(CLI::App& app) {
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"
+      "  gloam run gtao frame.exr -o ao.exr --only corner-mask\n"
       "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
       "Every parameter of the technique is a flag (gloam list techniques).");
   command->callback([flags] { run_command(*flags); });

@@ -35,7 +35,8 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
           .reads = {"depth", "normal"},
           .writes = {"ao_raw"},
           .defines = std::move(defines),
-          .looks_around = true};
+          .looks_around = true,
+          .can_skip = true};
 }
 
 /// The cross-bilateral filter (shared/bilateral_filter.h) from "ao_raw" to `result`, along rows and then columns, or over all

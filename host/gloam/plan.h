@@ -23,6 +23,9 @@ struct PlanRequest {
   std::string preset;
   /// name = value, or technique.name = value. A bare name reaches every planned technique that has it.
   std::vector<std::pair<std::string, std::string>> settings;
+  /// Restricts the techniques asked for and their filters to where it is above 0: a plane, or a technique that makes one.
+  /// Filters cover the mask, estimates what these read of them. What is left out is open. Empty: everywhere.
+  std::string mask;
   /// Every `resolution`-th pixel of every `resolution`-th row is estimated and filtered, and the rest is brought back by
   /// joint bilateral upsampling (resample.h): 1, 2 or 4.
   int resolution = 1;
@@ -37,12 +40,14 @@ struct PlannedPass {
 };
 
 struct Plan {
-  std::string technique;                                     ///< the first one asked for or found; names the run
-  std::vector<std::string> outputs;                          ///< planes to hand over
-  std::vector<std::string> inputs;                           ///< planes to take from the frame
-  std::map<std::string, std::vector<std::string>> stacks;    ///< layers of each stack read: "peel" -> "peel.00", ...
-  std::vector<PlannedPass> passes;                           ///< in order
-  int resolution = 1;                                        ///< as asked for
+  std::string technique;                                   ///< the first one asked for or found; names the run
+  std::vector<std::string> outputs;                        ///< planes to hand over
+  std::vector<std::string> inputs;                         ///< planes to take from the frame
+  std::map<std::string, std::vector<std::string>> stacks;  ///< layers of each stack read: "peel" -> "peel.00", ...
+  std::vector<PlannedPass> passes;                         ///< in order
+  int resolution = 1;                                      ///< as asked for
+  std::string mask;                                        ///< the plane that says what is wanted; empty: everything is
+  std::string wanted;  ///< bits by which the estimate skips pixels (shared/wanted.h)
   std::vector<std::pair<std::string, std::string>> skipped;  ///< what, why
   std::vector<std::string> depends_on_pixels;                ///< what only the pixel values will tell
 };

@@ -16,6 +16,7 @@ struct PlaneKind {
   float outside;                        ///< value of pixels that no data window covers and of the row padding
   enum Meaning { value, unit_interval, unit_vector, view_depth } meaning;
   std::string help;
+  std::string source = "";  ///< what makes one that no technique makes, for messages; may be empty
 };
 
 /// All planes with a fixed meaning, in the order in which they are shown.

@@ -36,6 +36,8 @@ struct RunResult {
   std::vector<PassTime> passes;  ///< per view, in order
   std::vector<double> total_ms;  ///< one per repeat: the sum over passes
   int lanes = 1;
+  /// Share of all views' pixels that the estimate skipped: those of rows of lanes of which the mask wants none.
+  double skipped_share = 0;
   unsigned long long device_bytes = 0;  ///< of the largest view
 };
 

@@ -52,6 +52,12 @@ struct Pass {
   int view = -1;
   /// Each pixel reads many others at some distance: launched in an order that keeps these in the cache.
   bool looks_around = false;
+  /// Where a mask leaves pixels out it skips rows of pixels of which none is wanted (shared/wanted.h).
+  bool can_skip = false;
+  /// A filter's: each pixel reads what earlier passes made so many columns and rows around, at most 32.
+  int reach_x = 0, reach_y = 0;
+  /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
+  bool repeats_cells = false;
 };
 
 /// A named set of parameter values.

@@ -151,10 +151,12 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
 }
 
 kernel void alchemy_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                             OCCLUDERS_ARGUMENT DEPTH_LEVELS_ARGUMENT PLANE_OUT ao_raw) {
+                             OCCLUDERS_ARGUMENT DEPTH_LEVELS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   DEPTH_LEVELS_FROM(depth)
-  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  leave_out(&r, is_wanted);
   if (!ANY(!r.point.background)) {
     store((real)(1), ao_raw, r.here);
     return;

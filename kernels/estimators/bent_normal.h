@@ -56,19 +56,28 @@ static inline real cone_of(OpenDirections d) {
 #if WITH_BENT_NORMAL
 #define BENT_NORMAL_ARGUMENTS , PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
 #define STORE_BENT_NORMAL(d, r) store_bent_normal(d, r, bent_normal_x, bent_normal_y, bent_normal_z);
+#define STORE_NO_BENT_NORMAL             \
+  store((real)(0), bent_normal_x, here); \
+  store((real)(0), bent_normal_y, here); \
+  store((real)(0), bent_normal_z, here);
 #else
 #define BENT_NORMAL_ARGUMENTS
 #define STORE_BENT_NORMAL(d, r)
+#define STORE_NO_BENT_NORMAL
 #endif
 #if WITH_CONE
 #define CONE_ARGUMENT , PLANE_OUT cone
 #define STORE_CONE(d, r) store(choose((r).point.background, (real)(0), cone_of(d)), cone, (r).here);
+#define STORE_NO_CONE store((real)(0), cone, here);
 #else
 #define CONE_ARGUMENT
 #define STORE_CONE(d, r)
+#define STORE_NO_CONE
 #endif
 #define OPEN_DIRECTIONS_ARGUMENTS BENT_NORMAL_ARGUMENTS CONE_ARGUMENT
 #define STORE_OPEN_DIRECTIONS(d, r) STORE_BENT_NORMAL(d, r) STORE_CONE(d, r)
+// At index `here`, where nothing is known (SKIP_UNWANTED).
+#define STORE_NO_DIRECTIONS STORE_NO_BENT_NORMAL STORE_NO_CONE
 
 // Zero on background.
 static inline void store_bent_normal(OpenDirections d, Receiver r, PLANE_OUT x, PLANE_OUT y, PLANE_OUT z) {

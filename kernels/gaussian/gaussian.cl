@@ -7,10 +7,11 @@
 // out: sum, weight  of the taps in the row
 // gaussian_vertical
 // in : sum, weight      depth
-// out: result  filtered; 1 on background
-// -D HALF_WIDTH
+// out: result  filtered; 1 on background and where it is not wanted
+// -D HALF_WIDTH, MASKED (wanted.h)
 #include "gaussian/params.h"
 #include "shared/camera.h"
+#include "shared/wanted.h"
 
 // exp(-x) for x >= 0, relative error below 3e-7. In plain operations: the same bits everywhere.
 static inline scalar exp_of_minus(scalar x) {
@@ -32,8 +33,9 @@ static inline scalar weight_of(int k, scalar sigma) {
   return exp_of_minus((scalar)0.5 * t * t);
 }
 
-kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source, PLANE depth, PLANE_OUT sum,
-                                PLANE_OUT weight) {
+kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source, PLANE depth,
+                                WANTED_ARGUMENT PLANE_OUT sum, PLANE_OUT weight) {
+  SKIP_UNWANTED(frame, )
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const integer x = FIRST_X + IOTA;
   real values = 0, weights = 0;
@@ -52,8 +54,9 @@ kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source
 }
 
 kernel void gaussian_vertical(Frame frame, GaussianParams params, PLANE sum, PLANE weight, PLANE depth,
-                              PLANE_OUT result) {
+                              WANTED_ARGUMENT PLANE_OUT result) {
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
+  SKIP_UNWANTED(frame, store((real)(1), result, here))
   const mask background = is_background(load(depth, here));
   real values = 0, weights = 0;
 #pragma unroll
@@ -66,5 +69,5 @@ kernel void gaussian_vertical(Frame frame, GaussianParams params, PLANE sum, PLA
   }
   // The pixel itself has a weight of 1 unless it is background.
   const real filtered = values / choose(background, (real)(1), weights);
-  store(choose(background, (real)(1), filtered), result, here);
+  store(choose(background | !is_wanted, (real)(1), filtered), result, here);
 }

@@ -7,16 +7,20 @@ namespace {
 
 std::vector<Pass> passes(const GaussianParams& p) {
   const std::vector<std::pair<std::string, int>> defines = {{"HALF_WIDTH", p.half_width}};
-  return {{"horizontal",
-           "gaussian_horizontal",
-           {{"source", "ao_raw"}, "depth"},
-           {{"sum", "gaussian_sum"}, {"weight", "gaussian_weight"}},
-           defines},
-          {"vertical",
-           "gaussian_vertical",
-           {{"sum", "gaussian_sum"}, {"weight", "gaussian_weight"}, "depth"},
-           {{"result", "ao"}},
-           defines}};
+  return {{.name = "horizontal",
+           .kernel = "gaussian_horizontal",
+           .reads = {{"source", "ao_raw"}, "depth"},
+           .writes = {{"sum", "gaussian_sum"}, {"weight", "gaussian_weight"}},
+           .defines = defines,
+           .can_skip = true,
+           .reach_x = p.half_width},
+          {.name = "vertical",
+           .kernel = "gaussian_vertical",
+           .reads = {{"sum", "gaussian_sum"}, {"weight", "gaussian_weight"}, "depth"},
+           .writes = {{"result", "ao"}},
+           .defines = defines,
+           .can_skip = true,
+           .reach_y = p.half_width}};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED
+// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/horizon.h"
 #include "hbao/params.h"
 #include "shared/fan.h"
@@ -114,9 +114,11 @@ static inline scalar lowest_height(Params params) {
 }
 
 kernel void hbao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
+                          OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here); STORE_NO_DIRECTIONS)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
-  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
   real taken = 0;
   if (ANY(!r.point.background)) {

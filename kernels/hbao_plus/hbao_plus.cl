@@ -8,7 +8,7 @@
 //      other_depth, occluders  of the other view, at a resolution of their own (hbao_plus_other_view)
 //      own        what hbao_plus_estimate found
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
-// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, STOCHASTIC, EARLY_OUT, COMPENSATED,
+// -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED,
 //    MULTIVIEW, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "estimators/obscurance.h"
 #include "hbao_plus/params.h"
@@ -91,9 +91,11 @@ static inline real open_of(Params params, real sum) {
 }
 
 kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                               OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+                               OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const DepthLayers layers = LAYERS_FROM(frame, depth);
-  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  leave_out(&r, is_wanted);
   if (!ANY(!r.point.background)) {
     store((real)(1), ao_raw, r.here);
     return;

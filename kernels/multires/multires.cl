@@ -2,7 +2,7 @@
 // its own pixels as all others; together the rings cover the radius. From the coarsest on, what was found is brought up by
 // joint bilateral upsampling and combined with what the next resolution finds.
 //
-// subsample: `frame` is the reduced one, `other` the finer one. Pixel (x, y) is pixel (x, y) * SCALE of the finer.
+// subsample: shared/subsample.h
 //
 // estimate: level 0 is the whole image, each further one half as wide and high as the one before.
 // in : depth, normal          of this level; view-space z, scene units, +inf = background; unit, view space
@@ -11,21 +11,19 @@
 // out: most    largest mean obscurance of any level so far (level 1 and up)
 //      sum     of the mean obscurances of all levels so far (level 1 and up, WITH_MEAN)
 //      ao_raw  1 = open .. 0 = closed; 1 on background (level 0)
-// -D LEVEL, LEVELS, COARSER, SAMPLES, WITH_MEAN, JITTER, NO_FALLOFF, OUTSIDE_OPEN, SCALE (2)
+// -D MASKED (wanted.h), LEVEL, LEVELS, COARSER, SAMPLES, WITH_MEAN, JITTER, NO_FALLOFF, OUTSIDE_OPEN, SCALE (2)
 #include "estimators/obscurance.h"
 #include "multires/params.h"
 #include "shared/ambient_occlusion.h"
+#include "shared/subsample.h"
 #include "shared/upsample.h"
+#include "shared/wanted.h"
 
 kernel void multires_subsample(Frame frame, Frame other, MultiresParams params, PLANE depth, PLANE normal_x,
                                PLANE normal_y, PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x,
                                PLANE_OUT low_normal_y, PLANE_OUT low_normal_z) {
-  const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
-  const integer step = IOTA * (integer)(SCALE);
-  store(gather(depth + from, step), low_depth, to);
-  store(gather(normal_x + from, step), low_normal_x, to);
-  store(gather(normal_y + from, step), low_normal_y, to);
-  store(gather(normal_z + from, step), low_normal_z, to);
+  subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
+                    low_normal_z);
 }
 
 #ifdef LEVEL
@@ -114,13 +112,16 @@ static inline real levels_within(real pixels, scalar most_pixels) {
 kernel void multires_estimate(TWO_FRAMES, MultiresParams params, COARSER_ARGUMENTS PLANE depth, PLANE normal_x,
                               PLANE normal_y, PLANE normal_z,
 #if LEVEL == 0
-                              PLANE_OUT ao_raw
+                              WANTED_ARGUMENT PLANE_OUT ao_raw
 #elif WITH_MEAN
                               PLANE_OUT most_found, PLANE_OUT sum_found
 #else
                               PLANE_OUT most_found
 #endif
 ) {
+#if LEVEL == 0
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+#endif
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   const scalar most_pixels = params.max_reach * (scalar)frame.width;
   const Ring ring = ring_of(r.reach, most_pixels);
@@ -148,10 +149,11 @@ kernel void multires_estimate(TWO_FRAMES, MultiresParams params, COARSER_ARGUMEN
 #if WITH_MEAN
   // Each factor takes about half of what the occluders take.
   const real mean = sum * quick_inverse(levels_within(r.reach.pixels_x, most_pixels));
-  store_open((1 - smaller(most, (real)(1))) * (1 - smaller(mean, (real)(1))), r, ao_raw);
+  const real open = (1 - smaller(most, (real)(1))) * (1 - smaller(mean, (real)(1)));
 #else
-  store_open(1 - 2 * most, r, ao_raw);
+  const real open = 1 - 2 * most;
 #endif
+  store_open(choose(is_wanted, open, (real)(1)), r, ao_raw);
 #else
   store(choose(r.point.background, (real)(0), most), most_found, r.here);
 #if WITH_MEAN

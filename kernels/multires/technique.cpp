@@ -42,6 +42,8 @@ Pass estimate_at(int level, const MultiresParams& p) {
   pass.reads.push_back({"depth", at("depth", level)});
   pass.reads.push_back({"normal", at("normal", level)});
   if (level == 0) {
+    // The lower resolutions are little work.
+    pass.can_skip = true;
     pass.writes.push_back("ao_raw");
   } else {
     pass.writes.push_back({"most_found", at("multires_most", level)});

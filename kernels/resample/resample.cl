@@ -6,6 +6,7 @@
 // -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of what is unknown)
 #include "resample/params.h"
 #include "shared/upsample.h"
+#include "shared/wanted.h"
 
 kernel void subsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE_OUT result) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
@@ -34,21 +35,24 @@ kernel void subsample_stack(Frame frame, Frame other, ResampleParams params, PLA
 #ifdef OUTSIDE
 kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE low_depth,
                            PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
-                           PLANE normal_y, PLANE normal_z, PLANE_OUT result) {
+                           PLANE normal_y, PLANE normal_z, WANTED_ARGUMENT PLANE_OUT result) {
+  SKIP_UNWANTED(frame, store((real)(OUTSIDE), result, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
   const mask known = !is_background(s.plane.depth) & (w.total > 0);
   // Divided exactly: not even rounding leads beyond the values at hand.
   const real mean = weighted(w, s, source) / choose(known, w.total, (real)(1));
-  store(choose(known, mean, (real)(OUTSIDE)), result, s.here);
+  store(choose(known & is_wanted, mean, (real)(OUTSIDE)), result, s.here);
 }
 #endif
 
 kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams params, PLANE source_x, PLANE source_y,
                                   PLANE source_z, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
                                   PLANE low_normal_z, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                                  PLANE_OUT result_x, PLANE_OUT result_y, PLANE_OUT result_z) {
+                                  WANTED_ARGUMENT PLANE_OUT result_x, PLANE_OUT result_y, PLANE_OUT result_z) {
+  SKIP_UNWANTED(frame, store((real)(0), result_x, here); store((real)(0), result_y, here);
+                store((real)(0), result_z, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
@@ -57,7 +61,7 @@ kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams param
   const mask usable = square > (scalar)1e-6f * w.total * w.total;
   const real3 unit = scale3(sum, inverse_sqrt(choose(usable, square, (real)(1))));
   const real3 direction = choose3(usable, unit, load3(normal_x, normal_y, normal_z, s.here));
-  const real sign = choose(is_background(s.plane.depth), (real)(0), (real)(1));
+  const real sign = choose(is_background(s.plane.depth) | !is_wanted, (real)(0), (real)(1));
   store(direction.x * sign, result_x, s.here);
   store(direction.y * sign, result_y, s.here);
   store(direction.z * sign, result_z, s.here);

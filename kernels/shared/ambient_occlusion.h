@@ -23,11 +23,14 @@
 #ifdef __OPENCL_VERSION__
 #include "shared/camera.h"
 #include "shared/sample.h"
+#include "shared/wanted.h"
 
 // Where occluders are looked for: the depth alone, every layer of a stack whose first is the depth, or with STOCHASTIC the
 // depth and then every layer of a stack. A kernel's arguments after the normal:
-//   OCCLUDERS_ARGUMENT PLANE_OUT ao_raw ...
-// and its first line: const DepthLayers layers = LAYERS_FROM(frame, depth);
+//   OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw ...
+// and its first lines:
+//   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+//   const DepthLayers layers = LAYERS_FROM(frame, depth);
 typedef struct {
   global const float* first;
   global const float* further;  // one after another (load.h)
@@ -236,6 +239,9 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
     const int within = SAMPLES_CLAMPED;                              \
     RESULT = CALL;                                                   \
   }
+
+// A pixel that is left out is as open as background, and has no directions either.
+static inline void leave_out(Receiver* r, mask is_wanted) { r->point.background |= !is_wanted; }
 
 // Keeps within 0 to 1, and open on background.
 static inline void store_open(real open, Receiver r, PLANE_OUT ao) {

@@ -80,9 +80,11 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, De
 }
 
 kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                PLANE normal_z, OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+                                PLANE normal_z, OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const DepthLayers layers = LAYERS_FROM(frame, depth);
-  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  leave_out(&r, is_wanted);
   real occluded = 0;
   if (ANY(!r.point.background)) {
     const Surface surface = surface_at(r.point, r.normal);

@@ -1,0 +1,139 @@
+#include "mask.h"
+
+#include <algorithm>
+#include <set>
+
+#include "gloam/planes.h"
+#include "lists.h"
+#include "resample.h"
+
+namespace gloam {
+namespace {
+
+/// Bits of what is wanted, and with what filters read around it, at a resolution.
+std::string wanted(int scale) { return scale == 1 ? "wanted" : fmt::format("wanted@{}", scale); }
+std::string grown(int scale) { return scale == 1 ? "wanted.grown" : fmt::format("wanted.grown@{}", scale); }
+
+std::string wanted_around(int scale) { return fmt::format("wanted.around{}", scale); }
+
+struct Reach {
+  int x = 0, y = 0;
+  bool is_none() const { return x == 0 && y == 0; }
+};
+
+class Restriction {
+ public:
+  Restriction(const Plan& plan, const std::vector<const Technique*>& techniques) : plan_(plan), source_(plan.mask) {
+    for (const PlannedPass& planned : plan.passes) {
+      const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
+      is_restricted_.push_back(planned.pass.can_skip && (is_asked_for || planned.technique == &resampling()));
+      if (planned.pass.repeats_cells && planned.pass.writes.front().plane == plan.mask &&
+          !contains(plan.outputs, plan.mask)) {
+        // The cells do as well.
+        left_out_ = &planned;
+        source_ = planned.pass.reads.front().plane;
+        cell_ = plane_scales(plan).at(source_);
+      }
+    }
+  }
+
+  bool has_work() const {
+    return std::find(is_restricted_.begin(), is_restricted_.end(), true) != is_restricted_.end();
+  }
+
+  void rewrite() {
+    for (size_t i = 0; i < plan_.passes.size(); ++i) {
+      if (&plan_.passes[i] == left_out_) continue;
+      PlannedPass planned = plan_.passes[i];
+      if (is_restricted_[i]) {
+        const int scale = planned.pass.scale;
+        const bool is_read_around = !reach_after(i + 1, scale).is_none();
+        need_wanted(scale);
+        if (is_read_around) need_grown(scale);
+        const std::string bits = is_read_around ? grown(scale) : wanted(scale);
+        if (estimated.empty()) estimated = bits;
+        planned.pass.reads.push_back({"wanted", bits});
+        planned.pass.defines.emplace_back("MASKED", 1);
+      }
+      passes.push_back(std::move(planned));
+    }
+  }
+
+  std::vector<PlannedPass> passes;
+  std::string estimated;  ///< bits by which the first of the restricted passes skips
+
+ private:
+  /// How far later passes of the same resolution read around a pixel, from pass `from` on.
+  Reach reach_after(size_t from, int scale) const {
+    Reach reach;
+    for (size_t i = from; i < plan_.passes.size(); ++i) {
+      if (!is_restricted_[i] || plan_.passes[i].pass.scale != scale) continue;
+      reach.x += plan_.passes[i].pass.reach_x;
+      reach.y += plan_.passes[i].pass.reach_y;
+    }
+    return reach;
+  }
+
+  void add(std::string name, std::string kernel, Binding read, Binding written,
+           std::vector<std::pair<std::string, int>> defines, int scale) {
+    if (scale > 1) name += fmt::format(" at 1/{}", scale);
+    Pass pass{.name = std::move(name), .kernel = std::move(kernel), .defines = std::move(defines), .scale = scale};
+    pass.reads = {std::move(read)};
+    pass.writes = {std::move(written)};
+    passes.push_back({&masking(), std::move(pass), ParameterValues(masking().parameters)});
+  }
+
+  void need_wanted(int scale) {
+    if (!wanted_.insert(scale).second) return;
+    if (scale == 1) {
+      add("bits", "mask_bits", {"source", source_}, "wanted", {{"CELL", cell_}}, 1);
+    } else {
+      need_wanted(1);
+      // Those from which a wanted pixel is upsampled.
+      add_grown(wanted(1), wanted_around(scale), {scale - 1, scale - 1}, 1);
+      add("reduced", "mask_reduced", {"whole", wanted_around(scale)}, {"wanted", wanted(scale)}, {{"SCALE", scale}},
+          scale);
+    }
+  }
+
+  /// As far as all filters together read: those between have the same.
+  void need_grown(int scale) {
+    if (!grown_.insert(scale).second) return;
+    add_grown(wanted(scale), grown(scale), reach_after(0, scale), scale);
+  }
+
+  void add_grown(const std::string& from, const std::string& to, Reach reach, int scale) {
+    add("grown", "mask_grown", {"wanted", from}, {"grown", to}, {{"REACH_X", reach.x}, {"REACH_Y", reach.y}}, scale);
+  }
+
+  const Plan& plan_;
+  std::string source_;
+  int cell_ = 1;
+  const PlannedPass* left_out_ = nullptr;
+  std::vector<bool> is_restricted_;
+  std::set<int> wanted_, grown_;  ///< resolutions that have these
+};
+
+}  // namespace
+
+const Technique& masking() {
+  static const Technique technique = {
+      .name = "mask", .summary = "from a mask to the pixels that it leaves", .source = "mask/mask.cl"};
+  return technique;
+}
+
+void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques) {
+  for (const Technique* technique : techniques) {
+    if (technique->views > 1)
+      throw UsageError("--only: restricts techniques that look at one view, and {} looks at two; leave it out",
+                       technique->name);
+  }
+  Restriction restriction(plan, techniques);
+  if (!restriction.has_work())
+    throw UsageError("--only: {} has no work that a mask can leave out; leave it out", plan.technique);
+  restriction.rewrite();
+  plan.passes = std::move(restriction.passes);
+  plan.wanted = restriction.estimated;
+}
+
+}  // namespace gloam

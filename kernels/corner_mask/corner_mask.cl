@@ -1,0 +1,81 @@
+// Where something within the radius may occlude, from depth and normals alone: the question of OdSSAO (2020), answered
+// without a mesh. One pixel stands for each cell of the image; a cell is wanted where any sample around its pixel rises over
+// the pixel's tangent plane, and so are the cells around it, whose own samples lie elsewhere.
+//
+// corner_subsample  `frame` is that of the cells, `other` the image
+//   in : depth, normal       view-space z, scene units, +inf = background; unit, view space
+//   out: low_depth, low_normal  of the pixels that stand for cells: the left top one of each
+// corner_find
+//   in : depth, normal       of these pixels
+//   out: found               1 where something rises, else 0; 0 on background
+// corner_grow
+//   in : found               out: grown  the largest of each cell and those around it
+// corner_spread     `frame` is the image, `other` that of the cells
+//   in : grown               out: result  each pixel its cell's
+// -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN
+#include "corner_mask/params.h"
+#include "shared/fan.h"
+#include "shared/subsample.h"
+
+typedef CornerMaskParams Params;
+
+kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                             PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
+                             PLANE_OUT low_normal_z) {
+  subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
+                    low_normal_z);
+}
+
+// Whether any sample lies as high over the tangent plane as counts. Ends where each lane has found one.
+static inline __attribute__((always_inline)) mask something_rises(Frame frame, Params params, PLANE depth, Receiver r,
+                                                                  Fan fan, int within) {
+  // Squared distance in radii: a range allows as much along the line to the eye as SSAO does (estimators/ball.h).
+  const real farthest = (1 + 4 * params.range * params.range) / r.reach.inverse_square;
+  const scalar least = params.least_sine * params.least_sine;
+  mask rises = r.point.background;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+#pragma unroll
+    for (int k = 0; k < STEPS; ++k) {
+      integer dx, dy;
+      step_at(fan, k, &dx, &dy);
+      const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+      const real sample = sample_near(depth, frame, r.here, within, dx, dy);
+      const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, sample));
+      const real height = fused_dot3(r.normal, v), square = square_of(v);
+      rises |= counts & (height > 0) & (height * height > least * square) & (square < farthest);
+    }
+    if (!ANY(!rises)) break;
+    turn(&fan);
+  }
+  return rises & !r.point.background;
+}
+
+kernel void corner_find(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                        PLANE_OUT found) {
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  mask rises = (mask)(0);
+  if (ANY(!r.point.background)) {
+    const Fan fan = fan_of(r.reach, r.noise);
+    LOOK_AROUND(rises, frame, r, r.reach, something_rises(frame, params, depth, r, fan, within))
+  }
+  store(choose(rises, (real)(1), (real)(0)), found, r.here);
+}
+
+kernel void corner_grow(Frame frame, Params params, PLANE found, PLANE_OUT grown) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const mask has_left = to_mask(FIRST_X + IOTA > 0), has_right = to_mask(FIRST_X + IOTA + 1 < frame.width);
+  real most = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;
+    const int there = here + dy * frame.pitch;
+    most = larger(load(found, there), most);
+    most = larger(choose(has_left, load(found, there - 1), (real)(0)), most);
+    most = larger(choose(has_right, load(found, there + 1), (real)(0)), most);
+  }
+  store(most, grown, here);
+}
+
+kernel void corner_spread(Frame frame, Frame other, Params params, PLANE grown, PLANE_OUT result) {
+  const integer column = min(FIRST_X + IOTA, (integer)(frame.width - 1)) / SCALE;
+  store(gather(grown, index_of(other, 0, ROW_Y / SCALE) + column), result, index_of(frame, FIRST_X, ROW_Y));
+}

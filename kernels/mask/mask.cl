@@ -1,0 +1,95 @@
+// From a mask to the work that it leaves: no technique, but the plan's own passes (host/mask.h). A work-item sees to the word
+// (shared/wanted.h) that begins with its row of pixels, if one does.
+//
+// mask_bits     in : source  above 0 where an effect is wanted; with CELL > 1 of cells of CELL x CELL pixels, whose frame is
+//                            `other`
+//               out: wanted  bits
+// mask_reduced  `frame` is the reduced one, `other` the whole
+//               in : whole   bits of the whole image
+//               out: wanted  those of every SCALE-th pixel
+// mask_grown    in : wanted
+//               out: grown   wanted, and REACH_X columns and REACH_Y rows around; beside the image anything
+// -D CELL (mask_bits); SCALE (mask_reduced); REACH_X (at most 32), REACH_Y (mask_grown)
+#include "shared/wanted.h"
+
+static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
+  ((global uint*)wanted)[index_of(f, k, ROW_Y)] = word & bits_in_frame(f, k);
+}
+
+#define RETURN_UNLESS_A_WORD_BEGINS(frame) \
+  const int k = FIRST_X / 32;              \
+  if (FIRST_X % 32 != 0 || k >= words_of_row(frame)) return;
+
+#ifdef CELL
+#if CELL == 1
+#define TWO_FRAMES Frame frame
+#define SOURCE_AT(x) load(source, index_of(frame, x, ROW_Y))
+#else
+#define TWO_FRAMES Frame frame, Frame other
+// Lanes beyond the image read its last pixel.
+#define SOURCE_AT(x) \
+  gather(source, index_of(other, 0, ROW_Y / CELL) + min((x) + IOTA, (integer)(frame.width - 1)) / CELL)
+#endif
+
+kernel void mask_bits(TWO_FRAMES, PLANE source, WANTED_OUT wanted) {
+  RETURN_UNLESS_A_WORD_BEGINS(frame)
+  uint word = 0;
+  for (int i = 0; i < 32; i += LANES) word |= bit_of_each_lane(SOURCE_AT(32 * k + i) > 0) << i;
+  store_word(word, wanted, frame, k);
+}
+#endif
+
+#ifdef SCALE
+kernel void mask_reduced(Frame frame, Frame other, WANTED whole, WANTED_OUT wanted) {
+  RETURN_UNLESS_A_WORD_BEGINS(frame)
+  const int each = 32 / SCALE;
+  uint word = 0;
+  for (int part = 0; part < SCALE; ++part) {
+    if (k * SCALE + part >= words_of_row(other)) break;
+    const uint from = ((global const uint*)whole)[index_of(other, k * SCALE + part, ROW_Y * SCALE)];
+    for (int i = 0; i < each; ++i) word |= ((from >> (i * SCALE)) & 1u) << (part * each + i);
+  }
+  store_word(word, wanted, frame, k);
+}
+#endif
+
+#ifdef REACH_X
+// Words, one for each lane, from the k-th of a row on. Beside the row nothing is wanted.
+static inline natural words_at(WANTED row, Frame f, int k) {
+  const integer number = k + IOTA;
+#if LANES == 1
+  return number >= 0 && number < words_of_row(f) ? ((global const uint*)row)[k] : 0u;
+#else
+  const natural words = JOIN(vload, LANES)(0, (global const uint*)row + k);
+  return (number >= 0) & (number < words_of_row(f)) ? words : (natural)(0);
+#endif
+}
+
+// Here a work-item sees to LANES words.
+kernel void mask_grown(Frame frame, WANTED wanted, WANTED_OUT grown) {
+  if (FIRST_X >= words_of_row(frame)) return;
+  natural before = 0, word = 0, after = 0;
+  for (int dy = -REACH_Y; dy <= REACH_Y; ++dy) {
+    WANTED row = wanted + index_of(frame, 0, clamp(ROW_Y + dy, 0, frame.height - 1));
+    before |= words_at(row, frame, FIRST_X - 1);
+    word |= words_at(row, frame, FIRST_X);
+    after |= words_at(row, frame, FIRST_X + 1);
+  }
+  natural upwards = word, downwards = word;
+  for (int done = 0; done < REACH_X;) {
+    // What is grown by `done` may be shifted by up to 2 done + 1 without a gap; by done + 1 is enough.
+    const uint step = (uint)min(done + 1, REACH_X - done);
+    upwards |= (upwards << step) | (before >> (32 - step));
+    downwards |= (downwards >> step) | (after << (32 - step));
+    before |= before << step;
+    after |= after >> step;
+    done += (int)step;
+  }
+  const natural found = upwards | downwards;
+#if LANES == 1
+  store_word(found, grown, frame, FIRST_X);
+#else
+  JOIN(vstore, LANES)(found, 0, (global uint*)grown + index_of(frame, FIRST_X, ROW_Y));
+#endif
+}
+#endif

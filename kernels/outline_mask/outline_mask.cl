@@ -1,0 +1,24 @@
+// Outline-dependent ambient occlusion (OdSSAO 2020), from how many outlines of objects the visible surface lies in
+// (`gloam capture --outlines`): two and more in a corner.
+//
+// in : outline_count  signed crossings with outlines in front of the surface
+//      depth          view-space z, +inf = background (outline_ao)
+// out: result         1 where the surface lies in `least_count` outlines and more, else 0 (outline_mask, section 3.1)
+//                     1 - occlusion there, else 1; 1 on background (outline_ao, section 5, before the filter)
+// -D STAND_ALONE
+#include "outline_mask/params.h"
+#include "shared/camera.h"
+
+#if STAND_ALONE
+kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count, PLANE depth, PLANE_OUT result) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const mask is_corner = load(outline_count, here) >= params.least_count;
+  const real ao = choose(is_corner, (real)(1 - params.occlusion), (real)(1));
+  store(choose(is_background(load(depth, here)), (real)(1), ao), result, here);
+}
+#else
+kernel void outline_mask(Frame frame, OutlineMaskParams params, PLANE outline_count, PLANE_OUT result) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  store(choose(load(outline_count, here) >= params.least_count, (real)(1), (real)(0)), result, here);
+}
+#endif

@@ -1,0 +1,220 @@
+// Restricting a run to where a mask says (--only): what is planned for it, that inside nothing changes by a bit, and that
+// what is left out is open.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gloam/error.h"
+#include "gloam/plan.h"
+#include "gloam/planes.h"
+#include "gloam/run.h"
+#include "message_of.h"
+#include "support/frames.h"
+#include "support/techniques.h"
+
+namespace gloam::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// --- The plan
+
+Plan plan_of(const PlanRequest& request, const Names& available = {"depth", "normal"}) {
+  return make_plan(request, available, "frame.exr has only Z");
+}
+
+Names labels_of(const Plan& plan) {
+  Names labels;
+  for (const PlannedPass& pass : plan.passes) labels.push_back(pass.label());
+  return labels;
+}
+
+/// The plane of bits by which a pass skips; empty where it does not.
+std::string wanted_by(const Plan& plan, const std::string& label) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.label() != label) continue;
+    for (const Binding& read : planned.pass.reads) {
+      if (read.argument == "wanted") return read.plane;
+    }
+  }
+  return "";
+}
+
+TEST(Mask, TheCellsOfAMaskDoWhereNobodyAsksForTheMaskItself) {
+  const Plan plan = plan_of({.outputs = {"hbao+"}, .mask = "corner-mask"});
+  EXPECT_EQ(labels_of(plan), (Names{"corner-mask/subsample", "corner-mask/find", "corner-mask/grow", "mask/bits",
+                                    "mask/grown", "hbao+/estimate", "bilateral/horizontal", "bilateral/vertical"}));
+  const Plan with_mask = plan_of({.outputs = {"hbao+", "corner-mask"}, .mask = "corner-mask"});
+  EXPECT_NE(labels_of(with_mask), labels_of(plan));
+  EXPECT_EQ(with_mask.outputs, (Names{"ao", "ao_raw", "mask"}));
+}
+
+TEST(Mask, TheEstimateCoversWhatFiltersReadAndTheLastFilterTheMask) {
+  const Plan plan = plan_of({.outputs = {"gtao"}, .mask = "mask"}, {"depth", "normal", "mask"});
+  EXPECT_EQ(wanted_by(plan, "gtao/estimate"), "wanted.grown");
+  EXPECT_EQ(wanted_by(plan, "bilateral/horizontal"), "wanted.grown");
+  EXPECT_EQ(wanted_by(plan, "bilateral/vertical"), "wanted");
+  const Plan unfiltered = plan_of({.outputs = {"gtao"}, .then = "none", .mask = "mask"}, {"depth", "normal", "mask"});
+  EXPECT_EQ(labels_of(unfiltered), (Names{"mask/bits", "gtao/estimate"}));
+  EXPECT_EQ(wanted_by(unfiltered, "gtao/estimate"), "wanted");
+}
+
+TEST(Mask, AMaskIsMadeForTheRadiusOfWhatItRestricts) {
+  const Plan plan = plan_of({.outputs = {"ssao"}, .settings = {{"ssao.radius", "0.7"}}, .mask = "corner-mask"});
+  ASSERT_EQ(plan.passes.front().technique->name, "corner-mask");
+  EXPECT_EQ(plan.passes.front().values.number("radius"), 0.7f);
+  EXPECT_EQ(plan.passes.front().values.number("range"), 2);
+  EXPECT_EQ(plan_of({.outputs = {"gtao"}, .mask = "corner-mask"}).passes.front().values.number("range"), 0);
+}
+
+TEST(Mask, WhatTheFileHoldsIsTakenAndATechniqueIsRun) {
+  const Names available = {"depth", "normal", "mask"};
+  EXPECT_EQ(plan_of({.outputs = {"gtao"}, .mask = "mask"}, available).inputs, (Names{"mask", "depth", "normal"}));
+  EXPECT_EQ(labels_of(plan_of({.outputs = {"gtao"}, .mask = "corner-mask"}, available)).front(),
+            "corner-mask/subsample");
+}
+
+TEST(Mask, WhatCannotBeIsSaidInOneLine) {
+  const auto message = [](const PlanRequest& request, const Names& available = {"depth", "normal"}) {
+    return message_of([&] { plan_of(request, available); });
+  };
+  EXPECT_EQ(
+      message({.outputs = {"gtao"}, .mask = "corner-mast"}),
+      "--only corner-mast: is neither a plane at hand nor a technique that makes one (did you mean 'corner-mask'?); "
+      "--plane mask=CHANNEL takes any channel of the file as 'mask'");
+  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "normal"}),
+            "--only normal: 'normal' is no single value per pixel; corner-mask makes a mask");
+  EXPECT_EQ(message({.outputs = {"normals"}, .mask = "depth"}),
+            "--only: normals has no work that a mask can leave out; leave it out");
+  EXPECT_EQ(message({.outputs = {"stereo-ao"}, .mask = "corner-mask"}),
+            "--only: restricts techniques that look at one view, and stereo-ao looks at two; leave it out");
+}
+
+// --- What comes out
+
+/// Some disks and single pixels, and none in the left top corner.
+void add_mask(Frame& frame) {
+  Channel& mask = plane_of(frame, "mask").channels[0];
+  std::mt19937 random(7);
+  const auto up_to = [&](int end) { return int(random() % unsigned(end)); };
+  for (int i = 0; i < 12; ++i) {
+    const int x0 = 20 + up_to(frame.width() - 20), y0 = up_to(frame.height()), radius = i < 6 ? 0 : 2 + up_to(6);
+    for (int y = std::max(0, y0 - radius); y <= std::min(frame.height() - 1, y0 + radius); ++y) {
+      for (int x = std::max(16, x0 - radius); x <= std::min(frame.width() - 1, x0 + radius); ++x) {
+        if ((x - x0) * (x - x0) + (y - y0) * (y - y0) <= radius * radius) mask.at(x, y) = 0.5f;
+      }
+    }
+  }
+}
+
+/// Whether it makes AO of one view, and can be restricted.
+bool makes_ao(const Technique& technique) {
+  return technique.views == 1 && std::count(technique.writes.begin(), technique.writes.end(), "ao_raw") > 0;
+}
+
+struct Case {
+  const Technique* technique;
+  int resolution, lanes;
+};
+
+class Masked : public ::testing::TestWithParam<Case> {
+ protected:
+  /// With the mask's plane, or everywhere where that is empty.
+  RunResult result_of(Frame& frame, const std::string& mask, const std::string& filter = "") {
+    const Case& c = GetParam();
+    plan_for(*c.technique, frame);  // invents what it needs
+    PlanRequest request{.outputs = {c.technique->name},
+                        .with = c.technique->extras,
+                        .then = filter,
+                        .settings = few_samples(*c.technique),
+                        .mask = mask,
+                        .resolution = c.resolution};
+    return run(make_plan(request, plane_names(frame), "the frame has not"), frame, device(),
+               {.math = Math::precise, .lanes = c.lanes});
+  }
+};
+
+void expect_masked(const RunResult& masked, const RunResult& whole, const Frame& frame, const std::string& filter) {
+  const Channel& mask = frame.views[0].find("mask")->channels[0];
+  int inside = 0, outside = 0;
+  for (const auto& [name, plane] : masked.frame.views[0].planes) {
+    // Around the mask what the filter reads is there too.
+    const bool is_filtered = name == "ao" || filter == "none";
+    const float left_out = plane_kind(name).outside;
+    for (size_t i = 0; i < plane.channels.size(); ++i) {
+      const Channel& channel = plane.channels[i];
+      const Channel& expected = whole.frame.views[0].find(name)->channels[i];
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) {
+          const bool is_wanted = mask.at(x, y) > 0;
+          if (is_wanted) {
+            ASSERT_EQ(channel.at(x, y), expected.at(x, y)) << name << " at " << x << ", " << y;
+            ++inside;
+          } else if (is_filtered || (x < 4 && y < 8)) {
+            ASSERT_EQ(channel.at(x, y), left_out) << name << " at " << x << ", " << y;
+            ++outside;
+          } else {
+            ASSERT_TRUE(channel.at(x, y) == left_out || channel.at(x, y) == expected.at(x, y) || name.find("ao") != 0)
+                << name << " at " << x << ", " << y;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 200);
+  EXPECT_GT(outside, 300);
+}
+
+TEST_P(Masked, InsideNothingChangesAndOutsideIsOpen) {
+  Frame frame = shoot(perspective(91, 45), room());
+  add_mask(frame);
+  for (const std::string filter : {"", "none", "gaussian"}) {
+    SCOPED_TRACE("filter " + filter);
+    const RunResult whole = result_of(frame, "", filter), masked = result_of(frame, "mask", filter);
+    EXPECT_EQ(whole.skipped_share, 0);
+    EXPECT_GT(masked.skipped_share, 0.05);
+    expect_masked(masked, whole, frame, filter);
+  }
+}
+
+TEST_P(Masked, WhereNothingIsWantedAllIsOpenAndWhereAllIsNothingChanges) {
+  Frame frame = shoot(orthographic(47, 33, 4), room());
+  plane_of(frame, "nothing");
+  for (int y = 0; y < frame.height(); ++y)
+    std::fill_n(plane_of(frame, "everything").channels[0].row(y), frame.width(), 1e-6f);
+  const RunResult whole = result_of(frame, "");
+  EXPECT_TRUE(same_bits(result_of(frame, "everything").frame, whole.frame));
+  const RunResult nothing = result_of(frame, "nothing");
+  EXPECT_EQ(nothing.skipped_share, 1);
+  for (const auto& [name, plane] : nothing.frame.views[0].planes) {
+    for (const Channel& channel : plane.channels) {
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) ASSERT_EQ(channel.at(x, y), plane_kind(name).outside) << name;
+      }
+    }
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const Technique& technique : registry()) {
+    if (!makes_ao(technique)) continue;
+    all.push_back({&technique, 1, 0});
+    all.push_back({&technique, 2, 0});
+  }
+  // What all have in common, at every width.
+  for (const int lanes : {1, 4, 8}) all.push_back({&find_technique("ssao"), 1, lanes});
+  all.push_back({&find_technique("ssao"), 4, 1});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Masked, ::testing::ValuesIn(cases()), [](const auto& info) {
+  const Case& c = info.param;
+  return identifier(c.technique->name) + (c.resolution > 1 ? fmt::format("_at_{}", c.resolution) : "") +
+         (c.lanes > 0 ? fmt::format("_{}_lanes", c.lanes) : "");
+});
+
+}  // namespace
+}  // namespace gloam::test
