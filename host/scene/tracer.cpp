@@ -223,8 +223,7 @@ void Tracer::Impl::add(const Mesh& mesh, unsigned id) {
   check_embree(device.get(), scene);
   std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
   std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
-  const Material& material = scene.materials[size_t(mesh.material)];
-  if (material.alpha_cutoff > 0 && material.albedo_texture >= 0 && !mesh.uvs.empty()) {
+  if (has_holes(scene, mesh)) {
     cutouts.push_back(std::make_unique<Cutout>(Cutout{&scene, &mesh}));
     rtcSetGeometryUserData(geometry, cutouts.back().get());
     rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
