@@ -22,11 +22,11 @@ constexpr double at_end = 1e-6;
 /// Faces entered less faces left.
 template <typename Counts>
 int entered_less_left(const Tracer& tracer, const TracerRay& ray, const Counts& counts) {
-  thread_local std::vector<Surface> surfaces;
-  tracer.all(ray, surfaces);
+  thread_local std::vector<Crossing> crossings;
+  tracer.crossings(ray, crossings);
   int sum = 0;
-  for (const Surface& surface : surfaces) {
-    if (counts(surface)) sum += surface.back_face ? -1 : 1;
+  for (const Crossing& crossing : crossings) {
+    if (counts(crossing)) sum += crossing.back_face ? -1 : 1;
   }
   return sum;
 }
@@ -71,7 +71,7 @@ int Outlines::crossings(const TracerRay& ray) const {
   TracerRay longer = ray;  // what is at the end is found out in double
   longer.far *= 1 + 1e-4;
   return entered_less_left(*outlines_, longer,
-                           [&](const Surface& surface) { return surface.distance < ray.far * (1 - at_end); });
+                           [&](const Crossing& crossing) { return crossing.distance < ray.far * (1 - at_end); });
 }
 
 /// A closed surface is left once more than it is entered, on the way from a point inside to infinity, in any direction:
@@ -83,7 +83,9 @@ int Outlines::crossings(const TracerRay& ray) const {
 /// its outline counts one too few.
 int Outlines::around(const dvec3& point, const dvec3& direction) const {
   const TracerRay ray{point, direction};
-  const auto is_closed = [&](const Surface& surface) { return closed_[size_t(surface.mesh)][surface.triangle] != 0; };
+  const auto is_closed = [&](const Crossing& crossing) {
+    return closed_[size_t(crossing.mesh)][crossing.triangle] != 0;
+  };
   return entered_less_left(objects_, ray, is_closed) - entered_less_left(*outlines_, ray, is_closed);
 }
 
