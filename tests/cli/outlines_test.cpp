@@ -69,10 +69,11 @@ TEST_F(OutlineCapture, MethodsOnAMeshFile) {
          "v -2 1.3 -1\nv 2 1.3 -1\nv 2 1.3 1\nv -2 1.3 1\n"
          "o lid\nf 9 12 11 10\n";
   // The underside of a lid 0.3 above the box, which faces down: in the box's outline where that is thicker. (The lid
-  // faces up, so that its own outline is not met.)
+  // faces up, so that its own outline is not met.) Along normals the ray comes in where faces have come apart: it is in
+  // the outline, and does not count.
   const std::vector<std::tuple<std::string, std::string, float>> expected = {
       {"integrated", "0.5", 0}, {"integrated", "0.6", 1}, {"scaling", "0.5", 0},
-      {"scaling", "0.7", 1},    {"normal", "0.2", 0},     {"normal", "0.4", 1}};
+      {"scaling", "0.7", 1},    {"normal", "0.2", 0},     {"normal", "0.4", 0}};
   for (const auto& [method, extent, count] : expected) {
     ASSERT_EQ(
         gloam({"capture", file("box.obj"), "-o", file("f.exr"), "--size", "33x33", "--planes", "depth", "--eye",
