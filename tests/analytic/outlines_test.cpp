@@ -3,9 +3,12 @@
 #include "gloam/outlines.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -221,6 +224,45 @@ TEST(OutlineMesh, TheMethodsDifferAsInFigure4) {
     EXPECT_EQ(places(torn.mesh).size(), 24u) << "three places where one corner was";
     EXPECT_TRUE(all_of(torn.closed, false));
   }
+}
+
+/// A file with one box of half extents 1 in two places: once as it is, and once stretched, mirrored and moved.
+TEST(OutlineMesh, InstancesArePushedInTheWorld) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("gloam-outlines-{}", getpid());
+  std::filesystem::create_directory(folder);
+  const Scene model = scene_of({{vec3(-1), vec3(1)}});
+  const Mesh& box = model.meshes[0];
+  const size_t vertices = box.positions.size(), indices = 3 * box.triangles.size();
+  std::ofstream buffer(folder / "box.bin", std::ios::binary);
+  buffer.write(reinterpret_cast<const char*>(box.positions.data()), std::streamsize(12 * vertices));
+  buffer.write(reinterpret_cast<const char*>(box.triangles.data()), std::streamsize(4 * indices));
+  buffer.close();
+  std::ofstream(folder / "box.gltf") << fmt::format(
+      R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
+      "nodes": [{{"mesh": 0}}, {{"mesh": 0, "scale": [3, 1, -0.5], "translation": [10, 0, 0]}}],
+      "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1}}]}}],
+      "accessors": [{{"bufferView": 0, "componentType": 5126, "count": {0}, "type": "VEC3", "min": [-1, -1, -1],
+                      "max": [1, 1, 1]}}, {{"bufferView": 1, "componentType": 5125, "count": {1}, "type": "SCALAR"}}],
+      "bufferViews": [{{"buffer": 0, "byteLength": {2}}}, {{"buffer": 0, "byteOffset": {2}, "byteLength": {3}}}],
+      "buffers": [{{"uri": "box.bin", "byteLength": {4}}}]}})",
+      vertices, indices, 12 * vertices, 4 * indices, 12 * vertices + 4 * indices);
+  const Scene scene = import_scene(folder / "box.gltf");
+  std::filesystem::remove_all(folder);
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  const double d = thickness(0.25);
+  int stretched = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    dvec3 low(1e9), high(-1e9), low_before(1e9), high_before(-1e9);
+    for (const vec3& p : mesh.positions)
+      low_before = glm::min(low_before, dvec3(p)), high_before = glm::max(high_before, dvec3(p));
+    for (const vec3& p : outline_of(mesh, {0.25}).mesh.positions)
+      low = glm::min(low, dvec3(p)), high = glm::max(high, dvec3(p));
+    EXPECT_LT(glm::distance(low, low_before - d), 1e-5);
+    EXPECT_LT(glm::distance(high, high_before + d), 1e-5);
+    stretched += glm::distance(high_before - low_before, dvec3(6, 2, 1)) < 1e-5;
+  }
+  EXPECT_EQ(stretched, 1);
 }
 
 TEST(OutlineMesh, SmoothNormalsKeepItWhole) {
@@ -491,8 +533,7 @@ TEST(OutlineCount, AnOpenSheetHasNoInside) {
   EXPECT_EQ(count({0, 0.3, 0}, {0.1, 0, 0}), (Tally{{0, width * height}})) << "below the outline: one too few";
 }
 
-/// Instances are in place: a turned, stretched box has the outline of what it looks like, not of its model.
-TEST(OutlineCount, ExtrudesInTheWorldFarFromTheOrigin) {
+TEST(OutlineCount, TheSameFarFromTheOrigin) {
   const std::vector<Box> boxes = {{vec3(-1), vec3(1)}};
   Scene scene = scene_of(boxes);
   const SceneCamera seen = looking_at("main", {2.5, 2, 4}, {0, 0, 0}, 50);
