@@ -519,6 +519,26 @@ TEST(OutlineCount, AlongNormalsBackgroundIsMiscountedAndOtherwiseNot) {
   }
 }
 
+/// Sheets in the planes of a box's outline, which scaling puts at 2 exactly; their own outlines grow within their planes.
+TEST(OutlineCount, WhatLiesAtTheSurfaceIsNotBeforeIt) {
+  const auto count_on_sheet = [](float y, const vec3& right) {
+    const vec3 corner(-right.x, y, 1.9f), up(0, 0, -3.8f);
+    Scene scene = scene_of({{vec3(-1), vec3(1)}});
+    scenes::add_quad(scenes::add_mesh(scene, "sheet", 0), corner, corner + 2.0f * right, corner + 2.0f * right + up,
+                     corner + up);
+    const Shot shot = shot_of(scene, looking_at("main", {0.3, 9, 0.4}, {0, 0, 0}, 40), {1, OutlineMethod::scaling});
+    Tally tally;
+    for_pixels([&](int x, int y) {
+      if (shot.at("instance", x, y) == 2) ++tally[int(shot.at("outline_count", x, y))];
+    });
+    EXPECT_GT(sum_of(tally), 100);
+    EXPECT_EQ(tally.size(), 1u);
+    return tally.begin()->first;
+  };
+  EXPECT_EQ(count_on_sheet(2, {1.9f, 0, 0}), 0) << "on the outline's top, which is entered there";
+  EXPECT_EQ(count_on_sheet(-2, {-1.9f, 0, 0}), 1) << "on its bottom, which is left there, as is the sheet's own";
+}
+
 /// An open sheet's outline is a sheet too: 1 from its front, and nothing begins inside of it.
 TEST(OutlineCount, AnOpenSheetHasNoInside) {
   Scene scene = scene_of({});
