@@ -20,7 +20,7 @@ namespace {
 
 struct CaptureCommand {
   std::string out, size = "1920x1080", planes, peel = "0", path, picture, compression = "zip";
-  std::string stochastic, alpha, stochastic_seed, view2, stereo, convergence;
+  std::string stochastic, alpha, stochastic_seed, view2, stereo, convergence, outlines, outline_method, outline_angle;
   bool half = false, toe_in = false;
   SceneFlags scene;
   SceneCameraFlags camera;
@@ -52,6 +52,31 @@ StochasticOptions stochastic_of(const CaptureCommand& flags) {
   if (!flags.alpha.empty()) options.alpha = parse_number(flags.alpha, "--alpha", 0, 1);
   if (!flags.stochastic_seed.empty())
     options.seed = parse_whole_number(flags.stochastic_seed, "--stochastic-seed", 0, std::numeric_limits<int>::max());
+  return options;
+}
+
+/// None where none are wanted.
+std::optional<OutlineOptions> outlines_of(const CaptureCommand& flags) {
+  if (flags.outlines.empty()) {
+    if (!flags.outline_method.empty()) throw UsageError("--outline-method is of outlines; give --outlines EXTENT too");
+    if (!flags.outline_angle.empty()) throw UsageError("--outline-angle is of outlines; give --outlines EXTENT too");
+    return {};
+  }
+  OutlineOptions options;
+  options.extent = parse_number(flags.outlines, "--outlines", 1e-15, 1e15);
+  if (!flags.outline_method.empty()) {
+    const std::vector<std::string>& names = outline_methods();
+    const auto found = std::find(names.begin(), names.end(), flags.outline_method);
+    if (found == names.end())
+      throw UsageError("--outline-method {} is not allowed{}; {} are", flags.outline_method,
+                       suggestion(flags.outline_method, names), enumerate(names));
+    options.method = OutlineMethod(found - names.begin());
+  }
+  if (flags.outline_angle.empty()) return options;
+  if (options.method != OutlineMethod::integrated)
+    throw UsageError(
+        "--outline-angle tells apart the normals that --outline-method integrated takes the mean of; leave it out");
+  options.angle_degrees = parse_number(flags.outline_angle, "--outline-angle", 0, 90);
   return options;
 }
 
@@ -154,7 +179,7 @@ struct Layers {
 
 struct Figures {
   size_t faces = 0, meshes = 0;
-  double load = 0, build = 0, trace = 0, stochastic = 0, write = 0;
+  double load = 0, build = 0, trace = 0, stochastic = 0, outlines = 0, write = 0;
   long long rays = 0;
   Layers layers;
   std::string camera;                    ///< where the first view's camera came from
@@ -178,6 +203,7 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   const CaptureResult result = capture(tracer, options);
   figures.trace += result.seconds;
   figures.stochastic += result.stochastic_seconds;
+  figures.outlines += result.outline_seconds;
   figures.rays += result.rays;
   figures.layers.add(result.frame);
   figures.surfaces += result.surfaces;
@@ -202,6 +228,17 @@ double span_of(const Camera& camera, int width) {
 Json stochastic_document(const StochasticOptions& options) {
   if (options.samples == 0) return nullptr;
   return {{"samples", options.samples}, {"alpha", options.alpha}, {"seed", options.seed}};
+}
+
+Json outlines_document(const CaptureOptions& options, const Figures& f) {
+  if (!options.outlines) return nullptr;
+  const OutlineOptions& made = options.outlines->options();
+  return {{"extent", made.extent},
+          {"method", outline_methods()[size_t(made.method)]},
+          {"angle", made.method == OutlineMethod::integrated ? Json(made.angle_degrees) : Json()},
+          {"triangles", options.outlines->scene().faces()},
+          {"triangles_of_scene", f.faces},
+          {"ms", {{"build", 1e3 * options.outlines->build_seconds()}, {"count", 1e3 * f.outlines}}}};
 }
 
 Json second_view_document(const CaptureOptions& options, const Figures& f) {
@@ -241,6 +278,7 @@ Json document(const Scene& scene, const CaptureOptions& options, const Figures& 
       {"files", f.files},
       {"layers", layers},
       {"stochastic", stochastic_document(options.stochastic)},
+      {"outlines", outlines_document(options, f)},
       {"view2", second_view_document(options, f)},
       {"stereo", stereo_document(options, f)},
       {"ao_radius", scene.ao_radius},
@@ -259,6 +297,10 @@ void print(const Scene& scene, const CaptureOptions& options, const Figures& f) 
   if (options.stochastic.samples > 0)
     fmt::print("stochastic depth: {} samples, alpha {:g}; choosing them took {:.3f} s of the tracing\n",
                options.stochastic.samples, options.stochastic.alpha, f.stochastic);
+  if (options.outlines)
+    fmt::print("outlines: {:g} scene units away, {}; building them took {:.3f} s, counting {:.3f} s of the tracing\n",
+               options.outlines->options().extent, outline_methods()[size_t(options.outlines->options().method)],
+               options.outlines->build_seconds(), f.outlines);
   if (f.visible)
     fmt::print("view2: turned {:g} degrees about depth {:g}, holds depths {:g} to {:g}, {:.3g} {} across\n",
                *options.second_view, f.visible->median, f.visible->nearest, f.visible->farthest,
@@ -309,6 +351,7 @@ void capture_command(const CaptureCommand& flags) {
   options.planes = planes_of(flags);
   options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
   options.stochastic = stochastic_of(flags);
+  const std::optional<OutlineOptions> outline_options = outlines_of(flags);
   options.second_view = second_view_of(flags);
   options.stereo = stereo_of(flags);
   Figures figures;
@@ -320,6 +363,8 @@ void capture_command(const CaptureCommand& flags) {
   figures.camera = shots.front().views.front().camera.source;
   const Tracer tracer(scene);
   figures.build = tracer.build_seconds();
+  std::optional<Outlines> outlines;
+  if (outline_options) options.outlines = &outlines.emplace(tracer, *outline_options);
   figures.faces = scene.faces();
   figures.meshes = scene.meshes.size();
   const auto bar = progress_bar();
@@ -354,6 +399,18 @@ void add_capture(CLI::App& app) {
   command->add_option("--alpha", flags->alpha, "share of the samples that a surface is offered to; default 0.2")
       ->type_name("A");
   command->add_option("--stochastic-seed", flags->stochastic_seed, "of its random choices; default 0")->type_name("N");
+  command
+      ->add_option("--outlines", flags->outlines,
+                   "count per pixel the outlines, that many scene units around the objects, that it is in")
+      ->type_name("EXTENT");
+  command
+      ->add_option("--outline-method", flags->outline_method,
+                   "how outlines are made: " + enumerate(outline_methods()) + "; default integrated")
+      ->type_name("NAME");
+  command
+      ->add_option("--outline-angle", flags->outline_angle,
+                   "degrees between face normals that count as one, 0 to 90; default 1")
+      ->type_name("DEGREES");
   command->add_option("--view2", flags->view2, "also a second view, turned by that many degrees, -90 to 90")
       ->type_name("ANGLE");
   command
@@ -377,6 +434,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture colonnade -o colonnade.exr --size 960x540 --picture colonnade.png\n"
       "  gloam capture statue --faces 500000 -o statue.exr --peel 8\n"
       "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
+      "  gloam capture courtyard -o courtyard.exr --outlines 0.5\n"
       "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"

@@ -25,6 +25,14 @@ struct Surface {
   bool back_face = false;  ///< the triangle is seen from its clockwise side
 };
 
+/// A face that a ray crosses.
+struct Crossing {
+  double distance = 0;  ///< as Surface has it
+  int mesh = 0;
+  unsigned triangle = 0;
+  bool back_face = false;
+};
+
 /// What a surface is made of at a point, textures looked up.
 struct SurfaceMaterial {
   glm::vec3 albedo{0.0f};  ///< base colour, linear
@@ -56,6 +64,10 @@ class Tracer {
 
   /// All surfaces on the ray, nearest first. Two triangles of one mesh that meet under the ray count once.
   void all(const TracerRay& ray, std::vector<Surface>& surfaces) const;
+
+  /// All faces that the ray crosses, nearest first. Triangles that join where the ray meets them are one face; other faces of
+  /// a mesh at one place, which `all` takes for one surface, are each counted. So a closed mesh is left as often as entered.
+  void crossings(const TracerRay& ray, std::vector<Crossing>& crossings) const;
 
   /// Rays from one point: `directions` unit, in lengths; sets blocked[i] for each. `far` for all.
   void blocked(const glm::vec3& origin, const glm::vec3* directions, int count, float far, bool* blocked) const;

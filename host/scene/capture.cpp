@@ -37,7 +37,8 @@ double far_of(const Camera& camera) { return camera.far.value_or(std::numeric_li
 struct Target {
   Channel* depth = nullptr;
   Channel *normal[3] = {}, *albedo[3] = {}, *color[3] = {}, *reflectance[3] = {}, *position[3] = {}, *motion[2] = {};
-  Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr;
+  Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr,
+          *outline_count = nullptr;
   std::vector<Channel*> peel, stochastic;
 };
 
@@ -74,6 +75,7 @@ Target make_target(View& view, const CaptureOptions& options, const Layout& layo
   single("back_depth", target.back_depth);
   single("instance", target.instance);
   if (options.peel > 0) target.peel_count = add_channel(view, "peel_count", layout);
+  if (options.outlines) target.outline_count = add_channel(view, "outline_count", layout);
   for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, layer_name("peel", i), layout));
   for (int i = 0; i < options.stochastic.samples; ++i)
     target.stochastic.push_back(add_channel(view, layer_name("stochastic", i), layout));
@@ -146,16 +148,54 @@ class StochasticMap {
   const std::vector<Channel*>& samples_;
 };
 
+/// Counts the outlines that one view's rays are in where they meet what is visible.
+class OutlineCounter {
+ public:
+  OutlineCounter(const Outlines* outlines, const Camera& camera, const Target& target)
+      : outlines_(outlines), camera_(camera), target_(target) {
+    if (!outlines_ || camera.orthographic) return;
+    at_eye_ = outlines_->around(camera.pose->position - outlines_->scene().origin);
+  }
+
+  /// Once the row has its depths.
+  void row(int y) const {
+    if (!outlines_) return;
+    for (int x = 0; x < target_.depth->layout().width; ++x) {
+      // From the eye on, whatever the near plane hides: an outline that begins before it is one to be in.
+      TracerRay ray = camera_ray(camera_, outlines_->scene().origin, x + 0.5, y + 0.5);
+      const float depth = target_.depth->at(x, y);
+      ray.far = is_background(depth) ? far_of(camera_) : double(depth);
+      // Orthographic rays start at places of their own; behind most of them there is nothing.
+      const int at_start = at_eye_ ? *at_eye_ : outlines_->around(ray.origin, -ray.direction);
+      target_.outline_count->at(x, y) = float(at_start + outlines_->crossings(ray));
+    }
+  }
+
+ private:
+  const Outlines* outlines_;
+  const Camera& camera_;
+  const Target& target_;
+  std::optional<int> at_eye_;
+};
+
+/// What a part of the work took.
+struct PartSeconds {
+  double stochastic = 0, outlines = 0;
+};
+
 /// Captures the rows of one view.
 class Capturer {
  public:
-  Capturer(const Tracer& tracer, const CaptureView& view, const Target& target, const StochasticOptions& stochastic)
-      : tracer_(tracer), view_(view), target_(target), stochastic_(stochastic, target.stochastic) {
+  Capturer(const Tracer& tracer, const CaptureView& view, const Target& target, const CaptureOptions& options)
+      : tracer_(tracer),
+        view_(view),
+        target_(target),
+        stochastic_(options.stochastic, target.stochastic),
+        outlines_(options.outlines, view.camera, target) {
     needs_all_ = target.back_depth || target.peel_count || stochastic_.is_wanted();
   }
 
-  /// Seconds that the stochastic depth map took.
-  double row(int y, int width) const {
+  PartSeconds row(int y, int width) const {
     std::vector<Surface> surfaces;
     RowDepths depths;
     for (int x = 0; x < width; ++x) {
@@ -164,9 +204,14 @@ class Capturer {
       for (const Surface& surface : surfaces) depths.depths.push_back(float(surface.distance));
       depths.ends.push_back(depths.depths.size());
     }
-    const auto start = std::chrono::steady_clock::now();
+    PartSeconds seconds;
+    auto start = std::chrono::steady_clock::now();
     stochastic_.row(y, depths);
-    return seconds_since(start);
+    seconds.stochastic = seconds_since(start);
+    start = std::chrono::steady_clock::now();
+    outlines_.row(y);
+    seconds.outlines = seconds_since(start);
+    return seconds;
   }
 
  private:
@@ -231,6 +276,7 @@ class Capturer {
   const CaptureView& view_;
   const Target& target_;
   StochasticMap stochastic_;
+  OutlineCounter outlines_;
   bool needs_all_;
 };
 
@@ -278,11 +324,11 @@ void check_options(const CaptureOptions& options) {
   }
 }
 
-/// All rows of a view, on all threads. Returns the seconds that its stochastic depth map took, as a mean over the threads.
-double capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
+/// All rows of a view, on all threads. Returns the seconds of its parts as a mean over the threads.
+PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
   const int rows = options.height * int(options.views.size() + (options.second_view ? 1 : 0));
   int done = rows_before;
-  double stochastic_seconds = 0;
+  PartSeconds sum;
   std::atomic<bool> failed = false;
   std::mutex mutex;
   std::exception_ptr failure;  // an exception may not leave a parallel loop
@@ -290,9 +336,10 @@ double capture_rows(const Capturer& capturer, const CaptureOptions& options, int
   for (int y = 0; y < options.height; ++y) {
     try {
       if (failed) continue;
-      const double seconds = capturer.row(y, options.width);
+      const PartSeconds seconds = capturer.row(y, options.width);
       const std::lock_guard<std::mutex> lock(mutex);
-      stochastic_seconds += seconds;
+      sum.stochastic += seconds.stochastic;
+      sum.outlines += seconds.outlines;
       ++done;
       if (options.progress) options.progress(done, rows);
     } catch (...) {
@@ -302,7 +349,7 @@ double capture_rows(const Capturer& capturer, const CaptureOptions& options, int
     }
   }
   if (failure) std::rethrow_exception(failure);
-  return stochastic_seconds / omp_get_max_threads();
+  return {sum.stochastic / omp_get_max_threads(), sum.outlines / omp_get_max_threads()};
 }
 
 /// Adds a view to the frame.
@@ -313,11 +360,13 @@ void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOp
   view.camera = from.camera;
   view.origin = from.camera.pose->position;
   const Target target = make_target(view, options, Layout(options.width, options.height));
-  result.stochastic_seconds += capture_rows(Capturer(tracer, from, target, options.stochastic), options, rows_before);
+  const PartSeconds seconds = capture_rows(Capturer(tracer, from, target, options), options, rows_before);
+  result.stochastic_seconds += seconds.stochastic;
+  result.outline_seconds += seconds.outlines;
   const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
   const long long surfaces = surfaces_in(*target.depth);
   result.surfaces += surfaces;
-  result.rays += (long long)options.width * options.height + (lit ? sun_rays * surfaces : 0);
+  result.rays += (options.outlines ? 2LL : 1LL) * options.width * options.height + (lit ? sun_rays * surfaces : 0);
 }
 
 /// From what the first view shows.
@@ -341,6 +390,12 @@ void say_stereo(Frame& frame, const StereoRig& rig) {
   frame.numbers["gloamStereo"] = rig.interpupillary_distance;
   if (rig.convergence) frame.numbers["gloamConvergence"] = *rig.convergence;
   if (rig.toe_in) frame.numbers["gloamToeIn"] = toe_in_degrees(rig);
+}
+
+void say_outlines(Frame& frame, const OutlineOptions& options) {
+  frame.numbers["gloamOutlines"] = options.extent;
+  frame.attributes["gloamOutlineMethod"] = outline_methods()[size_t(options.method)];
+  if (options.method == OutlineMethod::integrated) frame.numbers["gloamOutlineAngle"] = options.angle_degrees;
 }
 
 }  // namespace
@@ -419,6 +474,7 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
     frame.numbers["gloamSecondView"] = *options.second_view;
   }
   if (options.stereo) say_stereo(frame, *options.stereo);
+  if (options.outlines) say_outlines(frame, options.outlines->options());
   if (options.stochastic.samples > 0) {
     frame.numbers["gloamStochasticAlpha"] = options.stochastic.alpha;
     frame.attributes["gloamStochasticSeed"] = std::to_string(options.stochastic.seed);

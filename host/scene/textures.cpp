@@ -42,4 +42,9 @@ glm::vec4 texel(const Texture& texture, glm::vec2 uv, bool srgb) {
                   glm::mix(at(texture, x0, y1, srgb), at(texture, x1, y1, srgb), right), down);
 }
 
+bool has_holes(const Scene& scene, const Mesh& mesh) {
+  const Material& material = scene.materials[size_t(mesh.material)];
+  return material.alpha_cutoff > 0 && material.albedo_texture >= 0 && !mesh.uvs.empty();
+}
+
 }  // namespace gloam

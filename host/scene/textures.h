@@ -12,4 +12,7 @@ namespace gloam {
 /// corner.
 glm::vec4 texel(const Texture& texture, glm::vec2 uv, bool srgb);
 
+/// Whether rays may pass through holes in a mesh's texture.
+bool has_holes(const Scene& scene, const Mesh& mesh);
+
 }  // namespace gloam

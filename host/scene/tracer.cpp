@@ -152,12 +152,14 @@ dvec3 unit_or(const dvec3& v, const dvec3& otherwise) {
   return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
-/// Whether one of the first `count` surfaces, which are sorted, is the same: met twice where two triangles join.
-bool is_there_already(const std::vector<Surface>& surfaces, size_t count, const Surface& surface) {
+/// Whether one of the first `count` surfaces or crossings, which are sorted, is the same: met twice where two triangles
+/// join. `joins` says whether two at one place do.
+template <typename Surface, typename Joins>
+bool is_there_already(const std::vector<Surface>& surfaces, size_t count, const Surface& surface, const Joins& joins) {
   for (size_t i = count; i-- > 0;) {
     const Surface& other = surfaces[i];
     if (surface.distance - other.distance > same_place * surface.distance) return false;
-    if (other.mesh == surface.mesh && other.back_face == surface.back_face) return true;
+    if (other.mesh == surface.mesh && other.back_face == surface.back_face && joins(other, surface)) return true;
   }
   return false;
 }
@@ -175,6 +177,10 @@ struct Tracer::Impl {
 
   explicit Impl(const Scene& scene) : scene(scene) {}
   void add(const Mesh& mesh, unsigned id);
+  const std::vector<RawHit>& gathered(const TracerRay& ray) const;
+  bool join(const Crossing& a, const Crossing& b) const;
+  Crossing crossing(const TracerRay& ray, const RawHit& hit, const dvec3& normal) const;
+  dvec3 normal(const TracerRay& ray, const RawHit& hit) const;
   Surface surface(const TracerRay& ray, const RawHit& hit) const;
   void bound();
   std::optional<double> start_of(const TracerRay& ray) const;
@@ -223,8 +229,7 @@ void Tracer::Impl::add(const Mesh& mesh, unsigned id) {
   check_embree(device.get(), scene);
   std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(vec3));
   std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
-  const Material& material = scene.materials[size_t(mesh.material)];
-  if (material.alpha_cutoff > 0 && material.albedo_texture >= 0 && !mesh.uvs.empty()) {
+  if (has_holes(scene, mesh)) {
     cutouts.push_back(std::make_unique<Cutout>(Cutout{&scene, &mesh}));
     rtcSetGeometryUserData(geometry, cutouts.back().get());
     rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
@@ -235,20 +240,34 @@ void Tracer::Impl::add(const Mesh& mesh, unsigned id) {
   rtcReleaseGeometry(geometry);
 }
 
-Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
+dvec3 Tracer::Impl::normal(const TracerRay& ray, const RawHit& hit) const {
   const Mesh& mesh = scene.meshes[hit.mesh];
   const glm::uvec3 t = mesh.triangles[hit.triangle];
   const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-  const dvec3 normal = unit_or(glm::cross(b - a, c - a), -glm::normalize(ray.direction));
-  Surface surface;
-  surface.mesh = int(hit.mesh);
-  surface.triangle = hit.triangle;
+  return unit_or(glm::cross(b - a, c - a), -glm::normalize(ray.direction));
+}
+
+Crossing Tracer::Impl::crossing(const TracerRay& ray, const RawHit& hit, const dvec3& normal) const {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const dvec3 a = mesh.positions[mesh.triangles[hit.triangle].x];
   // The ray against the triangle's plane, in double; where the ray runs along the plane, Embree's word.
   const double approach = glm::dot(ray.direction, normal);
-  surface.distance = glm::dot(a - ray.origin, normal) / approach;
-  if (!(std::abs(surface.distance - hit.distance) <= 1e-3 * std::abs(hit.distance))) surface.distance = hit.distance;
+  double distance = glm::dot(a - ray.origin, normal) / approach;
+  if (!(std::abs(distance - hit.distance) <= 1e-3 * std::abs(hit.distance))) distance = hit.distance;
+  return {distance, int(hit.mesh), hit.triangle, approach > 0};
+}
+
+Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const glm::uvec3 t = mesh.triangles[hit.triangle];
+  const dvec3 normal = this->normal(ray, hit);
+  const Crossing crossing = this->crossing(ray, hit, normal);
+  Surface surface;
+  surface.mesh = crossing.mesh;
+  surface.triangle = crossing.triangle;
+  surface.distance = crossing.distance;
   surface.position = ray.origin + surface.distance * ray.direction;
-  surface.back_face = approach > 0;
+  surface.back_face = crossing.back_face;
   surface.facing = surface.back_face ? -normal : normal;
   const vec3 weights = barycentric(hit.u, hit.v);
   surface.uv = uv_at(mesh, hit.triangle, weights);
@@ -297,12 +316,12 @@ std::optional<Surface> Tracer::first(const TracerRay& ray) const {
       ray, {query.hit.geomID, query.hit.primID, *start + double(query.ray.tfar), query.hit.u, query.hit.v});
 }
 
-void Tracer::all(const TracerRay& ray, std::vector<Surface>& surfaces) const {
+/// All that Embree reports, in its order; until the thread's next call.
+const std::vector<RawHit>& Tracer::Impl::gathered(const TracerRay& ray) const {
   thread_local std::vector<RawHit> hits;
   hits.clear();
-  surfaces.clear();
-  const std::optional<double> start = impl_->start_of(ray);
-  if (!start) return;
+  const std::optional<double> start = start_of(ray);
+  if (!start) return hits;
   GatheringContext context;
   rtcInitIntersectContext(&context.base);
   context.base.filter = gather_hit;
@@ -311,17 +330,47 @@ void Tracer::all(const TracerRay& ray, std::vector<Surface>& surfaces) const {
   query.ray = embree_ray(ray, *start);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->embree.get(), &context.base, &query);
-  for (RawHit& hit : hits) {
-    hit.distance += *start;
-    surfaces.push_back(impl_->surface(ray, hit));
+  rtcIntersect1(embree.get(), &context.base, &query);
+  for (RawHit& hit : hits) hit.distance += *start;
+  return hits;
+}
+
+/// Whether two triangles share a vertex, by position.
+bool Tracer::Impl::join(const Crossing& a, const Crossing& b) const {
+  const Mesh& mesh = scene.meshes[size_t(a.mesh)];
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.positions[mesh.triangles[a.triangle][i]] == mesh.positions[mesh.triangles[b.triangle][k]]) return true;
+    }
   }
+  return false;
+}
+
+void Tracer::crossings(const TracerRay& ray, std::vector<Crossing>& crossings) const {
+  crossings.clear();
+  for (const RawHit& hit : impl_->gathered(ray))
+    crossings.push_back(impl_->crossing(ray, hit, impl_->normal(ray, hit)));
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tie(a.distance, a.mesh, a.triangle) < std::tie(b.distance, b.mesh, b.triangle);
+  });
+  const auto joins = [&](const Crossing& a, const Crossing& b) { return impl_->join(a, b); };
+  size_t kept = 0;
+  for (const Crossing& crossing : crossings) {
+    if (!is_there_already(crossings, kept, crossing, joins)) crossings[kept++] = crossing;
+  }
+  crossings.resize(kept);
+}
+
+void Tracer::all(const TracerRay& ray, std::vector<Surface>& surfaces) const {
+  surfaces.clear();
+  for (const RawHit& hit : impl_->gathered(ray)) surfaces.push_back(impl_->surface(ray, hit));
   std::sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
     return std::tie(a.distance, a.mesh, a.triangle) < std::tie(b.distance, b.mesh, b.triangle);
   });
   size_t kept = 0;
+  const auto any = [](const Surface&, const Surface&) { return true; };
   for (const Surface& surface : surfaces) {
-    if (!is_there_already(surfaces, kept, surface)) surfaces[kept++] = surface;
+    if (!is_there_already(surfaces, kept, surface, any)) surfaces[kept++] = surface;
   }
   surfaces.resize(kept);
 }
