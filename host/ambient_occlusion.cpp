@@ -52,6 +52,7 @@ Technique over_peeled_layers(Technique technique) {
   technique.name.insert(0, peeled_prefix);
   technique.paper += "; over layers Vermeer, Scandolo, Eisemann 2021";
   technique.default_for.clear();
+  technique.effect = {};
   technique.reads.push_back("peel");
   technique.passes = [over_depth = technique.passes](const ParameterValues& values) {
     std::vector<Pass> passes = over_depth(values);
@@ -93,6 +94,7 @@ Technique over_stochastic_depth(Technique technique, std::vector<Parameter> para
   technique.name.insert(0, stochastic_prefix);
   technique.paper += "; over stochastic depth Vermeer, Scandolo, Eisemann 2021";
   technique.default_for.clear();
+  technique.effect = {};
   technique.reads.push_back("stochastic");
   technique.parameters = std::move(parameters);
   technique.passes = std::move(passes);

@@ -486,6 +486,18 @@ std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& v
   return technique.passes ? technique.passes(values) : std::vector<Pass>();
 }
 
+/// Leaves out the passes that only repeat cells.
+void put_out_cells(Plan& plan) {
+  for (std::string& output : plan.outputs) {
+    const auto repeats = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {
+      return planned.pass.repeats_cells && planned.pass.writes.front().plane == output;
+    });
+    if (repeats == plan.passes.end()) continue;
+    output = repeats->pass.reads.front().plane;
+    plan.passes.erase(repeats);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& outputs_of(const Technique& technique) {
@@ -531,6 +543,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   if (is_reduced) reduce(plan, asked_for, values.back());
   plan.mask = mask;
   if (!mask.empty()) restrict_to_mask(plan, asked_for);
+  if (request.as_cells) put_out_cells(plan);
   plan.skipped = walk.skipped;
   skip_the_rest(plan, available);
   if (contains(plan.inputs, "depth"))

@@ -106,6 +106,7 @@ Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
   t.views = 2;
   t.writes = t.outputs = {"ao", "ao_raw"};
   t.default_for.clear();
+  t.effect = {};
   t.extras.clear();
   t.parameters = std::move(parameters);
   for (const auto& [name, value] : std::exchange(t.then_with, {})) set_initial(t.parameters, name, value);

@@ -25,7 +25,7 @@ std::set<std::string> settable_by(const CLI::App* command_line) {
       if (!command_line->get_option_no_throw("--" + p.name)) names.insert(p.name);
     }
   };
-  if (command == "run" || command == "plan") {
+  if (command == "run" || command == "plan" || command == "auto") {
     for (const Technique& t : registry()) add(t.parameters);
   }
   if (command == "capture" || command == "reference") {
@@ -155,6 +155,7 @@ int run_command(int argc, char** argv) {
   add_reference(app);
   add_bench(app);
   add_pick(app);
+  add_auto(app);
   add_report(app);
   try {
     app.parse(with_parameter_flags(app, argc, argv));

@@ -240,7 +240,7 @@ std::string extras_in_words() {
 
 }  // namespace
 
-void TechniqueFlags::add_to(CLI::App& app) {
+void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
   app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
       ->type_name("NAME=VALUE")
       ->group("Technique")
@@ -260,6 +260,7 @@ void TechniqueFlags::add_to(CLI::App& app) {
          "full, half or quarter: estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
       ->type_name("NAME")
       ->group("Technique");
+  if (!with_mask) return;
   app.add_option("--only", only,
                  "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
                  "technique that makes a mask, such as corner-mask")

@@ -44,7 +44,8 @@ struct FrameArguments {
 struct TechniqueFlags {
   std::vector<std::string> settings;
   std::string preset, then, with, resolution = "full", only;
-  void add_to(CLI::App& app);
+  /// `with_mask`: --only too.
+  void add_to(CLI::App& app, bool with_mask = true);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };
 
@@ -133,6 +134,7 @@ void add_capture(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_pick(CLI::App& app);
+void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
 
 }  // namespace gloam::cli

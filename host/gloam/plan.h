@@ -26,6 +26,9 @@ struct PlanRequest {
   /// Restricts the techniques asked for and their filters to where it is above 0: a plane, or a technique that makes one.
   /// Filters cover the mask, estimates what these read of them. What is left out is open. Empty: everywhere.
   std::string mask;
+  /// Masks asked for are put out as the cells that they are made of, one pixel for each (`Pass::repeats_cells`), under the
+  /// cells' own name.
+  bool as_cells = false;
   /// Every `resolution`-th pixel of every `resolution`-th row is estimated and filtered, and the rest is brought back by
   /// joint bilateral upsampling (resample.h): 1, 2 or 4.
   int resolution = 1;

@@ -66,6 +66,17 @@ struct Preset {
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
+/// What `gloam auto` has to know of a technique, to tell whether a frame calls for it, and where.
+struct Effect {
+  std::string name;  ///< as people call it: "ambient occlusion"; empty: the technique is for those who ask for it
+  std::string mask;  ///< technique whose mask says where it is called for
+  /// Settings with which the mask costs next to nothing, and still tells whether nearly all calls for it.
+  std::vector<std::pair<std::string, std::string>> glance;
+  /// Share of the image from which on the mask itself costs more than it saves: then the effect is computed everywhere.
+  double most_share = 1;
+  std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
+};
+
 struct Technique {
   std::string name;     ///< as users type it: "hbao+"
   std::string summary;  ///< one line
@@ -86,6 +97,7 @@ struct Technique {
   /// to be fast. Empty where there is no such thing.
   std::vector<std::pair<std::string, std::string>> converged;
   std::function<std::vector<Pass>(const ParameterValues&)> passes;
+  Effect effect;  ///< what `gloam auto` makes with it, if anything
   /// Samples per pixel over one layer. Empty where the technique has not said.
   std::function<int(const ParameterValues&)> samples;
   /// What an occluder at `distance` (in radii, 0 to 1) and at an angle with the given `cosine` (above 0) to the normal

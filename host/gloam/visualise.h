@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "gloam/frame.h"
 #include "gloam/metrics.h"
@@ -18,6 +19,18 @@ struct DifferencePicture {
 };
 void write_difference_picture(const std::filesystem::path& path, const Plane& test, const Plane& truth,
                               const Mask& foreground, const Metrics& metrics, const DifferencePicture& options);
+
+/// What `gloam auto` has found out of one effect.
+struct Explanation {
+  std::string title, why, cost;  ///< lines of text
+  const Plane* where = nullptr;  ///< above 0 where it is called for: one pixel for each pixel or square tile
+  bool is_everywhere = false;
+};
+
+/// A view's colours, or its surfaces lit from the eye where it has none, tinted where effects are called for, and under
+/// it the lines of each. PNG, written atomically.
+void write_explanation(const std::filesystem::path& path, const View& view,
+                       const std::vector<Explanation>& explanations);
 
 /// One plane as an 8-bit PNG: grey for one component (0..1), normals as 0.5 + 0.5 n, others clamped to 0..1 through
 /// sRGB.

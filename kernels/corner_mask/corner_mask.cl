@@ -29,8 +29,10 @@ kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE dept
 // Whether any sample lies as high over the tangent plane as counts. Ends where each lane has found one.
 static inline __attribute__((always_inline)) mask something_rises(Frame frame, Params params, PLANE depth, Receiver r,
                                                                   Fan fan, int within) {
-  // Squared distance in radii: a range allows as much along the line to the eye as SSAO does (estimators/ball.h).
-  const real farthest = (1 + 4 * params.range * params.range) / r.reach.inverse_square;
+  // In units of the depth. Both cells stand for pixels that may be nearer to one another, and a range allows as much along
+  // the line to the eye as SSAO does (estimators/ball.h).
+  const real radius = 1 / sqrt(r.reach.inverse_square) + (r.point.across_x + r.point.across_y);
+  const real farthest = radius * radius * (1 + 4 * params.range * params.range);
   const scalar least = params.least_sine * params.least_sine;
   mask rises = r.point.background;
   for (int d = 0; d < DIRECTIONS; ++d) {

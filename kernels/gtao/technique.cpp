@@ -56,6 +56,12 @@ Technique gtao_over_depth() {
       row("gtao", "ambient occlusion from horizons in slices, cosine-weighted", "Jimenez, Wu, Pesce, Jarabo 2016");
   t.parameters = GtaoParams::table();
   t.passes = passes_of(gtao_passes);
+  t.effect = {.name = "ambient occlusion",
+              .mask = "corner-mask",
+              .glance = {{"cell", "8"}, {"search_steps", "2"}},
+              .most_share = 0.8,
+              .somewhere = "something rises over the surface within the radius",
+              .nowhere = "nothing rises over any surface within the radius"};
   return t;
 }
 

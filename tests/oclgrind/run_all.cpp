@@ -65,6 +65,29 @@ int run_defaults(const Technique& technique, const Shot& shot, bool with_normals
   return int(plan.passes.size());
 }
 
+/// Where a mask leaves most pixels out, at full and at half resolution; 0 for a technique that cannot be restricted.
+int run_masked(const Technique& technique) {
+  Frame frame = shoot(perspective(width, height), room());
+  plan_for(technique, frame);  // invents what it needs
+  plane_of(frame, "mask").channels[0].at(width / 2, 1) = 1;
+  int passes = 0;
+  for (const int resolution : {1, 2}) {
+    try {
+      const Plan plan = make_plan({.outputs = {technique.name},
+                                   .with = technique.extras,
+                                   .settings = few_samples(technique),
+                                   .mask = "mask",
+                                   .resolution = resolution},
+                                  plane_names(frame), "the frame has not");
+      run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+      passes += int(plan.passes.size());
+    } catch (const UsageError&) {
+      return 0;
+    }
+  }
+  return passes;
+}
+
 /// Every `parts`-th technique, from `part` on.
 int run_all(size_t part, size_t parts) {
   int passes = 0;
@@ -73,7 +96,7 @@ int run_all(size_t part, size_t parts) {
     passes += run_defaults(technique, perspective(width, height), true);
     passes += run_defaults(technique, orthographic(width, height, 4), false);
     for (const bool with_normals : {true, false}) passes += run_defaults(technique, perspective(1, 1), with_normals);
-    passes += run_variants(technique);
+    passes += run_variants(technique) + run_masked(technique);
     std::printf("%s\n", technique.name.c_str());
   }
   std::printf("ran %d passes on %s\n", passes, device().info().platform.c_str());
