@@ -140,6 +140,8 @@ std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, c
 
 void auto_command(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
+  // What is compared is not to hold what a device does once.
+  if (flags.measure) options.repeat = std::max(options.repeat, 3);
   const WriteOptions writing{flags.half, flags.compression};
   check(writing);
   check_frame_name(flags.out, "-o");
@@ -196,7 +198,8 @@ void add_auto(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
   command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
       ->type_name("OUT.png");
-  command->add_flag("--measure", flags->measure, "also compute everything everywhere, and tell what that takes");
+  command->add_flag("--measure", flags->measure,
+                    "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
   command->add_flag("--half", flags->half, "write AO as half instead of float");
   command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")
       ->type_name("NAME");
