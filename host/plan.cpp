@@ -183,9 +183,8 @@ std::string want_mask(Wanted& wanted, const std::string& mask, const std::vector
     std::vector<std::string> names = plane_and_technique_names();
     names.insert(names.end(), available.begin(), available.end());
     throw UsageError(
-        "--only {}: is neither a plane at hand nor a technique that makes one{}; --plane mask=CHANNEL takes any "
-        "channel of the "
-        "file as 'mask'",
+        "--only {}: is neither a plane at hand nor a technique that makes one{}; --plane mask=CHANNEL takes any channel "
+        "of the file as 'mask'",
         mask, suggestion(mask, names));
   }
   if (plane_kind(plane).components.size() != 1 || is_stack(plane))
@@ -486,6 +485,12 @@ std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& v
   return technique.passes ? technique.passes(values) : std::vector<Pass>();
 }
 
+/// A mask is made of all pixels, before what it restricts.
+std::vector<const Technique*> without_maker(std::vector<const Technique*> techniques, const std::string& mask) {
+  std::erase_if(techniques, [&](const Technique* t) { return contains(t->writes, mask); });
+  return techniques;
+}
+
 /// Leaves out the passes that only repeat cells.
 void put_out_cells(Plan& plan) {
   for (std::string& output : plan.outputs) {
@@ -540,7 +545,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   trim_stacks(plan);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;
-  if (is_reduced) reduce(plan, asked_for, values.back());
+  if (is_reduced) reduce(plan, without_maker(asked_for, mask), values.back());
   plan.mask = mask;
   if (!mask.empty()) restrict_to_mask(plan, asked_for);
   if (request.as_cells) put_out_cells(plan);

@@ -9,7 +9,7 @@
 //      occluders     further depth layers (ambient_occlusion.h); without them the depth is the only one
 //      depth_levels  what sao_level makes, for levels 1 to LEVELS (LEVELS > 0, without occluders)
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
-// -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS; LEVEL (sao_level)
+// -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED; LEVEL (sao_level)
 #include "alchemy/params.h"
 #include "estimators/alchemy.h"
 #ifndef LEVEL

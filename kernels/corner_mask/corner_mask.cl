@@ -27,8 +27,8 @@ kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE dept
 }
 
 // Whether any sample lies as high over the tangent plane as counts. Ends where each lane has found one.
-static inline __attribute__((always_inline)) mask something_rises(Frame frame, Params params, PLANE depth, Receiver r,
-                                                                  Fan fan, int within) {
+static inline __attribute__((always_inline)) mask something_rises(Frame frame, Params params, global const float* depth,
+                                                                  Receiver r, Fan fan, int within) {
   // In units of the depth. Both cells stand for pixels that may be nearer to one another, and a range allows as much along
   // the line to the eye as SSAO does (estimators/ball.h).
   const real radius = 1 / sqrt(r.reach.inverse_square) + (r.point.across_x + r.point.across_y);
@@ -56,7 +56,8 @@ kernel void corner_find(Frame frame, Params params, PLANE depth, PLANE normal_x,
                         PLANE_OUT found) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   mask rises = (mask)(0);
-  if (ANY(!r.point.background)) {
+  // Nothing is within a radius of 0, not even what lies in the same cell.
+  if (params.radius > 0 && ANY(!r.point.background)) {
     const Fan fan = fan_of(r.reach, r.noise);
     LOOK_AROUND(rises, frame, r, r.reach, something_rises(frame, params, depth, r, fan, within))
   }

@@ -5,16 +5,19 @@
 //      depth          view-space z, +inf = background (outline_ao)
 // out: result         1 where the surface lies in `least_count` outlines and more, else 0 (outline_mask, section 3.1)
 //                     1 - occlusion there, else 1; 1 on background (outline_ao, section 5, before the filter)
-// -D STAND_ALONE
+// -D STAND_ALONE, MASKED
 #include "outline_mask/params.h"
 #include "shared/camera.h"
+#include "shared/wanted.h"
 
 #if STAND_ALONE
-kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count, PLANE depth, PLANE_OUT result) {
+kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count, PLANE depth,
+                       WANTED_ARGUMENT PLANE_OUT result) {
+  SKIP_UNWANTED(frame, store((real)(1), result, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const mask is_corner = load(outline_count, here) >= params.least_count;
   const real ao = choose(is_corner, (real)(1 - params.occlusion), (real)(1));
-  store(choose(is_background(load(depth, here)), (real)(1), ao), result, here);
+  store(choose(is_background(load(depth, here)) | !is_wanted, (real)(1), ao), result, here);
 }
 #else
 kernel void outline_mask(Frame frame, OutlineMaskParams params, PLANE outline_count, PLANE_OUT result) {

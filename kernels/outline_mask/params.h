@@ -5,7 +5,7 @@
 
 #define OUTLINE_AO_PARAMS(P) \
   OUTLINE_MASK_PARAMS(P)     \
-  P(float, occlusion, 0.5f, 0, 1, "", "what such a pixel loses")
+  P(float, occlusion, 0.25f, 0, 1, "", "what such a pixel loses")
 
 PARAMS(OutlineMaskParams, OUTLINE_MASK_PARAMS)
 PARAMS(OutlineAoParams, OUTLINE_AO_PARAMS)

@@ -13,7 +13,8 @@ std::vector<Pass> ao_passes(const OutlineAoParams&) {
            .kernel = "outline_ao",
            .reads = {"outline_count", "depth"},
            .writes = {{"result", "ao_raw"}},
-           .defines = {{"STAND_ALONE", 1}}}};
+           .defines = {{"STAND_ALONE", 1}},
+           .can_skip = true}};
 }
 
 Technique mask() {
@@ -33,7 +34,7 @@ Technique stand_alone() {
                                   "OdSSAO 2020", "outline_mask/outline_mask.cl");
   t.reads = {"outline_count", "depth"};
   // The wider the filter, the more the mask looks like occlusion.
-  t.then_with = {{"half_width", "8"}};
+  t.then_with = {{"half_width", "4"}};
   t.parameters = OutlineAoParams::table();
   t.passes = passes_of(ao_passes);
   return t;

@@ -5,7 +5,7 @@
 //      normal     unit, view space
 //      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
-// -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
+// -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED
 #include "estimators/column.h"
 #include "shared/disk.h"
 #include "volumetric/params.h"
