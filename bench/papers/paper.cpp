@@ -7,6 +7,7 @@
 
 #include "document.h"
 #include "lists.h"
+#include "odssao2020.h"
 #include "report/markdown_text.h"
 #include "shi2022.h"
 #include "vermeer2021.h"
@@ -27,7 +28,8 @@ struct Grid {
 };
 
 /// After the point, of units for which four are too many.
-const std::map<std::string, int> digits_of_units = {{inconsistency_unit, 1}, {"pixels of 100 000", 1}, {"dB", 2}};
+const std::map<std::string, int> digits_of_units = {{inconsistency_unit, 1}, {"pixels of 100 000", 1}, {"dB", 2},
+                                                    {"triangles", 0},        {"milliseconds", 0},      {"ratio", 2}};
 
 std::string text_of(const PaperTime& t) {
   std::string text = fmt::format("{:.{}f} ms", t.ms, t.ms < 10 ? 2 : 1), paper;
@@ -79,7 +81,7 @@ void add_tables(std::string& text, const std::vector<Entry>& entries, std::strin
 }  // namespace
 
 const std::vector<Paper>& papers() {
-  static const std::vector<Paper> all = {vermeer2021(), shi2022()};
+  static const std::vector<Paper> all = {vermeer2021(), shi2022(), odssao2020()};
   return all;
 }
 

@@ -57,6 +57,7 @@ struct Paper {
   std::string title;  ///< authors and year
   int rays;           ///< where nothing else is asked for
   std::function<PaperResult(Device&, const PaperOptions&)> reproduce;
+  int width = 1920, height = 1080;  ///< where nothing else is asked for
 };
 
 /// All papers that can be measured again.

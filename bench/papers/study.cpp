@@ -13,6 +13,17 @@ Image of_first_view(const Stage& s, const Plane& plane) {
   return image;
 }
 
+bool has_parameter(const Technique& technique, const std::string& name) {
+  return std::any_of(technique.parameters.begin(), technique.parameters.end(),
+                     [&](const Parameter& p) { return p.name == name; });
+}
+
+void take(Stage& s, CaptureResult result) {
+  s.frame = std::move(result.frame);
+  s.outline_seconds = result.outline_seconds;
+  s.surfaces = foreground(s.frame);
+}
+
 }  // namespace
 
 Asked with(Asked asked, const std::string& name, const std::string& value) {
@@ -36,9 +47,17 @@ Stage Study::stage(const Shot& shot, int width, int height) const {
   capture.views = {{"", camera_for(s.scene.cameras.at(size_t(shot.camera)), width, height), {}}};
   capture.second_view = shot.second_view;
   if (shot.eyes_apart) capture.stereo = StereoRig{.interpupillary_distance = *shot.eyes_apart};
-  s.frame = gloam::capture(*s.tracer, capture).frame;
-  s.surfaces = foreground(s.frame);
+  if (shot.with_outlines) s.outlines = std::make_unique<Outlines>(*s.tracer, OutlineOptions{.extent = s.radius});
+  capture.outlines = s.outlines.get();
+  take(s, gloam::capture(*s.tracer, capture));
   return s;
+}
+
+void Study::look_from(Stage& s, const SceneCamera& camera) const {
+  const int width = s.frame.width(), height = s.frame.height();
+  CaptureOptions capture{.width = width, .height = height, .planes = {"depth", "normal"}, .outlines = s.outlines.get()};
+  capture.views = {{"", camera_for(camera, width, height), {}}};
+  take(s, gloam::capture(*s.tracer, capture));
 }
 
 Stage Study::small_stage(const Shot& shot, int divisor) const {
@@ -46,10 +65,12 @@ Stage Study::small_stage(const Shot& shot, int divisor) const {
 }
 
 Plan Study::plan_of(const Stage& s, const Asked& asked) const {
-  PlanRequest request{.outputs = {asked.technique}, .only = {asked.plane}, .resolution = asked.resolution};
-  if (asked.plane != "ao") request.then = "none";
+  PlanRequest request{
+      .outputs = {asked.technique}, .only = {asked.plane}, .mask = asked.mask, .resolution = asked.resolution};
+  if (asked.plane == "ao_raw") request.then = "none";
   request.settings = asked.settings;
-  request.settings.emplace_back("radius", std::to_string(s.radius));
+  const bool has_radius = asked.plane == "ao" || has_parameter(find_technique(asked.technique), "radius");
+  if (has_radius) request.settings.emplace_back("radius", std::to_string(s.radius));
   return make_plan(request, planes_of(s.frame), "the captured frame");
 }
 

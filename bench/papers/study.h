@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gloam/outlines.h"
 #include "gloam/reference.h"
 #include "gloam/scene.h"
 #include "gloam/tracer.h"
@@ -27,6 +28,7 @@ struct Asked {
   Settings settings;
   int resolution = 1;
   std::string plane = "ao_raw";
+  std::string mask = {};  ///< as `PlanRequest::mask`
   bool operator==(const Asked&) const = default;
 };
 
@@ -42,6 +44,8 @@ struct Stage {
   Frame frame;
   double radius = 0;
   Foreground surfaces;
+  std::unique_ptr<Outlines> outlines;  ///< where the frame counts them
+  double outline_seconds = 0;          ///< that this took
 };
 
 /// "1920x1080"
@@ -55,6 +59,7 @@ struct Shot {
   int camera = 0;
   std::optional<double> second_view = {};  ///< degrees
   std::optional<double> eyes_apart = {};   ///< two eyes in the camera's place, scene units
+  bool with_outlines = false;              ///< as wide as the scene's radius
 };
 
 class Study {
@@ -70,6 +75,9 @@ class Study {
 
   /// One `divisor`-th of the width and of the height: errors and pictures do not need more.
   Stage small_stage(const Shot& shot, int divisor = 2) const;
+
+  /// Captures a stage's scene anew, with one view, depth, normal, and outlines where it had them.
+  void look_from(Stage& s, const SceneCamera& camera) const;
 
   Plan plan_of(const Stage& s, const Asked& asked) const;
 

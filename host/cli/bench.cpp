@@ -365,6 +365,7 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
       "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
       "  gloam bench -o out/shi2022 --paper shi2022\n"
+      "  gloam bench -o out/odssao2020 --paper odssao2020\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium");
   command->callback([flags] { bench_command(*flags); });
 }

@@ -35,7 +35,11 @@ std::vector<std::string> paper_names() {
 void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   const Paper& paper = find_paper(flags.paper);
   Device device(flags.device);
-  PaperOptions options{.folder = flags.folder, .rays = paper.rays, .progress = show_status};
+  PaperOptions options{.folder = flags.folder,
+                       .width = paper.width,
+                       .height = paper.height,
+                       .rays = paper.rays,
+                       .progress = show_status};
   if (!flags.size.empty()) std::tie(options.width, options.height) = parse_size(flags.size, "--size");
   options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
   if (!flags.rays.empty()) options.rays = parse_rays(flags.rays);

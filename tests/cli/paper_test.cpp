@@ -138,6 +138,42 @@ TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
   EXPECT_GT(checked, 2 * any);
 }
 
+TEST_F(Cli, OutlinesMissWhatCornersFind) {
+  const Result result = gloam({"bench", "--paper", "odssao2020", "-o", path("paper"), "--size", "240x160", "--rounds",
+                               "1", "--rays", "16", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  int ratios = 0;
+  for (const Json& row : document["paper"]) {
+    if (row["table"].get<std::string>().rfind("Table 1", 0) != 0 || row["row"] != "only outline-mask") continue;
+    const std::map<std::string, double> of_the_paper = {{"courtyard for Small Desert City", 0.782 / 1.282},
+                                                        {"temple for Cartoon Temple", 0.926 / 1.098},
+                                                        {"corridor for Corridor", 0.631 / 1.308}};
+    EXPECT_NEAR(row["paper_ratio"].get<double>(), of_the_paper.at(row["column"]), 1e-9);
+    ++ratios;
+  }
+  EXPECT_EQ(ratios, 3);
+  auto missed = values_of(document, "Masks: pixels that miss 1/255 of AO and more");
+  ASSERT_EQ(missed["corner-mask"].size(), 3);
+  for (const auto& [scene, share] : missed["corner-mask"]) {
+    // In so small an image a cell is as large as much of what it shows; at 1080x720 it is less than half a percent.
+    EXPECT_LE(share, 0.012) << scene;
+    EXPECT_GT(missed["outline-mask"][scene], 4 * share) << scene;
+  }
+  auto processed = values_of(document, "Masks: processed pixels");
+  for (const char* mask : {"outline-mask", "corner-mask"}) {
+    for (const auto& [scene, share] : processed[mask]) {
+      EXPECT_GT(share, 0.1) << mask << ", " << scene;
+      EXPECT_LE(share, 1) << mask << ", " << scene;
+    }
+  }
+  auto triangles = values_of(document, "Outlines");
+  for (const auto& [scene, count] : triangles["triangles of the scene"])
+    EXPECT_EQ(triangles["with their outlines"][scene], 2 * count) << scene;
+  for (const Json& picture : document["pictures"])
+    EXPECT_TRUE(std::filesystem::exists(path("paper") / picture["file"].get<std::string>())) << picture;
+}
+
 TEST_F(Cli, OnlyPapersThatAreKnown) {
   const Result unknown = gloam({"bench", "--paper", "vermer2021", "-o", path("paper")});
   EXPECT_EQ(unknown.status, 2);
