@@ -59,7 +59,7 @@ class Cli : public ::testing::Test {
     std::vector<char*> argv = {const_cast<char*>(GLOAM_BINARY)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    alarm(120);
+    alarm(500);  // before ctest's own limit, so that what it said is still shown
     execv(GLOAM_BINARY, argv.data());
     _exit(127);
   }
