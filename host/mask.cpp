@@ -16,14 +16,26 @@ std::string grown(int scale) { return scale == 1 ? "wanted.grown" : fmt::format(
 
 std::string wanted_around(int scale) { return fmt::format("wanted.around{}", scale); }
 
+PlannedPass mask_pass(std::string name, std::string kernel, Binding read, Binding written,
+                      std::vector<std::pair<std::string, int>> defines, int scale) {
+  if (scale > 1) name += fmt::format(" at 1/{}", scale);
+  Pass pass{.name = std::move(name), .kernel = std::move(kernel), .defines = std::move(defines), .scale = scale};
+  pass.reads = {std::move(read)};
+  pass.writes = {std::move(written)};
+  return {&masking(), std::move(pass), ParameterValues(masking().parameters)};
+}
+
 struct Reach {
   int x = 0, y = 0;
   bool is_none() const { return x == 0 && y == 0; }
 };
 
+const char* const rest = "wanted.rest";
+
 class Restriction {
  public:
-  Restriction(const Plan& plan, const std::vector<const Technique*>& techniques) : plan_(plan), source_(plan.mask) {
+  Restriction(const Plan& plan, const std::vector<const Technique*>& techniques, const Technique* elsewhere)
+      : plan_(plan), elsewhere_(elsewhere), source_(plan.mask) {
     for (const PlannedPass& planned : plan.passes) {
       const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
       is_restricted_.push_back(planned.pass.can_skip && (is_asked_for || planned.technique == &resampling()));
@@ -52,8 +64,8 @@ class Restriction {
         if (is_read_around) need_grown(scale);
         const std::string bits = is_read_around ? grown(scale) : wanted(scale);
         if (estimated.empty()) estimated = bits;
-        planned.pass.reads.push_back({"wanted", bits});
-        planned.pass.defines.emplace_back("MASKED", 1);
+        skip_by(planned.pass, planned.technique == elsewhere_ ? rest : bits);
+        if (elsewhere_ && planned.technique != elsewhere_) keep_skipped(planned.pass);
       }
       passes.push_back(std::move(planned));
     }
@@ -74,25 +86,16 @@ class Restriction {
     return reach;
   }
 
-  void add(std::string name, std::string kernel, Binding read, Binding written,
-           std::vector<std::pair<std::string, int>> defines, int scale) {
-    if (scale > 1) name += fmt::format(" at 1/{}", scale);
-    Pass pass{.name = std::move(name), .kernel = std::move(kernel), .defines = std::move(defines), .scale = scale};
-    pass.reads = {std::move(read)};
-    pass.writes = {std::move(written)};
-    passes.push_back({&masking(), std::move(pass), ParameterValues(masking().parameters)});
-  }
-
   void need_wanted(int scale) {
     if (!wanted_.insert(scale).second) return;
     if (scale == 1) {
-      add("bits", "mask_bits", {"source", source_}, "wanted", {{"CELL", cell_}}, 1);
+      passes.push_back(bits_pass(source_, cell_, "", "wanted", elsewhere_ ? rest : ""));
     } else {
       need_wanted(1);
       // Those from which a wanted pixel is upsampled.
       add_grown(wanted(1), wanted_around(scale), {scale - 1, scale - 1}, 1);
-      add("reduced", "mask_reduced", {"whole", wanted_around(scale)}, {"wanted", wanted(scale)}, {{"SCALE", scale}},
-          scale);
+      passes.push_back(mask_pass("reduced", "mask_reduced", {"whole", wanted_around(scale)}, {"wanted", wanted(scale)},
+                                 {{"SCALE", scale}}, scale));
     }
   }
 
@@ -103,10 +106,12 @@ class Restriction {
   }
 
   void add_grown(const std::string& from, const std::string& to, Reach reach, int scale) {
-    add("grown", "mask_grown", {"wanted", from}, {"grown", to}, {{"REACH_X", reach.x}, {"REACH_Y", reach.y}}, scale);
+    passes.push_back(mask_pass("grown", "mask_grown", {"wanted", from}, {"grown", to},
+                               {{"REACH_X", reach.x}, {"REACH_Y", reach.y}}, scale));
   }
 
   const Plan& plan_;
+  const Technique* elsewhere_;
   std::string source_;
   int cell_ = 1;
   const PlannedPass* left_out_ = nullptr;
@@ -122,18 +127,39 @@ const Technique& masking() {
   return technique;
 }
 
-void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques) {
+PlannedPass bits_pass(const std::string& source, int cell, const std::string& asked, const std::string& wanted,
+                      const std::string& rest) {
+  PlannedPass planned = mask_pass("bits", "mask_bits", {"source", source}, {"wanted", wanted},
+                                  {{"CELL", cell}, {"WITH_ASKED", !asked.empty()}, {"WITH_REST", !rest.empty()}}, 1);
+  if (!asked.empty()) planned.pass.reads.push_back({"asked", asked});
+  if (!rest.empty()) planned.pass.writes.push_back({"rest", rest});
+  return planned;
+}
+
+void skip_by(Pass& pass, const std::string& bits) {
+  std::erase_if(pass.reads, [](const Binding& binding) { return binding.argument == "wanted"; });
+  std::erase_if(pass.defines, [](const auto& define) { return define.first == "MASKED"; });
+  pass.reads.push_back({"wanted", bits});
+  pass.defines.emplace_back("MASKED", 1);
+}
+
+void keep_skipped(Pass& pass) { pass.defines.emplace_back("KEEP", 1); }
+
+void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques, const Technique* elsewhere) {
   for (const Technique* technique : techniques) {
     if (technique->views > 1)
       throw UsageError("--only: restricts techniques that look at one view, and {} looks at two; leave it out",
                        technique->name);
   }
-  Restriction restriction(plan, techniques);
+  Restriction restriction(plan, techniques, elsewhere);
   if (!restriction.has_work())
     throw UsageError("--only: {} has no work that a mask can leave out; leave it out", plan.technique);
   restriction.rewrite();
   plan.passes = std::move(restriction.passes);
-  plan.wanted = restriction.estimated;
+  if (elsewhere)
+    plan.rest = rest;
+  else
+    plan.wanted = restriction.estimated;
 }
 
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "adaptive.h"
 #include "gloam/planes.h"
 #include "lists.h"
 #include "mask.h"
@@ -12,6 +13,8 @@
 
 namespace gloam {
 namespace {
+
+using Techniques = std::vector<const Technique*>;
 
 const Technique* technique_named(const std::string& name) {
   for (const Technique& t : registry()) {
@@ -38,7 +41,7 @@ std::vector<std::string> plane_and_technique_names() {
 /// What is asked for: planes, and the techniques that shall make them.
 struct Wanted {
   std::vector<std::string> outputs;
-  std::vector<const Technique*> makers;  ///< in order of preference
+  Techniques makers;  ///< in order of preference
 };
 
 /// Whether some technique leaves its outputs to this one.
@@ -51,7 +54,7 @@ bool follows_by_default(const Technique& technique) {
 /// one that follows others by default, else the one that reads the fewest planes (the first by name of these); never the
 /// one that asks.
 const Technique* maker_of(const std::string& plane, const Technique* asking,
-                          const std::vector<const Technique*>& makers) {
+                          const Techniques& makers) {
   for (const Technique* t : makers) {
     if (t != asking && makes(*t, plane)) return t;
   }
@@ -108,7 +111,7 @@ void want_outputs(Wanted& wanted, const Technique& technique, const std::string&
 /// The technique that a plane is asked of: what makes it, or what that follows where its work is not at hand. Who asks
 /// for `ao` asks for an estimate and its filter.
 const Technique* asked_for(const std::string& plane, const std::vector<std::string>& available,
-                           const std::vector<const Technique*>& makers) {
+                           const Techniques& makers) {
   const Technique* maker = maker_of(plane, nullptr, makers);
   if (!maker) return nullptr;
   for (const std::string& source : maker->reads) {
@@ -204,7 +207,7 @@ class Walk {
     for (const std::string& plane : also) need(plane, nullptr);
   }
 
-  std::vector<const Technique*> order;  ///< techniques to run
+  Techniques order;  ///< techniques to run
   std::vector<std::string> inputs, missing;
   std::vector<std::pair<std::string, std::string>> skipped;
 
@@ -235,7 +238,7 @@ class Walk {
 
   const Wanted& wanted_;
   const std::vector<std::string> available_;
-  std::vector<const Technique*> begun_;
+  Techniques begun_;
   std::vector<std::string> made_;
 };
 
@@ -260,11 +263,11 @@ std::vector<std::string> layers_of(const std::string& stack, const std::vector<s
 }
 
 /// Of missing planes, what is made of one that nothing else reads, by a technique that nobody asked for.
-std::map<std::string, std::string> substitutes(const Wanted& wanted, const std::vector<const Technique*>& order,
+std::map<std::string, std::string> substitutes(const Wanted& wanted, const Techniques& order,
                                                const std::vector<std::string>& missing) {
   std::map<std::string, std::string> instead;
   for (const std::string& plane : missing) {
-    std::vector<const Technique*> readers;
+    Techniques readers;
     for (const Technique* t : order) {
       if (contains(t->reads, plane)) readers.push_back(t);
     }
@@ -387,7 +390,7 @@ void skip_the_rest(Plan& plan, const std::vector<std::string>& available) {
 }
 
 /// Every setting reaches at least one planned technique, or is an error.
-void apply(const PlanRequest& request, const std::vector<const Technique*>& order, const std::string& main,
+void apply(const PlanRequest& request, const Techniques& order, const std::string& main,
            std::vector<ParameterValues>& values) {
   const auto set_where_known = [&](const std::string& name, const std::string& value, const std::string& only) {
     bool known = false;
@@ -431,7 +434,7 @@ void apply(const PlanRequest& request, const std::vector<const Technique*>& orde
 }
 
 /// What a technique says of its follower.
-void set_followers(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
+void set_followers(const Techniques& order, std::vector<ParameterValues>& values) {
   for (const Technique* technique : order) {
     for (size_t i = 0; i < order.size(); ++i) {
       if (order[i]->name != technique->then) continue;
@@ -441,7 +444,7 @@ void set_followers(const std::vector<const Technique*>& order, std::vector<Param
 }
 
 /// A follower works on the same radius as the technique it follows.
-void inherit(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
+void inherit(const Techniques& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
     for (size_t to = from + 1; to < order.size(); ++to) {
       if (order[from]->then.empty()) continue;
@@ -454,7 +457,7 @@ void inherit(const std::vector<const Technique*>& order, std::vector<ParameterVa
 }
 
 /// What makes layers makes as many as are asked for: parameters of the same name.
-void pass_on_to_stacks(const std::vector<const Technique*>& order, std::vector<ParameterValues>& values) {
+void pass_on_to_stacks(const Techniques& order, std::vector<ParameterValues>& values) {
   for (size_t reader = 0; reader < order.size(); ++reader) {
     for (size_t maker = 0; maker < reader; ++maker) {
       const bool makes_its_layers = std::any_of(
@@ -469,7 +472,7 @@ void pass_on_to_stacks(const std::vector<const Technique*>& order, std::vector<P
 }
 
 /// A mask is made for the technique that it restricts: parameters of the same name, such as the radius.
-void pass_on_to_mask(const std::vector<const Technique*>& order, const Technique& restricted, const std::string& mask,
+void pass_on_to_mask(const Techniques& order, const Technique& restricted, const std::string& mask,
                      std::vector<ParameterValues>& values) {
   const size_t asks = size_t(std::find(order.begin(), order.end(), &restricted) - order.begin());
   if (asks == order.size()) return;
@@ -486,9 +489,37 @@ std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& v
 }
 
 /// A mask is made of all pixels, before what it restricts.
-std::vector<const Technique*> without_maker(std::vector<const Technique*> techniques, const std::string& mask) {
+Techniques without_maker(Techniques techniques, const std::string& mask) {
   std::erase_if(techniques, [&](const Technique* t) { return contains(t->writes, mask); });
   return techniques;
+}
+
+bool is_adaptive(const PlanRequest& request) { return !request.adaptive.empty() && request.adaptive != "none"; }
+
+/// The technique that --elsewhere names: one that makes the same as the one asked for, before that one.
+const Technique* want_elsewhere(const PlanRequest& request, const Wanted& wanted) {
+  if (request.elsewhere.empty()) return nullptr;
+  const std::string& name = request.elsewhere;
+  if (request.mask.empty())
+    throw UsageError("--elsewhere {}: nothing says where it does; add --only MASK", name);
+  if (request.resolution > 1)
+    throw UsageError("--elsewhere {}: works at full resolution; leave out --resolution", name);
+  if (is_adaptive(request))
+    throw UsageError("--elsewhere {}: goes without --adaptive {}; leave one of them out", name, request.adaptive);
+  if (wanted.makers.empty())
+    throw UsageError("--elsewhere {}: nothing is estimated where the mask is; leave it out", name);
+  const Technique& technique = find_technique(name);
+  const Technique& asked_for = *wanted.makers.front();
+  if (&technique == &asked_for)
+    throw UsageError("--elsewhere {}: is what runs where the mask is, too; leave out --only and --elsewhere", name);
+  if (technique.writes != asked_for.writes || technique.views > 1)
+    throw UsageError("--elsewhere {}: makes {}, and {} makes {}; name an estimate of the same", name,
+                     enumerate(technique.writes), asked_for.name, enumerate(asked_for.writes));
+  for (const std::string& extra : wanted.outputs) {
+    if (contains(asked_for.extras, extra) && !contains(technique.extras, extra))
+      throw UsageError("--elsewhere {}: does not make '{}', which is asked for; leave that out", name, extra);
+  }
+  return &technique;
 }
 
 /// Leaves out the passes that only repeat cells.
@@ -516,15 +547,21 @@ bool reads_from(const Technique& reader, const Technique& writer) {
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
   Wanted wanted = wanted_by(request, available);
-  const std::vector<const Technique*> asked_for = wanted.makers;
+  const Techniques asked_for = wanted.makers;
+  const Technique* elsewhere = want_elsewhere(request, wanted);
   const std::string mask = want_mask(wanted, request.mask, available);
   const bool is_reduced = request.resolution > 1;
-  Walk walk(wanted, with_stacks(available), is_reduced ? resampling().reads : std::vector<std::string>(), mask);
+  std::vector<std::string> also = is_reduced ? resampling().reads : std::vector<std::string>();
+  if (elsewhere) also.insert(also.end(), elsewhere->reads.begin(), elsewhere->reads.end());
+  Walk walk(wanted, with_stacks(available), also, mask);
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   take_inputs(plan, walk.inputs, available, walk.missing);
   if (!walk.missing.empty())
     throw_missing(plan.technique, walk.missing, substitutes(wanted, walk.order, walk.missing), holds);
+  if (elsewhere)
+    walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
+  if (is_adaptive(request)) walk.order.push_back(&adapting());
   if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);
@@ -545,9 +582,10 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   trim_stacks(plan);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;
-  if (is_reduced) reduce(plan, without_maker(asked_for, mask), values.back());
+  if (is_reduced) reduce(plan, without_maker(asked_for, mask), values.back(), !request.as_cells);
   plan.mask = mask;
-  if (!mask.empty()) restrict_to_mask(plan, asked_for);
+  if (!mask.empty()) restrict_to_mask(plan, elsewhere ? Techniques{asked_for.front(), elsewhere} : asked_for, elsewhere);
+  if (is_adaptive(request)) adapt(plan, without_maker(asked_for, mask), request.adaptive, values.back());
   if (request.as_cells) put_out_cells(plan);
   plan.skipped = walk.skipped;
   skip_the_rest(plan, available);

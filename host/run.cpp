@@ -509,31 +509,39 @@ void download(const Plan& plan, Target& target, View& out) {
   }
 }
 
-/// Pixels that a mask lets an estimate skip, of all that there are.
-struct Skipped {
-  double pixels = 0, of = 0;
+/// Pixels that a mask lets an estimate skip, and that a second one sees to, of all that there are.
+struct Counted {
+  double skipped = 0, rest = 0, of = 0;
 };
 
-/// A row of lanes is skipped where none of them is wanted.
-void count_skipped(const Plan& plan, std::vector<Target>& targets, int lanes, Skipped& skipped) {
-  if (plan.wanted.empty()) return;
+/// Pixels in rows of lanes of which a plane of bits names at least one.
+double pixels_in_rows(Target& target, const std::string& bits_name, int lanes) {
   const uint32_t row_of_lanes = uint32_t((1ull << lanes) - 1);
+  const Layout layout = target.layouts.of(bits_name);
+  const Channel bits = target.buffers.download_bits(bits_name, layout);
+  double pixels = 0;
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; x += lanes) {
+      const uint32_t word = std::bit_cast<uint32_t>(bits.at(x / 32, y));
+      if ((word >> (x % 32) & row_of_lanes) != 0) pixels += std::min(lanes, layout.width - x);
+    }
+  }
+  return pixels;
+}
+
+void count(const Plan& plan, std::vector<Target>& targets, int lanes, Counted& counted) {
   for (Target& target : targets) {
     const Layout layout = target.layouts.of(plan.wanted);
-    const Channel bits = target.buffers.download_bits(plan.wanted, layout);
-    for (int y = 0; y < layout.height; ++y) {
-      for (int x = 0; x < layout.width; x += lanes) {
-        const uint32_t word = std::bit_cast<uint32_t>(bits.at(x / 32, y));
-        if ((word >> (x % 32) & row_of_lanes) == 0) skipped.pixels += std::min(lanes, layout.width - x);
-      }
-    }
-    skipped.of += double(layout.width) * layout.height;
+    const double all = double(layout.width) * layout.height;
+    counted.of += all;
+    if (!plan.wanted.empty()) counted.skipped += all - pixels_in_rows(target, plan.wanted, lanes);
+    if (!plan.rest.empty()) counted.rest += pixels_in_rows(target, plan.rest, lanes);
   }
 }
 
 /// Views that are on the device together.
 void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
-               const RunOptions& options, int lanes, RunResult& result, Skipped& skipped) {
+               const RunOptions& options, int lanes, RunResult& result, Counted& counted) {
   const Layout layout(frame.width(), frame.height());
   std::vector<Target> targets;
   for (const View* view : views) {
@@ -556,7 +564,7 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
       if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
     });
   }
-  count_skipped(plan, targets, lanes, skipped);
+  count(plan, targets, lanes, counted);
   for (Target& target : targets) {
     View out{.name = target.view.name, .camera = target.view.camera, .origin = target.view.origin, .planes = {}};
     download(plan, target, out);
@@ -623,15 +631,18 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   if (needs_two_views(plan)) check_two_views(plan, frame);
   std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
   for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
-  Skipped skipped;
+  Counted counted;
   for (const std::vector<const View*>& views : groups) {
     try {
-      run_views(plan, frame, views, impl, options, result.lanes, result, skipped);
+      run_views(plan, frame, views, impl, options, result.lanes, result, counted);
     } catch (const cl::Error& error) {
       throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
     }
   }
-  if (skipped.of > 0) result.skipped_share = skipped.pixels / skipped.of;
+  if (counted.of > 0) {
+    result.skipped_share = counted.skipped / counted.of;
+    result.rest_share = counted.rest / counted.of;
+  }
   result.total_ms.assign(size_t(std::max(options.repeat, 0)), 0.0);
   for (const PassTime& pass : result.passes) {
     for (size_t i = 0; i < pass.ms.size(); ++i) result.total_ms[i] += pass.ms[i];

@@ -260,11 +260,19 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
          "full, half or quarter: estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
       ->type_name("NAME")
       ->group("Technique");
+  app.add_option("--adaptive", adaptive,
+                 "preset for tiles where AO hardly varies, by a base pass: --preset ultra --adaptive medium")
+      ->type_name("NAME")
+      ->group("Technique");
   if (!with_mask) return;
   app.add_option("--only", only,
                  "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
                  "technique that makes a mask, such as corner-mask")
       ->type_name("MASK")
+      ->group("Technique");
+  app.add_option("--elsewhere", elsewhere,
+                 "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao")
+      ->type_name("TECHNIQUE")
       ->group("Technique");
 }
 
@@ -272,6 +280,8 @@ PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) con
   PlanRequest request{.outputs = outputs, .then = then, .preset = preset};
   request.settings = parse_settings(settings, "--set");
   request.mask = only;
+  request.elsewhere = elsewhere;
+  request.adaptive = adaptive;
   if (!with.empty()) request.with = split_list(with, "--with");
   request.resolution = one_of<int>(resolution, "--resolution", {{"full", 1}, {"half", 2}, {"quarter", 4}});
   return request;

@@ -43,8 +43,8 @@ struct FrameArguments {
 /// Which techniques, and with which parameters.
 struct TechniqueFlags {
   std::vector<std::string> settings;
-  std::string preset, then, with, resolution = "full", only;
-  /// `with_mask`: --only too.
+  std::string preset, then, with, resolution = "full", adaptive, only, elsewhere;
+  /// `with_mask`: --only and --elsewhere too.
   void add_to(CLI::App& app, bool with_mask = true);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };

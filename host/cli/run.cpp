@@ -110,6 +110,16 @@ void print_times(const RunResult& result, const DeviceInfo& device, const Stopwa
   fmt::print("{}, {} lanes; wall {:.0f} ms: {}\n", device.name, result.lanes, watch.total(), fmt::join(parts, ", "));
 }
 
+/// The label of the pass that sees to what the first estimate leaves.
+std::string second_estimate(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& read : planned.pass.reads) {
+      if (read.argument == "wanted" && read.plane == plan.rest) return planned.label();
+    }
+  }
+  return "";
+}
+
 Json document(const RunCommand& flags, const Plan& plan, const RunResult& result, const DeviceInfo& device,
               const std::vector<std::string>& decoded, const Stopwatch& watch) {
   Json passes = Json::array();
@@ -129,6 +139,7 @@ Json document(const RunCommand& flags, const Plan& plan, const RunResult& result
           {"total_ms", milliseconds(result.total_ms)},
           {"plan", plan_document(plan, decoded)},
           {"skipped_share", result.skipped_share},
+          {"rest_share", result.rest_share},
           {"device_bytes", result.device_bytes},
           {"wall_ms", wall}};
 }
@@ -260,8 +271,10 @@ void run_command(const RunCommand& flags) {
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, files), watch), written);
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
-  if (!plan.mask.empty())
+  if (!plan.wanted.empty())
     fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
+  if (!plan.rest.empty())
+    fmt::print("{} saw to {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
   fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }

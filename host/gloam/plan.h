@@ -26,12 +26,17 @@ struct PlanRequest {
   /// Restricts the techniques asked for and their filters to where it is above 0: a plane, or a technique that makes one.
   /// Filters cover the mask, estimates what these read of them. What is left out is open. Empty: everywhere.
   std::string mask;
+  /// Technique that estimates where the mask is not above 0, instead of leaving that open. Filters cover the image then.
+  std::string elsewhere;
   /// Masks asked for are put out as the cells that they are made of, one pixel for each (`Pass::repeats_cells`), under the
-  /// cells' own name.
+  /// cells' own name; at a lower resolution, all outputs as that resolution has them ("seen_by_both@4").
   bool as_cells = false;
   /// Every `resolution`-th pixel of every `resolution`-th row is estimated and filtered, and the rest is brought back by
   /// joint bilateral upsampling (resample.h): 1, 2 or 4.
   int resolution = 1;
+  /// Preset of the first technique asked for where AO hardly varies, by a base pass of a fourth of the columns and rows and
+  /// the preset low (kernels/adaptive). Empty or none: all of the image alike.
+  std::string adaptive;
 };
 
 struct PlannedPass {
@@ -50,7 +55,8 @@ struct Plan {
   std::vector<PlannedPass> passes;                         ///< in order
   int resolution = 1;                                      ///< as asked for
   std::string mask;                                        ///< the plane that says what is wanted; empty: everything is
-  std::string wanted;  ///< bits by which the estimate skips pixels (shared/wanted.h)
+  std::string wanted;  ///< bits by which the estimate skips pixels (shared/wanted.h); empty: it skips none
+  std::string rest;    ///< bits of pixels that a second estimate sees to; empty: there is none
   std::vector<std::pair<std::string, std::string>> skipped;  ///< what, why
   std::vector<std::string> depends_on_pixels;                ///< what only the pixel values will tell
 };

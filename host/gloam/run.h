@@ -38,6 +38,8 @@ struct RunResult {
   int lanes = 1;
   /// Share of all views' pixels that the estimate skipped: those of rows of lanes of which the mask wants none.
   double skipped_share = 0;
+  /// Share of them that a plan's second estimate saw to (`Plan::rest`), in such rows.
+  double rest_share = 0;
   unsigned long long device_bytes = 0;  ///< of the largest view
 };
 

@@ -12,12 +12,23 @@
 //   in : found               out: grown  the largest of each cell and those around it
 // corner_spread     `frame` is the image, `other` that of the cells
 //   in : grown               out: result  each pixel its cell's
-// -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN
+// Of what is hidden behind the depth the same question is asked by hidden-mask:
+//
+// corner_subsample_hidden
+//   in : depth, stochastic   stack of OCCLUDERS_LAYERS depths behind the depth, the depth among them, +inf where there is none
+//   out: hidden              of the pixels that stand for cells, +inf where the depth itself was drawn
+// corner_find
+//   in : occluders           these, in place of the depth
+// -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
 #include "corner_mask/params.h"
 #include "shared/fan.h"
 #include "shared/subsample.h"
 
+#ifdef OCCLUDERS_LAYERS
+typedef HiddenMaskParams Params;
+#else
 typedef CornerMaskParams Params;
+#endif
 
 kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                              PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
@@ -26,26 +37,81 @@ kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE dept
                     low_normal_z);
 }
 
-// Whether any sample lies as high over the tangent plane as counts. Ends where each lane has found one.
+#ifdef OCCLUDERS_LAYERS
+kernel void corner_subsample_hidden(Frame frame, Frame other, Params params, PLANE depth, PLANE stochastic,
+                                    PLANE_OUT hidden) {
+  const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
+  const integer step = IOTA * (integer)(SCALE);
+  const real seen = gather(depth + from, step);
+#pragma unroll
+  for (int k = 0; k < OCCLUDERS_LAYERS; ++k) {
+    const real drawn = gather(layer_of(stochastic, other, k) + from, step);
+    store(choose(drawn == seen, REAL_INFINITY, drawn), layer_of_out(hidden, frame, k), to);
+  }
+}
+
+#define SEARCHED_PLANE global const float *occluders,
+#define SEARCHED occluders,
+#else
+#define SEARCHED_PLANE
+#define SEARCHED
+#endif
+
+// The sine of the elevation over the tangent plane, squared, of a sample within reach; 0 of others and below the plane.
+static inline __attribute__((always_inline)) real squared_sine(Frame frame, Receiver r, integer dx, integer dy,
+                                                               real sample, real farthest, mask* is_above) {
+  const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, sample));
+  const real height = fused_dot3(r.normal, v), square = square_of(v);
+  *is_above = height > 0;
+  return choose(*is_above & (square < farthest), height * height / square, (real)(0));
+}
+
+#ifdef OCCLUDERS_LAYERS
+// The largest of the hidden depths at a place. What lies behind a point below the tangent plane lies lower still, as
+// surfaces face the eye: so nothing is asked where no lane `asks`.
+static inline __attribute__((always_inline)) real hidden_sine(Frame frame, global const float* occluders, Receiver r,
+                                                              int within, integer dx, integer dy, real farthest,
+                                                              mask asks) {
+  real most = 0;
+  if (!ANY(asks)) return most;
+#pragma unroll
+  for (int l = 0; l < OCCLUDERS_LAYERS; ++l) {
+    const real hidden = sample_near(layer_of(occluders, frame, l), frame, r.here, within, dx, dy);
+    mask is_above;
+    most = larger(most, squared_sine(frame, r, dx, dy, hidden, farthest, &is_above));
+  }
+  return choose(asks, most, (real)(0));
+}
+#endif
+
+// Whether in any direction what is searched rises as high as counts, and what is hidden higher than what is seen. Ends where
+// that is so for each lane.
 static inline __attribute__((always_inline)) mask something_rises(Frame frame, Params params, global const float* depth,
-                                                                  Receiver r, Fan fan, int within) {
+                                                                  SEARCHED_PLANE Receiver r, Fan fan, int within) {
   // In units of the depth. Both cells stand for pixels that may be nearer to one another, and a range allows as much along
   // the line to the eye as SSAO does (estimators/ball.h).
   const real radius = 1 / sqrt(r.reach.inverse_square) + (r.point.across_x + r.point.across_y);
   const real farthest = radius * radius * (1 + 4 * params.range * params.range);
-  const scalar least = params.least_sine * params.least_sine;
   mask rises = r.point.background;
   for (int d = 0; d < DIRECTIONS; ++d) {
+    real least = params.least_sine * params.least_sine, found = 0;
 #pragma unroll
     for (int k = 0; k < STEPS; ++k) {
       integer dx, dy;
       step_at(fan, k, &dx, &dy);
       const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
-      const real sample = sample_near(depth, frame, r.here, within, dx, dy);
-      const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, sample));
-      const real height = fused_dot3(r.normal, v), square = square_of(v);
-      rises |= counts & (height > 0) & (height * height > least * square) & (square < farthest);
+      mask is_above;
+      const real sine =
+          squared_sine(frame, r, dx, dy, sample_near(depth, frame, r.here, within, dx, dy), farthest, &is_above);
+      const real seen = choose(counts, sine, (real)(0));
+#ifdef OCCLUDERS_LAYERS
+      least = larger(least, seen);
+      found = larger(found, hidden_sine(frame, occluders, r, within, dx, dy, farthest, counts & is_above & !rises));
+#else
+      found = larger(found, seen);
+#endif
     }
+    rises |= found > least;
     if (!ANY(!rises)) break;
     turn(&fan);
   }
@@ -53,13 +119,13 @@ static inline __attribute__((always_inline)) mask something_rises(Frame frame, P
 }
 
 kernel void corner_find(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                        PLANE_OUT found) {
+                        OCCLUDERS_ARGUMENT PLANE_OUT found) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   mask rises = (mask)(0);
   // Nothing is within a radius of 0, not even what lies in the same cell.
   if (params.radius > 0 && ANY(!r.point.background)) {
     const Fan fan = fan_of(r.reach, r.noise);
-    LOOK_AROUND(rises, frame, r, r.reach, something_rises(frame, params, depth, r, fan, within))
+    LOOK_AROUND(rises, frame, r, r.reach, something_rises(frame, params, depth, SEARCHED r, fan, within))
   }
   store(choose(rises, (real)(1), (real)(0)), found, r.here);
 }

@@ -10,4 +10,9 @@
     "half the distance before the point up to which something occludes, where that is more than the radius") \
   P(int, cell, 4, 2, 16, "pixels", "width and height of the cells that are wanted or not")
 
+#define HIDDEN_MASK_PARAMS(P) \
+  CORNER_MASK_PARAMS(P)       \
+  P(int, samples, 4, 1, 16, "", "stochastic depths per pixel")
+
 PARAMS(CornerMaskParams, CORNER_MASK_PARAMS)
+PARAMS(HiddenMaskParams, HIDDEN_MASK_PARAMS)

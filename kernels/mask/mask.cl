@@ -3,13 +3,16 @@
 //
 // mask_bits     in : source  above 0 where an effect is wanted; with CELL > 1 of cells of CELL x CELL pixels, whose frame is
 //                            `other`
-//               out: wanted  bits
+//                    asked   bits of what is asked for at all (WITH_ASKED)
+//               out: wanted  bits; with WITH_REST of all pixels of a row of 16 of which one is, so that each row of lanes is of one
+//                            kind
+//                    rest    of the others (WITH_REST)
 // mask_reduced  `frame` is the reduced one, `other` the whole
 //               in : whole   bits of the whole image
 //               out: wanted  those of every SCALE-th pixel
 // mask_grown    in : wanted
 //               out: grown   wanted, and REACH_X columns and REACH_Y rows around; beside the image anything
-// -D CELL (mask_bits); SCALE (mask_reduced); REACH_X (at most 32), REACH_Y (mask_grown)
+// -D CELL, WITH_ASKED, WITH_REST (mask_bits); SCALE (mask_reduced); REACH_X (at most 32), REACH_Y (mask_grown)
 #include "shared/wanted.h"
 
 static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
@@ -31,11 +34,30 @@ static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
   gather(source, index_of(other, 0, ROW_Y / CELL) + min((x) + IOTA, (integer)(frame.width - 1)) / CELL)
 #endif
 
-kernel void mask_bits(TWO_FRAMES, PLANE source, WANTED_OUT wanted) {
+#if WITH_ASKED
+#define ASKED_ARGUMENT , WANTED asked
+#define ASKED_WORD ((global const uint*)asked)[index_of(frame, k, ROW_Y)]
+#else
+#define ASKED_ARGUMENT
+#define ASKED_WORD 0xffffffffu
+#endif
+#if WITH_REST
+#define REST_ARGUMENT , WANTED_OUT rest
+#define STORE_REST(word) store_word(word, rest, frame, k)
+#define WHOLE_ROWS(word) (((word)&0xffffu ? 0xffffu : 0u) | ((word)&0xffff0000u ? 0xffff0000u : 0u))
+#else
+#define WHOLE_ROWS(word) (word)
+#define REST_ARGUMENT
+#define STORE_REST(word)
+#endif
+
+kernel void mask_bits(TWO_FRAMES, PLANE source ASKED_ARGUMENT, WANTED_OUT wanted REST_ARGUMENT) {
   RETURN_UNLESS_A_WORD_BEGINS(frame)
   uint word = 0;
   for (int i = 0; i < 32; i += LANES) word |= bit_of_each_lane(SOURCE_AT(32 * k + i) > 0) << i;
-  store_word(word, wanted, frame, k);
+  word = WHOLE_ROWS(word);
+  store_word(word & ASKED_WORD, wanted, frame, k);
+  STORE_REST(~word & ASKED_WORD);
 }
 #endif
 

@@ -3,7 +3,7 @@
 //
 // A kernel that skips rows of pixels has the argument WANTED_ARGUMENT before those that it writes, and SKIP_UNWANTED as its
 // first line.
-// -D MASKED
+// -D MASKED; KEEP (rows that are left out keep what they hold)
 #ifndef GLOAM_WANTED_H
 #define GLOAM_WANTED_H
 
@@ -49,6 +49,12 @@ static inline mask wanted_in_row(WANTED wanted, Frame f) {
 #endif
 }
 
+#if KEEP
+#define OPEN_UNLESS_KEPT(STORE)
+#else
+#define OPEN_UNLESS_KEPT(STORE) STORE;
+#endif
+
 // Makes `is_wanted`. A kernel returns where nothing of its row is, once it has STOREd at index `here` what pixels that are left
 // out hold.
 #if MASKED
@@ -57,7 +63,7 @@ static inline mask wanted_in_row(WANTED wanted, Frame f) {
   const mask is_wanted = wanted_in_row(wanted, frame); \
   if (!ANY(is_wanted)) {                               \
     const int here = index_of(frame, FIRST_X, ROW_Y);  \
-    STORE;                                             \
+    OPEN_UNLESS_KEPT(STORE)                            \
     return;                                            \
   }
 #else

@@ -46,10 +46,13 @@ std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
   return all;
 }
 
+/// With few samples otherwise: the defaults are run anyway.
 int run_variants(const Technique& technique) {
   int passes = 0;
   Frame frame = shoot(perspective(width, height), room());
-  for (const Settings& settings : settings_of(technique, frame)) {
+  for (const Settings& variant : settings_of(technique, frame)) {
+    Settings settings = few_samples(technique);
+    settings.insert(settings.end(), variant.begin(), variant.end());
     const Plan plan = plan_for(technique, frame, settings);
     run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
     passes += int(plan.passes.size());
@@ -88,9 +91,25 @@ int run_masked(const Technique& technique) {
   return passes;
 }
 
+/// Two estimates of one image: another technique where a mask is not, and fewer samples by tiles. The passes beside the
+/// estimates are the same for all techniques.
+int run_second_estimates() {
+  int passes = 0;
+  Frame frame = shoot(perspective(width, height), room());
+  plane_of(frame, "mask").channels[0].at(width / 2, 1) = 1;
+  for (PlanRequest request : {PlanRequest{.outputs = {"ssao"}, .mask = "mask", .elsewhere = "alchemy"},
+                              PlanRequest{.outputs = {"ssao"}, .preset = "medium", .adaptive = "low"},
+                              PlanRequest{.outputs = {"ssao"}, .mask = "mask", .adaptive = "low"}}) {
+    const Plan plan = make_plan(request, plane_names(frame), "the frame has not");
+    run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+    passes += int(plan.passes.size());
+  }
+  return passes;
+}
+
 /// Every `parts`-th technique, from `part` on.
 int run_all(size_t part, size_t parts) {
-  int passes = 0;
+  int passes = part == 0 ? run_second_estimates() : 0;
   for (size_t i = part; i < registry().size(); i += parts) {
     const Technique& technique = registry()[i];
     passes += run_defaults(technique, perspective(width, height), true);

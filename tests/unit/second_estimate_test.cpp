@@ -1,0 +1,333 @@
+// Two estimates of one image: fewer samples where AO hardly varies (--adaptive), and another technique where a mask is not
+// (--elsewhere). Which rows get which, and that each row has the bits that its own estimate gives everywhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gloam/error.h"
+#include "gloam/plan.h"
+#include "gloam/planes.h"
+#include "gloam/run.h"
+#include "message_of.h"
+#include "support/frames.h"
+#include "support/techniques.h"
+
+namespace gloam::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Plan plan_of(const PlanRequest& request, const Names& available = {"depth", "normal"}) {
+  return make_plan(request, available, "frame.exr has only Z");
+}
+
+Names labels_of(const Plan& plan) {
+  Names labels;
+  for (const PlannedPass& pass : plan.passes) labels.push_back(pass.label());
+  return labels;
+}
+
+RunResult result_of(Frame& frame, const PlanRequest& request, int lanes = 0) {
+  return run(make_plan(request, plane_names(frame), "the frame has not"), frame, device(),
+             {.math = Math::precise, .lanes = lanes});
+}
+
+/// Of tiles of 16 x `rows` pixels: how many have in every plane the bits of one result, of the other, or of both; none has
+/// those of neither.
+struct Shares {
+  int of_one = 0, of_other = 0, of_both = 0;
+};
+
+Shares shares(const Frame& mixed, const Frame& one, const Frame& other, int rows) {
+  Shares found;
+  for (int top = 0; top < mixed.height(); top += rows) {
+    for (int left = 0; left < mixed.width(); left += 16) {
+      bool is_one = true, is_other = true;
+      for (const auto& [name, plane] : mixed.views[0].planes) {
+        for (size_t i = 0; i < plane.channels.size(); ++i) {
+          for (int y = top; y < std::min(top + rows, mixed.height()); ++y) {
+            for (int x = left; x < std::min(left + 16, mixed.width()); ++x) {
+              const float value = plane.channels[i].at(x, y);
+              is_one &= value == one.views[0].find(name)->channels[i].at(x, y);
+              is_other &= value == other.views[0].find(name)->channels[i].at(x, y);
+            }
+          }
+        }
+      }
+      EXPECT_TRUE(is_one || is_other) << "the tile at " << left << ", " << top << " is of neither";
+      ++(is_one && is_other ? found.of_both : is_one ? found.of_one : found.of_other);
+    }
+  }
+  return found;
+}
+
+// --- Adaptive
+
+struct Case {
+  const Technique* technique;
+  int lanes;
+};
+
+PlanRequest request_for(const Case& c, const std::string& preset, const std::string& adaptive = "",
+                        const std::string& least_range = "", const std::string& filter = "none") {
+  PlanRequest request{.outputs = {c.technique->name},
+                      .with = c.technique->extras,
+                      .then = filter,
+                      .preset = preset,
+                      .settings = {{"radius", "0.3"}},
+                      .adaptive = adaptive};
+  if (!least_range.empty()) request.settings.emplace_back("adaptive.least_range", least_range);
+  return request;
+}
+
+class Adaptive : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Adaptive, EachTileHasTheBitsOfOnePreset) {
+  Frame frame = shoot(perspective(203, 90), room());
+  const RunResult full = result_of(frame, request_for(GetParam(), "medium"), GetParam().lanes);
+  const RunResult low = result_of(frame, request_for(GetParam(), "low"), GetParam().lanes);
+  const RunResult mixed = result_of(frame, request_for(GetParam(), "medium", "low", "0.3"), GetParam().lanes);
+  const Shares found = shares(mixed.frame, full.frame, low.frame, 16);
+  EXPECT_GE(found.of_one, 4);
+  EXPECT_GE(found.of_other, 4);
+  EXPECT_GT(mixed.rest_share, 0.05);
+  EXPECT_LT(mixed.rest_share, 0.95);
+  EXPECT_EQ(full.rest_share, 0);
+}
+
+TEST_P(Adaptive, TheLeastRangeDecides) {
+  Frame frame = shoot(orthographic(67, 45, 4), room());
+  for (const std::string filter : {"", "none"}) {
+    const auto frame_of = [&](const std::string& preset, const std::string& adaptive, const std::string& least_range) {
+      return std::move(
+          result_of(frame, request_for(GetParam(), preset, adaptive, least_range, filter), GetParam().lanes).frame);
+    };
+    EXPECT_TRUE(same_bits(frame_of("medium", "low", "0"), frame_of("medium", "", ""))) << filter;
+    EXPECT_TRUE(same_bits(frame_of("medium", "low", "1"), frame_of("low", "", ""))) << filter;
+    EXPECT_TRUE(same_bits(frame_of("medium", "none", ""), frame_of("medium", "", ""))) << filter;
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const Technique& technique : registry()) {
+    const bool has_presets = !technique.presets.empty();
+    const bool makes_ao = std::count(technique.writes.begin(), technique.writes.end(), "ao_raw") > 0;
+    const bool is_one_estimate = technique.name != "multires";
+    if (technique.reads == Names{"depth", "normal"} && technique.views == 1 && makes_ao && has_presets && is_one_estimate)
+      all.push_back({&technique, 0});
+  }
+  for (const int lanes : {1, 4, 8}) all.push_back({&find_technique("ssao"), lanes});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Adaptive, ::testing::ValuesIn(cases()), [](const auto& info) {
+  return identifier(info.param.technique->name) +
+         (info.param.lanes > 0 ? fmt::format("_{}_lanes", info.param.lanes) : "");
+});
+
+TEST(AdaptivePlan, AFlatWallNeedsFewSamplesAndACornerMany) {
+  Frame wall = shoot(perspective(128, 64), tilted_plane(3, 0.4, 1));
+  EXPECT_EQ(result_of(wall, {.outputs = {"gtao"}, .preset = "ultra", .adaptive = "low"}).rest_share, 1);
+  Frame all = shoot(perspective(128, 64), room());
+  const double share = result_of(all, {.outputs = {"gtao"}, .preset = "ultra", .adaptive = "low"}).rest_share;
+  EXPECT_GT(share, 0.02);
+  EXPECT_LT(share, 0.9);
+}
+
+TEST(AdaptivePlan, WhatAMaskLeavesOutStaysOpen) {
+  Frame frame = shoot(perspective(151, 90), room());
+  Channel& mask = plane_of(frame, "mask").channels[0];
+  for (int y = 20; y < 60; ++y) std::fill_n(mask.row(y) + 50, 60, 1.0f);
+  PlanRequest request{.outputs = {"gtao"}, .preset = "high", .mask = "mask", .adaptive = "low"};
+  const RunResult masked = result_of(frame, request);
+  request.mask = "";
+  const RunResult whole = result_of(frame, request);
+  EXPECT_GT(masked.skipped_share, 0.2);
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const float expected = mask.at(x, y) > 0 ? whole.frame.views[0].find("ao")->channels[0].at(x, y) : 1;
+      ASSERT_EQ(masked.frame.views[0].find("ao")->channels[0].at(x, y), expected) << x << ", " << y;
+    }
+  }
+}
+
+TEST(AdaptivePlan, TheBasePassIsMadeOfTheTechniquesOwn) {
+  EXPECT_EQ(labels_of(plan_of({.outputs = {"gtao"}, .preset = "ultra", .adaptive = "medium"})),
+            (Names{"resample/subsample depth", "resample/subsample normal", "gtao/estimate", "bilateral/horizontal",
+                   "bilateral/vertical", "adaptive/tiles", "mask/bits", "gtao/estimate", "gtao/estimate of the rest",
+                   "bilateral/horizontal", "bilateral/vertical"}));
+}
+
+TEST(AdaptivePlan, WhatCannotBeIsSaidInOneLine) {
+  const auto message = [](const PlanRequest& request, const Names& available = {"depth", "normal"}) {
+    return message_of([&] { plan_of(request, available); });
+  };
+  EXPECT_EQ(message({.outputs = {"gtao"}, .adaptive = "middle"}),
+            "--adaptive middle: gtao has no such preset; it has low, medium, high and ultra");
+  EXPECT_EQ(message({.outputs = {"gtao"}, .resolution = 2, .adaptive = "low"}),
+            "--adaptive low: works at full resolution; leave out --resolution");
+  EXPECT_EQ(message({.outputs = {"dp-gtao"}, .adaptive = "low"}, {"depth", "normal", "peel.00", "peel.01"}),
+            "--adaptive low: dp-gtao looks at further layers, which a base pass does not; leave it out");
+  EXPECT_EQ(message({.outputs = {"stereo-gtao"}, .adaptive = "low"}),
+            "--adaptive low: stereo-gtao looks at two views, which a base pass does not; leave it out");
+  EXPECT_EQ(message({.outputs = {"normals"}, .adaptive = "low"}),
+            "--adaptive low: normals has no estimate that can leave out pixels; leave it out");
+  EXPECT_EQ(message({.outputs = {"multires"}, .adaptive = "low"}),
+            "--adaptive low: multires has no estimate that can leave out pixels; leave it out");
+}
+
+// --- Elsewhere
+
+/// Some blocks, none of them along rows of 16 pixels.
+void add_mask(Frame& frame) {
+  Channel& mask = plane_of(frame, "mask").channels[0];
+  for (int block = 0; block < 6; ++block) {
+    const int left = 5 + 27 * block, top = 3 + 5 * block;
+    for (int y = top; y < std::min(top + 7, frame.height()); ++y)
+      std::fill_n(mask.row(y) + left, std::min(9, frame.width() - left), 0.25f);
+  }
+}
+
+TEST(Elsewhere, EachRowOfSixteenHasTheBitsOfOneTechnique) {
+  for (const int lanes : {1, 4, 8, 16}) {
+    Frame frame = shoot(perspective(163, 47), room());
+    add_mask(frame);
+    const auto result = [&](const std::string& technique, const std::string& elsewhere) {
+      return result_of(frame,
+                       {.outputs = {technique},
+                        .with = {"bent_normal", "cone"},
+                        .then = "none",
+                        .mask = elsewhere.empty() ? "" : "mask",
+                        .elsewhere = elsewhere},
+                       lanes);
+    };
+    const RunResult one = result("bitmask", ""), other = result("gtao", ""), mixed = result("bitmask", "gtao");
+    const Shares found = shares(mixed.frame, one.frame, other.frame, 1);
+    EXPECT_GT(found.of_one, 20) << lanes;
+    EXPECT_GT(found.of_other, 100) << lanes;
+    EXPECT_GT(mixed.rest_share, 0.5) << lanes;
+    EXPECT_LT(mixed.rest_share, 1) << lanes;
+    EXPECT_EQ(mixed.skipped_share, 0) << lanes;
+  }
+}
+
+TEST(Elsewhere, TheFilterCoversTheImage) {
+  Frame frame = shoot(perspective(83, 47), room());
+  plane_of(frame, "nothing");
+  for (int y = 0; y < frame.height(); ++y)
+    std::fill_n(plane_of(frame, "everything").channels[0].row(y), frame.width(), 1.0f);
+  const auto frame_of = [&](const std::string& technique, const std::string& mask, const std::string& elsewhere) {
+    return std::move(
+        result_of(frame, {.outputs = {technique}, .mask = mask, .elsewhere = elsewhere}).frame);
+  };
+  EXPECT_TRUE(same_bits(frame_of("bitmask", "everything", "gtao"), frame_of("bitmask", "", "")));
+  EXPECT_TRUE(same_bits(frame_of("bitmask", "nothing", "gtao"), frame_of("gtao", "", "")));
+}
+
+TEST(Elsewhere, SettingsReachBothAndOneByItsName) {
+  const Plan plan = plan_of({.outputs = {"bitmask"},
+                             .settings = {{"radius", "0.7"}, {"gtao.steps", "5"}},
+                             .mask = "corner-mask",
+                             .elsewhere = "gtao"});
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.technique->name == "bitmask" || planned.technique->name == "gtao") {
+      EXPECT_EQ(planned.values.number("radius"), 0.7f) << planned.label();
+      EXPECT_EQ(planned.values.number("steps"), planned.technique->name == "gtao" ? 5 : 9);
+    }
+  }
+}
+
+TEST(Elsewhere, WhatCannotBeIsSaidInOneLine) {
+  const auto message = [](const PlanRequest& request, const Names& available = {"depth", "normal", "mask"}) {
+    return message_of([&] { plan_of(request, available); });
+  };
+  EXPECT_EQ(message({.outputs = {"bitmask"}, .elsewhere = "gtao"}),
+            "--elsewhere gtao: nothing says where it does; add --only MASK");
+  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtao"}),
+            "--elsewhere gtao: is what runs where the mask is, too; leave out --only and --elsewhere");
+  EXPECT_NE(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtoa"}).find("did you mean 'gtao'"),
+            std::string::npos);
+  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "normals"}),
+            "--elsewhere normals: makes normal, and gtao makes ao_raw; name an estimate of the same");
+  EXPECT_EQ(message({.outputs = {"gtao"}, .with = {"cone"}, .mask = "mask", .elsewhere = "hbao+"}),
+            "--elsewhere hbao+: does not make 'cone', which is asked for; leave that out");
+  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "ssao", .resolution = 2}),
+            "--elsewhere ssao: works at full resolution; leave out --resolution");
+  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "ssao", .adaptive = "low"}),
+            "--elsewhere ssao: goes without --adaptive low; leave one of them out");
+}
+
+// --- Where hidden layers matter
+
+/// A wall, and before it, out of reach, a square that hides a block on the wall as high as `block`, between the columns 60 and
+/// 80 of the rows 30 to 50.
+Frame hidden_block(double block) {
+  const Shot shot = orthographic(160, 80, 4);
+  const auto is_before = [](const EyeRay& ray) {
+    return std::abs(ray.origin.x + 0.25) < 0.25 && std::abs(ray.origin.y) < 0.25;
+  };
+  Frame frame = shoot(shot, [&](const EyeRay& ray) {
+    return std::optional<Surface>({is_before(ray) ? 1.0 : 3.0, {0, 0, 1}});
+  });
+  plane_of(frame, "stochastic.00");
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const bool hides = is_before(ray_through(shot, x + 0.5, y + 0.5));
+      plane_of(frame, "stochastic.00").channels[0].at(x, y) = hides ? float(3 - block) : 3;
+    }
+  }
+  return frame;
+}
+
+PlanRequest hidden_mask(const Settings& more = {}) {
+  PlanRequest request{.outputs = {"hidden-mask"},
+                      .settings = {{"samples", "1"}, {"radius", "0.3"}, {"max_reach", "1"}}};
+  request.settings.insert(request.settings.end(), more.begin(), more.end());
+  return request;
+}
+
+TEST(HiddenMask, FindsWhatRisesBehindWhatIsSeen) {
+  Frame frame = hidden_block(0.2);
+  for (const char* cell : {"4", "8", "16"}) {
+    const RunResult result = result_of(frame, hidden_mask({{"cell", cell}}));
+    const Channel& mask = result.frame.views[0].find("mask")->channels[0];
+    // Beside the square the block is near; further away than the radius (12 pixels) and two cells nothing is.
+    for (int y = 34; y < 46; ++y) {
+      EXPECT_EQ(mask.at(57, y), 1) << y;
+      EXPECT_EQ(mask.at(83, y), 1) << y;
+    }
+    for (int y = 0; y < frame.height(); ++y) {
+      EXPECT_EQ(mask.at(10, y), 0) << y;
+      EXPECT_EQ(mask.at(130, y), 0) << y;
+    }
+  }
+}
+
+TEST(HiddenMask, WhatGoesOnBehindDoesNotCount) {
+  Frame wall = hidden_block(0);
+  const RunResult result = result_of(wall, hidden_mask());
+  for (int y = 0; y < wall.height(); ++y) {
+    for (int x = 0; x < wall.width(); ++x) ASSERT_EQ(result.frame.views[0].find("mask")->channels[0].at(x, y), 0);
+  }
+}
+
+TEST(HiddenMask, NorDoesWhatIsLowerThanWhatIsSeen) {
+  // The same block is seen by itself, and hides its own back.
+  Frame frame = shoot(orthographic(160, 80, 4), [](const EyeRay& ray) {
+    const bool is_block = std::abs(ray.origin.x) < 0.25;
+    return std::optional<Surface>({is_block ? 2.8 : 3.0, {0, 0, 1}});
+  });
+  Channel& hidden = plane_of(frame, "stochastic.00").channels[0];
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x)
+      hidden.at(x, y) = frame.views[0].find("depth")->channels[0].at(x, y) < 2.9f ? 2.9f : 3.0f;
+  }
+  const RunResult result = result_of(frame, hidden_mask());
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) ASSERT_EQ(result.frame.views[0].find("mask")->channels[0].at(x, y), 0);
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test
