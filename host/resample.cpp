@@ -84,6 +84,15 @@ class Reduction {
     }
   }
 
+  /// Of the outputs that are made at the low resolution, the names there.
+  std::vector<std::string> reduced_outputs() const {
+    std::vector<std::string> outputs = plan_.outputs;
+    for (std::string& output : outputs) {
+      if (made_.count(output)) output = reduced_name(output, plan_.resolution);
+    }
+    return outputs;
+  }
+
   std::vector<PlannedPass> passes;
 
  private:
@@ -121,7 +130,8 @@ const Technique& resampling() {
   return technique;
 }
 
-void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const ParameterValues& values) {
+void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const ParameterValues& values,
+            bool is_upsampled) {
   Reduction reduction(plan, values);
   for (PlannedPass& planned : plan.passes) {
     const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
@@ -130,7 +140,10 @@ void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const P
     else
       reduction.add(planned);
   }
-  reduction.add_outputs();
+  if (is_upsampled)
+    reduction.add_outputs();
+  else
+    plan.outputs = reduction.reduced_outputs();
   plan.passes = std::move(reduction.passes);
 }
 

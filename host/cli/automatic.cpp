@@ -26,7 +26,7 @@ struct AutoCommand {
 
 /// An effect from the first look to its planes.
 struct Outcome {
-  EffectChoice choice;
+  Decision decision;
   std::vector<std::string> outputs;
   double ms = 0;             ///< on the device, classification and mask included
   double ms_everywhere = 0;  ///< of everything everywhere; NaN where it has not been measured
@@ -59,71 +59,82 @@ void take_planes(Frame& from, Frame& to) {
   }
 }
 
-/// Everything that a command works with.
-struct Work {
-  const AutoCommand& flags;
-  PlanRequest asked;
-  std::vector<std::string> available;
-  std::string holds;
-  RunOptions options;
-  Frame frame;
-  Device& device;
-};
+/// Tells what the cells of a choice are as well, where they are to be shown.
+void look_closely_for_picture(EffectChoice& choice, const Look& look) {
+  if (choice.is_wanted && !choice.is_everywhere) look_closely(choice, look);
+}
 
-Outcome outcome_of(const Technique& technique, Work& work, Frame& out) {
-  Outcome outcome{
-      choose(technique, work.asked, work.frame, work.available, work.holds, work.device, work.options), {}, 0, 0};
-  EffectChoice& choice = outcome.choice;
-  const Plan plan = make_plan(request_for(technique, work.asked, !choice.is_everywhere), work.available, work.holds);
+Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const Look& look, Frame& out) {
+  Outcome outcome{decide(technique, look), {}, 0, std::numeric_limits<double>::quiet_NaN()};
+  EffectChoice& effect = outcome.decision.effect;
+  const Plan plan = make_plan(outcome.decision.request, look.available, look.holds);
   outcome.outputs = plan.outputs;
-  outcome.ms = choice.classify_ms;
-  outcome.ms_everywhere = std::numeric_limits<double>::quiet_NaN();
-  if (choice.is_wanted) {
-    RunResult result = run(plan, work.frame, work.device, work.options);
+  outcome.ms = effect.classify_ms;
+  if (effect.is_wanted) {
+    RunResult result = run(plan, look.frame, look.device, look.options);
     outcome.ms += best(result);
     take_planes(result.frame, out);
   } else {
-    add_idle_planes(work.frame, plan.outputs, out);
+    add_idle_planes(look.frame, plan.outputs, out);
   }
-  if (!work.flags.explain.empty() && choice.is_wanted && !choice.is_everywhere)
-    choice.seen = cells_of(technique, work.asked, work.frame, work.available, work.holds, work.device);
-  if (work.flags.measure) {
-    const Plan everywhere = make_plan(request_for(technique, work.asked, false), work.available, work.holds);
-    outcome.ms_everywhere = best(run(everywhere, work.frame, work.device, work.options));
+  if (!flags.explain.empty()) {
+    look_closely_for_picture(effect, look);
+    for (EffectChoice& refinement : outcome.decision.refinements) look_closely_for_picture(refinement, look);
+  }
+  if (flags.measure) {
+    const Plan everywhere = make_plan(outcome.decision.everywhere, look.available, look.holds);
+    outcome.ms_everywhere = best(run(everywhere, look.frame, look.device, look.options));
   }
   return outcome;
 }
 
 Json number_or_null(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
+Json document_of(const EffectChoice& choice) {
+  return {{"name", choice.technique->effect.name},  {"technique", choice.technique->name}, {"wanted", choice.is_wanted},
+          {"everywhere", choice.is_everywhere},     {"why", choice.why},                   {"share_of_tiles", choice.share}};
+}
+
 Json document_of(const std::vector<Outcome>& outcomes, const DeviceInfo& device) {
   Json effects = Json::array();
   double classify_ms = 0, total_ms = 0;
   for (const Outcome& o : outcomes) {
-    effects.push_back({{"name", o.choice.technique->effect.name},
-                       {"technique", o.choice.technique->name},
-                       {"wanted", o.choice.is_wanted},
-                       {"everywhere", o.choice.is_everywhere},
-                       {"why", o.choice.why},
-                       {"share_of_tiles", o.choice.share},
-                       {"ms", o.ms},
-                       {"ms_everywhere", number_or_null(o.ms_everywhere)}});
-    classify_ms += o.choice.classify_ms;
+    Json effect = document_of(o.decision.effect);
+    effect["runs"] = o.decision.effect.is_wanted ? Json(o.decision.request.outputs.front()) : Json(nullptr);
+    effect["ms"] = o.ms;
+    effect["ms_everywhere"] = number_or_null(o.ms_everywhere);
+    effect["refinements"] = Json::array();
+    for (const EffectChoice& refinement : o.decision.refinements) effect["refinements"].push_back(document_of(refinement));
+    effects.push_back(std::move(effect));
+    classify_ms += o.decision.effect.classify_ms;
     total_ms += o.ms;
   }
   return {{"effects", effects}, {"classify_ms", classify_ms}, {"total_ms", total_ms}, {"device", device.name}};
 }
 
+std::string where(const EffectChoice& choice) {
+  if (choice.is_everywhere) return "everywhere";
+  return choice.cells.empty() ? "-" : fmt::format("{:.0f} %", 100 * choice.share);
+}
+
+std::string milliseconds_or_dash(double ms) { return std::isnan(ms) ? "-" : fmt::format("{:.2f}", ms); }
+
 void print(const std::vector<Outcome>& outcomes) {
   std::vector<std::vector<std::string>> rows = {{"effect", "wanted", "where", "technique", "ms", "everywhere", "why"}};
+  const auto add = [&](const EffectChoice& choice, const std::string& ms, const std::string& everywhere) {
+    rows.push_back({choice.technique->effect.name, choice.is_wanted ? "yes" : "no", where(choice),
+                    choice.technique->name, ms, everywhere, choice.why});
+  };
   for (const Outcome& o : outcomes) {
-    const EffectChoice& c = o.choice;
-    rows.push_back({c.technique->effect.name, c.is_wanted ? "yes" : "no",
-                    c.is_everywhere ? "everywhere" : fmt::format("{:.0f} %", 100 * c.share), c.technique->name,
-                    fmt::format("{:.2f}", o.ms),
-                    std::isnan(o.ms_everywhere) ? "-" : fmt::format("{:.2f}", o.ms_everywhere), c.why});
+    add(o.decision.effect, milliseconds_or_dash(o.ms), milliseconds_or_dash(o.ms_everywhere));
+    for (const EffectChoice& refinement : o.decision.refinements) add(refinement, "", "");
   }
   print_table(rows, 7);
+}
+
+Explanation explanation_of(const EffectChoice& choice, const std::string& view, const std::string& cost) {
+  return {fmt::format("{}: {}", choice.technique->effect.name, choice.is_wanted ? "yes" : "no"), choice.why, cost,
+          choice.cells.empty() ? nullptr : choice.seen.view(view).find(choice.cells), choice.is_everywhere};
 }
 
 std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view) {
@@ -132,10 +143,20 @@ std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, c
     const std::string saving = std::isnan(o.ms_everywhere)
                                    ? fmt::format("{:.1f} ms", o.ms)
                                    : fmt::format("{:.1f} ms, everywhere {:.1f}", o.ms, o.ms_everywhere);
-    all.push_back({fmt::format("{}: {}", o.choice.technique->effect.name, o.choice.is_wanted ? "yes" : "no"),
-                   o.choice.why, saving, o.choice.seen.view(view).find(o.choice.cells), o.choice.is_everywhere});
+    all.push_back(explanation_of(o.decision.effect, view, saving));
+    for (const EffectChoice& refinement : o.decision.refinements)
+      all.push_back(explanation_of(refinement, view, refinement.is_wanted ? "runs as " + refinement.technique->name : ""));
   }
   return all;
+}
+
+std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vector<std::string>& planes) {
+  std::vector<std::string> found;
+  for (const std::string& plane : planes) {
+    const auto has = [&](const View& view) { return view.find(plane) != nullptr; };
+    if (std::all_of(frame.views.begin(), frame.views.end(), has)) found.push_back(plane);
+  }
+  return found;
 }
 
 void auto_command(const AutoCommand& flags) {
@@ -159,29 +180,28 @@ void auto_command(const AutoCommand& flags) {
   }
   if (!flags.explain.empty() && contains(files.common_planes(), "color")) add_new(planes, "color");
   Device device(flags.run_flags.device);
-  Work work{flags, asked, {}, holdings(files), options, files.read(planes), device};
-  note(work.frame.assumed);
-  for (const std::string& plane : planes) {
-    const auto has = [&](const View& view) { return view.find(plane) != nullptr; };
-    if (std::all_of(work.frame.views.begin(), work.frame.views.end(), has)) work.available.push_back(plane);
-  }
-  work.options.progress = progress_bar();
+  Frame frame = files.read(planes);
+  note(frame.assumed);
+  const std::vector<std::string> available = planes_of_every_view(frame, planes);
+  const std::string holds = holdings(files);
+  options.progress = progress_bar();
+  const Look look{asked, frame, available, holds, device, options};
   Frame out;
-  out.display = work.frame.display;
-  out.window = work.frame.window;
-  out.assumed = work.frame.assumed;
-  for (const View& view : work.frame.views)
+  out.display = frame.display;
+  out.window = frame.window;
+  out.assumed = frame.assumed;
+  for (const View& view : frame.views)
     out.views.push_back({.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}});
   std::vector<Outcome> outcomes;
-  for (const Technique* technique : techniques) outcomes.push_back(outcome_of(*technique, work, out));
+  for (const Technique* technique : techniques) outcomes.push_back(outcome_of(*technique, flags, look, out));
   std::vector<std::string> written = {flags.out};
   if (!flags.explain.empty()) {
-    for (const View& view : work.frame.views) {
-      written.push_back(picture_path(flags.explain, view.name, work.frame.views.size() > 1).string());
+    for (const View& view : frame.views) {
+      written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
       write_explanation(written.back(), view, explanations_of(outcomes, view.name));
     }
   }
-  for (View& view : out.views) view.planes["depth"] = std::move(work.frame.view(view.name).planes.at("depth"));
+  for (View& view : out.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
   write_frame(flags.out, out, writing);
   flags.json.write(document_of(outcomes, device.info()), written);
   if (flags.json.only_json()) return;

@@ -11,7 +11,17 @@
 
 namespace gloam {
 
-/// Of one effect.
+/// What there is to look at, and with what. The frame has passed the door.
+struct Look {
+  const PlanRequest& asked;  ///< settings, preset, filter and resolution
+  const Frame& frame;
+  const std::vector<std::string>& available;  ///< planes of the frame
+  const std::string& holds;                   ///< the same in words (plan.h)
+  Device& device;
+  const RunOptions& options;
+};
+
+/// Of one effect, or of what refines one.
 struct EffectChoice {
   const Technique* technique = nullptr;
   bool is_wanted = false;
@@ -19,28 +29,30 @@ struct EffectChoice {
   std::string why;             ///< in words, with the share
   double share = 0;            ///< of the tiles that were looked at, of all views
   double classify_ms = 0;      ///< what finding out took, on the device
-  std::string cells;           ///< the plane of `seen`
+  std::string cells;           ///< the plane of `seen`; empty where nothing was looked at
   Frame seen;                  ///< of each view one pixel per tile: above 0 where it is called for
 };
 
-/// Techniques that declare an effect.
+/// What is made of an effect.
+struct Decision {
+  EffectChoice effect;
+  std::vector<EffectChoice> refinements;  ///< at most one of them is wanted, and runs in place of the effect's technique
+  PlanRequest request;                    ///< for what is called for
+  PlanRequest everywhere;                 ///< for the same without looking at what the frame calls for
+};
+
+/// Techniques that declare an effect by itself.
 std::vector<const Technique*> techniques_with_effects();
 
-/// A request for an effect's technique, restricted by its mask or not. `asked`: settings, preset, filter and resolution.
-PlanRequest request_for(const Technique& technique, const PlanRequest& asked, bool with_mask);
-
-/// Planes that an effect and the glance at it take from a frame. Throws MissingPlanes, UsageError.
+/// Planes that an effect, what refines it and the glance at them take from a frame. Throws MissingPlanes, UsageError.
 std::vector<std::string> inputs_of_effect(const Technique& technique, const PlanRequest& asked,
                                           const std::vector<std::string>& available, const std::string& holds);
 
-/// Looks at a frame that has passed the door, on the device, at a glance; where that finds nothing, by the mask itself.
-/// Throws what `make_plan` and `run` do.
-EffectChoice choose(const Technique& technique, const PlanRequest& asked, const Frame& frame,
-                    const std::vector<std::string>& available, const std::string& holds, Device& device,
-                    const RunOptions& options);
+/// Looks at a frame, on the device, at a glance; where that finds nothing, by the mask itself. What refines an effect is looked
+/// for where the frame calls for that. Throws what `make_plan` and `run` do.
+Decision decide(const Technique& technique, const Look& look);
 
-/// The cells of an effect's mask, as `EffectChoice::seen`.
-Frame cells_of(const Technique& technique, const PlanRequest& asked, const Frame& frame,
-               const std::vector<std::string>& available, const std::string& holds, Device& device);
+/// The cells of an effect's mask, as `EffectChoice::seen`, with all that the mask has to tell.
+void look_closely(EffectChoice& choice, const Look& look);
 
 }  // namespace gloam

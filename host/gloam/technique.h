@@ -69,11 +69,17 @@ struct Preset {
 /// What `gloam auto` has to know of a technique, to tell whether a frame calls for it, and where.
 struct Effect {
   std::string name;  ///< as people call it: "ambient occlusion"; empty: the technique is for those who ask for it
+  /// Technique whose effect this one makes better: it runs instead where a frame holds what it reads, and calls for it. Empty
+  /// for an effect by itself.
+  std::string refines;
   std::string mask;  ///< technique whose mask says where it is called for
-  /// Settings with which the mask costs next to nothing, and still tells whether nearly all calls for it.
+  /// Settings and resolution with which the mask costs next to nothing, and still tells how much calls for it.
   std::vector<std::pair<std::string, std::string>> glance;
-  /// Share of the image from which on the mask itself costs more than it saves: then the effect is computed everywhere.
-  double most_share = 1;
+  int glance_resolution = 1;
+  /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
+  /// than it saves, and the effect is computed everywhere.
+  double least_share = 0, most_share = 1;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< of the technique in `gloam auto`, under the user's own
   std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
 };
 

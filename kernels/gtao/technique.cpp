@@ -65,6 +65,33 @@ Technique gtao_over_depth() {
   return t;
 }
 
+Technique gtao_over_stochastic_depth() {
+  Technique t =
+      over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes));
+  t.effect = {.name = "hidden layers",
+              .refines = "gtao",
+              .mask = "hidden-mask",
+              .glance = {{"cell", "16"}, {"search_steps", "2"}},
+              .most_share = 0.8,
+              .somewhere = "something that the depth hides rises over what is seen",
+              .nowhere = "nothing that the depth hides rises over what is seen"};
+  return t;
+}
+
+/// The second eye takes over what the first finds wherever both see the same: only where they differ is there work for it.
+Technique gtao_over_two_eyes() {
+  Technique t = over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes));
+  t.effect = {.name = "two views alike",
+              .refines = "gtao",
+              .mask = "stereo-visibility",
+              .glance_resolution = 4,
+              .least_share = 0.5,
+              .settings = {{"estimate", "mono"}, {"filter", "mono"}},
+              .somewhere = "the second view takes over what the first finds, and both see the same",
+              .nowhere = "the two views have too little in common"};
+  return t;
+}
+
 Technique bitmask_over_depth() {
   Technique t = row("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
                     "Therrien, Levesque, Gilet 2023");
@@ -81,9 +108,9 @@ std::vector<Technique> gtao() {
           bitmask_over_depth(),
           over_peeled_layers(gtao_over_depth()),
           over_peeled_layers(bitmask_over_depth()),
-          over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
+          gtao_over_stochastic_depth(),
           over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
-          over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
+          gtao_over_two_eyes(),
           over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes))};
 }
 

@@ -78,6 +78,106 @@ TEST_F(CliAuto, ASmallThingIsNotOverlooked) {
   EXPECT_EQ(effect_of(result)["wanted"], true);
 }
 
+TEST_F(CliAuto, SamplesAreTakenByTilesWhereThatIsAskedFor) {
+  ASSERT_EQ(automatic(room(), {"--radius", "0.2", "--preset", "high", "--adaptive", "low"}).status, 0);
+  expect_same_as_run({"--radius", "0.2", "--preset", "high", "--only", "corner-mask", "--adaptive", "low"});
+}
+
+/// What the frame says of a refinement.
+Json refinement(const Json& effect, const std::string& technique) {
+  for (const Json& choice : effect["refinements"]) {
+    if (choice["technique"] == technique) return choice;
+  }
+  return {};
+}
+
+TEST_F(CliAuto, WhatAFrameDoesNotHoldIsNotRefined) {
+  const Json effect = effect_of(automatic(room(), {"--radius", "0.2"}));
+  EXPECT_EQ(effect["runs"], "gtao");
+  EXPECT_EQ(refinement(effect, "sd-gtao")["wanted"], false);
+  EXPECT_EQ(refinement(effect, "sd-gtao")["why"], "the frame has no 'stochastic'");
+  EXPECT_EQ(refinement(effect, "stereo-gtao")["why"], "the frame has one view");
+}
+
+TEST_F(CliAuto, HiddenLayersAreLookedAtWhereTheyMatter) {
+  ASSERT_EQ(gloam({"capture", "corridor", "-o", path("frame.exr"), "--size", "320x180", "--stochastic", "4"}).status, 0);
+  const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--measure",
+                               "--set", "gtao.bias=0.02", "--explain", path("why.png")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json effect = effect_of(result);
+  EXPECT_EQ(effect["runs"], "sd-gtao");
+  EXPECT_EQ(refinement(effect, "sd-gtao")["wanted"], true);
+  EXPECT_GT(refinement(effect, "sd-gtao")["share_of_tiles"], 0.2);
+  EXPECT_GT(effect["ms_everywhere"], 0);
+  const Arguments run = {"run", "sd-gtao", path("frame.exr"), "-o", path("run.exr")};
+  Arguments same = run, everywhere = run;
+  same.insert(same.end(), {"--only", "hidden-mask", "--elsewhere", "gtao", "--set", "bias=0.02"});
+  everywhere.insert(everywhere.end(), {"--set", "bias=0.02"});
+  ASSERT_EQ(gloam(same).status, 0);
+  EXPECT_EQ(difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).max, 0);
+  // What it leaves out is hardly anything of what hidden layers do.
+  ASSERT_EQ(gloam(everywhere).status, 0);
+  const double missed = difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).mean;
+  ASSERT_EQ(gloam({"run", "gtao", path("frame.exr"), "-o", path("run.exr"), "--set", "bias=0.02"}).status, 0);
+  const double all = difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).mean;
+  EXPECT_LT(missed, 0.05 * all);
+}
+
+TEST_F(CliAuto, LayersThatHideNothingAreNotLookedAt) {
+  Frame frame = shoot(perspective(200, 120), room());
+  Channel& hidden = plane_of(frame, "stochastic.00").channels[0];
+  for (int y = 0; y < frame.height(); ++y)
+    std::copy_n(frame.views[0].find("depth")->channels[0].row(y), frame.width(), hidden.row(y));
+  write_frame(path("frame.exr"), frame);
+  const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--radius", "0.2",
+                               "--set", "sd-gtao.samples=1"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(effect_of(result)["runs"], "gtao");
+  EXPECT_EQ(refinement(effect_of(result), "sd-gtao")["why"], "nothing that the depth hides rises over what is seen");
+  expect_same_as_run({"--radius", "0.2", "--only", "corner-mask"});
+}
+
+TEST_F(CliAuto, ASecondEyeTakesOverWhatTheFirstFinds) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("frame.exr"), "--size", "320x180", "--stereo", "0.065"}).status, 0);
+  const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(effect_of(result)["runs"], "stereo-gtao");
+  EXPECT_GT(refinement(effect_of(result), "stereo-gtao")["share_of_tiles"], 0.8);
+  ASSERT_EQ(gloam({"run", "stereo-gtao", path("frame.exr"), "-o", path("run.exr"), "--set", "estimate=mono", "--set",
+                   "filter=mono"})
+                .status,
+            0);
+  const Frame out = read("out.exr"), expected = read("run.exr");
+  for (const char* eye : {"left", "right"})
+    EXPECT_EQ(difference(*out.view(eye).find("ao"), *expected.view(eye).find("ao")).max, 0) << eye;
+}
+
+TEST_F(CliAuto, TwoViewsThatShareNothingAreEstimatedByThemselves) {
+  Frame frame = shoot(perspective(160, 90), room());
+  View& first = frame.views.front();
+  first.name = "first";
+  first.camera->pose = Pose{};
+  View second{.name = "second", .camera = first.camera, .origin = first.origin, .planes = {}};
+  second.camera->pose->position.x += 100;
+  for (const auto& [name, plane] : first.planes) second.planes.emplace(name, plane.clone());
+  frame.views.push_back(std::move(second));
+  write_frame(path("frame.exr"), frame);
+  const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(effect_of(result)["runs"], "gtao");
+  EXPECT_EQ(refinement(effect_of(result), "stereo-gtao")["why"], "the two views have too little in common");
+}
+
+TEST_F(CliAuto, WhatIsAskedForMayKeepARefinementAway) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("frame.exr"), "--size", "160x90", "--stereo", "0.065"}).status, 0);
+  const Result result =
+      gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--filter", "gaussian"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(effect_of(result)["runs"], "gtao");
+  EXPECT_NE(refinement(effect_of(result), "stereo-gtao")["why"].get<std::string>().find("--filter gaussian"),
+            std::string::npos);
+}
+
 TEST_F(CliAuto, APictureExplainsEachView) {
   const Result result = automatic(room(), {"--explain", path("why.png")});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -100,6 +200,9 @@ TEST_F(CliAuto, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(message({"--explain", path("why.jpg")}).find("is a PNG"), std::string::npos);
   EXPECT_NE(message({"--explain", path("out.exr")}).find("PNG"), std::string::npos);
   EXPECT_NE(message({"--set", "radios=1"}).find("did you mean 'radius'"), std::string::npos);
+  EXPECT_NE(message({"--set", "sd-gtao.sample=1"}).find("sd-gtao: no parameter 'sample' (did you mean 'samples'?)"),
+            std::string::npos);
+  EXPECT_NE(message({"--set", "stereo-gtao.filter=box"}).find("filter = 'box' is not allowed"), std::string::npos);
   EXPECT_NE(message({"--preset", "best"}).find("no preset 'best'"), std::string::npos);
   const Result missing = gloam({"auto", path("nothing.exr"), "-o", path("out.exr")});
   EXPECT_EQ(missing.lines_of_error(), 1) << missing.err;
