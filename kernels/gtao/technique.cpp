@@ -72,7 +72,7 @@ Technique gtao_over_stochastic_depth() {
               .refines = "gtao",
               .mask = "hidden-mask",
               .glance = {{"cell", "16"}, {"search_steps", "2"}},
-              .most_share = 0.8,
+              .most_share = 0.5,
               .somewhere = "something that the depth hides rises over what is seen",
               .nowhere = "nothing that the depth hides rises over what is seen"};
   return t;
