@@ -195,14 +195,17 @@ Decision decide(const Technique& technique, const Look& look) {
   Decision decision{.effect = choose(technique, look)};
   decision.everywhere = decision.request = request_everywhere(technique, look.asked);
   if (!decision.effect.is_everywhere) decision.request.mask = technique.effect.mask;
-  if (!decision.effect.is_wanted) return decision;
   const Technique* chosen = nullptr;
   for (const Technique* t : refinements_of(technique)) {
+    // Where nothing calls for an effect more layers may, but not what reads the same.
+    if (!decision.effect.is_wanted && t->reads == technique.reads) continue;
     decision.refinements.push_back(choose_refinement(*t, chosen, look));
     const EffectChoice& refinement = decision.refinements.back();
     decision.effect.classify_ms += refinement.classify_ms;
     if (!refinement.is_wanted) continue;
     chosen = t;
+    if (!decision.effect.is_wanted) decision.effect.why += fmt::format(" that is seen, but {}", refinement.why);
+    decision.effect.is_wanted = true;
     decision.request = refined_request(refinement, technique, look);
     // Two views by themselves are what there is without what they have in common.
     if (t->views == 1) decision.everywhere = request_everywhere(*t, look.asked);
