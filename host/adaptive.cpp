@@ -52,10 +52,11 @@ void append(std::vector<Item>& to, std::vector<Item> items) {
   std::move(items.begin(), items.end(), std::back_inserter(to));
 }
 
-const ParameterValues& values_of(const Plan& plan, const Technique& technique) {
-  return std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) {
-           return p.technique == &technique;
-         })->values;
+/// Null where the plan does without it.
+const ParameterValues* values_of(const Plan& plan, const Technique& technique) {
+  const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                    [&](const PlannedPass& p) { return p.technique == &technique; });
+  return planned == plan.passes.end() ? nullptr : &planned->values;
 }
 
 /// The whole of the techniques at a low resolution with few samples. Its last plane tells where AO varies.
@@ -65,9 +66,10 @@ std::vector<PlannedPass> base_passes(const Plan& plan, const std::vector<const T
   base.outputs.clear();
   base.resolution = base_resolution;
   for (const Technique* technique : techniques) {
-    const ParameterValues& values = values_of(plan, *technique);
-    append(base.passes,
-           passes_with(*technique, technique == techniques.front() ? with_preset(*technique, values, "low") : values));
+    const ParameterValues* values = values_of(plan, *technique);
+    if (!values) continue;
+    append(base.passes, passes_with(*technique, technique == techniques.front() ? with_preset(*technique, *values, "low")
+                                                                               : *values));
   }
   reduce(base, techniques, ParameterValues(resampling().parameters));
   return std::move(base.passes);

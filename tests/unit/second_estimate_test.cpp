@@ -159,6 +159,13 @@ TEST(AdaptivePlan, TheBasePassIsMadeOfTheTechniquesOwn) {
                    "bilateral/horizontal", "bilateral/vertical"}));
 }
 
+TEST(AdaptivePlan, TheBasePassDoesWithoutAFilterWhereThePlanDoes) {
+  const Plan plan = plan_of({.outputs = {"gtao"}, .only = {"ao_raw"}, .preset = "ultra", .adaptive = "medium"});
+  EXPECT_EQ(labels_of(plan), (Names{"resample/subsample depth", "resample/subsample normal", "gtao/estimate",
+                                    "adaptive/tiles", "mask/bits", "gtao/estimate", "gtao/estimate of the rest"}));
+  EXPECT_EQ(plan.outputs, Names{"ao_raw"});
+}
+
 TEST(AdaptivePlan, WhatCannotBeIsSaidInOneLine) {
   const auto message = [](const PlanRequest& request, const Names& available = {"depth", "normal"}) {
     return message_of([&] { plan_of(request, available); });
