@@ -77,12 +77,14 @@ std::set<std::string> planes_of(const Plan& plan) {
 /// Planes of one channel each that lie in one buffer: the layers of a stack; 1 for all else.
 size_t layers_in_buffer(const Plan& plan, const std::string& name) {
   if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
+  // Two techniques may make one of the same name, one after the other.
+  int layers = 1;
   for (const PlannedPass& planned : plan.passes) {
     for (const Binding& binding : planned.pass.writes) {
-      if (binding.plane == name && binding.layers > 0) return size_t(binding.layers);
+      if (binding.plane == name) layers = std::max(layers, binding.layers);
     }
   }
-  return 1;
+  return size_t(layers);
 }
 
 /// The layouts of a plan's planes on an image.

@@ -232,6 +232,29 @@ TEST(Elsewhere, TheFilterCoversTheImage) {
   EXPECT_TRUE(same_bits(frame_of("bitmask", "nothing", "gtao"), frame_of("gtao", "", "")));
 }
 
+TEST(Elsewhere, BothMaySortLayersOfTheirOwn) {
+  Frame frame = shoot(perspective(163, 47), room());
+  add_mask(frame);
+  invent_plane(frame, "stochastic");
+  const auto frame_of = [&](const std::string& technique, const std::string& elsewhere) {
+    PlanRequest request{.outputs = {technique},
+                        .then = "none",
+                        .settings = {{technique + ".samples", technique == "sd-gtao" ? "2" : "3"}}};
+    if (!elsewhere.empty()) {
+      request.mask = "mask";
+      request.elsewhere = elsewhere;
+      request.settings.emplace_back(elsewhere + ".samples", elsewhere == "sd-gtao" ? "2" : "3");
+    }
+    return std::move(result_of(frame, request).frame);
+  };
+  for (const char* first : {"sd-gtao", "sd-bitmask"}) {
+    const std::string second = std::string(first) == "sd-gtao" ? "sd-bitmask" : "sd-gtao";
+    const Shares found = shares(frame_of(first, second), frame_of(first, ""), frame_of(second, ""), 1);
+    EXPECT_GT(found.of_one, 20) << first;
+    EXPECT_GT(found.of_other, 100) << first;
+  }
+}
+
 TEST(Elsewhere, SettingsReachBothAndOneByItsName) {
   const Plan plan = plan_of({.outputs = {"bitmask"},
                              .settings = {{"radius", "0.7"}, {"gtao.steps", "5"}},
