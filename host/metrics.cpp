@@ -8,6 +8,8 @@
 #include <opencv2/quality/qualityssim.hpp>
 
 #include "gloam/error.h"
+#include "gloam/flip.h"
+#include "gloam/planes.h"
 
 namespace gloam {
 namespace {
@@ -184,6 +186,68 @@ double gmsd(const Channel& test, const Channel& truth, const Mask& foreground) {
   return std::sqrt(std::max(squares / double(count) - mean * mean, 0.0));
 }
 
+constexpr size_t colours = 3;
+
+/// Whether red, green and blue come first.
+bool is_colour(const Plane& plane) {
+  const std::vector<std::string> names = plane_kind(plane.name).components, rgb = plane_kind("color").components;
+  return plane.channels.size() >= colours && names.size() == plane.channels.size() &&
+         std::equal(rgb.begin(), rgb.end(), names.begin());
+}
+
+/// Rows [first, last) of three channels. Background is white in both images.
+cv::Mat colour_rows(const Plane& plane, const Mask& foreground, int first, int last) {
+  const int width = plane.channels[0].layout().width;
+  cv::Mat rows(last - first, width, CV_64FC3);
+  for (int y = first; y < last; ++y) {
+    const unsigned char* counts = foreground.data() + size_t(y) * size_t(width);
+    cv::Vec3d* out = rows.ptr<cv::Vec3d>(y - first);
+    for (int x = 0; x < width; ++x) {
+      for (size_t c = 0; c < colours; ++c) out[x][int(c)] = counts[x] ? double(plane.channels[c].at(x, y)) : 1.0;
+    }
+  }
+  return rows;
+}
+
+/// Mean of the FLIP map over the foreground, in bands that overlap as those of `ssim` do.
+double flip(const Plane& test, const Plane& truth, const Mask& foreground) {
+  const int width = test.channels[0].layout().width, height = test.channels[0].layout().height;
+  double sum = 0;
+  long long count = 0;
+  for (int y0 = 0; y0 < height; y0 += band_rows) {
+    const int y1 = std::min(y0 + band_rows, height);
+    const int first = std::max(y0 - flip_reach(), 0), last = std::min(y1 + flip_reach(), height);
+    const cv::Mat map =
+        flip_map(colour_rows(test, foreground, first, last), colour_rows(truth, foreground, first, last));
+    for (int y = y0; y < y1; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!foreground[size_t(y) * size_t(width) + size_t(x)]) continue;
+        sum += map.at<double>(y - first, x);
+        ++count;
+      }
+    }
+  }
+  return sum / double(count);
+}
+
+/// Where the truth is dark the difference counts by itself.
+double relative_squared_error(const Plane& test, const Plane& truth, const Mask& foreground) {
+  const int width = test.channels[0].layout().width, height = test.channels[0].layout().height;
+  double sum = 0;
+  long long count = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!foreground[size_t(y) * size_t(width) + size_t(x)]) continue;
+      for (size_t c = 0; c < colours; ++c) {
+        const double expected = truth.channels[c].at(x, y), d = double(test.channels[c].at(x, y)) - expected;
+        sum += d * d / (expected * expected + 0.01);
+        ++count;
+      }
+    }
+  }
+  return sum / double(count);
+}
+
 }  // namespace
 
 Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground) {
@@ -195,6 +259,10 @@ Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground) {
   for (size_t c = 0; c < components; ++c) {
     metrics.ssim += ssim(test.channels[c], truth.channels[c], foreground) / double(components);
     metrics.gmsd += gmsd(test.channels[c], truth.channels[c], foreground) / double(components);
+  }
+  if (is_colour(test)) {
+    metrics.flip = flip(test, truth, foreground);
+    metrics.rse = relative_squared_error(test, truth, foreground);
   }
   return metrics;
 }

@@ -332,16 +332,19 @@ void draw_histogram(Sheet& sheet, const Differences& d, const Histogram& histogr
 using Row = std::pair<std::string, std::string>;
 
 std::vector<Row> figures(const Metrics& m) {
-  return {{"pixels", grouped(m.pixels)},
-          {"RMSE", fmt::format("{:.4g}", m.rmse)},
-          {"MAE", fmt::format("{:.4g}", m.mae)},
-          {"bias", with_sign(m.bias)},
-          {"largest", fmt::format("{:.4g}", m.max)},
-          {"PSNR", m.psnr ? fmt::format("{:.2f} dB", *m.psnr) : "identical"},
-          {"SSIM", fmt::format("{:.4f}", m.ssim)},
-          {"GMSD", fmt::format("{:.4f}", m.gmsd)},
-          {"> 1/255", percent(m.over_1_255)},
-          {"> 0.05", percent(m.over_0_05)}};
+  std::vector<Row> rows = {{"pixels", grouped(m.pixels)},
+                           {"RMSE", fmt::format("{:.4g}", m.rmse)},
+                           {"MAE", fmt::format("{:.4g}", m.mae)},
+                           {"bias", with_sign(m.bias)},
+                           {"largest", fmt::format("{:.4g}", m.max)},
+                           {"PSNR", m.psnr ? fmt::format("{:.2f} dB", *m.psnr) : "identical"},
+                           {"SSIM", fmt::format("{:.4f}", m.ssim)},
+                           {"GMSD", fmt::format("{:.4f}", m.gmsd)},
+                           {"> 1/255", percent(m.over_1_255)},
+                           {"> 0.05", percent(m.over_0_05)}};
+  if (m.flip) rows.emplace_back("FLIP", fmt::format("{:.4f}", *m.flip));
+  if (m.rse) rows.emplace_back("RSE", fmt::format("{:.4g}", *m.rse));
+  return rows;
 }
 
 /// Two columns of names and numbers between rules.

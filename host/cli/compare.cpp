@@ -168,16 +168,19 @@ std::optional<Mask> foreground(const Frame& frame, const std::string& name, cons
 }
 
 Json metrics_document(const Metrics& m) {
-  return {{"pixels", m.pixels},
-          {"mae", m.mae},
-          {"rmse", m.rmse},
-          {"bias", m.bias},
-          {"psnr", m.psnr ? Json(*m.psnr) : Json()},
-          {"max", m.max},
-          {"over_1_255", m.over_1_255},
-          {"over_0_05", m.over_0_05},
-          {"ssim", m.ssim},
-          {"gmsd", m.gmsd}};
+  Json document = {{"pixels", m.pixels},
+                   {"mae", m.mae},
+                   {"rmse", m.rmse},
+                   {"bias", m.bias},
+                   {"psnr", m.psnr ? Json(*m.psnr) : Json()},
+                   {"max", m.max},
+                   {"over_1_255", m.over_1_255},
+                   {"over_0_05", m.over_0_05},
+                   {"ssim", m.ssim},
+                   {"gmsd", m.gmsd}};
+  if (m.flip) document["flip"] = *m.flip;
+  if (m.rse) document["rse"] = *m.rse;
+  return document;
 }
 
 /// Several views as one: sums over all their pixels.
@@ -195,6 +198,8 @@ Metrics pooled(const std::vector<Metrics>& views) {
     all.over_0_05 += share * m.over_0_05;
     all.ssim += share * m.ssim;
     all.gmsd += share * m.gmsd;
+    if (m.flip) all.flip = all.flip.value_or(0) + share * *m.flip;
+    if (m.rse) all.rse = all.rse.value_or(0) + share * *m.rse;
   }
   all.rmse = std::sqrt(all.rmse);
   if (all.rmse > 0) all.psnr = -20 * std::log10(all.rmse);
@@ -220,17 +225,19 @@ void print_heading(const PlanePair& planes, const CompareFlags& flags) {
 
 void print_metrics(const std::string& view, const std::string& plane, const Metrics& m) {
   if (!view.empty()) fmt::print("view {}\n", view);
-  print_table({{"pixels", std::to_string(m.pixels)},
-               {"RMSE", fmt::format("{:.5f}", m.rmse)},
-               {"MAE", fmt::format("{:.5f}", m.mae)},
-               {"bias", fmt::format("{:+.5f}{}", m.bias, bias_words(m.bias, plane))},
-               {"PSNR", m.psnr ? fmt::format("{:.2f} dB", *m.psnr) : "identical"},
-               {"max", fmt::format("{:.5f}", m.max)},
-               {"over 1/255", fmt::format("{:.2f} %", 100 * m.over_1_255)},
-               {"over 0.05", fmt::format("{:.2f} %", 100 * m.over_0_05)},
-               {"SSIM", fmt::format("{:.4f}", m.ssim)},
-               {"GMSD", fmt::format("{:.4f}", m.gmsd)}},
-              2);
+  std::vector<std::vector<std::string>> rows = {{"pixels", std::to_string(m.pixels)},
+                                                {"RMSE", fmt::format("{:.5f}", m.rmse)},
+                                                {"MAE", fmt::format("{:.5f}", m.mae)},
+                                                {"bias", fmt::format("{:+.5f}{}", m.bias, bias_words(m.bias, plane))},
+                                                {"PSNR", m.psnr ? fmt::format("{:.2f} dB", *m.psnr) : "identical"},
+                                                {"max", fmt::format("{:.5f}", m.max)},
+                                                {"over 1/255", fmt::format("{:.2f} %", 100 * m.over_1_255)},
+                                                {"over 0.05", fmt::format("{:.2f} %", 100 * m.over_0_05)},
+                                                {"SSIM", fmt::format("{:.4f}", m.ssim)},
+                                                {"GMSD", fmt::format("{:.4f}", m.gmsd)}};
+  if (m.flip) rows.push_back({"FLIP", fmt::format("{:.4f}", *m.flip)});
+  if (m.rse) rows.push_back({"RSE", fmt::format("{:.5f}", *m.rse)});
+  print_table(rows, 2);
 }
 
 /// "0.5" of "hbao+: radius=0.5 bias=0.1"; none where there is no radius.

@@ -202,6 +202,8 @@ void list_metrics(const JsonFlag& json) {
       {"over_0_05", "share of pixels that differ by more than 0.05"},
       {"ssim", "structural similarity, mean over the foreground"},
       {"gmsd", "gradient magnitude similarity deviation over the foreground"},
+      {"flip", "of colours: FLIP (Andersson 2020), mean over the foreground, as seen from 67 pixels per degree"},
+      {"rse", "of colours: mean of (test - truth)^2 / (truth^2 + 0.01)"},
   };
   Json document = Json::array();
   std::vector<std::vector<std::string>> rows;

@@ -21,6 +21,10 @@ struct Metrics {
   double over_0_05 = 0;        ///< share of pixels over 0.05
   double ssim = 0;             ///< mean of OpenCV's SSIM map over the mask, images scaled to 0..255
   double gmsd = 0;             ///< standard deviation of OpenCV's gradient-magnitude similarity map over the mask
+  /// Of colours alone: mean of the FLIP map (flip.h) of what a screen shows of them, cut off at 0 and 1.
+  std::optional<double> flip;
+  /// Of colours alone: mean relative squared error, (test - truth)^2 / (truth^2 + 0.01).
+  std::optional<double> rse;
 };
 
 /// Which pixels count: `foreground[y * width + x] != 0`.

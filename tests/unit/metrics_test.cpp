@@ -12,6 +12,7 @@
 #include <random>
 
 #include "gloam/error.h"
+#include "gloam/flip.h"
 
 namespace gloam {
 namespace {
@@ -295,6 +296,48 @@ TEST(Metrics, RefusesWhatCannotBeCompared) {
   expect_error(three, three, Mask(4, 1), {"mask", "4"});
   expect_error(three, three, Mask(3, 0), {"background"});
   expect_error(Plane{"ao", {}}, Plane{"ao", {}}, Mask(), {"nothing"});
+}
+
+Plane colours(Plane plane) {
+  plane.name = "color";
+  return plane;
+}
+
+TEST(Metrics, ColoursHaveFlipAndRelativeSquaredError) {
+  const std::vector<Pattern> grey(3, [](int, int) { return 0.5f; }), dark(3, [](int, int) { return 0.25f; });
+  const Metrics m = compare_all(colours(plane_of(40, 30, dark)), colours(plane_of(40, 30, grey)));
+  ASSERT_TRUE(m.flip && m.rse);
+  EXPECT_NEAR(*m.flip, 0.4518496411120435, 1e-7);  // see flip_test.cpp
+  EXPECT_NEAR(*m.rse, 0.0625 / 0.26, 1e-12);
+  const Metrics ao = compare_all(plane_of(40, 30, {grey[0]}), plane_of(40, 30, {dark[0]}));
+  EXPECT_FALSE(ao.flip || ao.rse);
+}
+
+TEST(Metrics, FlipOfATallImageIsThatOfTheWhole) {
+  // Higher than a band.
+  const std::vector<Pattern> pattern(3, scene), moved(3, [](int x, int y) { return scene(x + 1, y); });
+  const Plane test = colours(plane_of(40, 600, moved)), truth = colours(plane_of(40, 600, pattern));
+  const auto whole = [](const Plane& plane) {
+    cv::Mat image(600, 40, CV_64FC3);
+    for (int y = 0; y < 600; ++y) {
+      for (int x = 0; x < 40; ++x) image.at<cv::Vec3d>(y, x) = cv::Vec3d::all(double(plane.channels[0].at(x, y)));
+    }
+    return image;
+  };
+  EXPECT_NEAR(*compare_all(test, truth).flip, cv::mean(flip_map(whole(test), whole(truth)))[0], 1e-9);
+}
+
+TEST(Metrics, BackgroundOfColoursSaysNothing) {
+  Plane test = colours(noise(64, 48, 1, 3)), truth = colours(noise(64, 48, 1, 3));
+  Mask mask(64 * 48, 1);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      mask[size_t(y * 64 + x)] = 0;
+      test.channels[1].at(x, y) = infinity;
+    }
+  }
+  EXPECT_EQ(*compare(test, truth, mask).flip, 0);
+  EXPECT_EQ(*compare(test, truth, mask).rse, 0);
 }
 
 }  // namespace
