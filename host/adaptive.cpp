@@ -19,8 +19,7 @@ constexpr int tile = base_resolution * pixels_of_tile;
 static_assert(tile % 16 == 0);
 
 void check_adaptive(const Plan& plan, const Technique& technique, const std::string& preset) {
-  if (plan.resolution != 1)
-    throw UsageError("--adaptive {}: works at full resolution; leave out --resolution", preset);
+  if (plan.resolution != 1) throw UsageError("--adaptive {}: works at full resolution; leave out --resolution", preset);
   const bool reads_stack = std::any_of(technique.reads.begin(), technique.reads.end(), is_stack);
   if (technique.views > 1 || reads_stack)
     throw UsageError("--adaptive {}: {} looks at {}, which a base pass does not; leave it out", preset, technique.name,
@@ -28,8 +27,8 @@ void check_adaptive(const Plan& plan, const Technique& technique, const std::str
 }
 
 ParameterValues with_preset(const Technique& technique, ParameterValues values, const std::string& name) {
-  const auto preset = std::find_if(technique.presets.begin(), technique.presets.end(),
-                                   [&](const Preset& p) { return p.name == name; });
+  const auto preset =
+      std::find_if(technique.presets.begin(), technique.presets.end(), [&](const Preset& p) { return p.name == name; });
   if (preset == technique.presets.end()) {
     std::vector<std::string> names;
     for (const Preset& p : technique.presets) names.push_back(p.name);
@@ -68,8 +67,9 @@ std::vector<PlannedPass> base_passes(const Plan& plan, const std::vector<const T
   for (const Technique* technique : techniques) {
     const ParameterValues* values = values_of(plan, *technique);
     if (!values) continue;
-    append(base.passes, passes_with(*technique, technique == techniques.front() ? with_preset(*technique, *values, "low")
-                                                                               : *values));
+    append(
+        base.passes,
+        passes_with(*technique, technique == techniques.front() ? with_preset(*technique, *values, "low") : *values));
   }
   reduce(base, techniques, ParameterValues(resampling().parameters));
   return std::move(base.passes);
@@ -92,9 +92,8 @@ std::string bits_of(const Pass& pass) {
 /// The same estimate with other settings, of what the planned one leaves out.
 PlannedPass estimate_of_rest(const PlannedPass& planned, const ParameterValues& values) {
   std::vector<PlannedPass> passes = passes_with(*planned.technique, values);
-  const auto same = std::find_if(passes.begin(), passes.end(), [&](const PlannedPass& p) {
-    return p.pass.name == planned.pass.name;
-  });
+  const auto same = std::find_if(passes.begin(), passes.end(),
+                                 [&](const PlannedPass& p) { return p.pass.name == planned.pass.name; });
   PlannedPass rest = *same;
   rest.pass.name += " of the rest";
   rest.pass.writes = planned.pass.writes;

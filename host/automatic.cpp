@@ -96,8 +96,7 @@ double share_above_0(const Frame& frame, const std::string& plane) {
 std::string in_percent(double share) { return share < 0.01 ? "less than 1 %" : fmt::format("{:.0f} %", 100 * share); }
 
 void look_at(EffectChoice& choice, const Look& look, const Settings& settings, int resolution) {
-  const Plan plan =
-      make_plan(mask_request(*choice.technique, look, settings, resolution), look.available, look.holds);
+  const Plan plan = make_plan(mask_request(*choice.technique, look, settings, resolution), look.available, look.holds);
   RunResult result = run(plan, look.frame, look.device, look.options);
   choice.cells = plan.outputs.front();
   choice.share = share_above_0(result.frame, choice.cells);

@@ -53,8 +53,7 @@ bool follows_by_default(const Technique& technique) {
 /// The technique that makes a plane: one of the makers, else the one of the registry that says it is the default for it, else
 /// one that follows others by default, else the one that reads the fewest planes (the first by name of these); never the
 /// one that asks.
-const Technique* maker_of(const std::string& plane, const Technique* asking,
-                          const Techniques& makers) {
+const Technique* maker_of(const std::string& plane, const Technique* asking, const Techniques& makers) {
   for (const Technique* t : makers) {
     if (t != asking && makes(*t, plane)) return t;
   }
@@ -186,7 +185,8 @@ std::string want_mask(Wanted& wanted, const std::string& mask, const std::vector
     std::vector<std::string> names = plane_and_technique_names();
     names.insert(names.end(), available.begin(), available.end());
     throw UsageError(
-        "--only {}: is neither a plane at hand nor a technique that makes one{}; --plane mask=CHANNEL takes any channel "
+        "--only {}: is neither a plane at hand nor a technique that makes one{}; --plane mask=CHANNEL takes any "
+        "channel "
         "of the file as 'mask'",
         mask, suggestion(mask, names));
   }
@@ -500,8 +500,7 @@ bool is_adaptive(const PlanRequest& request) { return !request.adaptive.empty() 
 const Technique* want_elsewhere(const PlanRequest& request, const Wanted& wanted) {
   if (request.elsewhere.empty()) return nullptr;
   const std::string& name = request.elsewhere;
-  if (request.mask.empty())
-    throw UsageError("--elsewhere {}: nothing says where it does; add --only MASK", name);
+  if (request.mask.empty()) throw UsageError("--elsewhere {}: nothing says where it does; add --only MASK", name);
   if (request.resolution > 1)
     throw UsageError("--elsewhere {}: works at full resolution; leave out --resolution", name);
   if (is_adaptive(request))
@@ -559,8 +558,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   take_inputs(plan, walk.inputs, available, walk.missing);
   if (!walk.missing.empty())
     throw_missing(plan.technique, walk.missing, substitutes(wanted, walk.order, walk.missing), holds);
-  if (elsewhere)
-    walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
+  if (elsewhere) walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
   if (is_adaptive(request)) walk.order.push_back(&adapting());
   if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
@@ -584,7 +582,8 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   plan.resolution = request.resolution;
   if (is_reduced) reduce(plan, without_maker(asked_for, mask), values.back(), !request.as_cells);
   plan.mask = mask;
-  if (!mask.empty()) restrict_to_mask(plan, elsewhere ? Techniques{asked_for.front(), elsewhere} : asked_for, elsewhere);
+  if (!mask.empty())
+    restrict_to_mask(plan, elsewhere ? Techniques{asked_for.front(), elsewhere} : asked_for, elsewhere);
   if (is_adaptive(request)) adapt(plan, without_maker(asked_for, mask), request.adaptive, values.back());
   if (request.as_cells) put_out_cells(plan);
   plan.skipped = walk.skipped;

@@ -91,8 +91,12 @@ Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const L
 Json number_or_null(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
 Json document_of(const EffectChoice& choice) {
-  return {{"name", choice.technique->effect.name},  {"technique", choice.technique->name}, {"wanted", choice.is_wanted},
-          {"everywhere", choice.is_everywhere},     {"why", choice.why},                   {"share_of_tiles", choice.share}};
+  return {{"name", choice.technique->effect.name},
+          {"technique", choice.technique->name},
+          {"wanted", choice.is_wanted},
+          {"everywhere", choice.is_everywhere},
+          {"why", choice.why},
+          {"share_of_tiles", choice.share}};
 }
 
 Json document_of(const std::vector<Outcome>& outcomes, const DeviceInfo& device) {
@@ -104,7 +108,8 @@ Json document_of(const std::vector<Outcome>& outcomes, const DeviceInfo& device)
     effect["ms"] = o.ms;
     effect["ms_everywhere"] = number_or_null(o.ms_everywhere);
     effect["refinements"] = Json::array();
-    for (const EffectChoice& refinement : o.decision.refinements) effect["refinements"].push_back(document_of(refinement));
+    for (const EffectChoice& refinement : o.decision.refinements)
+      effect["refinements"].push_back(document_of(refinement));
     effects.push_back(std::move(effect));
     classify_ms += o.decision.effect.classify_ms;
     total_ms += o.ms;
@@ -145,7 +150,8 @@ std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, c
                                    : fmt::format("{:.1f} ms, everywhere {:.1f}", o.ms, o.ms_everywhere);
     all.push_back(explanation_of(o.decision.effect, view, saving));
     for (const EffectChoice& refinement : o.decision.refinements)
-      all.push_back(explanation_of(refinement, view, refinement.is_wanted ? "runs as " + refinement.technique->name : ""));
+      all.push_back(
+          explanation_of(refinement, view, refinement.is_wanted ? "runs as " + refinement.technique->name : ""));
   }
   return all;
 }

@@ -66,8 +66,7 @@ Technique gtao_over_depth() {
 }
 
 Technique gtao_over_stochastic_depth() {
-  Technique t =
-      over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes));
+  Technique t = over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes));
   t.effect = {.name = "hidden layers",
               .refines = "gtao",
               .mask = "hidden-mask",

@@ -114,7 +114,8 @@ std::vector<Case> cases() {
     const bool has_presets = !technique.presets.empty();
     const bool makes_ao = std::count(technique.writes.begin(), technique.writes.end(), "ao_raw") > 0;
     const bool is_one_estimate = technique.name != "multires";
-    if (technique.reads == Names{"depth", "normal"} && technique.views == 1 && makes_ao && has_presets && is_one_estimate)
+    if (technique.reads == Names{"depth", "normal"} && technique.views == 1 && makes_ao && has_presets &&
+        is_one_estimate)
       all.push_back({&technique, 0});
   }
   for (const int lanes : {1, 4, 8}) all.push_back({&find_technique("ssao"), lanes});
@@ -225,8 +226,7 @@ TEST(Elsewhere, TheFilterCoversTheImage) {
   for (int y = 0; y < frame.height(); ++y)
     std::fill_n(plane_of(frame, "everything").channels[0].row(y), frame.width(), 1.0f);
   const auto frame_of = [&](const std::string& technique, const std::string& mask, const std::string& elsewhere) {
-    return std::move(
-        result_of(frame, {.outputs = {technique}, .mask = mask, .elsewhere = elsewhere}).frame);
+    return std::move(result_of(frame, {.outputs = {technique}, .mask = mask, .elsewhere = elsewhere}).frame);
   };
   EXPECT_TRUE(same_bits(frame_of("bitmask", "everything", "gtao"), frame_of("bitmask", "", "")));
   EXPECT_TRUE(same_bits(frame_of("bitmask", "nothing", "gtao"), frame_of("gtao", "", "")));
