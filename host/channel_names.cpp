@@ -210,6 +210,7 @@ const std::vector<Spelling>& spellings() {
       {"bent_normal", "bentnormal", xyz, generic},
       {"cone", "*", "cone", own},
       {"reflection", "reflection", "r,g,b,a", own},
+      {"reflection_noise", "*", "reflection_noise", own},
       {"hit", "hit", "z", own},
   };
   return table;

@@ -54,7 +54,8 @@ const std::vector<PlaneKind>& plane_kinds() {
           "cosine of the half angle of the cone about bent_normal that is as open; 0 is a whole hemisphere, 1 nothing"),
       kind("reflection", {"r", "g", "b", "a"}, {"reflection.R", "reflection.G", "reflection.B", "reflection.A"}, 0,
            K::value, "reflected radiance; A is the confidence"),
-      kind("hit", {""}, {"hit.Z"}, 0, K::value, "length of the reflected ray"),
+      kind("reflection_noise", {""}, {"reflection_noise"}, 0, K::value, "estimated error of a ray-traced reflection"),
+      kind("hit", {""}, {"hit.Z"}, 0, K::length, "length of the reflected ray, scene units; 0 where it meets nothing"),
   };
   return kinds;
 }

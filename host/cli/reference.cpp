@@ -1,4 +1,4 @@
-// gloam reference ao FRAME.exr --scene SCENE -o REF.exr
+// gloam reference ao|reflection FRAME.exr --scene SCENE -o REF.exr
 #include "gloam/reference.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace gloam::cli {
 namespace {
 
 struct ReferenceCommand {
-  std::string what, frame, out, samples = "256", radius, falloff = "none", seed = "0", picture, compression = "zip";
+  std::string what, frame, out, samples, radius, falloff = "none", seed = "0", picture, compression = "zip";
   bool half = false;
   SceneFlags scene;
   FrameFlags frame_flags;
@@ -79,26 +79,79 @@ double radius_of(const ReferenceCommand& flags, const Scene& scene) {
   return parse_number(flags.radius, "--radius", 1e-30, 1e30, "inf");
 }
 
-Json document(const AoReference& result, const AoReferenceOptions& options, const Scene& scene) {
-  const double seconds = result.seconds;
-  return {{"scene", scene.name},
-          {"faces", scene.faces()},
-          {"radius", std::isfinite(options.radius) ? Json(options.radius) : Json("inf")},
-          {"samples", int(result.frame.numbers.at("aoSamples"))},
-          {"falloff", options.falloff},
-          {"noise", result.noise},
-          {"largest_noise", result.largest_noise},
-          {"unlike_share", result.unlike_share},
-          {"resumed_share", result.resumed_share},
-          {"rays", result.rays},
-          {"seconds", seconds},
-          {"rays_per_second", seconds > 0 ? double(result.rays) / seconds : 0}};
+/// What is traced, from the command line.
+struct Job {
+  std::string plane;
+  std::vector<std::string> reads;
+  Json settings;        ///< for --json
+  std::string heading;  ///< "radius 0.5, 256 rays per pixel, falloff none"
+  std::function<Reference(const Tracer&, const Frame&)> trace;
+};
+
+template <typename Options>
+void set_common(Options& options, const ReferenceCommand& flags, const std::string& checkpoint,
+                const std::function<void(double)>& progress) {
+  options.samples = parse_whole_number(flags.samples.empty() ? std::to_string(options.samples) : flags.samples,
+                                       "--samples", 1, 1 << 24);
+  options.seed = uint32_t(parse_whole_number(flags.seed, "--seed", 0, 1 << 30));
+  options.checkpoint = checkpoint;
+  options.progress = progress;
 }
 
-void print(const AoReference& result, const AoReferenceOptions& options, const Scene& scene,
-           const ReferenceCommand& flags) {
-  fmt::print("{}: {} faces; radius {:g}, {} rays per pixel, falloff {}\n", printable(scene.name), scene.faces(),
-             options.radius, int(result.frame.numbers.at("aoSamples")), options.falloff);
+Job ao_job(AoReferenceOptions options, const ReferenceCommand& flags, const Scene& scene) {
+  options.radius = radius_of(flags, scene);
+  if (options.contribution && !std::isfinite(options.radius))
+    throw UsageError("--radius inf: the falloff of {} is in relation to the radius; give a finite one", flags.falloff);
+  Job job;
+  job.plane = "ao";
+  job.reads = {"depth", "normal"};
+  job.settings = {{"radius", std::isfinite(options.radius) ? Json(options.radius) : Json("inf")},
+                  {"falloff", options.falloff}};
+  job.heading = fmt::format("radius {:g}, falloff {}", options.radius, options.falloff);
+  job.trace = [options](const Tracer& tracer, const Frame& frame) { return ao_reference(tracer, frame, options); };
+  return job;
+}
+
+Job reflection_job(const ReflectionReferenceOptions& options) {
+  Job job;
+  job.plane = "reflection";
+  job.reads = {"depth", "normal", "roughness", "reflectance"};
+  job.settings = Json::object();
+  job.heading = "two bounces";
+  job.trace = [options](const Tracer& tracer, const Frame& frame) {
+    return reflection_reference(tracer, frame, options);
+  };
+  return job;
+}
+
+/// Flags that mean something for ambient occlusion alone.
+void check_reflection(const ReferenceCommand& flags) {
+  if (!flags.radius.empty()) throw UsageError("--radius {}: a reflection has no radius; leave it out", flags.radius);
+  if (flags.falloff != "none")
+    throw UsageError("--falloff {}: a reflection has no falloff; leave it out", flags.falloff);
+}
+
+int samples_of(const Reference& result, const Job& job) { return int(result.frame.numbers.at(job.plane + "Samples")); }
+
+Json document(const Reference& result, const Job& job, const Scene& scene) {
+  const double seconds = result.seconds;
+  Json json = {{"scene", scene.name},
+               {"faces", scene.faces()},
+               {"samples", samples_of(result, job)},
+               {"noise", result.noise},
+               {"largest_noise", result.largest_noise},
+               {"unlike_share", result.unlike_share},
+               {"resumed_share", result.resumed_share},
+               {"rays", result.rays},
+               {"seconds", seconds},
+               {"rays_per_second", seconds > 0 ? double(result.rays) / seconds : 0}};
+  json.update(job.settings);
+  return json;
+}
+
+void print(const Reference& result, const Job& job, const Scene& scene, const ReferenceCommand& flags) {
+  fmt::print("{}: {} faces; {}, {} rays per pixel\n", printable(scene.name), scene.faces(), job.heading,
+             samples_of(result, job));
   if (result.resumed_share > 0) fmt::print("went on with {:.0f} % of an interrupted run\n", 100 * result.resumed_share);
   fmt::print("noise {:.5f} RMS, largest {:.4f} (from two independent halves of the rays)\n", result.noise,
              result.largest_noise);
@@ -107,9 +160,17 @@ void print(const AoReference& result, const AoReferenceOptions& options, const S
   fmt::print("wrote {}\n", printable(flags.out));
 }
 
+const std::vector<std::string>& kinds() {
+  static const std::vector<std::string> kinds = {"ao", "reflection"};
+  return kinds;
+}
+
 void reference_command(ReferenceCommand flags) {
-  if (flags.what != "ao")
-    throw UsageError("reference: no '{}'{}; there is ao", flags.what, suggestion(flags.what, {"ao"}));
+  if (!contains(kinds(), flags.what))
+    throw UsageError("reference: no '{}'{}; there are {}", flags.what, suggestion(flags.what, kinds()),
+                     enumerate(kinds()));
+  const bool is_ao = flags.what == "ao";
+  if (!is_ao) check_reflection(flags);
   const WriteOptions write{flags.half, flags.compression};
   check(write);
   check_frame_name(flags.out, "-o");
@@ -120,24 +181,26 @@ void reference_command(ReferenceCommand flags) {
        {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
        {"--camera", flags.frame_flags.camera}},
       {{"-o", flags.out}, {"the unfinished", checkpoint}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
-  AoReferenceOptions options;
-  options.samples = parse_whole_number(flags.samples, "--samples", 1, 1 << 24);
-  options.seed = uint32_t(parse_whole_number(flags.seed, "--seed", 0, 1 << 30));
-  set_falloff(options, flags.falloff, flags.scene.take_dotted_settings());
+  const auto bar = progress_bar();
+  std::function<void(double)> progress;
+  if (bar) progress = [&bar](double share) { bar(int(share * 1000), 1000); };
+  AoReferenceOptions ao;
+  ReflectionReferenceOptions reflection;
+  if (is_ao) {
+    set_common(ao, flags, checkpoint, progress);
+    set_falloff(ao, flags.falloff, flags.scene.take_dotted_settings());
+  } else {
+    set_common(reflection, flags, checkpoint, progress);
+  }
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   if (!contains(file.common_planes(), "depth")) throw Error("{}: has no depth; {}", flags.frame, holdings(file));
   const Scene scene = load_scene_of(flags, file);
-  options.radius = radius_of(flags, scene);
-  if (options.contribution && !std::isfinite(options.radius))
-    throw UsageError("--radius inf: the falloff of {} is in relation to the radius; give a finite one", flags.falloff);
-  const Frame frame = file.read({"depth", "normal"});
+  const Job job = is_ao ? ao_job(ao, flags, scene) : reflection_job(reflection);
+  const Frame frame = file.read(job.reads);
   note(frame.assumed);
   note_other_scene(file, scene);
   const Tracer tracer(scene);
-  options.checkpoint = checkpoint;
-  const auto bar = progress_bar();
-  if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
-  const AoReference result = ao_reference(tracer, frame, options);
+  const Reference result = job.trace(tracer, frame);
   note(result.notes);
   if (result.unlike_share > 0.005)
     note({fmt::format("in {:.1f} % of the pixels looked at the scene is over 1 % nearer or farther than the frame",
@@ -147,10 +210,10 @@ void reference_command(ReferenceCommand flags) {
   std::filesystem::remove(checkpoint, gone);
   for (const View& view : result.frame.views) {
     if (flags.picture.empty()) break;
-    write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at("ao"));
+    write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at(job.plane));
   }
-  flags.json.write(document(result, options, scene), {flags.out});
-  if (!flags.json.only_json()) print(result, options, scene, flags);
+  flags.json.write(document(result, job, scene), {flags.out});
+  if (!flags.json.only_json()) print(result, job, scene, flags);
 }
 
 }  // namespace
@@ -158,8 +221,10 @@ void reference_command(ReferenceCommand flags) {
 void add_reference(CLI::App& app) {
   auto flags = std::make_shared<ReferenceCommand>();
   CLI::App* command = app.add_subcommand("reference", "ray-traced truth for a frame whose scene is at hand");
-  command->add_option("what", flags->what, "ao")->required()->type_name("ao");
-  command->add_option("frame", flags->frame, "EXR file with depth, a camera and perhaps normals")
+  command->add_option("what", flags->what, "ao or reflection")->required()->type_name("ao|reflection");
+  command
+      ->add_option("frame", flags->frame,
+                   "EXR file with depth, a camera and perhaps normals, roughness and reflectance")
       ->required()
       ->type_name("FRAME.exr");
   command
@@ -167,7 +232,9 @@ void add_reference(CLI::App& app) {
                    "OBJ or glTF file, or a built-in name; default: the built-in one that the frame names")
       ->type_name("SCENE");
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("REF.exr");
-  command->add_option("--samples", flags->samples, "rays per pixel, rounded up to a multiple of 32; default 256")
+  command
+      ->add_option("--samples", flags->samples,
+                   "rays per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
       ->type_name("N");
   command->add_option("--radius", flags->radius, "reach of an occluder, scene units, or inf; default: the scene's own")
       ->type_name("R");
@@ -186,7 +253,8 @@ void add_reference(CLI::App& app) {
       "Interrupted after its first 15 s, it goes on when run again from what it kept last. Examples:\n"
       "  gloam reference ao colonnade.exr -o colonnade_ao_ref.exr --samples 1024\n"
       "  gloam reference ao house.exr --scene house.glb -o ref.exr --radius 0.3\n"
-      "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+");
+      "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+\n"
+      "  gloam reference reflection gallery.exr -o gallery_reflection_ref.exr --samples 1024");
   command->callback([flags] { reference_command(*flags); });
 }
 

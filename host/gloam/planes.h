@@ -14,7 +14,7 @@ struct PlaneKind {
   std::vector<std::string> components;  ///< kernel argument suffixes: {""} or {"x", "y", "z"}
   std::vector<std::string> channels;    ///< EXR channels written, one per component: "Z", or "N.X", "N.Y", "N.Z"
   float outside;                        ///< value of pixels that no data window covers and of the row padding
-  enum Meaning { value, unit_interval, unit_vector, view_depth } meaning;
+  enum Meaning { value, unit_interval, unit_vector, view_depth, length } meaning;  ///< length: scene units, not below 0
   std::string help;
   std::string source = "";  ///< what makes one that no technique makes, for messages; may be empty
 };

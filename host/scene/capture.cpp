@@ -366,7 +366,7 @@ void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOp
   const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
   const long long surfaces = surfaces_in(*target.depth);
   result.surfaces += surfaces;
-  result.rays += (options.outlines ? 2LL : 1LL) * options.width * options.height + (lit ? sun_rays * surfaces : 0);
+  result.rays += (options.outlines ? 2LL : 1LL) * options.width * options.height + (lit ? most_sun_rays * surfaces : 0);
 }
 
 /// From what the first view shows.
@@ -428,7 +428,7 @@ vec3 sky_radiance(const Scene& scene, const dvec3& direction) {
   return glm::mix(light.horizon, light.zenith, std::sqrt(height));
 }
 
-vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed) {
+vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays) {
   const Scene& scene = tracer.scene();
   const Light& light = scene.light;
   const SurfaceMaterial material = tracer.material(surface);
@@ -438,8 +438,8 @@ vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed) {
   vec3 irradiance = glm::pi<float>() * glm::mix(light.ground, 0.5f * (light.zenith + light.horizon), facing_up);
   const dvec3 to_sun = glm::normalize(dvec3(light.to_sun));
   if (light.sun != vec3(0) && glm::dot(to_sun, surface.normal) > -0.1) {
-    vec3 directions[sun_rays];
-    bool blocked[sun_rays];
+    vec3 directions[most_sun_rays];
+    bool blocked[most_sun_rays];
     const glm::dmat3 about = frame_about(to_sun);
     const double disc = std::tan(light.sun_angle_degrees * glm::pi<double>() / 180);
     for (int i = 0; i < sun_rays; ++i) {
@@ -454,7 +454,7 @@ vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed) {
       if (blocked[i] || glm::dot(d, vec3(surface.facing)) <= 0) continue;
       cosines += std::max(glm::dot(d, vec3(surface.normal)), 0.0f);
     }
-    irradiance += light.sun * (cosines / sun_rays);
+    irradiance += light.sun * (cosines / float(sun_rays));
   }
   return material.emission + diffuse * irradiance / glm::pi<float>();
 }

@@ -95,7 +95,8 @@ Frame scaled(const Frame& frame, int k) {
       view.camera->fy = std::ldexp(view.camera->fy, -k);
     }
     for (auto& [name, plane] : view.planes) {
-      if (plane_kind(name).meaning != PlaneKind::view_depth && name != "position") continue;
+      const PlaneKind::Meaning meaning = plane_kind(name).meaning;
+      if (meaning != PlaneKind::view_depth && meaning != PlaneKind::length && name != "position") continue;
       for (Channel& channel : plane.channels) {
         for (int y = 0; y < copy.height(); ++y) {
           for (int x = 0; x < copy.width(); ++x) channel.at(x, y) = std::ldexp(channel.at(x, y), k);

@@ -37,6 +37,7 @@ double difference_of(float a, float b) {
 bool allowed(PlaneKind::Meaning meaning, float value) {
   if (meaning == PlaneKind::unit_interval) return value >= 0 && value <= 1;
   if (meaning == PlaneKind::view_depth) return value > 0;  // +inf is background
+  if (meaning == PlaneKind::length) return std::isfinite(value) && value >= 0;
   return std::isfinite(value);
 }
 

@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "gloam/capture.h"
+#include "gloam/error.h"
+#include "gloam/reference.h"
+#include "low_discrepancy.h"
+#include "reference_rows.h"
+
+namespace gloam {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+using glm::vec3;
+
+/// What is below is a mirror: all of its rays go one way (kernels/shared/ggx.h has the same bound).
+constexpr double mirror_roughness = 0.03;
+
+/// Rays of a mirror; they differ in where the sun is looked for from what they meet.
+constexpr int mirror_samples = 2 * rays_per_packet;
+
+/// Of the largest component of the pixels that reflect: what is brought to white before a reflection is looked at.
+constexpr double white_percentile = 0.99;
+
+struct Gloss {
+  double alpha = 1;
+  dvec3 reflectance{0.0};
+  bool is_mirror = false;
+};
+
+/// A microfacet's normal as seen from `v`, z up (Dupuy and Benyoub 2023).
+dvec3 visible_normal(const dvec3& v, double alpha, const dvec2& u) {
+  const dvec3 w = glm::normalize(dvec3(alpha * v.x, alpha * v.y, v.z));
+  const double angle = glm::two_pi<double>() * u.y, z = (1 - u.x) * (1 + w.z) - w.z;
+  const double r = std::sqrt(std::max(1 - z * z, 0.0));
+  const dvec3 h = dvec3(r * std::cos(angle), r * std::sin(angle), z) + w;
+  return glm::normalize(dvec3(alpha * h.x, alpha * h.y, std::max(h.z, 1e-9)));
+}
+
+/// Smith's Lambda.
+double hidden_per_seen(double alpha, const dvec3& v) {
+  return 0.5 * (std::sqrt(1 + alpha * alpha * (v.x * v.x + v.y * v.y) / (v.z * v.z)) - 1);
+}
+
+dvec3 fresnel(const dvec3& reflectance, double cosine) {
+  return reflectance + (1.0 - reflectance) * std::pow(std::max(1 - cosine, 0.0), 5.0);
+}
+
+/// What every view of the frame shows, to tell what a screen-space ray could meet.
+class Shown {
+ public:
+  explicit Shown(const Tracer& tracer, const Frame& frame) : tracer_(tracer), frame_(frame) {}
+
+  /// Relative to Scene::origin.
+  bool point(const dvec3& position) const {
+    return in_a_view(position + tracer_.scene().origin, 1, [](double there, float shown) {
+      return !is_background(shown) && std::abs(there - double(shown)) <= 0.01 * there;
+    });
+  }
+
+  bool sky(const dvec3& direction) const {
+    return in_a_view(direction, 0, [](double, float shown) { return is_background(shown); });
+  }
+
+ private:
+  template <typename Fits>
+  bool in_a_view(const dvec3& world, double w, const Fits& fits) const {
+    return std::any_of(frame_.views.begin(), frame_.views.end(), [&](const View& view) {
+      const Camera& camera = *view.camera;
+      const dvec3 p = camera.pose->world_to_view * (world - w * camera.pose->position);
+      const double lateral = camera.orthographic ? 1.0 : -p.z;
+      if (!(p.z < 0) || (camera.orthographic && w == 0)) return false;
+      const double x = std::floor(camera.cx + camera.fx * p.x / lateral) - frame_.window.x0;
+      const double y = std::floor(camera.cy - camera.fy * p.y / lateral) - frame_.window.y0;
+      if (!(x >= 0 && y >= 0 && x < frame_.width() && y < frame_.height())) return false;
+      return fits(-p.z, view.planes.at("depth").channels[0].at(int(x), int(y)));
+    });
+  }
+
+  const Tracer& tracer_;
+  const Frame& frame_;
+};
+
+/// Sums over one half of a pixel's rays.
+struct Half {
+  dvec3 radiance{0.0};
+  double weights = 0, shown = 0;
+};
+
+class ReflectionTracer {
+ public:
+  ReflectionTracer(const Tracer& tracer, const Frame& frame, const ReflectionReferenceOptions& options)
+      : tracer_(tracer), shown_(tracer, frame), options_(options) {}
+
+  long long trace(const ViewTracer& pixels, const Site& site, int x, int y, uint32_t pixel, float* value,
+                  float& noise) const {
+    const Gloss gloss = gloss_at(pixels.view(), site, x, y);
+    std::fill(value, value + 4, 0.0f);
+    if (gloss.reflectance == dvec3(0)) return 0;
+    const int samples = gloss.is_mirror ? mirror_samples : rounded_samples(options_.samples);
+    const uint32_t seed = pixel + options_.seed;
+    const Half a = half(site, gloss, samples / 2, hash(2 * seed)),
+               b = half(site, gloss, samples / 2, hash(2 * seed + 1));
+    const dvec3 mean = (a.radiance + b.radiance) / double(samples), off = (a.radiance - b.radiance) / double(samples);
+    for (int i = 0; i < 3; ++i) value[i] = float(mean[i]);
+    const double weights = a.weights + b.weights;
+    value[3] = weights > 0 ? float((a.shown + b.shown) / weights) : 0;
+    noise = float(std::abs(off.x + off.y + off.z) / 3);
+    return 2LL * samples;
+  }
+
+ private:
+  Gloss gloss_at(const View& view, const Site& site, int x, int y) const {
+    SurfaceMaterial material;
+    if (site.surface) material = tracer_.material(*site.surface);
+    if (const Plane* roughness = view.find("roughness")) material.roughness = roughness->channels[0].at(x, y);
+    if (const Plane* reflectance = view.find("reflectance")) {
+      for (size_t i = 0; i < 3; ++i) material.reflectance[int(i)] = reflectance->channels[i].at(x, y);
+    }
+    Gloss gloss;
+    gloss.is_mirror = material.roughness < mirror_roughness;
+    gloss.alpha = std::max(double(material.roughness), mirror_roughness);
+    gloss.alpha *= gloss.alpha;
+    gloss.reflectance = dvec3(material.reflectance);
+    return gloss;
+  }
+
+  Half half(const Site& site, const Gloss& gloss, int samples, uint32_t seed) const {
+    Half sum;
+    dvec3 v = glm::transpose(site.to_world) * site.to_eye;
+    v.z = std::max(v.z, 1e-3);  // as the kernels have it: a shading normal may face away
+    v = glm::normalize(v);
+    const double hidden_v = hidden_per_seen(gloss.alpha, v);
+    for (int i = 0; i < samples; ++i) {
+      const dvec3 h =
+          gloss.is_mirror ? dvec3(0, 0, 1) : visible_normal(v, gloss.alpha, scrambled_sobol(uint32_t(i), seed));
+      const double vh = glm::dot(v, h);
+      const dvec3 l = 2 * vh * h - v;
+      if (l.z <= 0) continue;
+      const double seen = gloss.is_mirror ? 1 : (1 + hidden_v) / (1 + hidden_v + hidden_per_seen(gloss.alpha, l));
+      const dvec3 weight = seen * fresnel(gloss.reflectance, vh);
+      add(sum, site, glm::normalize(site.to_world * l), weight, hash(seed + uint32_t(i)));
+    }
+    return sum;
+  }
+
+  void add(Half& sum, const Site& site, const dvec3& direction, const dvec3& weight, uint32_t seed) const {
+    const double mean_weight = (weight.x + weight.y + weight.z) / 3;
+    sum.weights += mean_weight;
+    if (glm::dot(direction, dvec3(site.facing)) <= 0) return;
+    const std::optional<Surface> met = tracer_.first({dvec3(site.origin), direction});
+    const vec3 light = met ? radiance(tracer_, *met, seed, 1) : sky_radiance(tracer_.scene(), direction);
+    sum.radiance += weight * dvec3(light);
+    if (met ? shown_.point(met->position) : shown_.sky(direction)) sum.shown += mean_weight;
+  }
+
+  const Tracer& tracer_;
+  Shown shown_;
+  const ReflectionReferenceOptions& options_;
+};
+
+/// What brings the largest component of nearly all pixels that reflect to 1.
+double exposure_for(const Frame& frame) {
+  std::vector<float> largest;
+  for (const View& view : frame.views) {
+    const std::vector<Channel>& c = view.planes.at("reflection").channels;
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        const float value = std::max({c[0].at(x, y), c[1].at(x, y), c[2].at(x, y)});
+        if (value > 0) largest.push_back(value);
+      }
+    }
+  }
+  if (largest.empty()) return 1;
+  const auto at = largest.begin() + std::ptrdiff_t(white_percentile * double(largest.size() - 1));
+  std::nth_element(largest.begin(), at, largest.end());
+  return 1 / double(*at);
+}
+
+}  // namespace
+
+Reference reflection_reference(const Tracer& tracer, const Frame& frame, const ReflectionReferenceOptions& options) {
+  if (options.samples < 1 || options.samples > (1 << 24))
+    throw UsageError("{} samples are not allowed; 1 to {} are", options.samples, 1 << 24);
+  check_views(frame);
+  const ReflectionTracer pixels(tracer, frame, options);
+  RowsOptions rows;
+  rows.value = "reflection";
+  rows.noise = "reflection_noise";
+  rows.background = {0, 0, 0, 0};
+  rows.key = fmt::format("samples {} seed {}", rounded_samples(options.samples), options.seed);
+  rows.checkpoint = options.checkpoint;
+  rows.checkpoint_seconds = options.checkpoint_seconds;
+  rows.progress = options.progress;
+  rows.trace = [&](const ViewTracer& view, const Site& site, int x, int y, uint32_t pixel, float* value, float& noise) {
+    return pixels.trace(view, site, x, y, pixel, value, noise);
+  };
+  Reference result = trace_rows(tracer, frame, rows);
+  Frame& out = result.frame;
+  out.numbers["reflectionSamples"] = rounded_samples(options.samples);
+  out.numbers["reflectionNoise"] = result.noise;
+  out.numbers["gloamExposure"] = exposure_for(out);
+  out.attributes["reflectionDefinition"] =
+      "light that visible surfaces reflect towards the eye (GGX, Smith, Schlick) from what leaves others the same in "
+      "every "
+      "direction, and from the sky; A is the share of it that the frame shows";
+  return result;
+}
+
+}  // namespace gloam
