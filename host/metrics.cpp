@@ -10,6 +10,7 @@
 #include "gloam/error.h"
 #include "gloam/flip.h"
 #include "gloam/planes.h"
+#include "picture.h"
 
 namespace gloam {
 namespace {
@@ -191,7 +192,7 @@ constexpr size_t colours = 3;
 /// Whether red, green and blue come first.
 bool is_colour(const Plane& plane) {
   const std::vector<std::string> names = plane_kind(plane.name).components, rgb = plane_kind("color").components;
-  return plane.channels.size() >= colours && names.size() == plane.channels.size() &&
+  return plane.channels.size() >= colours && names.size() >= plane.channels.size() &&
          std::equal(rgb.begin(), rgb.end(), names.begin());
 }
 
@@ -230,6 +231,30 @@ double flip(const Plane& test, const Plane& truth, const Mask& foreground) {
   return sum / double(count);
 }
 
+template <typename Function>
+Channel with_each(const Channel& channel, const Function& function) {
+  Channel out = channel.clone();
+  for (int y = 0; y < out.layout().height; ++y)
+    for (int x = 0; x < out.layout().width; ++x) out.at(x, y) = function(out.at(x, y));
+  return out;
+}
+
+/// What a screen can show of radiance, in linear light; without an exposure the values as they are. What is not finite is
+/// background, and stays.
+Plane exposed(const Plane& plane, double exposure) {
+  Plane out{plane.name, {}};
+  for (const Channel& channel : plane.channels) {
+    out.channels.push_back(with_each(channel, [exposure](float v) {
+      return exposure > 0 && std::isfinite(v) ? float(std::clamp(exposure * double(v), 0.0, 1.0)) : v;
+    }));
+  }
+  return out;
+}
+
+Channel encoded(const Channel& channel, double exposure) {
+  return with_each(channel, [exposure](float v) { return exposure > 0 && std::isfinite(v) ? float(srgb(v)) : v; });
+}
+
 /// Where the truth is dark the difference counts by itself.
 double relative_squared_error(const Plane& test, const Plane& truth, const Mask& foreground) {
   const int width = test.channels[0].layout().width, height = test.channels[0].layout().height;
@@ -250,18 +275,20 @@ double relative_squared_error(const Plane& test, const Plane& truth, const Mask&
 
 }  // namespace
 
-Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground) {
+Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground, double exposure) {
   check_sizes(test, truth, foreground);
   const size_t components = test.channels.size();
   Metrics metrics = simple_figures(add_all(test, truth, foreground), components);
   // OpenCV would start OpenCL by itself and compute there, with other rounding on every device.
   cv::ocl::setUseOpenCL(false);
+  const Plane shown_test = exposed(test, exposure), shown_truth = exposed(truth, exposure);
   for (size_t c = 0; c < components; ++c) {
-    metrics.ssim += ssim(test.channels[c], truth.channels[c], foreground) / double(components);
-    metrics.gmsd += gmsd(test.channels[c], truth.channels[c], foreground) / double(components);
+    const Channel a = encoded(shown_test.channels[c], exposure), b = encoded(shown_truth.channels[c], exposure);
+    metrics.ssim += ssim(a, b, foreground) / double(components);
+    metrics.gmsd += gmsd(a, b, foreground) / double(components);
   }
   if (is_colour(test)) {
-    metrics.flip = flip(test, truth, foreground);
+    metrics.flip = flip(shown_test, shown_truth, foreground);
     metrics.rse = relative_squared_error(test, truth, foreground);
   }
   return metrics;

@@ -206,13 +206,27 @@ void draw_panel(Sheet& sheet, int column, const cv::Mat& picture, const cv::Mat&
            sheet.small());
 }
 
+Plane brightened(const Plane& plane, double exposure) {
+  Plane out = plane.clone();
+  if (exposure > 0) {
+    for (Channel& channel : out.channels) {
+      for (int y = 0; y < channel.layout().height; ++y)
+        for (int x = 0; x < channel.layout().width; ++x) channel.at(x, y) *= float(exposure);
+    }
+  }
+  return out;
+}
+
 void draw_panels(Sheet& sheet, const Differences& d, double range, const DifferencePicture& options) {
   cv::Mat background(d.height, d.width, CV_8UC1);
   for (int y = 0; y < d.height; ++y)
     for (int x = 0; x < d.width; ++x) background.at<unsigned char>(y, x) = d.counts(x, y) ? 0 : 255;
   const std::string note = sheet.panel.zoom_note.empty() ? "" : " (" + sheet.panel.zoom_note + ")";
-  draw_panel(sheet, 0, image_of(d.test), background, "Test", options.test_name + note);
-  draw_panel(sheet, 1, image_of(d.truth), background, "Truth", options.truth_name + note);
+  const std::string scale = options.exposure > 0 ? fmt::format(" x {:.3g}", options.exposure) : "";
+  draw_panel(sheet, 0, image_of(brightened(d.test, options.exposure)), background, "Test" + scale,
+             options.test_name + note);
+  draw_panel(sheet, 1, image_of(brightened(d.truth, options.exposure)), background, "Truth" + scale,
+             options.truth_name + note);
   draw_panel(sheet, 2, difference_image(d, range), background, "Difference",
              d.components == 1 ? "test - truth" : "test - truth, component that differs most");
 }

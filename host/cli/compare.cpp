@@ -152,6 +152,33 @@ Window common_window(const Side& test, const Side& reference) {
               a.width(), a.height(), reference.file.path().string(), b.width(), b.height());
 }
 
+/// How sure a reflection is, is no part of what it looks like, and in a truth it says something else.
+Plane without_confidence(Plane plane) {
+  if (plane.name == "reflection" && plane.channels.size() == 4) plane.channels.pop_back();
+  return plane;
+}
+
+/// Pixels of which the truth says that a view of the frame shows most of what they reflect; none where it does not say.
+std::optional<Mask> shown_pixels(const Plane& truth, const Mask& mask) {
+  if (truth.name != "reflection" || truth.channels.size() != 4) return {};
+  Mask shown = mask;
+  const Layout& layout = truth.channels[0].layout();
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x) {
+      const size_t i = size_t(y) * size_t(layout.width) + size_t(x);
+      shown[i] = shown[i] && truth.channels[3].at(x, y) > 0.5f;
+    }
+  }
+  if (std::none_of(shown.begin(), shown.end(), [](auto m) { return m != 0; })) return {};
+  return shown;
+}
+
+/// By the flag, else by what the reference says.
+double exposure_of(const CompareFlags& flags, const FrameFile& reference, const std::string& plane) {
+  if (!flags.exposure.empty()) return parse_number(flags.exposure, "--exposure", 1e-30, 1e30);
+  return plane == "reflection" ? reference.number_attribute("gloamExposure").value_or(0) : 0;
+}
+
 /// Foreground of a view of one frame; none where it has no depth for that view.
 std::optional<Mask> foreground(const Frame& frame, const std::string& name, const Window& window,
                                const Layout& layout) {
@@ -291,34 +318,50 @@ void compare_command(const CompareFlags& flags) {
   if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test.file, reference.file);
   const Frame extra = background_frame(flags, options);
   const Window window = common_window(test, reference);
-  std::vector<Metrics> all;
+  const double exposure = exposure_of(flags, reference.file, planes.reference);
+  std::vector<Metrics> all, shown;
   Json views = Json::object();
   bool background_known = false;
   std::vector<std::string> pictures;
   for (const auto& pair : pairs) {
-    const Plane left = cropped(*test.frame.view(pair.first).find(planes.test), test.frame.window, window);
-    const Plane right =
-        cropped(*reference.frame.view(pair.second).find(planes.reference), reference.frame.window, window);
+    const Plane left =
+        without_confidence(cropped(*test.frame.view(pair.first).find(planes.test), test.frame.window, window));
+    Plane truth = cropped(*reference.frame.view(pair.second).find(planes.reference), reference.frame.window, window);
     const Layout layout = left.channels[0].layout();
     const std::optional<Mask> known = mask_of(flags, extra, test, reference, pair, window, layout);
     background_known = background_known || known;
     const Mask mask = known ? *known : Mask(size_t(layout.width) * size_t(layout.height), 1);
-    all.push_back(compare(left, right, mask));
+    const std::optional<Mask> where_shown = shown_pixels(truth, mask);
+    const Plane right = without_confidence(std::move(truth));
+    all.push_back(compare(left, right, mask, exposure));
     views[pair.first] = metrics_document(all.back());
+    if (where_shown) {
+      shown.push_back(compare(left, right, *where_shown, exposure));
+      views[pair.first]["shown"] = metrics_document(shown.back());
+    }
     if (flags.picture.empty()) continue;
     pictures.push_back(picture_path(flags.picture, pair.first, pairs.size() > 1).string());
-    write_difference_picture(pictures.back(), left, right, mask, all.back(),
-                             {test.file.path().filename().string(), reference.file.path().filename().string(), 0});
+    write_difference_picture(
+        pictures.back(), left, right, mask, all.back(),
+        {test.file.path().filename().string(), reference.file.path().filename().string(), 0, exposure});
   }
   if (!background_known) note({"no depth in either file: every pixel counts; --frame FRAME.exr tells the background"});
   Json document = metrics_document(pooled(all));
+  if (!shown.empty()) document["shown"] = metrics_document(pooled(shown));
+  if (exposure > 0) document["exposure"] = exposure;
   document["plane"] = planes.test;
   document["truth_plane"] = planes.reference;
   if (pairs.size() > 1) document["views"] = views;
   flags.json.write(document, pictures);
   if (flags.json.only_json()) return;
   print_heading(planes, flags);
-  for (size_t i = 0; i < all.size(); ++i) print_metrics(pairs.size() > 1 ? pairs[i].first : "", planes.test, all[i]);
+  if (exposure > 0) fmt::print("SSIM, GMSD and FLIP at exposure {:.4g}\n", exposure);
+  for (size_t i = 0; i < all.size(); ++i) {
+    print_metrics(pairs.size() > 1 ? pairs[i].first : "", planes.test, all[i]);
+    if (shown.size() != all.size()) continue;
+    fmt::print("of these where the frame shows most of what is reflected\n");
+    print_metrics("", planes.test, shown[i]);
+  }
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 
@@ -341,13 +384,20 @@ void add_compare(CLI::App& app) {
       ->type_name("DIFFERENCE.png");
   command
       ->add_option("--what", flags->plane,
-                   "plane of the test to compare; default: the first that both have, results first. ao_raw goes with "
+                   "plane of the test to compare (--plane PLANE does the same); default: the first that both have, "
+                   "results first. ao_raw goes with "
                    "the truth's ao where that has no ao_raw")
       ->type_name("PLANE");
   command
       ->add_option("--frame", flags->frame,
                    "frame whose depth tells the background; with --stereo also its normals and cameras count")
       ->type_name("FRAME.exr");
+  command
+      ->add_option(
+          "--exposure", flags->exposure,
+          "of radiance, before SSIM, GMSD and FLIP; default: what the truth of a reflection says, else the values as "
+          "they are")
+      ->type_name("FACTOR");
   stereo->add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
@@ -357,8 +407,10 @@ void add_compare(CLI::App& app) {
       "  gloam compare ao.exr truth_left.exr --view left --json -\n"
       "  gloam compare ao.exr truth.exr --what ao_raw\n"
       "  gloam compare ao.exr truth.exr --plane ao=Lamp.R\n"
+      "  gloam compare reflection.exr truth.exr --plane reflection --view left\n"
       "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
   command->callback([flags, stereo] {
+    flags->take_plane_names();
     if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
     if (flags->reference.empty())
       throw UsageError(

@@ -19,6 +19,20 @@ Channel crop(const Channel& channel, const Window& from, const Window& to) {
 
 }  // namespace
 
+void CompareFlags::take_plane_names() {
+  std::vector<std::string>& planes = frame_flags.planes;
+  for (auto it = planes.begin(); it != planes.end();) {
+    if (it->empty() || it->find('=') != std::string::npos) {
+      ++it;
+      continue;
+    }
+    if (!plane.empty() && plane != *it)
+      throw UsageError("--plane {}: {} is to be compared already; one plane is at a time", *it, plane);
+    plane = *it;
+    it = planes.erase(it);
+  }
+}
+
 const std::vector<PlanePair>& result_pairs() {
   static const std::vector<PlanePair> pairs = {{"ao", "ao"},
                                                {"ao_raw", "ao_raw"},

@@ -10,9 +10,12 @@ namespace gloam::cli {
 
 /// Flags of both forms.
 struct CompareFlags {
-  std::string test, reference, picture, frame, plane;
+  std::string test, reference, picture, frame, plane, exposure;
   FrameFlags frame_flags;
   JsonFlag json;
+
+  /// A --plane that is a plane's name alone says what to compare, as --what does.
+  void take_plane_names();
 };
 
 /// A plane of the test and the plane of the reference that it is measured against.

@@ -32,6 +32,8 @@ using Mask = std::vector<unsigned char>;
 
 /// Throws Error when sizes or component counts differ, when no pixel is in the mask, or when a counted pixel of either
 /// image is not finite (naming the first such pixel).
-Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground);
+/// With an `exposure` above 0 the planes are radiance: ssim, gmsd and flip are of what a screen shows of it, multiplied by the
+/// exposure, cut off at 0 and 1 and, for ssim and gmsd, through sRGB. All other figures are of the values as they are.
+Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground, double exposure = 0);
 
 }  // namespace gloam
