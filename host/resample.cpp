@@ -11,13 +11,16 @@ namespace {
 
 std::string reduced_name(const std::string& plane, int resolution) { return fmt::format("{}@{}", plane, resolution); }
 
-/// The kernel for planes of as many components.
+/// The kernel for planes of such components.
 std::string kernel_for(const std::string& kernel, const std::string& plane) {
-  const size_t components = plane_kind(plane).components.size();
-  if (components == 1) return kernel;
-  if (components == 3) return kernel + "_vector";
-  throw Error("'{}' has {} components; only planes of one or three can be had at a lower resolution", plane,
-              components);
+  using Components = std::vector<std::string>;
+  static const std::vector<std::pair<Components, std::string>> endings = {
+      {{""}, ""}, {{"x", "y", "z"}, "_vector"}, {{"r", "g", "b"}, "_color"}, {{"r", "g", "b", "a"}, "_color_alpha"}};
+  const Components components = plane_kind(plane).components;
+  for (const auto& [known, ending] : endings) {
+    if (known == components) return kernel + ending;
+  }
+  throw Error("'{}' has the components {}, which cannot be had at a lower resolution", plane, enumerate(components));
 }
 
 /// Of the whole image's plane or stack, every n-th pixel.

@@ -22,6 +22,15 @@ kernel void subsample_vector(Frame frame, Frame other, ResampleParams params, PL
   store(gather(source_z + from, step), result_z, to);
 }
 
+kernel void subsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
+                            PLANE source_b, PLANE_OUT result_r, PLANE_OUT result_g, PLANE_OUT result_b) {
+  const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
+  const integer step = IOTA * (integer)(SCALE);
+  store(gather(source_r + from, step), result_r, to);
+  store(gather(source_g + from, step), result_g, to);
+  store(gather(source_b + from, step), result_b, to);
+}
+
 #ifdef SOURCE_LAYERS
 kernel void subsample_stack(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE_OUT result) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
@@ -65,4 +74,22 @@ kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams param
   store(direction.x * sign, result_x, s.here);
   store(direction.y * sign, result_y, s.here);
   store(direction.z * sign, result_z, s.here);
+}
+
+kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
+                                       PLANE source_b, PLANE source_a, PLANE low_depth, PLANE low_normal_x,
+                                       PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
+                                       PLANE normal_y, PLANE normal_z, WANTED_ARGUMENT PLANE_OUT result_r,
+                                       PLANE_OUT result_g, PLANE_OUT result_b, PLANE_OUT result_a) {
+  SKIP_UNWANTED(frame, store((real)(0), result_r, here); store((real)(0), result_g, here);
+                store((real)(0), result_b, here); store((real)(0), result_a, here))
+  const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
+                         normal_y, normal_z);
+  const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
+  const mask known = !is_background(s.plane.depth) & (w.total > 0) & is_wanted;
+  const real total = choose(known, w.total, (real)(1));
+  store(choose(known, weighted(w, s, source_r) / total, (real)(0)), result_r, s.here);
+  store(choose(known, weighted(w, s, source_g) / total, (real)(0)), result_g, s.here);
+  store(choose(known, weighted(w, s, source_b) / total, (real)(0)), result_b, s.here);
+  store(choose(known, weighted(w, s, source_a) / total, (real)(0)), result_a, s.here);
 }
