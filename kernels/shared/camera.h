@@ -53,6 +53,13 @@ static inline real3 towards(Frame f, Anchor a, real x, real y, real e) {
   return towards_near(f, a, x - a.x, y - a.y, e);
 }
 
+// The same in every mode, for what decides which pixel is read.
+static inline real3 exactly_towards(Frame f, Anchor a, real x, real y, real e) {
+  const real dx = x - a.x, dy = y - a.y;
+  const real ray_x = dx * (f.scale_x * f.perspective) + a.ray_x, ray_y = dy * (-f.scale_y * f.perspective) + a.ray_y;
+  return make3(e * ray_x + dx * a.across_x, e * ray_y + dy * -a.across_y, -e);
+}
+
 // Direction from the eye through a pixel, not normalised.
 static inline real3 view_ray(Frame f, real x, real y) {
   return make3((x + (scalar)0.5 - f.centre_x) * f.scale_x * f.perspective,

@@ -106,6 +106,8 @@ static inline real square_of(real3 v) {
 }
 
 static inline real3 normalise3(real3 v) { return scale3(v, inverse_sqrt(dot3(v, v))); }
+// The same in every mode, for directions that decide which pixel is read.
+static inline real3 exactly_normalised(real3 v) { return scale3(v, (scalar)1 / sqrt(dot3(v, v))); }
 
 // Cosine and sine of a number of whole turns, 0 <= turns <= 1. Taylor polynomials about the nearest quarter turn, in
 // plain multiplications and additions: the same bits everywhere. Absolute error below 3e-7 in float, 1e-13 in double.

@@ -31,16 +31,14 @@ static inline real3 back_from_other(Neighbour n, real3 q) {
                n.rotation[2] * x + n.rotation[5] * y + n.rotation[8] * z);
 }
 
-// Where the other view shows it: column and row, not rounded, and its depth there. `is_seen`: it lies before that eye and in
-// its image, in front of other surfaces or behind them; elsewhere the numbers are safe and mean nothing.
+// Where a view shows a point of its space: column and row, not rounded, and its depth there. `is_seen`: it lies before that eye
+// and in its image, in front of other surfaces or behind them; elsewhere the numbers are safe and mean nothing.
 typedef struct {
   real x, y, depth;
   mask is_seen;
 } Projection;
 
-static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
-  const real3 q = into_other(n, p);
-  const Frame f = n.frame;
+static inline Projection project_onto(Frame f, real3 q, mask is_there) {
   Projection s;
   s.is_seen = is_there & (q.z < 0);
   s.depth = choose(s.is_seen, -q.z, (real)(1));
@@ -52,6 +50,10 @@ static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
   s.x = choose(s.is_seen, s.x, (real)(0));
   s.y = choose(s.is_seen, s.y, (real)(0));
   return s;
+}
+
+static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
+  return project_onto(n.frame, into_other(n, p), is_there);
 }
 
 // What the row of pixels that the work-item computes shows, at depth z.

@@ -142,13 +142,17 @@ TEST_P(HardCase, Row07Normals) {
       set_normals(frame, change);
       EXPECT_EQ(violation(outputs_of(technique(), frame, {}, options)), "") << what;
     }
+    if (!opt_out(technique(), 7, "any length").empty()) continue;
     Frame unit = shoot(perspective(80, 60), room());
     const Frame expected = outputs_of(technique(), unit, {}, options);
     double worst = 0;
+    // The mean instead of the largest where the technique says why a pixel may differ.
+    const bool by_mean = !opt_out(technique(), 7, "lengths").empty();
     for (const float length : {1000.0f, 1e-20f, 0.5f, 1e18f}) {
       Frame frame = shoot(perspective(80, 60), room());
       set_normals(frame, [&](float n, int, int) { return n * length; });
-      worst = std::max(worst, difference(outputs_of(technique(), frame, {}, options), expected).max);
+      const Difference d = difference(outputs_of(technique(), frame, {}, options), expected);
+      worst = std::max(worst, by_mean ? d.mean : d.max);
     }
     // A normal that went through another length comes back to within two roundings of each component.
     report(7, fmt::format("normals of any length against unit ones, lanes {}", lanes), worst, 1e-5);

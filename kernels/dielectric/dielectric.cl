@@ -1,0 +1,15 @@
+// Reflectance of surfaces of which nothing is known but that they are no metals: the same everywhere.
+//
+// in : depth        view-space z, +inf = background
+// out: reflectance  at normal incidence; 0 on background
+#include "dielectric/params.h"
+#include "shared/camera.h"
+
+kernel void dielectric(Frame frame, DielectricParams params, PLANE depth, PLANE_OUT reflectance_r,
+                       PLANE_OUT reflectance_g, PLANE_OUT reflectance_b) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real f0 = choose(is_background(load(depth, here)), (real)(0), (real)(params.reflectance));
+  store(f0, reflectance_r, here);
+  store(f0, reflectance_g, here);
+  store(f0, reflectance_b, here);
+}

@@ -1,0 +1,279 @@
+#include "gloam/technique.h"
+
+#include <algorithm>
+
+#include "ssr/params.h"
+
+namespace gloam::techniques {
+namespace {
+
+using Defines = std::vector<std::pair<std::string, int>>;
+using Bindings = std::vector<Binding>;
+
+/// Levels of the hierarchy: the largest cells have 64 x 64 pixels.
+constexpr int hierarchy_levels = 7;
+
+/// What of the other eye counts.
+struct Other {
+  bool traversal = false, fade = false, reprojection = false;
+  int neighbours = 0;
+};
+
+Other other_of(const SssrParams&) { return {}; }
+
+Other other_of(const StereoSsrParams& p) {
+  return {p.traversal == StereoSsrParams::traversal_values::stereo, p.fade == StereoSsrParams::fade_values::stereo,
+          p.reprojection != 0, p.other_neighbours};
+}
+
+Other other_of(const ReflectionMaskParams&) { return {}; }
+
+template <typename Params>
+int rays_per_pixel(const Params& p) {
+  return p.rays;
+}
+int rays_per_pixel(const ReflectionMaskParams&) { return 1; }
+
+template <typename Params>
+int neighbours(const Params& p) {
+  return p.neighbours;
+}
+int neighbours(const ReflectionMaskParams&) { return 0; }
+
+template <typename Params>
+bool is_jittered(const Params& p) {
+  return p.jitter != 0;
+}
+bool is_jittered(const ReflectionMaskParams&) { return false; }
+
+Bindings operator+(Bindings a, const Bindings& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// The same planes of the other eye: "other_depth".
+Bindings of_other_eye(const Bindings& planes) {
+  Bindings bindings;
+  for (const Binding& plane : planes)
+    bindings.push_back(of_other({"other_" + plane.argument, plane.plane, plane.layers}));
+  return bindings;
+}
+
+/// The passes for given parameters, of one eye or of two.
+template <typename Params>
+class Passes {
+ public:
+  explicit Passes(const Params& p) : p_(p), other_(other_of(p)) {}
+
+  /// What mirrors meet, alone.
+  std::vector<Pass> mask() const {
+    std::vector<Pass> passes = hierarchy();
+    passes.push_back(choose_rays());
+    passes.push_back(march());
+    passes.push_back({.name = "found",
+                      .kernel = "ssr_found",
+                      .reads = Bindings{"roughness"} + of_rays({"ray_density"}) + met(),
+                      .writes = {{"found", "mask"}}});
+    for (Pass& pass : passes) add_defines(pass);
+    return passes;
+  }
+
+  std::vector<Pass> all() const {
+    std::vector<Pass> passes = hierarchy();
+    passes.push_back(choose_rays());
+    passes.push_back(march());
+    if (other_.traversal) passes.push_back(march_in_other());
+    passes.push_back(see());
+    passes.push_back(resolve());
+    for (Pass& pass : passes) add_defines(pass);
+    return passes;
+  }
+
+ private:
+  bool is_linear() const { return p_.march == Params::march_values::linear; }
+  bool has_both_depths() const { return !is_linear() && p_.cells == Params::cells_values::min_max; }
+  int levels() const { return is_linear() ? 1 : hierarchy_levels; }
+
+  /// A stack with one layer for each of a pixel's rays.
+  Binding plane_of_rays(const std::string& name) const { return {name, "ssr_" + name, rays_per_pixel(p_)}; }
+  Bindings of_rays(const std::vector<std::string>& names) const {
+    Bindings bindings;
+    for (const std::string& name : names) bindings.push_back(plane_of_rays(name));
+    return bindings;
+  }
+
+  // As screen_ray.h has them.
+  Binding nearness() const { return {"nearness", "ssr_nearness", levels() + 1}; }
+  Binding farness() const { return {"farness", "ssr_farness", levels() + 1}; }
+  Bindings cells(bool with_both_depths) const {
+    return with_both_depths ? Bindings{nearness(), farness()} : Bindings{nearness()};
+  }
+
+  Bindings reflector() const { return {"depth", "normal", "roughness", "reflectance"}; }
+  Bindings image() const { return {"depth", "normal", "color"}; }
+  Bindings list() const { return {plane_of_rays("list")}; }
+  Bindings directions() const { return of_rays({"ray_x", "ray_y", "ray_z"}); }
+  Bindings rays() const { return directions() + of_rays({"ray_density"}); }
+  Bindings met() const { return other_.traversal ? of_rays({"met", "met_in_other"}) : of_rays({"met"}); }
+  Bindings seen() const { return of_rays({"ray_r", "ray_g", "ray_b", "ray_length", "ray_confidence"}); }
+
+  std::vector<Pass> hierarchy() const {
+    std::vector<Pass> passes = {
+        {.name = "nearness", .kernel = "ssr_nearness", .reads = {"depth"}, .writes = Bindings{nearness()} + list()}};
+    if (other_.traversal) {
+      passes.back().reads.push_back("back_depth");
+      passes.back().writes = passes.back().writes + Bindings{farness(), plane_of_rays("others")};
+    }
+    for (int level = 1; level < levels(); ++level) {
+      passes.push_back({.name = "level " + std::to_string(level),
+                        .kernel = "ssr_level",
+                        .writes = {nearness(), farness()},
+                        .defines = {{"LEVEL", level}},
+                        .scale = 1 << level});
+    }
+    return passes;
+  }
+
+  Pass choose_rays() const {
+    return {.name = "rays",
+            .kernel = "ssr_rays",
+            .reads = reflector(),
+            .writes = list() + rays() + met(),
+            .can_skip = true};
+  }
+
+  Pass march() const {
+    Pass pass{.name = "march",
+              .kernel = "ssr_march",
+              .reads = Bindings{"depth", "normal"} + cells(has_both_depths()) + list() + directions(),
+              .writes = {plane_of_rays("met")},
+              .defines = {{"BOTH_DEPTHS", has_both_depths()}}};
+    if (other_.traversal) {
+      pass.reads.push_back("back_depth");
+      pass.writes = pass.writes + of_rays({"left_at", "others"});
+    }
+    return pass;
+  }
+
+  /// A ray ends there where it comes to be behind something: it has no use for what is farthest.
+  Pass march_in_other() const {
+    Bindings cells_of_other = cells(false);
+    for (Binding& cell : cells_of_other) cell = of_other(cell);
+    return {.name = "march on",
+            .kernel = "ssr_march",
+            .reads = Bindings{"depth", "normal"} + cells_of_other +
+                     Bindings{{"list", "ssr_others", rays_per_pixel(p_)}} + directions() + of_rays({"left_at"}) +
+                     of_other_eye({"normal"}) + Bindings{of_other("back_depth")},
+            .writes = {{"met", "ssr_met_in_other", rays_per_pixel(p_)}},
+            .defines = {{"BOTH_DEPTHS", 0}, {"IN_OTHER", 1}}};
+  }
+
+  Pass see() const {
+    Pass pass{.name = "see",
+              .kernel = "ssr_see",
+              .reads = image() + rays() + met(),
+              .writes = Bindings{{"hit_length", "hit"}} + seen()};
+    if (other_.traversal) pass.reads.push_back(plane_of_rays("left_at"));
+    if (other_.traversal || other_.fade) pass.reads = pass.reads + of_other_eye(image());
+    return pass;
+  }
+
+  Pass resolve() const {
+    Pass pass{.name = "resolve",
+              .kernel = "ssr_resolve",
+              .reads = reflector() + rays() + seen(),
+              .writes = {"reflection"},
+              .can_skip = true,
+              .reach_x = 2,
+              .reach_y = 2};
+    if (other_.reprojection)
+      pass.reads = pass.reads + Bindings{"instance"} + of_other_eye(Bindings{"depth", "instance"} + rays() + seen());
+    return pass;
+  }
+
+  void add_defines(Pass& pass) const {
+    const Defines defines = {{"LEVELS", levels()},
+                             {"RAYS", rays_per_pixel(p_)},
+                             {"NEIGHBOURS", neighbours(p_)},
+                             {"JITTER", is_jittered(p_)},
+                             {"STEREO", std::is_same_v<Params, StereoSsrParams>},
+                             {"MASK_ALONE", std::is_same_v<Params, ReflectionMaskParams>},
+                             {"TRAVERSAL", other_.traversal},
+                             {"FADE", other_.fade},
+                             {"REPROJECTION", other_.reprojection},
+                             {"OTHER_NEIGHBOURS", other_.neighbours}};
+    pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
+  }
+
+  const Params& p_;
+  Other other_;
+};
+
+std::vector<Pass> sssr_passes(const SssrParams& p) { return Passes(p).all(); }
+std::vector<Pass> stereo_passes(const StereoSsrParams& p) { return Passes(p).all(); }
+std::vector<Pass> mask_passes(const ReflectionMaskParams& p) { return Passes(p).mask(); }
+
+Technique plain() {
+  Technique t;
+  t.name = "sssr";
+  t.summary = "reflections by rays through the depth, chosen by roughness and shared among neighbours";
+  t.paper = "Stachowiak, Uludag 2015";
+  t.source = "ssr/ssr.cl";
+  t.reads = {"depth", "normal", "color", "roughness", "reflectance"};
+  t.writes = t.outputs = {"reflection", "hit"};
+  t.default_for = {"reflection", "hit"};
+  t.parameters = SssrParams::table();
+  t.presets = {{"low", {{"rays", "1"}, {"neighbours", "9"}}},
+               {"medium", {{"rays", "1"}, {"neighbours", "21"}}},
+               {"high", {{"rays", "2"}, {"neighbours", "21"}}},
+               {"ultra", {{"rays", "4"}, {"neighbours", "25"}}}};
+  t.passes = passes_of(sssr_passes);
+  // Rays are listed one by one: a mask over the image has little to add where surfaces reflect at all.
+  t.effect = {.name = "reflections",
+              .mask = "reflection-mask",
+              .glance = {},
+              .glance_resolution = 4,
+              .most_share = 0.3,
+              .somewhere = "a surface reflects something that the image shows",
+              .nowhere = "no surface reflects anything that the image shows"};
+  return t;
+}
+
+Technique for_two_eyes() {
+  Technique t = plain();
+  t.name = "stereo-ssr";
+  t.summary = "reflections for two eyes: rays go on in the other's image, and both share them";
+  t.paper = "Wu, Xu, Wang 2024";
+  t.reads.insert(t.reads.end(), {"back_depth", "instance"});
+  t.default_for.clear();
+  t.views = 2;
+  t.parameters = StereoSsrParams::table();
+  t.passes = passes_of(stereo_passes);
+  t.effect = {.name = "reflections alike in two views",
+              .refines = "sssr",
+              .mask = "stereo-visibility",
+              .glance_resolution = 4,
+              .least_share = 0.3,
+              .somewhere = "each view has rays for the other, since both see the same",
+              .nowhere = "the two views have too little in common"};
+  return t;
+}
+
+Technique where() {
+  Technique t;
+  t.name = "reflection-mask";
+  t.summary = "where a surface reflects something that the image shows";
+  t.paper = "after Stachowiak, Uludag 2015";
+  t.source = "ssr/ssr.cl";
+  t.reads = {"depth", "normal", "roughness", "reflectance"};
+  t.writes = {"mask"};
+  t.parameters = ReflectionMaskParams::table();
+  t.passes = passes_of(mask_passes);
+  return t;
+}
+
+}  // namespace
+
+std::vector<Technique> ssr() { return {plain(), for_two_eyes(), where()}; }
+
+}  // namespace gloam::techniques

@@ -1,0 +1,421 @@
+// Screen-space reflections against what a mirror must show, solved for in double.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "gloam/capture.h"
+#include "gloam/metrics.h"
+#include "gloam/planes.h"
+#include "gloam/reference.h"
+#include "support/frames.h"
+#include "support/techniques.h"
+
+namespace gloam::test {
+namespace {
+
+using glm::dvec3;
+
+constexpr double floor_height = -1, wall_distance = 5, down = 0.4;
+
+dvec3 turned(const dvec3& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {v.x, c * v.y - s * v.z, s * v.y + c * v.z};
+}
+
+/// Squares of 0.5 on the wall, in two colours that differ in all components.
+dvec3 checker(const dvec3& p) {
+  const bool odd = (int(std::floor(p.x / 0.5)) + int(std::floor(p.y / 0.5))) & 1;
+  return odd ? dvec3(0.9, 0.2, 0.4) : dvec3(0.1, 0.7, 0.3);
+}
+
+/// Distance to the nearest edge of a square.
+double from_edge(const dvec3& p) {
+  const auto off = [](double v) { return std::abs(v / 0.5 - std::round(v / 0.5)) * 0.5; };
+  return std::min(off(p.x), off(p.y));
+}
+
+/// A post before the wall, as a box of the room's space.
+struct Post {
+  double low_x = 0, high_x = -1, near_z = -3, far_z = -3.2, bottom = -10,
+         top = 0.6;  ///< none where high_x is below low_x
+
+  /// Steps of d from o to it and out of it again; infinite where the ray passes it.
+  std::pair<double, double> crossing(const dvec3& o, const dvec3& d) const {
+    double in = 0, out = std::numeric_limits<double>::infinity();
+    const dvec3 low(low_x, bottom, far_z), high(high_x, top, near_z);
+    for (int i = 0; i < 3; ++i) {
+      const double a = (low[i] - o[i]) / d[i], b = (high[i] - o[i]) / d[i];
+      in = std::max(in, std::min(a, b));
+      out = std::min(out, std::max(a, b));
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return high_x < low_x || !(in < out) ? std::pair(infinity, infinity) : std::pair(in, out);
+  }
+};
+
+/// A room without sides: a mirror for a floor, a checker wall at its end, perhaps a post, seen by an eye that looks down.
+struct MirrorRoom {
+  Shot shot;
+  dvec3 eye;
+  Post post;
+  Frame frame;
+
+  explicit MirrorRoom(const Shot& shot_, double eye_x = 0, const Post& post_ = {})
+      : shot(shot_), eye(eye_x, 0, 0), post(post_) {
+    const Scene scene = [this](const EyeRay& ray) -> std::optional<Surface> {
+      const dvec3 o = turned(ray.origin, -down) + eye, d = turned(ray.direction, -down);
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      const double to_floor = d.y < 0 ? (floor_height - o.y) / d.y : infinity;
+      const double to_wall = d.z < 0 ? (-wall_distance - o.z) / d.z : infinity;
+      const double to_post = post.crossing(o, d).first;
+      const double first = std::min({to_floor, to_wall, to_post});
+      if (!std::isfinite(first)) return {};
+      if (first == to_post) return Surface{to_post, turned(post_normal(o + to_post * d), down)};
+      return Surface{first, turned(first == to_floor ? dvec3(0, 1, 0) : dvec3(0, 0, 1), down)};
+    };
+    frame = shoot(shot, scene);
+    for (const char* name : {"color", "roughness", "reflectance", "back_depth", "instance"}) plane_of(frame, name);
+    for (int y = 0; y < shot.height; ++y) {
+      for (int x = 0; x < shot.width; ++x) paint(x, y);
+    }
+    Pose pose;
+    pose.position = eye;
+    for (int i = 0; i < 3; ++i) {
+      dvec3 axis(0);
+      axis[i] = 1;
+      pose.world_to_view[i] = turned(axis, down);
+    }
+    frame.views[0].camera->pose = pose;
+  }
+
+  void paint(int x, int y) {
+    const dvec3 p = point(x, y);
+    const bool is_mirror = is_floor(x, y);
+    const dvec3 color = is_mirror ? dvec3(0) : is_post(p) ? dvec3(0.5, 0.5, 0) : checker(p);
+    for (size_t i = 0; i < 3; ++i) {
+      plane_of(frame, "color").channels[i].at(x, y) = float(color[int(i)]);
+      plane_of(frame, "reflectance").channels[i].at(x, y) = is_mirror ? 1 : 0;
+    }
+    plane_of(frame, "roughness").channels[0].at(x, y) = 0;
+    plane_of(frame, "instance").channels[0].at(x, y) = is_mirror ? 1 : is_post(p) ? 2 : 3;
+    if (!is_post(p)) return;
+    const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5);
+    plane_of(frame, "back_depth").channels[0].at(x, y) =
+        float(post.crossing(turned(ray.origin, -down) + eye, turned(ray.direction, -down)).second);
+  }
+
+  dvec3 post_normal(const dvec3& p) const {
+    if (std::abs(p.x - post.low_x) < 1e-9) return {-1, 0, 0};
+    if (std::abs(p.x - post.high_x) < 1e-9) return {1, 0, 0};
+    if (std::abs(p.y - post.bottom) < 1e-9) return {0, -1, 0};
+    return std::abs(p.y - post.top) < 1e-9 ? dvec3(0, 1, 0) : dvec3(0, 0, 1);
+  }
+  bool is_post(const dvec3& p) const {
+    return p.x > post.low_x - 1e-4 && p.x < post.high_x + 1e-4 && p.z > post.far_z - 1e-4 &&
+           p.y > std::max(floor_height, post.bottom) - 1e-4 && p.y > floor_height + 1e-4;
+  }
+
+  /// In the room's own space: the floor is level.
+  dvec3 point(int x, int y) const {
+    const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5);
+    const double depth = frame.views[0].find("depth")->channels[0].at(x, y);
+    return turned(ray.origin + depth * ray.direction, -down) + eye;
+  }
+  bool is_floor(int x, int y) const { return point(x, y).y < floor_height + 1e-4; }
+
+  /// Where the mirror sends the eye's ray to, on the wall. `meets_post`: it does not get there.
+  dvec3 reflected(int x, int y, bool* meets_post = nullptr) const {
+    dvec3 d = turned(ray_through(shot, x + 0.5, y + 0.5).direction, -down);
+    d.y = -d.y;
+    const dvec3 p = point(x, y);
+    if (meets_post) *meets_post = std::isfinite(post.crossing(p, d).first);
+    return p + d * ((-wall_distance - p.z) / d.z);
+  }
+
+  /// Where the image shows a point, in pixels.
+  glm::dvec2 projected(const dvec3& room) const {
+    const dvec3 p = turned(room - eye, down);
+    const double lateral = shot.camera.orthographic ? 1 : -p.z;
+    return {shot.camera.cx + shot.camera.fx * p.x / lateral, shot.camera.cy - shot.camera.fy * p.y / lateral};
+  }
+
+  bool shows(const dvec3& room, double margin) const {
+    const glm::dvec2 p = projected(room);
+    return p.x > margin && p.y > margin && p.x < shot.width - margin && p.y < shot.height - margin;
+  }
+};
+
+const Settings plain = {{"fade_border", "0"}, {"environment_r", "5"}};
+
+std::vector<Shot> shots() { return {perspective(160, 120, 70), orthographic(160, 120, 5)}; }
+
+TEST(Reflection, MirrorFloorShowsTheCheckerWall) {
+  for (const Shot& shot : shots()) {
+    MirrorRoom room(shot);
+    const Frame out = outputs_of(find_technique("sssr"), room.frame, plain, {.math = Math::precise});
+    const std::vector<Channel>& reflection = out.views[0].find("reflection")->channels;
+    const Channel& hit = out.views[0].find("hit")->channels[0];
+    int compared = 0, missed = 0;
+    double worst = 0, worst_length = 0;
+    for (int y = 0; y < shot.height; ++y) {
+      for (int x = 0; x < shot.width; ++x) {
+        if (!room.is_floor(x, y)) continue;
+        const dvec3 met = room.reflected(x, y);
+        if (!room.shows(met, -0.5)) {
+          // Beyond the image nothing can be met: the environment.
+          ++missed;
+          EXPECT_EQ(reflection[3].at(x, y), 0) << x << ", " << y;
+          EXPECT_NEAR(reflection[0].at(x, y), 5, 1e-5) << x << ", " << y;
+          EXPECT_EQ(hit.at(x, y), 0) << x << ", " << y;
+          continue;
+        }
+        // Two pixels from an edge, colours are a mean of both sides.
+        if (!room.shows(met, 1) || from_edge(met) < 0.09) continue;
+        ++compared;
+        EXPECT_NEAR(reflection[3].at(x, y), 1, 1e-6) << x << ", " << y;
+        for (size_t i = 0; i < 3; ++i) worst = std::max(worst, std::abs(reflection[i].at(x, y) - checker(met)[int(i)]));
+        const double length = glm::distance(met, room.point(x, y));
+        worst_length = std::max(worst_length, std::abs(hit.at(x, y) - length) / length);
+      }
+    }
+    std::printf("compared %d pixels, %d without a hit: worst color %.1e, worst length %.1e\n", compared, missed, worst,
+                worst_length);
+    EXPECT_GT(compared, 1000);
+    EXPECT_GT(missed, 50);
+    EXPECT_LT(worst, 1e-5);
+    EXPECT_LT(worst_length, 1e-3);
+  }
+}
+
+// Each pixel has what it has with all steps, or the environment: never something that a ray has not come to.
+TEST(Reflection, RayWithoutStepsLeftIsAMiss) {
+  for (const Shot& shot : shots()) {
+    MirrorRoom room(shot);
+    const Technique& sssr = find_technique("sssr");
+    const Frame all = outputs_of(sssr, room.frame, plain, {.math = Math::precise});
+    long long before = -1;
+    for (const char* steps : {"1", "4", "8", "16", "32"}) {
+      Settings settings = plain;
+      settings.emplace_back("max_steps", steps);
+      const Frame some = outputs_of(sssr, room.frame, settings, {.math = Math::precise});
+      long long found = 0, missed = 0;
+      for (int y = 0; y < shot.height; ++y) {
+        for (int x = 0; x < shot.width; ++x) {
+          if (!room.is_floor(x, y)) continue;
+          const float confidence = some.views[0].find("reflection")->channels[3].at(x, y);
+          const float red = some.views[0].find("reflection")->channels[0].at(x, y);
+          if (confidence == 0) {
+            ++missed;
+            EXPECT_NEAR(red, 5, 1e-5);
+          } else {
+            ++found;
+            EXPECT_EQ(red, all.views[0].find("reflection")->channels[0].at(x, y)) << x << ", " << y;
+          }
+        }
+      }
+      EXPECT_GT(missed, 0) << steps;
+      EXPECT_GE(found, before) << steps;
+      before = found;
+    }
+    EXPECT_GT(before, 100);
+  }
+}
+
+// Cells pass over what pixels would not have met.
+TEST(Reflection, HierarchyFindsWhatPixelsFind) {
+  for (const Shot& shot : {perspective(157, 101, 70), orthographic(157, 101, 4)}) {
+    Frame frame = shoot(shot, room());
+    const Technique& sssr = find_technique("sssr");
+    Settings settings = {{"neighbours", "1"}, {"max_roughness", "1"}, {"march", "linear"}};
+    const Frame linear = outputs_of(sssr, frame, settings, {.math = Math::precise});
+    settings.back() = {"cells", "min"};
+    const Frame nearest = outputs_of(sssr, frame, settings, {.math = Math::precise});
+    settings.back() = {"cells", "min_max"};
+    const Frame both = outputs_of(sssr, frame, settings, {.math = Math::precise});
+    EXPECT_TRUE(same_bits(nearest, both));
+    int other = 0, hits = 0;
+    for (int y = 0; y < shot.height; ++y) {
+      for (int x = 0; x < shot.width; ++x) {
+        const float a = linear.views[0].find("hit")->channels[0].at(x, y);
+        const float b = both.views[0].find("hit")->channels[0].at(x, y);
+        hits += a > 0;
+        other += std::abs(a - b) > 1e-3f * (a + b);
+      }
+    }
+    std::printf("%d of %d hits differ\n", other, hits);
+    EXPECT_GT(hits, 2000);
+    EXPECT_LE(other, hits / 500);  // rounding of where a ray enters a pixel
+  }
+}
+
+// --- Two eyes
+
+Frame pair_of(const MirrorRoom& left, const MirrorRoom& right) {
+  Frame pair = clone(left.frame);
+  Frame second = clone(right.frame);
+  pair.views[0].name = "left";
+  second.views[0].name = "right";
+  pair.views.push_back(std::move(second.views[0]));
+  for (View& view : pair.views) view.camera->pose = (view.name == "left" ? left : right).frame.views[0].camera->pose;
+  return pair;
+}
+
+const Channel& confidence(const Frame& frame, size_t view) {
+  return frame.views.at(view).find("reflection")->channels[3];
+}
+
+/// How often the wall that a pixel's mirror ray comes to has been found, of all times that it is in `asked`.
+struct Found {
+  int asked = 0, found = 0, wrong = 0;
+};
+
+template <typename Asked>
+Found found_on_wall(const MirrorRoom& room, const Frame& out, size_t view, const Asked& is_asked) {
+  Found f;
+  for (int y = 0; y < room.shot.height; ++y) {
+    for (int x = 0; x < room.shot.width; ++x) {
+      bool meets_post = false;
+      if (!room.is_floor(x, y)) continue;
+      const dvec3 met = room.reflected(x, y, &meets_post);
+      if (meets_post || from_edge(met) < 0.1 || !is_asked(met)) continue;
+      ++f.asked;
+      if (confidence(out, view).at(x, y) < 0.99f) continue;
+      double off = 0;
+      for (size_t i = 0; i < 3; ++i) {
+        const double red = out.views[view].find("reflection")->channels[i].at(x, y);
+        off = std::max(off, std::abs(red - checker(met)[int(i)]));
+      }
+      ++(off < 1e-4 ? f.found : f.wrong);
+    }
+  }
+  return f;
+}
+
+// What lies beyond the border of one image is found in the other's.
+TEST(StereoReflection, GoesOnInTheOtherEyeBeyondTheBorder) {
+  const Shot shot = perspective(160, 120, 70);
+  const MirrorRoom left(shot, -0.2), right(shot, 0.2);
+  Frame pair = pair_of(left, right);
+  const Technique& stereo = find_technique("stereo-ssr");
+  Settings settings = {{"fade_border", "0"}};
+  const Frame both = outputs_of(stereo, pair, settings, {.math = Math::precise});
+  settings.emplace_back("traversal", "mono");
+  const Frame mono = outputs_of(stereo, pair, settings, {.math = Math::precise});
+  const auto only_right = [&](const dvec3& met) { return !left.shows(met, -1) && right.shows(met, 1); };
+  const auto only_left = [&](const dvec3& met) { return !right.shows(met, -1) && left.shows(met, 1); };
+  for (const size_t view : {0, 1}) {
+    const MirrorRoom& own = view == 0 ? left : right;
+    const Found with = view == 0 ? found_on_wall(own, both, 0, only_right) : found_on_wall(own, both, 1, only_left);
+    const Found without = view == 0 ? found_on_wall(own, mono, 0, only_right) : found_on_wall(own, mono, 1, only_left);
+    std::printf("view %zu: %d of %d found in the other, %d by itself\n", view, with.found, with.asked, without.found);
+    EXPECT_GT(with.asked, 50);
+    EXPECT_EQ(with.found, with.asked);
+    EXPECT_EQ(without.found + without.wrong, 0);
+  }
+}
+
+// The wall behind a post, where the other eye sees it.
+TEST(StereoReflection, GoesOnInTheOtherEyeBehindThings) {
+  const Shot shot = perspective(240, 180, 70);
+  const Post post{.low_x = -0.1, .high_x = 0.1, .bottom = -0.35};  // rays from the mirror pass under it
+  const MirrorRoom left(shot, -0.25, post), right(shot, 0.25, post);
+  Frame pair = pair_of(left, right);
+  const Technique& stereo = find_technique("stereo-ssr");
+  Settings settings = {{"fade_border", "0"}};
+  const Frame both = outputs_of(stereo, pair, settings, {.math = Math::precise});
+  settings.emplace_back("traversal", "mono");
+  const Frame mono = outputs_of(stereo, pair, settings, {.math = Math::precise});
+  const auto hidden_from = [&](const MirrorRoom& room, const dvec3& met) {
+    return std::isfinite(post.crossing(room.eye, met - room.eye).first);
+  };
+  const auto asked = [&](const dvec3& met) {
+    return left.shows(met, 1) && right.shows(met, 1) && hidden_from(left, met) && !hidden_from(right, met);
+  };
+  const Found with = found_on_wall(left, both, 0, asked), without = found_on_wall(left, mono, 0, asked);
+  std::printf("%d of %d found behind the post and %d wrong; without the other eye %d and %d\n", with.found, with.asked,
+              with.wrong, without.found, without.wrong);
+  EXPECT_GT(with.asked, 30);
+  // The rest is behind the post for the other eye too, when it comes to be behind it for this one.
+  EXPECT_GT(with.found, 0.75 * with.asked);
+  EXPECT_EQ(with.wrong, 0);
+  EXPECT_LT(without.found, 0.05 * with.asked);  // at the post's very edge
+}
+
+TEST(StereoReflection, SwappingTheEyesSwapsTheImages) {
+  const Shot shot = perspective(96, 64, 70);
+  const Post post{.low_x = -0.3, .high_x = 0.1};
+  Frame pair = pair_of(MirrorRoom(shot, -0.1, post), MirrorRoom(shot, 0.1, post));
+  for (View& view : pair.views) {
+    for (const char* name : {"roughness", "reflectance"}) {
+      for (Channel& channel : view.planes.at(name).channels) {
+        for (int y = 0; y < shot.height; ++y)
+          for (int x = 0; x < shot.width; ++x) channel.at(x, y) = 0.4f;
+      }
+    }
+  }
+  Frame other = clone(pair);
+  std::swap(other.views[0], other.views[1]);
+  const Technique& stereo = find_technique("stereo-ssr");
+  const Frame a = outputs_of(stereo, pair, {}, {.math = Math::precise}),
+              b = outputs_of(stereo, other, {}, {.math = Math::precise});
+  for (const char* plane : {"reflection", "hit"}) {
+    EXPECT_EQ(difference(*a.views[0].find(plane), *b.views[1].find(plane)).max, 0) << plane;
+    EXPECT_EQ(difference(*a.views[1].find(plane), *b.views[0].find(plane)).max, 0) << plane;
+  }
+}
+
+TEST(StereoReflection, WithoutItsModulesItIsThePlainOne) {
+  const Shot shot = perspective(96, 64, 70);
+  Frame pair = pair_of(MirrorRoom(shot, -0.1, Post{.low_x = -0.3, .high_x = 0.1}), MirrorRoom(shot, 0.1));
+  const Frame plain_one = outputs_of(find_technique("sssr"), pair, {}, {.math = Math::precise});
+  const Frame stereo =
+      outputs_of(find_technique("stereo-ssr"), pair, {{"traversal", "mono"}, {"fade", "mono"}, {"reprojection", "off"}},
+                 {.math = Math::precise});
+  EXPECT_TRUE(same_bits(plain_one, stereo));
+}
+
+// --- Against rays, in a scene with rough and smooth surfaces
+
+struct Errors {
+  double rmse, ssim;
+};
+
+Errors errors_of(const Frame& frame, const Frame& truth, size_t view) {
+  const auto colours = [](const Plane& plane) {
+    Plane out = plane.clone();
+    out.channels.pop_back();
+    return out;
+  };
+  const Channel& depth = truth.views[view].find("depth")->channels[0];
+  Mask mask;
+  for (int y = 0; y < truth.height(); ++y)
+    for (int x = 0; x < truth.width(); ++x) mask.push_back(!is_background(depth.at(x, y)));
+  const Metrics m = compare(colours(*frame.views[view].find("reflection")),
+                            colours(*truth.views[view].find("reflection")), mask, truth.numbers.at("gloamExposure"));
+  return {m.rmse, m.ssim};
+}
+
+TEST(StereoReflection, IsNearerToTheTruthThanThePlainOne) {
+  const gloam::Scene scene = load_scene("gallery", {});
+  const Tracer tracer(scene);
+  CaptureOptions options{.width = 320, .height = 180, .planes = {}};
+  options.planes = {"normal", "color", "roughness", "reflectance", "back_depth", "instance"};
+  options.views = {{"", camera_for(scene.cameras.front(), options.width, options.height), {}}};
+  options.stereo = StereoRig{.interpupillary_distance = 0.065};
+  Frame pair = std::move(capture(tracer, options).frame);
+  const Reference truth = reflection_reference(tracer, pair, {.samples = 64});
+  const Frame plain_one = outputs_of(find_technique("sssr"), pair, {}, {.math = Math::precise});
+  const Frame stereo = outputs_of(find_technique("stereo-ssr"), pair, {}, {.math = Math::precise});
+  for (const size_t view : {0, 1}) {
+    const Errors a = errors_of(plain_one, truth.frame, view), b = errors_of(stereo, truth.frame, view);
+    std::printf("view %zu: RMSE %.5f and %.5f, SSIM %.4f and %.4f\n", view, a.rmse, b.rmse, a.ssim, b.ssim);
+    EXPECT_LT(b.rmse, a.rmse);
+    EXPECT_GT(b.ssim, a.ssim);
+    EXPECT_LT(a.rmse, 0.04);
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test
