@@ -58,6 +58,23 @@ PlanRequest request_everywhere(const Technique& technique, const PlanRequest& as
   return request;
 }
 
+/// Whether fewer samples can be taken in some tiles (`PlanRequest::adaptive`).
+bool can_adapt(const Technique& technique) {
+  const std::vector<Pass> passes = technique.passes(ParameterValues(technique.parameters));
+  return std::any_of(passes.begin(), passes.end(), [](const Pass& pass) { return pass.can_skip && pass.looks_around; });
+}
+
+/// Whether what an effect plans has a parameter of that name: "radius", or "gtao.radius".
+bool knows(const Plan& plan, const Technique& technique, const std::string& setting) {
+  const std::vector<const Technique*> refinements = refinements_of(technique);
+  if (std::any_of(refinements.begin(), refinements.end(), [&](const Technique* t) { return is_of(setting, t->name); }))
+    return true;
+  return std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {
+    const bool is_its_own = is_of(setting, planned.technique->name);
+    return planned.values.has(is_its_own ? setting.substr(planned.technique->name.size() + 1) : setting);
+  });
+}
+
 const ParameterValues& values_of(const Plan& plan, const Technique& technique) {
   return std::find_if(plan.passes.begin(), plan.passes.end(),
                       [&](const PlannedPass& planned) { return planned.technique == &technique; })
@@ -162,6 +179,21 @@ PlanRequest refined_request(const EffectChoice& refinement, const Technique& ref
 
 }  // namespace
 
+PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
+                            const std::vector<std::string>& available, const std::string& holds) {
+  PlanRequest known = asked;
+  if (technique.then.empty()) known.then.clear();
+  if (technique.extras.empty()) known.with.clear();
+  if (!can_adapt(technique)) known.adaptive.clear();
+  PlanRequest request = known;
+  request.outputs = {technique.name};
+  request.mask = technique.effect.mask;
+  request.settings.clear();
+  const Plan plan = make_plan(request, available, holds);
+  std::erase_if(known.settings, [&](const auto& setting) { return !knows(plan, technique, setting.first); });
+  return known;
+}
+
 std::vector<const Technique*> techniques_with_effects() {
   std::vector<const Technique*> found;
   for (const Technique& technique : registry()) {
@@ -206,8 +238,8 @@ Decision decide(const Technique& technique, const Look& look) {
     if (!decision.effect.is_wanted) decision.effect.why += fmt::format(" that is seen, but {}", refinement.why);
     decision.effect.is_wanted = true;
     decision.request = refined_request(refinement, technique, look);
-    // Two views by themselves are what there is without what they have in common.
-    if (t->views == 1) decision.everywhere = request_everywhere(*t, look.asked);
+    // What only spares work is left out where nothing is looked at.
+    if (t->effect.settings.empty()) decision.everywhere = request_everywhere(*t, look.asked);
   }
   return decision;
 }

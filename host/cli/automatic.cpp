@@ -131,7 +131,9 @@ void print(const std::vector<Outcome>& outcomes) {
                     choice.technique->name, ms, everywhere, choice.why});
   };
   for (const Outcome& o : outcomes) {
-    add(o.decision.effect, milliseconds_or_dash(o.ms), milliseconds_or_dash(o.ms_everywhere));
+    const bool is_possible = !o.outputs.empty();
+    add(o.decision.effect, is_possible ? milliseconds_or_dash(o.ms) : "",
+        is_possible ? milliseconds_or_dash(o.ms_everywhere) : "");
     for (const EffectChoice& refinement : o.decision.refinements) add(refinement, "", "");
   }
   print_table(rows, 7);
@@ -148,12 +150,50 @@ std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, c
     const std::string saving = std::isnan(o.ms_everywhere)
                                    ? fmt::format("{:.1f} ms", o.ms)
                                    : fmt::format("{:.1f} ms, everywhere {:.1f}", o.ms, o.ms_everywhere);
-    all.push_back(explanation_of(o.decision.effect, view, saving));
+    all.push_back(explanation_of(o.decision.effect, view, o.outputs.empty() ? "" : saving));
     for (const EffectChoice& refinement : o.decision.refinements)
       all.push_back(
           explanation_of(refinement, view, refinement.is_wanted ? "runs as " + refinement.technique->name : ""));
   }
   return all;
+}
+
+/// An effect that the frame has the planes for, and what is asked of it.
+struct Candidate {
+  const Technique* technique;
+  PlanRequest asked;
+};
+
+struct Candidates {
+  std::vector<Candidate> possible;
+  std::vector<Outcome> impossible;  ///< and why
+};
+
+/// Throws what is wrong with all of them where none is possible, and for a setting that means nothing to any.
+Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
+  Candidates found;
+  std::optional<MissingPlanes> missing;
+  for (const Technique* technique : techniques_with_effects()) {
+    try {
+      found.possible.push_back({technique, asked_of_effect(*technique, asked, files.common_planes(), holdings(files))});
+    } catch (const MissingPlanes& error) {
+      if (!missing) missing = error;
+      Outcome outcome;
+      outcome.decision.effect.technique = technique;
+      outcome.decision.effect.why = fmt::format("the frame has no '{}'", error.planes.front());
+      outcome.ms_everywhere = std::numeric_limits<double>::quiet_NaN();
+      found.impossible.push_back(std::move(outcome));
+    }
+  }
+  if (found.possible.empty()) throw *missing;
+  for (const auto& setting : asked.settings) {
+    const bool is_known = std::any_of(found.possible.begin(), found.possible.end(), [&](const Candidate& candidate) {
+      const auto& settings = candidate.asked.settings;
+      return std::find(settings.begin(), settings.end(), setting) != settings.end();
+    });
+    if (!is_known) found.possible.front().asked.settings.push_back(setting);  // which says so
+  }
+  return found;
 }
 
 std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vector<std::string>& planes) {
@@ -178,10 +218,11 @@ void auto_command(const AutoCommand& flags) {
   check_paths(inputs, {{"-o", flags.out}, {"--explain", flags.explain}, {"--json", flags.json.file()}});
   FrameFiles files(flags.frame.paths(), flags.frame_flags.read_options());
   const PlanRequest asked = flags.technique_flags.request({});
-  const std::vector<const Technique*> techniques = techniques_with_effects();
+  Candidates candidates = candidates_for(asked, files);
   std::vector<std::string> planes = {"depth"};
-  for (const Technique* technique : techniques) {
-    for (const std::string& plane : inputs_of_effect(*technique, asked, files.common_planes(), holdings(files)))
+  for (const Candidate& candidate : candidates.possible) {
+    for (const std::string& plane :
+         inputs_of_effect(*candidate.technique, candidate.asked, files.common_planes(), holdings(files)))
       add_new(planes, plane);
   }
   if (!flags.explain.empty() && contains(files.common_planes(), "color")) add_new(planes, "color");
@@ -191,7 +232,6 @@ void auto_command(const AutoCommand& flags) {
   const std::vector<std::string> available = planes_of_every_view(frame, planes);
   const std::string holds = holdings(files);
   options.progress = progress_bar();
-  const Look look{asked, frame, available, holds, device, options};
   Frame out;
   out.display = frame.display;
   out.window = frame.window;
@@ -199,7 +239,11 @@ void auto_command(const AutoCommand& flags) {
   for (const View& view : frame.views)
     out.views.push_back({.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}});
   std::vector<Outcome> outcomes;
-  for (const Technique* technique : techniques) outcomes.push_back(outcome_of(*technique, flags, look, out));
+  for (const Candidate& candidate : candidates.possible) {
+    const Look look{candidate.asked, frame, available, holds, device, options};
+    outcomes.push_back(outcome_of(*candidate.technique, flags, look, out));
+  }
+  for (Outcome& outcome : candidates.impossible) outcomes.push_back(std::move(outcome));
   std::vector<std::string> written = {flags.out};
   if (!flags.explain.empty()) {
     for (const View& view : frame.views) {
@@ -234,7 +278,7 @@ void add_auto(CLI::App& app) {
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
-      "What a frame does not call for is written as if computed: AO of 1.\n"
+      "What a frame does not call for is written as if computed: AO of 1, reflections of 0.\n"
       "Examples:\n"
       "  gloam auto frame.exr -o out.exr\n"
       "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"

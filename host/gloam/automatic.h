@@ -36,13 +36,20 @@ struct EffectChoice {
 /// What is made of an effect.
 struct Decision {
   EffectChoice effect;
-  std::vector<EffectChoice> refinements;  ///< at most one of them is wanted, and runs in place of the effect's technique
-  PlanRequest request;                    ///< for what is called for
-  PlanRequest everywhere;                 ///< for the same without looking at what the frame calls for
+  std::vector<EffectChoice>
+      refinements;         ///< at most one of them is wanted, and runs in place of the effect's technique
+  PlanRequest request;     ///< for what is called for
+  PlanRequest everywhere;  ///< for the same without looking at what the frame calls for
 };
 
 /// Techniques that declare an effect by itself.
 std::vector<const Technique*> techniques_with_effects();
+
+/// Of what is asked for, that which means something to an effect: a setting such as radius, a filter or an extra plane does so to
+/// some. Throws as `make_plan`
+/// does for a frame that lacks what the effect reads.
+PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
+                            const std::vector<std::string>& available, const std::string& holds);
 
 /// Planes that an effect, what refines it and the glance at them take from a frame. Throws MissingPlanes, UsageError.
 std::vector<std::string> inputs_of_effect(const Technique& technique, const PlanRequest& asked,
