@@ -228,8 +228,8 @@ Decision decide(const Technique& technique, const Look& look) {
   if (!decision.effect.is_everywhere) decision.request.mask = technique.effect.mask;
   const Technique* chosen = nullptr;
   for (const Technique* t : refinements_of(technique)) {
-    // Where nothing calls for an effect more layers may, but not what reads the same.
-    if (!decision.effect.is_wanted && t->reads == technique.reads) continue;
+    // Where nothing calls for an effect more layers may, but not the same in two views.
+    if (!decision.effect.is_wanted && t->views == 2) continue;
     decision.refinements.push_back(choose_refinement(*t, chosen, look));
     const EffectChoice& refinement = decision.refinements.back();
     decision.effect.classify_ms += refinement.classify_ms;

@@ -35,6 +35,10 @@ class Fingerprint {
   }
   /// All that rays can meet: triangles, normals, cut-outs and where they are.
   void add(const Scene& scene);
+  /// What they see there: materials, textures and light.
+  void add_light(const Scene& scene);
+  /// What surfaces do with light: roughness and reflectance of every view.
+  void add_gloss(const Frame& frame);
   /// What rays start from: depth and normals of every view, and its camera.
   void add(const Frame& frame);
 

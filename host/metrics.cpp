@@ -232,27 +232,31 @@ double flip(const Plane& test, const Plane& truth, const Mask& foreground) {
 }
 
 template <typename Function>
-Channel with_each(const Channel& channel, const Function& function) {
-  Channel out = channel.clone();
-  for (int y = 0; y < out.layout().height; ++y)
-    for (int x = 0; x < out.layout().width; ++x) out.at(x, y) = function(out.at(x, y));
-  return out;
-}
-
-/// What a screen can show of radiance, in linear light; without an exposure the values as they are. What is not finite is
-/// background, and stays.
-Plane exposed(const Plane& plane, double exposure) {
-  Plane out{plane.name, {}};
-  for (const Channel& channel : plane.channels) {
-    out.channels.push_back(with_each(channel, [exposure](float v) {
-      return exposure > 0 && std::isfinite(v) ? float(std::clamp(exposure * double(v), 0.0, 1.0)) : v;
-    }));
+Plane with_each(const Plane& plane, const Function& function) {
+  Plane out = plane.clone();
+  for (Channel& channel : out.channels) {
+    for (int y = 0; y < channel.layout().height; ++y)
+      for (int x = 0; x < channel.layout().width; ++x) channel.at(x, y) = function(channel.at(x, y));
   }
   return out;
 }
 
-Channel encoded(const Channel& channel, double exposure) {
-  return with_each(channel, [exposure](float v) { return exposure > 0 && std::isfinite(v) ? float(srgb(v)) : v; });
+/// What a screen can show of radiance, in linear light. What is not finite is background, and stays.
+Plane exposed(const Plane& plane, double exposure) {
+  return with_each(
+      plane, [exposure](float v) { return std::isfinite(v) ? float(std::clamp(exposure * double(v), 0.0, 1.0)) : v; });
+}
+
+Plane encoded(const Plane& plane, double exposure) {
+  return with_each(exposed(plane, exposure), [](float v) { return std::isfinite(v) ? float(srgb(v)) : v; });
+}
+
+void add_similarity(Metrics& metrics, const Plane& test, const Plane& truth, const Mask& foreground) {
+  const size_t components = test.channels.size();
+  for (size_t c = 0; c < components; ++c) {
+    metrics.ssim += ssim(test.channels[c], truth.channels[c], foreground) / double(components);
+    metrics.gmsd += gmsd(test.channels[c], truth.channels[c], foreground) / double(components);
+  }
 }
 
 /// Where the truth is dark the difference counts by itself.
@@ -281,14 +285,13 @@ Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground, d
   Metrics metrics = simple_figures(add_all(test, truth, foreground), components);
   // OpenCV would start OpenCL by itself and compute there, with other rounding on every device.
   cv::ocl::setUseOpenCL(false);
-  const Plane shown_test = exposed(test, exposure), shown_truth = exposed(truth, exposure);
-  for (size_t c = 0; c < components; ++c) {
-    const Channel a = encoded(shown_test.channels[c], exposure), b = encoded(shown_truth.channels[c], exposure);
-    metrics.ssim += ssim(a, b, foreground) / double(components);
-    metrics.gmsd += gmsd(a, b, foreground) / double(components);
-  }
+  if (exposure > 0)
+    add_similarity(metrics, encoded(test, exposure), encoded(truth, exposure), foreground);
+  else
+    add_similarity(metrics, test, truth, foreground);
   if (is_colour(test)) {
-    metrics.flip = flip(shown_test, shown_truth, foreground);
+    metrics.flip = exposure > 0 ? flip(exposed(test, exposure), exposed(truth, exposure), foreground)
+                                : flip(test, truth, foreground);
     metrics.rse = relative_squared_error(test, truth, foreground);
   }
   return metrics;

@@ -270,7 +270,7 @@ void add_auto(CLI::App& app) {
       ->type_name("OUT.png");
   command->add_flag("--measure", flags->measure,
                     "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
-  command->add_flag("--half", flags->half, "write AO as half instead of float");
+  command->add_flag("--half", flags->half, "write results as half instead of float");
   command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")
       ->type_name("NAME");
   flags->technique_flags.add_to(*command, false);

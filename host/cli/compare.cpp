@@ -237,7 +237,7 @@ Metrics pooled(const std::vector<Metrics>& views) {
 std::string bias_words(double bias, const std::string& plane) {
   if (std::abs(bias) < 5e-6) return "";
   const PlaneKind::Meaning meaning = plane_kind(plane).meaning;
-  const bool light = meaning == PlaneKind::unit_interval || plane == "color";
+  const bool light = meaning == PlaneKind::unit_interval || plane == "color" || plane == "reflection";
   return bias > 0 ? (light ? "  (too bright)" : "  (too high)") : (light ? "  (too dark)" : "  (too low)");
 }
 
@@ -411,6 +411,8 @@ void add_compare(CLI::App& app) {
       "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
   command->callback([flags, stereo] {
     flags->take_plane_names();
+    if (stereo->is_asked_for && !flags->exposure.empty())
+      throw UsageError("--exposure {}: two views are compared as they are; leave it out", flags->exposure);
     if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
     if (flags->reference.empty())
       throw UsageError(

@@ -84,7 +84,7 @@ struct Job {
   std::string plane;
   std::vector<std::string> reads;
   Json settings;        ///< for --json
-  std::string heading;  ///< "radius 0.5, 256 rays per pixel, falloff none"
+  std::string heading;  ///< "radius 0.5, falloff none"
   std::function<Reference(const Tracer&, const Frame&)> trace;
 };
 

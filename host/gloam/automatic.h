@@ -56,7 +56,7 @@ std::vector<std::string> inputs_of_effect(const Technique& technique, const Plan
                                           const std::vector<std::string>& available, const std::string& holds);
 
 /// Looks at a frame, on the device, at a glance; where that finds nothing, by the mask itself. What refines an effect is looked
-/// for where the frame calls for that, and where it reads layers that the effect itself knows nothing of. Throws what `make_plan`
+/// for where the frame calls for that, and where it looks at one view, since layers may call for what nothing seen does. Throws what `make_plan`
 /// and `run` do.
 Decision decide(const Technique& technique, const Look& look);
 

@@ -62,6 +62,9 @@ class Tracer {
   /// The first surface on the ray. Throws Error for a ray that is not finite, here and below.
   std::optional<Surface> first(const TracerRay& ray) const;
 
+  /// The first surface on a ray from a point that was `lifted` off one, to the side that it faces: not that surface itself.
+  std::optional<Surface> first_from(const glm::vec3& lifted, const glm::dvec3& direction) const;
+
   /// All surfaces on the ray, nearest first. Two triangles of one mesh that meet under the ray count once.
   void all(const TracerRay& ray, std::vector<Surface>& surfaces) const;
 

@@ -33,6 +33,24 @@ void Fingerprint::add(const Scene& scene) {
   }
 }
 
+void Fingerprint::add_light(const Scene& scene) {
+  add(scene.light);
+  for (const Mesh& mesh : scene.meshes) add(mesh.material);
+  for (const Material& m : scene.materials) {
+    add(m.albedo), add(m.roughness), add(m.metallic), add(m.reflectance), add(m.emission);
+    for (const int texture : {m.albedo_texture, m.roughness_texture, m.metallic_texture, m.emission_texture})
+      add(texture);
+  }
+  for (const Texture& texture : scene.textures) add(texture.texels);
+}
+
+void Fingerprint::add_gloss(const Frame& frame) {
+  for (const View& view : frame.views) {
+    add_plane(*this, view.find("roughness"));
+    add_plane(*this, view.find("reflectance"));
+  }
+}
+
 void Fingerprint::add(const Frame& frame) {
   add(std::vector<int>{frame.window.x0, frame.window.y0});
   for (const View& view : frame.views) {

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "fingerprint.h"
 #include "gloam/capture.h"
 #include "gloam/error.h"
 #include "gloam/reference.h"
@@ -17,7 +18,7 @@ using glm::dvec3;
 using glm::vec3;
 
 /// What is below is a mirror: all of its rays go one way (kernels/shared/ggx.h has the same bound).
-constexpr double mirror_roughness = 0.03;
+constexpr float mirror_roughness = 0.03f;
 
 /// Rays of a mirror; they differ in where the sun is looked for from what they meet.
 constexpr int mirror_samples = 2 * rays_per_packet;
@@ -122,7 +123,7 @@ class ReflectionTracer {
     }
     Gloss gloss;
     gloss.is_mirror = material.roughness < mirror_roughness;
-    gloss.alpha = std::max(double(material.roughness), mirror_roughness);
+    gloss.alpha = double(std::max(material.roughness, mirror_roughness));
     gloss.alpha *= gloss.alpha;
     gloss.reflectance = dvec3(material.reflectance);
     return gloss;
@@ -151,7 +152,7 @@ class ReflectionTracer {
     const double mean_weight = (weight.x + weight.y + weight.z) / 3;
     sum.weights += mean_weight;
     if (glm::dot(direction, dvec3(site.facing)) <= 0) return;
-    const std::optional<Surface> met = tracer_.first({dvec3(site.origin), direction});
+    const std::optional<Surface> met = tracer_.first_from(site.origin, direction);
     const vec3 light = met ? radiance(tracer_, *met, seed, 1) : sky_radiance(tracer_.scene(), direction);
     sum.radiance += weight * dvec3(light);
     if (met ? shown_.point(met->position) : shown_.sky(direction)) sum.shown += mean_weight;
@@ -191,7 +192,10 @@ Reference reflection_reference(const Tracer& tracer, const Frame& frame, const R
   rows.value = "reflection";
   rows.noise = "reflection_noise";
   rows.background = {0, 0, 0, 0};
-  rows.key = fmt::format("samples {} seed {}", rounded_samples(options.samples), options.seed);
+  Fingerprint print;
+  print.add_light(tracer.scene());
+  print.add_gloss(frame);
+  rows.key = fmt::format("{} samples {} seed {}", print.text(), rounded_samples(options.samples), options.seed);
   rows.checkpoint = options.checkpoint;
   rows.checkpoint_seconds = options.checkpoint_seconds;
   rows.progress = options.progress;

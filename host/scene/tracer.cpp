@@ -185,6 +185,7 @@ struct Tracer::Impl {
   void bound();
   std::optional<double> start_of(const TracerRay& ray) const;
   SceneContext context() const;
+  std::optional<Surface> first(const TracerRay& ray, RTCIntersectContext& context) const;
 };
 
 void Tracer::Impl::bound() {
@@ -301,19 +302,27 @@ const Scene& Tracer::scene() const { return impl_->scene; }
 
 double Tracer::build_seconds() const { return impl_->build_seconds; }
 
-std::optional<Surface> Tracer::first(const TracerRay& ray) const {
-  const std::optional<double> start = impl_->start_of(ray);
+std::optional<Surface> Tracer::Impl::first(const TracerRay& ray, RTCIntersectContext& context) const {
+  const std::optional<double> start = start_of(ray);
   if (!start) return {};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRayHit query;
   query.ray = embree_ray(ray, *start);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->embree.get(), &context, &query);
+  rtcIntersect1(embree.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return impl_->surface(
-      ray, {query.hit.geomID, query.hit.primID, *start + double(query.ray.tfar), query.hit.u, query.hit.v});
+  return surface(ray, {query.hit.geomID, query.hit.primID, *start + double(query.ray.tfar), query.hit.u, query.hit.v});
+}
+
+std::optional<Surface> Tracer::first(const TracerRay& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  return impl_->first(ray, context);
+}
+
+std::optional<Surface> Tracer::first_from(const vec3& lifted, const dvec3& direction) const {
+  SceneContext context = impl_->context();
+  return impl_->first({dvec3(lifted), direction}, context.base);
 }
 
 /// All that Embree reports, in its order; until the thread's next call.

@@ -24,11 +24,14 @@ static inline real3 into_other(Neighbour n, real3 p) {
   return make3(r.x + n.translation[0], r.y + n.translation[1], r.z + n.translation[2]);
 }
 
+static inline real3 rotated_back(Neighbour n, real3 v) {
+  return make3(n.rotation[0] * v.x + n.rotation[3] * v.y + n.rotation[6] * v.z,
+               n.rotation[1] * v.x + n.rotation[4] * v.y + n.rotation[7] * v.z,
+               n.rotation[2] * v.x + n.rotation[5] * v.y + n.rotation[8] * v.z);
+}
+
 static inline real3 back_from_other(Neighbour n, real3 q) {
-  const real x = q.x - n.translation[0], y = q.y - n.translation[1], z = q.z - n.translation[2];
-  return make3(n.rotation[0] * x + n.rotation[3] * y + n.rotation[6] * z,
-               n.rotation[1] * x + n.rotation[4] * y + n.rotation[7] * z,
-               n.rotation[2] * x + n.rotation[5] * y + n.rotation[8] * z);
+  return rotated_back(n, make3(q.x - n.translation[0], q.y - n.translation[1], q.z - n.translation[2]));
 }
 
 // Where a view shows a point of its space: column and row, not rounded, and its depth there. `is_seen`: it lies before that eye

@@ -3,7 +3,8 @@
 // How a ray is followed.
 #define RAY_PARAMS(P)                                                                                                \
   P(choice, march, hierarchical, (hierarchical, linear),                                                             \
-    "how a ray is followed: by cells that know what is nearest in them, or from pixel to pixel; both find the same") \
+    "how a ray is followed: by cells that know what is nearest in them, or from pixel to pixel; both find the same " \
+    "but for rounding")                                                                                              \
   P(choice, cells, min_max, (min_max, min),                                                                          \
     "what cells know: the nearest and the farthest depth, so that rays pass behind things too in few steps, or the " \
     "nearest")                                                                                                       \
@@ -11,7 +12,7 @@
   P(float, thickness, 0.02f, 0, INFINITY, "depths", "how far a surface reaches behind what is seen of it")           \
   P(float, bias, 0.01f, 0, 1, "",                                                                                    \
     "sine of the angle to the surface below which what a ray meets is the surface itself")                           \
-  P(float, max_roughness, 0.8f, 0, 1, "", "surfaces rougher than this have no rays, and reflect the environment")    \
+  P(float, max_roughness, 0.8f, 0, 1, "", "surfaces rougher than this have no rays of their own")                    \
   P(float, max_distance, INFINITY, 0, INFINITY, "scene units", "longest ray; over its last quarter hits fade")
 
 #define SSSR_PARAMS(P)                                                                                         \
@@ -20,7 +21,7 @@
   P(int, neighbours, 21, 1, 25, "pixels",                                                                      \
     "whose rays each pixel uses, its own among them, at most 2 columns or rows away")                          \
   P(float, fade_border, 0.05f, 0, 0.5f, "image sizes", "from where on hits near the border of the image fade") \
-  P(float, fade_facing, 0.9f, 0, 1, "", "cosine to the eye from which on rays that come back to it fade")      \
+  P(float, fade_facing, 0.9f, 0, 1, "", "cosine to the axis of view from which on rays that come back fade")   \
   P(float, environment_r, 0, 0, 1e20f, "", "radiance that comes from where no hit is found")                   \
   P(float, environment_g, 0, 0, 1e20f, "", "the same, green")                                                  \
   P(float, environment_b, 0, 0, 1e20f, "", "the same, blue")                                                   \

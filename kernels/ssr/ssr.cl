@@ -12,7 +12,7 @@
 //      reflectance  at normal incidence
 //      back_depth   of the back of what is seen (TRAVERSAL); instance (REPROJECTION); other_...  of the other eye
 // out: reflection   radiance towards the eye; a = share of it that was found in the image
-//      hit          length of the (first) reflected ray, scene units; 0 where nothing was met, +inf background
+//      hit          length of the (first) reflected ray, scene units; 0 where nothing was met, and of background
 // between: list    rays that are followed: layer * floats per layer + pixel (pixel_list.h)
 //      met      what each met (keep_met); left_at, met_in_other  where it left this image, and what it met in the other's
 //      nearness, farness  hierarchy (screen_ray.h)
@@ -222,7 +222,7 @@ static inline Start start_in_other(Frame frame, Neighbour n, Params params, Star
                                    real* length) {
   *length = length_at(frame, own.line, t) * own.depth;
   const real3 at = point_along(frame, own, *length);
-  const Projection there = project_into(n, at, *goes_on & (*length < FARTHEST));
+  const Projection there = project_into(n, at, *goes_on & (*length < FARTHEST * own.depth));
   // Between centres of pixels: at the border of two images that show the same, rounding would decide.
   *goes_on = there.is_seen & (there.x >= 0) & (there.y >= 0) & (there.x <= n.frame.width - 1) &
              (there.y <= n.frame.height - 1);
@@ -334,7 +334,7 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
 
 // Rays that one work-item follows. Where a pixel is a lane, lanes whose ray has come to its end take the next ones, so that few
 // wait for the longest: rays take 10 to 200 steps.
-#define RAYS_PER_ITEM (LANES == 1 ? 1 : 32 * LANES)
+#define RAYS_PER_ITEM (LANES == 1 ? RAYS : 32 * LANES)
 #define LANES_WORTH_FILLING (LANES == 1 ? 1 : LANES / 2)
 
 // What a ray met, in the memory of a plane: the index of the pixel, or one of these.
@@ -471,9 +471,10 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
   global const int* entries = (global const int*)list;
   // Down the columns of items: devices hand out the image row by row, and the first rows would get all there is to do.
   const int item = (int)(get_global_id(0) * get_global_size(1) + get_global_id(1)), count = entries[0];
+  // Divided rather than multiplied: of a large image most items are beyond what an int counts.
+  if (count == 0 || item > (count - 1) / RAYS_PER_ITEM) return;
   int next = item * RAYS_PER_ITEM;
-  if (next >= count) return;
-  const int last = min(next + RAYS_PER_ITEM, count);
+  const int last = next + min(RAYS_PER_ITEM, count - next);
   const Rays rays = {depth, normal_x, normal_y, normal_z, ray_x, ray_y, ray_z};
   integer ray = (integer)(entries[FRAME_GUARD + next]), steps = (integer)(0);
   mask active = (mask)(0);
@@ -509,6 +510,9 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
     const mask ends = active & ends_at(image, start, place);
     const mask goes_on = active & !ends & to_mask(steps < params.max_steps);
     mask hidden;
+#if GOES_ON_IN_OTHER
+    const real before_step = place.t;
+#endif
     mask met_now = step_on(image, params, start, HIERARCHY, back_depth, goes_on, &place, &hidden);
     steps += 1;
 #if IN_OTHER
@@ -517,7 +521,7 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
     const mask is_done = active & (met_now | !goes_on);
 #endif
 #if GOES_ON_IN_OTHER
-    left = choose(hidden & (left == 0), place.t, left);
+    left = choose(hidden & (left == 0), before_step, left);
 #endif
     if (!ANY(is_done)) continue;
 #if IN_OTHER
@@ -547,7 +551,7 @@ static inline real3 ray_of(Reflector s, Noise noise, int k, real* density) {
   const real vh = 2 * dot3(s.to_eye, h);
   const real3 l = make3(vh * h.x - s.to_eye.x, vh * h.y - s.to_eye.y, vh * h.z - s.to_eye.z);
   const real per_angle = reflected_density(s.alpha, s.to_eye, h, hidden_per_seen(s.alpha, s.to_eye));
-  *density = choose(is_mirror, choose(s.reflects, REAL_INFINITY, (real)(0)),
+  *density = choose(is_mirror, choose(s.reflects & (mask)(k == 0 ? EVERY_LANE : (mask)(0)), REAL_INFINITY, (real)(0)),
                     choose(s.reflects & (l.z > (scalar)1e-4f), per_angle, (real)(0)));
   return exactly_normalised(out_of_frame(s, l));
 }
@@ -577,7 +581,8 @@ kernel void ssr_rays(Frame frame, Params params, PLANE depth, PLANE normal_x, PL
       store(direction.x, layer_of_out(ray_x, frame, k), here);
       store(direction.y, layer_of_out(ray_y, frame, k), here);
       store(direction.z, layer_of_out(ray_z, frame, k), here);
-      append_pixels(list, here + k * floats_of_layer(frame), (density > 0) & (s.roughness <= params.max_roughness));
+      density = choose(s.roughness <= params.max_roughness, density, (real)(0));
+      append_pixels(list, here + k * floats_of_layer(frame), density > 0);
     }
     store(density, layer_of_out(ray_density, frame, k), here);
     store((real)(0), layer_of_out(met, frame, k), here);
@@ -647,7 +652,7 @@ static inline real3 color_at(Frame frame, Image image, Start s, Hit hit, real3 m
   const real right_share = x - (scalar)0.5 - left, lower_share = y - (scalar)0.5 - top;
   real3 sum = make3((real)(0), (real)(0), (real)(0));
   real weights = 0;
-  const real tolerance = (scalar)1e-3f * (1 + fabs(met.z + 1));
+  const real tolerance = (scalar)1e-3f * (1 + fabs(1 - met.z));
   for (int k = 0; k < 4; ++k) {
     const integer column = clamp(to_integer(left) + (k & 1), (integer)(0), (integer)(frame.width - 1));
     const integer row = clamp(to_integer(top) + (k >> 1), (integer)(0), (integer)(frame.height - 1));
@@ -783,10 +788,11 @@ kernel void ssr_see(Frame frame,
                                    other_color_g, other_color_b);
       const Sight further = sight_in_other(frame, neighbour, params, other, start,
                                            load(layer_of(left_at, frame, k), here), there, in_other);
-      sight.is_known = (in_other & further.is_known) | ((!in_other) & sight.is_known);
-      sight.length = choose(in_other, further.length, sight.length);
-      sight.color = choose3(in_other, further.color, sight.color);
-      from_border = choose(in_other, to_border(neighbour.frame, further.x, further.y), from_border);
+      const mask takes = in_other & further.is_known;
+      sight.is_known |= takes;
+      sight.length = choose(takes, further.length, sight.length);
+      sight.color = choose3(takes, further.color, sight.color);
+      from_border = choose(takes, to_border(neighbour.frame, further.x, further.y), from_border);
     }
 #endif
 #if FADE
@@ -916,9 +922,7 @@ static inline void take_rays_of_other(Frame frame, Neighbour n, Params params, R
       const mask agrees = is_alike & (seen.length > 0) & (fabs(off) <= tolerance) & !isinf(seen.density);
       if (!ANY(agrees)) continue;
       const real3 d = gather3(rays.x, rays.y, rays.z, ray);
-      const real3 direction = make3(n.rotation[0] * d.x + n.rotation[3] * d.y + n.rotation[6] * d.z,
-                                    n.rotation[1] * d.x + n.rotation[4] * d.y + n.rotation[7] * d.z,
-                                    n.rotation[2] * d.x + n.rotation[5] * d.y + n.rotation[8] * d.z);
+      const real3 direction = rotated_back(n, d);
       seen.direction = towards_met(s, v, direction, seen.length);
       seen.radiance = gather3(rays.r, rays.g, rays.b, ray);
       seen.confidence = gather(rays.confidence, ray);
@@ -955,6 +959,7 @@ kernel void ssr_resolve(Frame frame,
   const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
                                    reflectance_g, reflectance_b);
   const real3 none = make3((real)(0), (real)(0), (real)(0));
+  const mask is_rough = s.reflects & (s.roughness > params.max_roughness);
   if (!ANY(s.reflects)) {
     no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here);
     return;
@@ -971,7 +976,7 @@ kernel void ssr_resolve(Frame frame,
     const int there = index_of(frame, column + dx, ROW_Y + dy);
     const integer x = column + dx + IOTA;
     const real z = load(depth, there);
-    mask counts = s.reflects & to_mask((x >= 0) & (x < frame.width)) & !is_background(z);
+    mask counts = s.reflects & !is_rough & to_mask((x >= 0) & (x < frame.width)) & !is_background(z);
     if (i > 0) counts &= !s.is_mirror;
     const real e = relative_depth(s.point, s.depth, choose(counts, z, s.depth));
     const real3 v = exactly_towards(frame, s.point, s.point.x + dx, s.point.y + dy, e);
@@ -986,7 +991,8 @@ kernel void ssr_resolve(Frame frame,
       if (i > 0) seen.direction = towards_met(s, v, seen.direction, seen.length);
       // A mirror's own ray has no density: any weight does.
       const mask is_own = s.is_mirror & (i == 0 ? EVERY_LANE : (mask)(0));
-      seen.density = choose(is_own, (real)(1), choose(isinf(seen.density), (real)(0), seen.density));
+      seen.density =
+          choose(is_own & (seen.density > 0), (real)(1), choose(isinf(seen.density), (real)(0), seen.density));
       take_ray(&sum, s, seen, counts);
     }
   }
@@ -994,16 +1000,26 @@ kernel void ssr_resolve(Frame frame,
   const OtherRays others = {other_depth,      other_instance,    other_ray_x,         other_ray_y,
                             other_ray_z,      other_ray_r,       other_ray_g,         other_ray_b,
                             other_ray_length, other_ray_density, other_ray_confidence};
-  take_rays_of_other(frame, neighbour, params, s, others, load(instance, here), s.reflects & !s.is_mirror, &sum);
+  take_rays_of_other(frame, neighbour, params, s, others, load(instance, here), s.reflects & !s.is_mirror & !is_rough,
+                     &sum);
 #endif
-  const mask is_known = sum.weights > (scalar)1e-12f;
+  const mask is_known = (sum.weights > (scalar)1e-12f) & is_wanted;
   const real albedo = choose(s.is_mirror, (real)(1), directional_albedo(s.roughness, s.to_eye.z));
   const real scale = choose(is_known, albedo / choose(is_known, sum.weights, (real)(1)), (real)(0));
   const real3 f0 = reflectance_at(reflectance_r, reflectance_g, reflectance_b, here);
+  // What is too rough for rays reflects the environment, about as much as its middle direction does.
+  const mask has_environment = is_rough & is_wanted;
+  const real evenly = choose(has_environment, albedo, (real)(0)), middle = grazing_share(s.to_eye.z);
   // straight + grazing is all; Fresnel's term takes reflectance of the first and all of the second.
-  store(choose(is_known, scale * (f0.x * sum.straight.x + sum.grazing.x), (real)(0)), reflection_r, here);
-  store(choose(is_known, scale * (f0.y * sum.straight.y + sum.grazing.y), (real)(0)), reflection_g, here);
-  store(choose(is_known, scale * (f0.z * sum.straight.z + sum.grazing.z), (real)(0)), reflection_b, here);
+  store(choose(is_known, scale * (f0.x * sum.straight.x + sum.grazing.x),
+               evenly * (f0.x + (1 - f0.x) * middle) * params.environment_r),
+        reflection_r, here);
+  store(choose(is_known, scale * (f0.y * sum.straight.y + sum.grazing.y),
+               evenly * (f0.y + (1 - f0.y) * middle) * params.environment_g),
+        reflection_g, here);
+  store(choose(is_known, scale * (f0.z * sum.straight.z + sum.grazing.z),
+               evenly * (f0.z + (1 - f0.z) * middle) * params.environment_b),
+        reflection_b, here);
   store(choose(is_known, sum.confidence / choose(is_known, sum.weights, (real)(1)), (real)(0)), reflection_a, here);
 }
 #endif

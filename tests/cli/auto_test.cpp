@@ -21,7 +21,7 @@ class CliAuto : public Cli {
     FrameFile file(path(name), {});
     return file.read({"ao", "ao_raw"});
   }
-  /// Of the only effect there is so far.
+  /// Of the first effect.
   Json effect_of(const Result& result) const { return result.json()["effects"][0]; }
   /// The same planes as gloam run makes with these arguments.
   void expect_same_as_run(const Arguments& more) const {
@@ -166,6 +166,20 @@ TEST_F(CliAuto, ASecondEyeTakesOverWhatTheFirstFinds) {
   const Frame out = read("out.exr"), expected = read("run.exr");
   for (const char* eye : {"left", "right"})
     EXPECT_EQ(difference(*out.view(eye).find("ao"), *expected.view(eye).find("ao")).max, 0) << eye;
+}
+
+TEST_F(CliAuto, TwoViewsDoNotCallForReflectionsThatNothingShows) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("frame.exr"), "--size", "160x90", "--stereo", "0.065"}).status, 0);
+  const Arguments command = {"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-"};
+  const Result shiny = gloam(command);
+  ASSERT_EQ(shiny.status, 0) << shiny.err;
+  EXPECT_EQ(shiny.json()["effects"][1]["runs"], "stereo-ssr");
+  Arguments rough = command;
+  rough.insert(rough.end(), {"--set", "max_roughness=0"});
+  const Result nothing = gloam(rough);
+  ASSERT_EQ(nothing.status, 0) << nothing.err;
+  EXPECT_EQ(nothing.json()["effects"][1]["wanted"], false);
+  EXPECT_TRUE(nothing.json()["effects"][1]["runs"].is_null());
 }
 
 TEST_F(CliAuto, TwoViewsThatShareNothingAreEstimatedByThemselves) {
