@@ -115,14 +115,15 @@ const Technique& adapting() {
   return technique;
 }
 
+bool is_estimate(const Pass& pass) { return pass.can_skip && pass.looks_around; }
+
 void adapt(Plan& plan, const std::vector<const Technique*>& techniques, const std::string& preset,
            const ParameterValues& values) {
   const Technique& technique = *techniques.front();
   check_adaptive(plan, technique, preset);
-  const auto is_estimate = [&](const PlannedPass& p) {
-    return p.technique == &technique && p.pass.can_skip && p.pass.looks_around && p.pass.scale == 1;
-  };
-  const auto estimate = std::find_if(plan.passes.begin(), plan.passes.end(), is_estimate);
+  const auto estimate = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) {
+    return p.technique == &technique && is_estimate(p.pass) && p.pass.scale == 1;
+  });
   if (estimate == plan.passes.end())
     throw UsageError("--adaptive {}: {} has no estimate that can leave out pixels; leave it out", preset,
                      technique.name);

@@ -12,6 +12,9 @@ namespace gloam {
 /// adaptive.NAME.
 const Technique& adapting();
 
+/// Whether a pass estimates from samples around each pixel and can leave pixels out: what `adapt` asks for.
+bool is_estimate(const Pass& pass);
+
 /// Lets the estimate of the first technique run twice: in tiles where AO varies as planned, elsewhere with the settings of
 /// `preset`. Where that is, a base pass tells: the techniques' own passes on every fourth pixel each way, with the settings of
 /// the preset low. `values` are those of `adapting`. To be called after `restrict_to_mask`; sets `Plan::rest`. Throws

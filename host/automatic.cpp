@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "adaptive.h"
+
 namespace gloam {
 namespace {
 
@@ -61,7 +63,7 @@ PlanRequest request_everywhere(const Technique& technique, const PlanRequest& as
 /// Whether fewer samples can be taken in some tiles (`PlanRequest::adaptive`).
 bool can_adapt(const Technique& technique) {
   const std::vector<Pass> passes = technique.passes(ParameterValues(technique.parameters));
-  return std::any_of(passes.begin(), passes.end(), [](const Pass& pass) { return pass.can_skip && pass.looks_around; });
+  return std::any_of(passes.begin(), passes.end(), is_estimate);
 }
 
 /// Whether what an effect plans has a parameter of that name: "radius", or "gtao.radius".

@@ -247,16 +247,9 @@ Plane exposed(const Plane& plane, double exposure) {
       plane, [exposure](float v) { return std::isfinite(v) ? float(std::clamp(exposure * double(v), 0.0, 1.0)) : v; });
 }
 
-Plane encoded(const Plane& plane, double exposure) {
-  return with_each(exposed(plane, exposure), [](float v) { return std::isfinite(v) ? float(srgb(v)) : v; });
-}
-
-void add_similarity(Metrics& metrics, const Plane& test, const Plane& truth, const Mask& foreground) {
-  const size_t components = test.channels.size();
-  for (size_t c = 0; c < components; ++c) {
-    metrics.ssim += ssim(test.channels[c], truth.channels[c], foreground) / double(components);
-    metrics.gmsd += gmsd(test.channels[c], truth.channels[c], foreground) / double(components);
-  }
+/// Through sRGB.
+Plane encoded(const Plane& linear) {
+  return with_each(linear, [](float v) { return std::isfinite(v) ? float(srgb(v)) : v; });
 }
 
 /// Where the truth is dark the difference counts by itself.
@@ -285,13 +278,20 @@ Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground, d
   Metrics metrics = simple_figures(add_all(test, truth, foreground), components);
   // OpenCV would start OpenCL by itself and compute there, with other rounding on every device.
   cv::ocl::setUseOpenCL(false);
-  if (exposure > 0)
-    add_similarity(metrics, encoded(test, exposure), encoded(truth, exposure), foreground);
-  else
-    add_similarity(metrics, test, truth, foreground);
+  const auto add = [&](const Plane& a, const Plane& b, const Plane& encoded_a, const Plane& encoded_b) {
+    for (size_t c = 0; c < components; ++c) {
+      metrics.ssim += ssim(encoded_a.channels[c], encoded_b.channels[c], foreground) / double(components);
+      metrics.gmsd += gmsd(encoded_a.channels[c], encoded_b.channels[c], foreground) / double(components);
+    }
+    if (is_colour(test)) metrics.flip = flip(a, b, foreground);
+  };
+  if (exposure > 0) {
+    const Plane a = exposed(test, exposure), b = exposed(truth, exposure);
+    add(a, b, encoded(a), encoded(b));
+  } else {
+    add(test, truth, test, truth);
+  }
   if (is_colour(test)) {
-    metrics.flip = exposure > 0 ? flip(exposed(test, exposure), exposed(truth, exposure), foreground)
-                                : flip(test, truth, foreground);
     metrics.rse = relative_squared_error(test, truth, foreground);
   }
   return metrics;

@@ -8,27 +8,27 @@
 #include "shared/upsample.h"
 #include "shared/wanted.h"
 
-kernel void subsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE_OUT result) {
+static inline void subsample_plane(Frame frame, Frame other, PLANE source, PLANE_OUT result) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
   store(gather(source + from, IOTA * (integer)(SCALE)), result, to);
 }
 
+kernel void subsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE_OUT result) {
+  subsample_plane(frame, other, source, result);
+}
+
 kernel void subsample_vector(Frame frame, Frame other, ResampleParams params, PLANE source_x, PLANE source_y,
                              PLANE source_z, PLANE_OUT result_x, PLANE_OUT result_y, PLANE_OUT result_z) {
-  const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
-  const integer step = IOTA * (integer)(SCALE);
-  store(gather(source_x + from, step), result_x, to);
-  store(gather(source_y + from, step), result_y, to);
-  store(gather(source_z + from, step), result_z, to);
+  subsample_plane(frame, other, source_x, result_x);
+  subsample_plane(frame, other, source_y, result_y);
+  subsample_plane(frame, other, source_z, result_z);
 }
 
 kernel void subsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
                             PLANE source_b, PLANE_OUT result_r, PLANE_OUT result_g, PLANE_OUT result_b) {
-  const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
-  const integer step = IOTA * (integer)(SCALE);
-  store(gather(source_r + from, step), result_r, to);
-  store(gather(source_g + from, step), result_g, to);
-  store(gather(source_b + from, step), result_b, to);
+  subsample_plane(frame, other, source_r, result_r);
+  subsample_plane(frame, other, source_g, result_g);
+  subsample_plane(frame, other, source_b, result_b);
 }
 
 #ifdef SOURCE_LAYERS

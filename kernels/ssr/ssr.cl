@@ -239,7 +239,7 @@ static inline Start start_in_other(Frame frame, Neighbour n, Params params, Star
 #endif
 
 // Whether what a pixel shows rises over the surface that the ray starts from: else it is that surface.
-static inline mask rises(Frame frame, Params params, Start s, Place p, real nearest) {
+static inline mask rises(Frame frame, Start s, Place p, real nearest) {
   const real e = frame.perspective > 0 ? -nearest / (1 + nearest) : -nearest;
   const real3 u = exactly_towards(frame, s.point, to_real(p.column), to_real(p.row), e);
   const real3 v = make3(u.x + s.from_surface.x, u.y + s.from_surface.y, u.z + s.from_surface.z);
@@ -309,7 +309,7 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
 #endif
   const mask asks = may_meet & is_pixel;
   if (ANY(asks)) {
-    const mask counts = asks & rises(frame, params, s, p, nearest);
+    const mask counts = asks & rises(frame, s, p, nearest);
     const mask behind = is_behind(frame, params, s, back_depth, p, nearest, counts);
     met = counts & !behind;
     *hidden |= behind;
@@ -341,20 +341,25 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
 #define MET_NOTHING 0
 #define MET_BACKGROUND -1
 
+// One value per lane to one place each in a plane's memory, where a mask holds.
+static inline void scatter_where(mask counts, integer value, global float* plane, integer place) {
+  global int* values = (global int*)plane;
+#if LANES == 1
+  if (counts) values[place] = value;
+#else
+  const integer which = integer_of(counts);
+  const int *of_lane = (const int*)&value, *places = (const int*)&place, *is_one = (const int*)&which;
+  for (int i = 0; i < LANES; ++i) {
+    if (is_one[i]) values[places[i]] = of_lane[i];
+  }
+#endif
+}
+
 static inline void keep_met(global float* met, Frame frame, Place p, integer ray, mask is_done, mask is_surface,
                             mask is_background) {
   const integer pixel = FRAME_GUARD + p.row * frame.pitch + p.column;
   const integer background = integer_of(is_background) ? (integer)(MET_BACKGROUND) : (integer)(MET_NOTHING);
-  const integer what = integer_of(is_surface) ? pixel : background;
-#if LANES == 1
-  if (is_done) ((global int*)met)[ray] = what;
-#else
-  const integer done = integer_of(is_done);
-  const int *values = (const int*)&what, *rays = (const int*)&ray, *counts = (const int*)&done;
-  for (int i = 0; i < LANES; ++i) {
-    if (counts[i]) ((global int*)met)[rays[i]] = values[i];
-  }
-#endif
+  scatter_where(is_done, integer_of(is_surface) ? pixel : background, met, ray);
 }
 
 #if TRAVERSAL && !IN_OTHER
@@ -383,21 +388,6 @@ static inline void put_rays(const Batch* batch, PIXEL_LIST_OUT list) {
   global int* entries = (global int*)list;
   const int first = FRAME_GUARD + atomic_add(entries, batch->count);
   for (int i = 0; i < batch->count; ++i) entries[first + i] = batch->rays[i];
-}
-
-static inline void keep_left(global float* left_at, real steps, integer ray, mask counts) {
-  if (!ANY(counts)) return;
-  const stored t = to_stored(steps);
-#if LANES == 1
-  left_at[ray] = t;
-#else
-  const integer which = integer_of(counts);
-  const float* of_lane = (const float*)&t;
-  const int *rays = (const int*)&ray, *is_one = (const int*)&which;
-  for (int i = 0; i < LANES; ++i) {
-    if (is_one[i]) left_at[rays[i]] = of_lane[i];
-  }
-#endif
 }
 #endif
 
@@ -529,8 +519,9 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
 #endif
 #if GOES_ON_IN_OTHER
     left = choose((left == 0) & ends & !start.line.reaches_infinity, place.t, left);
-    keep_left(left_at, left, ray, is_done & (left > 0));
-    add_rays(&further, ray, is_done & (left > 0));
+    const mask goes_on_there = is_done & (left > 0);
+    scatter_where(goes_on_there, as_integer(to_stored(left)), left_at, ray);
+    add_rays(&further, ray, goes_on_there);
     left = choose(is_done, (real)(0), left);
 #endif
     keep_met(met, image, place, ray, is_done, met_now, ends & start.line.reaches_infinity);
@@ -598,7 +589,7 @@ kernel void ssr_rays(Frame frame, Params params, PLANE depth, PLANE normal_x, PL
 kernel void ssr_found(Frame frame, Params params, PLANE roughness, PLANE ray_density, PLANE met, PLANE_OUT found) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real rough = load(roughness, here);
-  const mask reflects = (load(ray_density, here) > 0) & (rough <= params.max_roughness);
+  const mask reflects = load(ray_density, here) > 0;
   const mask meets = to_mask(met_in_row(met, here) != MET_NOTHING);
   store(choose(reflects & (meets | (rough > params.blurred)), (real)(1), (real)(0)), found, here);
 }

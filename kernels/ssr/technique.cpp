@@ -13,38 +13,29 @@ using Bindings = std::vector<Binding>;
 /// Levels of the hierarchy: the largest cells have 64 x 64 pixels.
 constexpr int hierarchy_levels = 7;
 
-/// What of the other eye counts.
-struct Other {
-  bool traversal = false, fade = false, reprojection = false;
-  int neighbours = 0;
+/// What shapes passes, of whichever parameters.
+struct Choices {
+  int rays = 1, neighbours = 0;
+  bool jitter = false;
+  bool traversal = false, fade = false, reprojection = false;  ///< what of the other eye counts
+  int other_neighbours = 0;
 };
 
-Other other_of(const SssrParams&) { return {}; }
-
-Other other_of(const StereoSsrParams& p) {
-  return {p.traversal == StereoSsrParams::traversal_values::stereo, p.fade == StereoSsrParams::fade_values::stereo,
-          p.reprojection != 0, p.other_neighbours};
+Choices choices_of(const SssrParams& p) {
+  return {.rays = p.rays, .neighbours = p.neighbours, .jitter = p.jitter != 0};
 }
 
-Other other_of(const ReflectionMaskParams&) { return {}; }
-
-template <typename Params>
-int rays_per_pixel(const Params& p) {
-  return p.rays;
+Choices choices_of(const StereoSsrParams& p) {
+  return {.rays = p.rays,
+          .neighbours = p.neighbours,
+          .jitter = p.jitter != 0,
+          .traversal = p.traversal == StereoSsrParams::traversal_values::stereo,
+          .fade = p.fade == StereoSsrParams::fade_values::stereo,
+          .reprojection = p.reprojection != 0,
+          .other_neighbours = p.other_neighbours};
 }
-int rays_per_pixel(const ReflectionMaskParams&) { return 1; }
 
-template <typename Params>
-int neighbours(const Params& p) {
-  return p.neighbours;
-}
-int neighbours(const ReflectionMaskParams&) { return 0; }
-
-template <typename Params>
-bool is_jittered(const Params& p) {
-  return p.jitter != 0;
-}
-bool is_jittered(const ReflectionMaskParams&) { return false; }
+Choices choices_of(const ReflectionMaskParams&) { return {}; }
 
 Bindings operator+(Bindings a, const Bindings& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -63,30 +54,24 @@ Bindings of_other_eye(const Bindings& planes) {
 template <typename Params>
 class Passes {
  public:
-  explicit Passes(const Params& p) : p_(p), other_(other_of(p)) {}
+  explicit Passes(const Params& p) : p_(p), c_(choices_of(p)) {}
 
   /// What mirrors meet, alone.
   std::vector<Pass> mask() const {
-    std::vector<Pass> passes = hierarchy();
-    passes.push_back(choose_rays());
-    passes.push_back(march());
+    std::vector<Pass> passes = until_met();
     passes.push_back({.name = "found",
                       .kernel = "ssr_found",
                       .reads = Bindings{"roughness"} + of_rays({"ray_density"}) + met(),
                       .writes = {{"found", "mask"}}});
-    for (Pass& pass : passes) add_defines(pass);
-    return passes;
+    return with_defines(std::move(passes));
   }
 
   std::vector<Pass> all() const {
-    std::vector<Pass> passes = hierarchy();
-    passes.push_back(choose_rays());
-    passes.push_back(march());
-    if (other_.traversal) passes.push_back(march_in_other());
+    std::vector<Pass> passes = until_met();
+    if (c_.traversal) passes.push_back(march_in_other());
     passes.push_back(see());
     passes.push_back(resolve());
-    for (Pass& pass : passes) add_defines(pass);
-    return passes;
+    return with_defines(std::move(passes));
   }
 
  private:
@@ -95,7 +80,7 @@ class Passes {
   int levels() const { return is_linear() ? 1 : hierarchy_levels; }
 
   /// A stack with one layer for each of a pixel's rays.
-  Binding plane_of_rays(const std::string& name) const { return {name, "ssr_" + name, rays_per_pixel(p_)}; }
+  Binding plane_of_rays(const std::string& name) const { return {name, "ssr_" + name, c_.rays}; }
   Bindings of_rays(const std::vector<std::string>& names) const {
     Bindings bindings;
     for (const std::string& name : names) bindings.push_back(plane_of_rays(name));
@@ -114,13 +99,13 @@ class Passes {
   Bindings list() const { return {plane_of_rays("list")}; }
   Bindings directions() const { return of_rays({"ray_x", "ray_y", "ray_z"}); }
   Bindings rays() const { return directions() + of_rays({"ray_density"}); }
-  Bindings met() const { return other_.traversal ? of_rays({"met", "met_in_other"}) : of_rays({"met"}); }
+  Bindings met() const { return c_.traversal ? of_rays({"met", "met_in_other"}) : of_rays({"met"}); }
   Bindings seen() const { return of_rays({"ray_r", "ray_g", "ray_b", "ray_length", "ray_confidence"}); }
 
   std::vector<Pass> hierarchy() const {
     std::vector<Pass> passes = {
         {.name = "nearness", .kernel = "ssr_nearness", .reads = {"depth"}, .writes = Bindings{nearness()} + list()}};
-    if (other_.traversal) {
+    if (c_.traversal) {
       passes.back().reads.push_back("back_depth");
       passes.back().writes = passes.back().writes + Bindings{farness(), plane_of_rays("others")};
     }
@@ -131,6 +116,13 @@ class Passes {
                         .defines = {{"LEVEL", level}},
                         .scale = 1 << level});
     }
+    return passes;
+  }
+
+  std::vector<Pass> until_met() const {
+    std::vector<Pass> passes = hierarchy();
+    passes.push_back(choose_rays());
+    passes.push_back(march());
     return passes;
   }
 
@@ -148,7 +140,7 @@ class Passes {
               .reads = Bindings{"depth", "normal"} + cells(has_both_depths()) + list() + directions(),
               .writes = {plane_of_rays("met")},
               .defines = {{"BOTH_DEPTHS", has_both_depths()}}};
-    if (other_.traversal) {
+    if (c_.traversal) {
       pass.reads.push_back("back_depth");
       pass.writes = pass.writes + of_rays({"left_at", "others"});
     }
@@ -161,10 +153,9 @@ class Passes {
     for (Binding& cell : cells_of_other) cell = of_other(cell);
     return {.name = "march on",
             .kernel = "ssr_march",
-            .reads = Bindings{"depth", "normal"} + cells_of_other +
-                     Bindings{{"list", "ssr_others", rays_per_pixel(p_)}} + directions() + of_rays({"left_at"}) +
-                     of_other_eye({"normal"}) + Bindings{of_other("back_depth")},
-            .writes = {{"met", "ssr_met_in_other", rays_per_pixel(p_)}},
+            .reads = Bindings{"depth", "normal"} + cells_of_other + Bindings{{"list", "ssr_others", c_.rays}} +
+                     directions() + of_rays({"left_at"}) + of_other_eye({"normal"}) + Bindings{of_other("back_depth")},
+            .writes = {{"met", "ssr_met_in_other", c_.rays}},
             .defines = {{"BOTH_DEPTHS", 0}, {"IN_OTHER", 1}}};
   }
 
@@ -173,8 +164,8 @@ class Passes {
               .kernel = "ssr_see",
               .reads = image() + rays() + met(),
               .writes = Bindings{{"hit_length", "hit"}} + seen()};
-    if (other_.traversal) pass.reads.push_back(plane_of_rays("left_at"));
-    if (other_.traversal || other_.fade) pass.reads = pass.reads + of_other_eye(image());
+    if (c_.traversal) pass.reads.push_back(plane_of_rays("left_at"));
+    if (c_.traversal || c_.fade) pass.reads = pass.reads + of_other_eye(image());
     return pass;
   }
 
@@ -186,27 +177,28 @@ class Passes {
               .can_skip = true,
               .reach_x = 2,
               .reach_y = 2};
-    if (other_.reprojection)
+    if (c_.reprojection)
       pass.reads = pass.reads + Bindings{"instance"} + of_other_eye(Bindings{"depth", "instance"} + rays() + seen());
     return pass;
   }
 
-  void add_defines(Pass& pass) const {
+  std::vector<Pass> with_defines(std::vector<Pass> passes) const {
     const Defines defines = {{"LEVELS", levels()},
-                             {"RAYS", rays_per_pixel(p_)},
-                             {"NEIGHBOURS", neighbours(p_)},
-                             {"JITTER", is_jittered(p_)},
+                             {"RAYS", c_.rays},
+                             {"NEIGHBOURS", c_.neighbours},
+                             {"JITTER", c_.jitter},
                              {"STEREO", std::is_same_v<Params, StereoSsrParams>},
                              {"MASK_ALONE", std::is_same_v<Params, ReflectionMaskParams>},
-                             {"TRAVERSAL", other_.traversal},
-                             {"FADE", other_.fade},
-                             {"REPROJECTION", other_.reprojection},
-                             {"OTHER_NEIGHBOURS", other_.neighbours}};
-    pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
+                             {"TRAVERSAL", c_.traversal},
+                             {"FADE", c_.fade},
+                             {"REPROJECTION", c_.reprojection},
+                             {"OTHER_NEIGHBOURS", c_.other_neighbours}};
+    for (Pass& pass : passes) pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
+    return passes;
   }
 
   const Params& p_;
-  Other other_;
+  Choices c_;
 };
 
 std::vector<Pass> sssr_passes(const SssrParams& p) { return Passes(p).all(); }
@@ -231,7 +223,6 @@ Technique plain() {
   // Rays are listed one by one: a mask over the image has little to add where surfaces reflect at all.
   t.effect = {.name = "reflections",
               .mask = "reflection-mask",
-              .glance = {},
               .glance_resolution = 4,
               .most_share = 0.3,
               .somewhere = "a surface reflects something that the image shows",

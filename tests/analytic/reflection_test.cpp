@@ -303,16 +303,18 @@ Found found_on_wall(const MirrorRoom& room, const Frame& out, size_t view, const
   return f;
 }
 
+/// The reflections of both eyes, through one image or both.
+Frame traversed(Frame& pair, const char* traversal) {
+  return outputs_of(find_technique("stereo-ssr"), pair, {{"fade_border", "0"}, {"traversal", traversal}},
+                    {.math = Math::precise});
+}
+
 // What lies beyond the border of one image is found in the other's.
 TEST(StereoReflection, GoesOnInTheOtherEyeBeyondTheBorder) {
   const Shot shot = perspective(160, 120, 70);
   const MirrorRoom left(shot, -0.2), right(shot, 0.2);
   Frame pair = pair_of(left, right);
-  const Technique& stereo = find_technique("stereo-ssr");
-  Settings settings = {{"fade_border", "0"}};
-  const Frame both = outputs_of(stereo, pair, settings, {.math = Math::precise});
-  settings.emplace_back("traversal", "mono");
-  const Frame mono = outputs_of(stereo, pair, settings, {.math = Math::precise});
+  const Frame both = traversed(pair, "stereo"), mono = traversed(pair, "mono");
   const auto only_right = [&](const dvec3& met) { return !left.shows(met, -1) && right.shows(met, 1); };
   const auto only_left = [&](const dvec3& met) { return !right.shows(met, -1) && left.shows(met, 1); };
   for (const size_t view : {0, 1}) {
@@ -332,11 +334,7 @@ TEST(StereoReflection, GoesOnInTheOtherEyeBehindThings) {
   const Post post{.low_x = -0.1, .high_x = 0.1, .bottom = -0.35};  // rays from the mirror pass under it
   const MirrorRoom left(shot, -0.25, post), right(shot, 0.25, post);
   Frame pair = pair_of(left, right);
-  const Technique& stereo = find_technique("stereo-ssr");
-  Settings settings = {{"fade_border", "0"}};
-  const Frame both = outputs_of(stereo, pair, settings, {.math = Math::precise});
-  settings.emplace_back("traversal", "mono");
-  const Frame mono = outputs_of(stereo, pair, settings, {.math = Math::precise});
+  const Frame both = traversed(pair, "stereo"), mono = traversed(pair, "mono");
   const auto hidden_from = [&](const MirrorRoom& room, const dvec3& met) {
     return std::isfinite(post.crossing(room.eye, met - room.eye).first);
   };
