@@ -484,6 +484,9 @@ void add_unnamed_beauty(std::vector<Candidate>& candidates, const std::vector<La
 // --- --plane
 // ----------------------------------------------------------------------------------------------------------
 
+/// Said in place of channels: the file's own are not used, as if it had none.
+constexpr const char* left_out = "none";
+
 void check_plane_name(const std::string& plane) {
   std::vector<std::string> names;
   for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
@@ -613,6 +616,10 @@ void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std:
   std::optional<std::string> prefix;
   for (const PlaneKind& kind : plane_kinds()) {
     if (const auto choice = options.channels.find(kind.name); choice != options.channels.end()) {
+      if (choice->second == left_out) {
+        overridden.insert(kind.name);
+        continue;
+      }
       const auto channels = chosen(layers, entries, kind, view, choice->second);
       if (channels.empty()) continue;
       overridden.insert(kind.name);

@@ -475,6 +475,19 @@ long long count_missing_normals(const Plane& normal, const Channel& depth) {
   return total;
 }
 
+double share_of_ones(const Plane& plane, const Channel& depth) {
+  long long surfaces = 0, ones = 0;
+  for (int y = 0; y < depth.layout().height; ++y) {
+    for (int x = 0; x < depth.layout().width; ++x) {
+      if (is_background(depth.at(x, y))) continue;
+      ++surfaces;
+      ones +=
+          std::all_of(plane.channels.begin(), plane.channels.end(), [&](const Channel& c) { return c.at(x, y) == 1; });
+    }
+  }
+  return surfaces > 0 ? double(ones) / double(surfaces) : 0;
+}
+
 void to_view_space(Plane& normal, const Pose& pose) {
   const glm::mat3 m(pose.world_to_view);
   for_each_row(normal.channels[0].layout(), [&](int y) {

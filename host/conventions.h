@@ -45,6 +45,9 @@ void tidy(Frame& frame, std::optional<float> background, bool as_stored = false)
 /// Pixels of the foreground whose normal is zero or not finite. `depth` has been through `to_view_depth`.
 long long count_missing_normals(const Plane& normal, const Channel& depth);
 
+/// Share of the foreground where all components are exactly 1; 0 where there is none. `depth` as above.
+double share_of_ones(const Plane& plane, const Channel& depth);
+
 /// Rotates world-space normals into view space, in place.
 void to_view_space(Plane& normal, const Pose& pose);
 

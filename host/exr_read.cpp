@@ -342,6 +342,7 @@ struct FrameFile::Impl {
   void decode(Frame& frame);
   void convert_depth(View& view, Frame& frame);
   void convert_normals(View& view, Frame& frame);
+  void judge_reflectance(View& view, Frame& frame) const;
   NormalSpace said_space(const PlaneSource& normal) const;
   void settle_camera(View& view, Frame& frame) const;
 };
@@ -708,6 +709,22 @@ void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
   append_new(frame.assumed, notes);
 }
 
+/// Cycles' GlossCol is 1 where a Principled BSDF is no metal, whatever that reflects.
+void FrameFile::Impl::judge_reflectance(View& view, Frame& frame) const {
+  const Plane* reflectance = view.find("reflectance");
+  const Plane* depth = view.find("depth");
+  if (options.channels.contains("reflectance") || !reflectance || !depth) return;
+  const std::string& name = source("reflectance", view.name)->channels.front().name;
+  if (name.find("GlossCol") == std::string::npos) return;
+  const double share = share_of_ones(*reflectance, depth->channels.front());
+  if (share < 0.5) return;
+  append_new(
+      frame.assumed,
+      {fmt::format("reflectance: GlossCol is 1 on {:.0f} % of the surfaces, as a Principled BSDF writes it whatever "
+                   "it reflects: reflections will be far too bright (--plane reflectance=none takes 0.04)",
+                   100 * share)});
+}
+
 FrameFile::FrameFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 FrameFile FrameFile::without_cameras(const fs::path& path, const ReadOptions& options) {
@@ -809,6 +826,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
     impl_->settle_camera(view, frame);
     impl_->convert_depth(view, frame);
     impl_->convert_normals(view, frame);
+    impl_->judge_reflectance(view, frame);
   }
   const bool has_depth = std::any_of(frame.views.begin(), frame.views.end(), [](View& v) { return v.find("depth"); });
   if (const auto value = impl_->options.background; value && has_depth && !impl_->background_seen)

@@ -178,7 +178,7 @@ void FrameFlags::add_to(CLI::App& app) {
   app.add_option("--normal-space", normal_space, "space of the normals: auto, view or world")
       ->type_name("SPACE")
       ->group("Reading the frame");
-  app.add_option("--plane", planes, "take a plane from these channels or layer: depth=Layer.Z (repeatable)")
+  app.add_option("--plane", planes, "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
       ->type_name("PLANE=CHANNELS")
       ->group("Reading the frame")
       ->expected(1)

@@ -30,7 +30,8 @@ struct ReadOptions {
   /// Values as they stand in the file: only depth is converted, and the space of normals; nothing is clamped, replaced
   /// or made unit. For measuring, which must see what a technique wrote.
   bool as_stored = false;
-  std::map<std::string, std::string> channels;  ///< --plane depth=Layer.Z: plane -> channel, channels (a,b,c) or layer
+  /// --plane depth=Layer.Z: plane -> channel, channels (a,b,c), layer, or "none": as if the file did not have the plane.
+  std::map<std::string, std::string> channels;
 };
 
 /// One channel of the file that serves as one component of a plane.

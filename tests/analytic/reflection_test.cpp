@@ -1,11 +1,15 @@
 // Screen-space reflections against what a mirror must show, solved for in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "gloam/capture.h"
+#include "gloam/exr.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
 #include "gloam/reference.h"
@@ -412,12 +416,13 @@ struct Errors {
   double rmse, ssim;
 };
 
+Plane colours(const Plane& plane) {
+  Plane out = plane.clone();
+  out.channels.pop_back();
+  return out;
+}
+
 Errors errors_of(const Frame& frame, const Frame& truth, size_t view) {
-  const auto colours = [](const Plane& plane) {
-    Plane out = plane.clone();
-    out.channels.pop_back();
-    return out;
-  };
   const Channel& depth = truth.views[view].find("depth")->channels[0];
   Mask mask;
   for (int y = 0; y < truth.height(); ++y)
@@ -444,6 +449,72 @@ TEST(StereoReflection, IsNearerToTheTruthThanThePlainOne) {
     EXPECT_LT(b.rmse, a.rmse);
     EXPECT_GT(b.ssim, a.ssim);
     EXPECT_LT(a.rmse, 0.04);
+  }
+}
+
+/// A kitchen that Cycles has rendered, with the light that its surfaces reflect (two bounces): GlossInd is what they have from
+/// other surfaces; what comes of lamps, which the image does not show, and of the sky is GlossDir.
+class Kitchen : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::filesystem::path folder = std::filesystem::path(GLOAM_CAPTURES) / "kitchen";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no captures at " << folder;
+    FrameFile reference(folder / "kitchen_reflection_ref.exr",
+                        {.as_stored = true, .channels = {{"color", "ViewLayer.GlossInd"}}});
+    truth = std::move(reference.read({"color"}).views[0].planes.at("color"));
+    for (const char* reflectance : {"ViewLayer.GlossCol", "none"}) {
+      FrameFile file(folder / "kitchen_user.exr", {.channels = {{"reflectance", reflectance}}});
+      frames.push_back(file.read(file.common_planes()));
+    }
+  }
+
+  /// Surfaces up to this roughness; with `shown` only those of which 90 % of what they reflect was found, on a surface.
+  Mask where(const Frame& reflections, double most_roughness, bool shown = true) const {
+    const View &found = reflections.views[0], &frame = frames[0].views[0];
+    Mask mask;
+    for (int y = 0; y < reflections.height(); ++y) {
+      for (int x = 0; x < reflections.width(); ++x) {
+        const auto at = [&](const View& view, const char* plane, size_t c = 0) {
+          return double(view.find(plane)->channels[c].at(x, y));
+        };
+        const bool is_found = at(found, "reflection", 3) >= 0.9 && at(found, "hit") > 0;
+        mask.push_back(!is_background(float(at(frame, "depth"))) && at(frame, "roughness") <= most_roughness &&
+                       (is_found || !shown));
+      }
+    }
+    return mask;
+  }
+
+  Metrics error_of(const Plane& reflection, const Mask& mask) const {
+    constexpr double exposure = 7;  // the brightest hundredth of the truth begins at about 1 / 7
+    return compare(reflection, truth, mask, exposure);
+  }
+
+  Plane truth;
+  std::vector<Frame> frames;  ///< with the reflectance of the file, and without it
+};
+
+TEST_F(Kitchen, ReflectsAboutWhatItsRendererSays) {
+  const Settings rays = {{"rays", "4"}};
+  const Frame too_bright = outputs_of(find_technique("sssr"), frames[0], rays, {});
+  const Frame found = outputs_of(find_technique("sssr"), frames[1], rays, {});
+  Plane black{"color", {}};
+  for (int c = 0; c < 3; ++c) black.channels.emplace_back(truth.channels[0].layout(), 0.0f);
+  const auto count = [](const Mask& mask) { return double(std::count(mask.begin(), mask.end(), 1)); };
+  for (const double roughness : {1.0, 0.1}) {
+    const Mask mask = where(found, roughness);
+    const double share = count(mask) / count(where(found, 1, false));
+    const Metrics m = error_of(colours(*found.views[0].find("reflection")), mask), of_black = error_of(black, mask),
+                  of_file = error_of(colours(*too_bright.views[0].find("reflection")), mask);
+    std::printf("%.1f %% of the surfaces, roughness up to %.1f: RMSE %.4f, SSIM %.3f, bias %.4f\n", 100 * share,
+                roughness, m.rmse, m.ssim, m.bias);
+    std::printf("  black: %.4f, %.3f, %.4f; with GlossCol: %.4f, %.3f, %.4f\n", of_black.rmse, of_black.ssim,
+                of_black.bias, of_file.rmse, of_file.ssim, of_file.bias);
+    EXPECT_GT(share, 0.15);
+    EXPECT_LT(m.rmse, 0.9 * of_black.rmse);
+    EXPECT_GT(m.ssim, of_black.ssim + 0.15);
+    EXPECT_LT(std::abs(m.bias), 0.2 * std::abs(of_black.bias));
+    EXPECT_LT(m.rmse, of_file.rmse / 4);
   }
 }
 

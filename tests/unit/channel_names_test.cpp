@@ -230,6 +230,19 @@ TEST(ChannelNames, OverrideByChannelChannelsAndLayer) {
   EXPECT_EQ(chosen("normal", "Foo.N"), (Names{"Foo.N.X", "Foo.N.Y", "Foo.N.Z"}));
 }
 
+TEST(ChannelNames, NoneLeavesAPlaneOutInEveryView) {
+  const Names file = {"left.Z",          "right.Z",          "left.GlossCol.R",  "left.GlossCol.G",
+                      "left.GlossCol.B", "right.GlossCol.R", "right.GlossCol.G", "right.GlossCol.B"};
+  const std::vector<std::string> views = {"left", "right"};
+  const auto all = name_planes(single_part(file), views);
+  const auto rest = name_planes(single_part(file), views, {{}, {{"reflectance", "none"}}});
+  for (const std::string& view : views) {
+    EXPECT_EQ(channels_of(all, "reflectance", view).size(), 3u);
+    EXPECT_EQ(channels_of(rest, "reflectance", view), Names{});
+    EXPECT_EQ(channels_of(rest, "depth", view).size(), 1u);
+  }
+}
+
 TEST(ChannelNames, OverrideAppliesToEveryView) {
   const auto named =
       name_planes(single_part({"L.Far.left.Z", "L.Far.right.Z"}), {"left", "right"}, {{}, {{"depth", "L.Far.Z"}}});

@@ -509,6 +509,27 @@ TEST(ReadExr, DistanceByNameIsBroughtToPlanarDepth) {
   EXPECT_EQ(FrameFile(folder / "f.exr", options).read({"depth"}).views[0].find("depth")->channels[0].at(100, 50), 10);
 }
 
+TEST(ReadExr, AReflectanceThatSaysNothingIsSaid) {
+  Folder folder;
+  const auto write = [&](float share) {  // of the row that is 1
+    const auto gloss = [share](int x, int) { return float(x) < 10 * share ? 1 : 0.5f; };
+    write_exr(folder / "f.exr", Imf::Header(11, 2),
+              {{"L.Depth.Z", Imf::FLOAT, [](int x, int) { return x < 10 ? 3 : 1e10f; }},
+               {"L.GlossCol.R", Imf::HALF, gloss},
+               {"L.GlossCol.G", Imf::HALF, gloss},
+               {"L.GlossCol.B", Imf::HALF, gloss}});
+  };
+  const auto notes = [&](const ReadOptions& options) {
+    return fmt::format("{}",
+                       fmt::join(FrameFile(folder / "f.exr", options).read({"depth", "reflectance"}).assumed, "; "));
+  };
+  write(0.8f);
+  EXPECT_NE(notes({}).find("GlossCol is 1 on 80 % of the surfaces"), std::string::npos) << notes({});
+  EXPECT_EQ(notes({.channels = {{"reflectance", "L.GlossCol"}}}).find("GlossCol is 1"), std::string::npos);
+  write(0.2f);
+  EXPECT_EQ(notes({}).find("GlossCol is 1"), std::string::npos) << notes({});
+}
+
 TEST(ReadExr, MotionOfBlenderIsTurnedYDown) {
   Folder folder;
   write_exr(folder / "f.exr", Imf::Header(4, 4),
