@@ -247,17 +247,27 @@ static inline mask rises(Frame frame, Start s, Place p, real nearest) {
   return height > 0 & height * height > s.least_sine * s.least_sine * dot3(v, v);
 }
 
+// How far the back of what a pixel shows lies, as the ray has it; `nearest` where that is not known.
+static inline real back_of(Frame frame, Start s, Hierarchy cells, global const float* back_depth, Place p, Cell cell,
+                           real nearest, mask counts) {
+#if BOTH_DEPTHS
+  return relative_nearness(s.line, farthest_in(frame, cells, p, cell));
+#else
+  const real back = gather(back_depth, FRAME_GUARD + p.row * frame.pitch + p.column);
+  const mask has_back = counts & !is_background(back);
+  return choose(has_back, relative_nearness(s.line, nearness_of(frame, choose(has_back, back, (real)(1)))), nearest);
+#endif
+}
+
 // Whether rays enter a pixel behind what that shows: its back, where that is known, else farther than surfaces reach.
-static inline mask is_behind(Frame frame, Params params, Start s, global const float* back_depth, Place p, real nearest,
-                             mask counts) {
+static inline mask is_behind(Frame frame, Params params, Start s, Hierarchy cells, global const float* back_depth,
+                             Place p, Cell cell, real nearest, mask counts) {
   const real entry = smaller(s.line.slope * p.t, nearest);
   const mask behind = counts & is_deeper_by(frame, entry, nearest, params.thickness);
 #if TRAVERSAL
   if (!ANY(behind)) return behind;
-  const real back = gather(back_depth, FRAME_GUARD + p.row * frame.pitch + p.column);
-  const mask has_back = behind & !is_background(back);
-  const real back_nearness = relative_nearness(s.line, nearness_of(frame, choose(has_back, back, (real)(1))));
-  return behind & !(has_back & (entry >= back_nearness));
+  const real back = back_of(frame, s, cells, back_depth, p, cell, nearest, behind);
+  return behind & !((back < nearest) & (entry >= back));
 #else
   return behind;
 #endif
@@ -310,7 +320,7 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
   const mask asks = may_meet & is_pixel;
   if (ANY(asks)) {
     const mask counts = asks & rises(frame, s, p, nearest);
-    const mask behind = is_behind(frame, params, s, back_depth, p, nearest, counts);
+    const mask behind = is_behind(frame, params, s, cells, back_depth, p, cell, nearest, counts);
     met = counts & !behind;
     *hidden |= behind;
   }
