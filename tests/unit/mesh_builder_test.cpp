@@ -379,7 +379,9 @@ TEST_P(BusyScene, ShowsFrontsButForSheets) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BusyScene, testing::Values("courtyard", "temple", "corridor", "colonnade", "gallery"),
+INSTANTIATE_TEST_SUITE_P(All, BusyScene,
+                         testing::Values("courtyard", "temple", "corridor", "colonnade", "gallery", "lounge",
+                                         "banquet"),
                          [](const auto& scene) { return scene.param; });
 
 TEST(Corridor, ShellIsOneConnectedMeshWithConcaveCorners) {
