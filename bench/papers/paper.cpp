@@ -11,6 +11,7 @@
 #include "report/markdown_text.h"
 #include "shi2022.h"
 #include "vermeer2021.h"
+#include "wu2024.h"
 
 namespace gloam::bench {
 namespace {
@@ -81,7 +82,7 @@ void add_tables(std::string& text, const std::vector<Entry>& entries, std::strin
 }  // namespace
 
 const std::vector<Paper>& papers() {
-  static const std::vector<Paper> all = {vermeer2021(), shi2022(), odssao2020()};
+  static const std::vector<Paper> all = {vermeer2021(), shi2022(), odssao2020(), wu2024()};
   return all;
 }
 

@@ -44,6 +44,10 @@ Stage Study::stage(const Shot& shot, int width, int height) const {
   s.tracer = std::make_unique<Tracer>(s.scene);
   s.radius = s.scene.ao_radius;
   CaptureOptions capture{.width = width, .height = height, .planes = {"depth", "normal"}, .peel = shot.layers};
+  if (shot.with_materials) {
+    for (const char* plane : {"color", "roughness", "reflectance", "back_depth", "instance"})
+      capture.planes.emplace_back(plane);
+  }
   capture.views = {{"", camera_for(s.scene.cameras.at(size_t(shot.camera)), width, height), {}}};
   capture.second_view = shot.second_view;
   if (shot.eyes_apart) capture.stereo = StereoRig{.interpupillary_distance = *shot.eyes_apart};

@@ -51,7 +51,7 @@ struct Stage {
 /// "1920x1080"
 std::string size_of(const Stage& s);
 
-/// What of a scene is captured: depth, normal and so many peeled layers.
+/// What of a scene is captured: depth, normal, and what is asked for.
 struct Shot {
   std::string scene;
   int layers = 0;
@@ -60,6 +60,7 @@ struct Shot {
   std::optional<double> second_view = {};  ///< degrees
   std::optional<double> eyes_apart = {};   ///< two eyes in the camera's place, scene units
   bool with_outlines = false;              ///< as wide as the scene's radius
+  bool with_materials = false;             ///< also what reflections read
 };
 
 class Study {
