@@ -210,6 +210,11 @@ const std::vector<Spelling>& spellings() {
       {"bent_normal", "bentnormal", xyz, generic},
       {"cone", "*", "cone", own},
       {"reflection", "reflection", "r,g,b,a", own},
+      {"reflection_raw", "reflection_raw", "r,g,b,a", own},
+      {"frames", "", "frames", own},
+      {"history", "history", "r,g,b,a", own},
+      {"history_depth", "history", "z", own},
+      {"history_frames", "history", "frames", own},
       {"reflection_noise", "*", "reflection_noise", own},
       {"hit", "hit", "z", own},
   };

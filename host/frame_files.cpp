@@ -125,13 +125,29 @@ std::vector<PlaneSource> FrameFiles::sources() const {
   return sources;
 }
 
-std::vector<std::string> FrameFiles::common_planes() const { return gloam::common_planes(sources(), views_); }
+std::vector<std::string> FrameFiles::common_planes() const {
+  std::vector<std::string> planes = gloam::common_planes(sources(), views_);
+  if (history_) {
+    for (const std::string& plane : History::planes()) add_new(planes, plane);
+  }
+  return planes;
+}
 
 std::string FrameFiles::why_missing(const std::string& plane) const {
   return gloam::why_missing(sources(), views_, plane);
 }
 
 Frame FrameFiles::read(const std::vector<std::string>& planes) {
+  if (!history_) return read_files(planes);
+  const auto is_of_history = [](const std::string& plane) { return contains(History::planes(), plane); };
+  std::vector<std::string> own = planes;
+  std::erase_if(own, is_of_history);
+  Frame frame = read_files(own);
+  if (std::any_of(planes.begin(), planes.end(), is_of_history)) history_->add_to(frame, planes);
+  return frame;
+}
+
+Frame FrameFiles::read_files(const std::vector<std::string>& planes) {
   Frame frame = files_[0].read(planes);
   if (files_.size() == 1) return frame;
   Frame second = files_[1].read(planes);

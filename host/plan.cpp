@@ -544,6 +544,16 @@ bool reads_from(const Technique& reader, const Technique& writer) {
                      [&](const std::string& plane) { return contains(writer.writes, plane); });
 }
 
+/// Motion is told in pixels of the image.
+void check_full_resolution(const PlanRequest& request, const Techniques& techniques) {
+  if (request.resolution == 1) return;
+  for (const Technique* technique : techniques) {
+    if (contains(technique->reads, "motion"))
+      throw UsageError("{}: works at full resolution, as motion is in its pixels; leave out --resolution",
+                       technique->name);
+  }
+}
+
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
   Wanted wanted = wanted_by(request, available);
   const Techniques asked_for = wanted.makers;
@@ -553,6 +563,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   std::vector<std::string> also = is_reduced ? resampling().reads : std::vector<std::string>();
   if (elsewhere) also.insert(also.end(), elsewhere->reads.begin(), elsewhere->reads.end());
   Walk walk(wanted, with_stacks(available), also, mask);
+  check_full_resolution(request, walk.order);
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
   take_inputs(plan, walk.inputs, available, walk.missing);

@@ -240,7 +240,7 @@ bool reads_other_view(const Pass& pass) {
 std::vector<std::string> declared_arguments(const PlannedPass& planned, const Layouts& layouts) {
   std::vector<std::string> names = {"frame"};
   if (other_scale(planned, layouts) != 0) names.push_back("other");
-  if (reads_other_view(planned.pass)) names.push_back("neighbour");
+  if (reads_other_view(planned.pass) || planned.pass.from_frame_before) names.push_back("neighbour");
   if (!planned.technique->parameters.empty()) names.push_back("params");
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
@@ -325,6 +325,28 @@ void set_neighbour(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned
                   kernel_neighbour<NeighbourOfFloats>(frame_of<FrameOfFloats>(other, scale, options.seed), from, to));
 }
 
+/// From a view to where its camera was in the frame before; without both poses to nowhere.
+template <typename KernelNeighbour, typename KernelFrame>
+KernelNeighbour neighbour_before(const Target& target, int scale, int seed) {
+  const Camera& now = *target.view.camera;
+  const Camera& before = target.view.camera_before.value_or(now);
+  const KernelFrame frame = kernel_frame<KernelFrame>(target.frame, before, reduced(target.layout, scale), scale, seed);
+  if (target.view.camera_before && now.pose && before.pose)
+    return kernel_neighbour<KernelNeighbour>(frame, *now.pose, *before.pose);
+  KernelNeighbour nowhere = kernel_neighbour<KernelNeighbour>(frame, Pose(), Pose());
+  std::fill_n(nowhere.translation, 3, std::numeric_limits<decltype(frame.scale_x)>::quiet_NaN());
+  return nowhere;
+}
+
+void set_neighbour_before(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned, const Target& target,
+                          const RunOptions& options) {
+  const int scale = planned.pass.scale;
+  if (options.real == Real::float64)
+    kernel.setArg(index, neighbour_before<NeighbourOfDoubles, FrameOfDoubles>(target, scale, options.seed));
+  else
+    kernel.setArg(index, neighbour_before<NeighbourOfFloats, FrameOfFloats>(target, scale, options.seed));
+}
+
 /// `other`: the other view, null where there is none.
 void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, Target& target, Target* other,
                    const RunOptions& options) {
@@ -332,6 +354,7 @@ void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, Target& targe
   set_frame(kernel, index++, target, planned.pass.scale, options);
   if (const int scale = other_scale(planned, target.layouts)) set_frame(kernel, index++, target, scale, options);
   if (reads_other_view(planned.pass)) set_neighbour(kernel, index++, planned, target, *other, options);
+  if (planned.pass.from_frame_before) set_neighbour_before(kernel, index++, planned, target, options);
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {

@@ -216,7 +216,7 @@ void auto_command(const AutoCommand& flags) {
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out}, {"--explain", flags.explain}, {"--json", flags.json.file()}});
-  FrameFiles files(flags.frame.paths(), flags.frame_flags.read_options());
+  FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
   const PlanRequest asked = flags.technique_flags.request({});
   Candidates candidates = candidates_for(asked, files);
   std::vector<std::string> planes = {"depth"};

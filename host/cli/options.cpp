@@ -149,11 +149,17 @@ void FrameArguments::add_to(CLI::App& app) {
   app.add_option("frame", frame, "EXR file")->required()->type_name("FRAME.exr");
   app.add_option("other_eye", other_eye, "the second eye, where FRAME.exr holds one view and this file the other")
       ->type_name("RIGHT.exr");
+  app.add_option("--history", history, "what gloam run wrote for the frame before, for techniques that accumulate")
+      ->type_name("PREVIOUS.exr")
+      ->group("Reading the frame");
 }
 
-std::vector<std::string> FrameArguments::paths() const {
-  if (other_eye.empty()) return {frame};
-  return {frame, other_eye};
+FrameFiles FrameArguments::open(const ReadOptions& options) const {
+  std::vector<std::string> paths = {frame};
+  if (!other_eye.empty()) paths.push_back(other_eye);
+  FrameFiles files(paths, options);
+  if (!history.empty()) files.take_history(history);
+  return files;
 }
 
 void FrameFlags::add_to(CLI::App& app) {
@@ -178,7 +184,8 @@ void FrameFlags::add_to(CLI::App& app) {
   app.add_option("--normal-space", normal_space, "space of the normals: auto, view or world")
       ->type_name("SPACE")
       ->group("Reading the frame");
-  app.add_option("--plane", planes, "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
+  app.add_option("--plane", planes,
+                 "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
       ->type_name("PLANE=CHANNELS")
       ->group("Reading the frame")
       ->expected(1)
@@ -294,7 +301,9 @@ void RunFlags::add_to(CLI::App& app) {
   app.add_option("--lanes", lanes, "pixels per work-item: auto, 1, 4, 8 or 16")->type_name("N")->group("Device");
   app.add_option("--math", math, "precise (same bits at every lane width) or fast")->type_name("MODE")->group("Device");
   app.add_option("--real", real, "float or double")->type_name("TYPE")->group("Device");
-  app.add_option("--seed", seed, "of the random numbers")->type_name("N")->group("Device");
+  app.add_option("--seed", seed, "of the random numbers; default: 0, or one more than --history had")
+      ->type_name("N")
+      ->group("Device");
   app.add_option("--repeat", repeat, "timed runs; more than one: after a warm-up")->type_name("N")->group("Device");
 }
 
@@ -303,7 +312,7 @@ RunOptions RunFlags::run_options() const {
   options.lanes = one_of<int>(lanes, "--lanes", {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}});
   options.math = one_of<Math>(math, "--math", {{"precise", Math::precise}, {"fast", Math::fast}});
   options.real = one_of<Real>(real, "--real", {{"float", Real::float32}, {"double", Real::float64}});
-  options.seed = parse_whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
+  if (!seed.empty()) options.seed = parse_whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
   options.repeat = parse_whole_number(repeat, "--repeat", 1, 10000);
   return options;
 }

@@ -32,12 +32,14 @@ struct FrameFlags {
 
 /// The arguments of a command that takes a frame in one file, or its two eyes in two.
 struct FrameArguments {
-  std::string frame, other_eye;
+  std::string frame, other_eye, history;
   void add_to(CLI::App& app);
-  /// One or two.
-  std::vector<std::string> paths() const;
+  /// What they name, history included.
+  FrameFiles open(const ReadOptions& options) const;
   /// For `check_paths`.
-  std::vector<NamedPath> inputs() const { return {{"the frame", frame}, {"the frame", other_eye}}; }
+  std::vector<NamedPath> inputs() const {
+    return {{"the frame", frame}, {"the frame", other_eye}, {"--history", history}};
+  }
 };
 
 /// Which techniques, and with which parameters.
@@ -51,7 +53,7 @@ struct TechniqueFlags {
 
 /// Where and how to compute.
 struct RunFlags {
-  std::string device, lanes = "auto", math = "fast", real = "float", seed = "0", repeat = "1";
+  std::string device, lanes = "auto", math = "fast", real = "float", seed, repeat = "1";
   void add_to(CLI::App& app);
   RunOptions run_options() const;
 };

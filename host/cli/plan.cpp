@@ -44,7 +44,7 @@ void add_plan(CLI::App& app) {
   command->callback([flags] {
     check_paths(flags->frame.inputs(), {{"--json", flags->json.file()}});
     const PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
-    const FrameFiles files(flags->frame.paths(), flags->frame_flags.read_options());
+    const FrameFiles files = flags->frame.open(flags->frame_flags.read_options());
     const Plan plan = plan_for(files, request);
     const std::vector<std::string> decoded = decoded_channels(plan.inputs, files);
     flags->json.write(plan_document(plan, decoded));

@@ -198,7 +198,7 @@ void tell(std::promise<void>& promise, std::exception_ptr error) {
 }
 
 /// What made the planes, for the header: "hbao+", "hbao+: radius=0.5 bias=0.1 ...; bilateral: ...".
-std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& flags) {
+std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& flags, int seed) {
   std::string parameters;
   const Technique* last = nullptr;
   for (const PlannedPass& planned : plan.passes) {
@@ -209,7 +209,13 @@ std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& 
   }
   return {{"gloamTechnique", plan.technique},
           {"gloamParameters", parameters},
-          {"gloamRun", fmt::format("math={} real={} seed={}", flags.math, flags.real, flags.seed)}};
+          {"gloamRun", fmt::format("math={} real={} seed={}", flags.math, flags.real, seed)}};
+}
+
+/// Other random numbers than the frame before had: the same ones would have nothing to add.
+int seed_after(const std::optional<History>& history) {
+  const int before = history ? history->seed().value_or(0) : -1;
+  return before < std::numeric_limits<int>::max() ? before + 1 : 0;
 }
 
 void run_command(const RunCommand& flags) {
@@ -225,7 +231,8 @@ void run_command(const RunCommand& flags) {
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
-  FrameFiles files(flags.frame.paths(), flags.frame_flags.read_options());
+  FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
+  if (flags.run_flags.seed.empty()) options.seed = seed_after(files.history());
   Plan plan = plan_for(files, request);
   watch.lap("open");
   // The device starts up and compiles while the planes are decoded. A large frame waits to hear that the device has the
@@ -262,7 +269,7 @@ void run_command(const RunCommand& flags) {
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
   carry_over(frame, result.frame, flags.bare);
-  result.frame.attributes = provenance(plan, flags.run_flags);
+  result.frame.attributes = provenance(plan, flags.run_flags, options.seed);
   write_frame(flags.out, result.frame, writing);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, pictured(plan));
   watch.lap("write");
@@ -271,8 +278,7 @@ void run_command(const RunCommand& flags) {
   flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, files), watch), written);
   if (flags.json.only_json()) return;
   print_times(result, device.info(), watch);
-  if (!plan.wanted.empty())
-    fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
+  if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
   if (!plan.rest.empty())
     fmt::print("{} saw to {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
   fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
@@ -306,6 +312,7 @@ void add_run(CLI::App& app) {
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"
       "  gloam run gtao frame.exr -o ao.exr --only corner-mask\n"
+      "  gloam run temporal-sssr frame.0002.exr --history reflection.0001.exr -o reflection.0002.exr\n"
       "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
       "Every parameter of the technique is a flag (gloam list techniques).");
   command->callback([flags] { run_command(*flags); });

@@ -78,7 +78,8 @@ struct Plane {
 struct View {
   std::string name;  ///< "" when the file names none
   std::optional<Camera> camera;
-  glm::dvec3 origin{0.0};  ///< what the plane `position` is relative to (gloamOrigin), in double
+  std::optional<Camera> camera_before;  ///< of the frame before in a sequence, for techniques that read its history
+  glm::dvec3 origin{0.0};               ///< what the plane `position` is relative to (gloamOrigin), in double
   std::map<std::string, Plane> planes;
   const Plane* find(const std::string& plane) const;
 };

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gloam/exr.h"
+#include "gloam/history.h"
 
 namespace gloam {
 
@@ -25,6 +27,10 @@ class FrameFiles {
  public:
   FrameFiles(const std::vector<std::string>& paths, const ReadOptions& options);
 
+  /// The frame has its planes too from now on. Throws what `History` throws.
+  void take_history(const std::filesystem::path& path) { history_.emplace(path); }
+  const std::optional<History>& history() const { return history_; }
+
   const std::vector<FrameFile>& files() const { return files_; }
   /// "pair_L.exr and pair_R.exr", without folders.
   std::string name() const;
@@ -39,9 +45,11 @@ class FrameFiles {
 
  private:
   std::vector<PlaneSource> sources() const;
+  Frame read_files(const std::vector<std::string>& planes);
 
   std::vector<FrameFile> files_;
   std::vector<std::string> views_;
+  std::optional<History> history_;
   std::string assumed_;  ///< how the eyes got their names; empty where the files say them
 };
 

@@ -36,7 +36,7 @@ inline Binding of_other(Binding binding) {
 
 /// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, Params params, reads..., writes...).
 /// A technique without parameters has no `params`. `other` is there only where planes of a second resolution are bound:
-/// their frame; `neighbour` (frame.h) only where planes of the other view are.
+/// their frame; `neighbour` (frame.h) only where planes of the other view are, or `from_frame_before`.
 struct Pass {
   std::string name;                                  ///< "estimate": shown as "hbao+/estimate"
   std::string kernel;                                ///< function in the technique's source
@@ -56,6 +56,9 @@ struct Pass {
   bool can_skip = false;
   /// A filter's: each pixel reads what earlier passes made so many columns and rows around, at most 32.
   int reach_x = 0, reach_y = 0;
+  /// The neighbour is the camera that the view had in the frame before (`View::camera_before`); where that is not known it sees
+  /// nothing.
+  bool from_frame_before = false;
   /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
   bool repeats_cells = false;
 };
@@ -79,7 +82,8 @@ struct Effect {
   /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
   /// than it saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< of the technique in `gloam auto`, under the user's own
+  std::vector<std::pair<std::string, std::string>>
+      settings;                    ///< of the technique in `gloam auto`, under the user's own
   std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
 };
 

@@ -38,10 +38,19 @@
   P(float, other_length, 0.1f, 0, INFINITY, "",                                                                      \
     "how much longer or shorter the other eye's rays may be, as a share; roughness is added to it")
 
+#define TEMPORAL_SSSR_PARAMS(P)                                                                            \
+  SSSR_PARAMS(P)                                                                                           \
+  P(int, most_frames, 16, 1, 1024, "frames", "that a pixel is the mean of; from there on the oldest fade") \
+  P(float, same_depth, 0.05f, 0, INFINITY, "",                                                             \
+    "how much nearer or farther a surface may be than in the frame before, as a share")                    \
+  P(float, kept_within, 3, 0, 1e6f, "mean deviations",                                                     \
+    "how far what the frame before showed may be from the mean of the neighbours; what is farther is brought there")
+
 #define REFLECTION_MASK_PARAMS(P) \
   RAY_PARAMS(P)                   \
   P(float, blurred, 0.2f, 0, 1, "", "roughness from which on one direction does not tell what a surface reflects")
 
 PARAMS(SssrParams, SSSR_PARAMS)
 PARAMS(StereoSsrParams, STEREO_SSR_PARAMS)
+PARAMS(TemporalSssrParams, TEMPORAL_SSSR_PARAMS)
 PARAMS(ReflectionMaskParams, REFLECTION_MASK_PARAMS)

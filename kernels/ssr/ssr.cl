@@ -13,6 +13,7 @@
 //      back_depth   of the back of what is seen (TRAVERSAL); instance (REPROJECTION); other_...  of the other eye
 // out: reflection   radiance towards the eye; a = share of it that was found in the image
 //      hit          length of the (first) reflected ray, scene units; 0 where nothing was met, and of background
+//      frames       how many frames reflection is the mean of (TEMPORAL, which reads motion and history... of the frame before)
 // between: list    rays that are followed: layer * floats per layer + pixel (pixel_list.h)
 //      met      what each met (keep_met); left_at, met_in_other  where it left this image, and what it met in the other's
 //      nearness, farness  hierarchy (screen_ray.h)
@@ -21,19 +22,26 @@
 //      ray_confidence  0 of a miss .. 1
 //      RAYS layers of each.
 // -D LEVELS, BOTH_DEPTHS, LEVEL (ssr_level), RAYS, NEIGHBOURS, JITTER, STEREO, TRAVERSAL, FADE, REPROJECTION, OTHER_NEIGHBOURS,
-//    IN_OTHER (ssr_march), MASKED, MASK_ALONE (reflection-mask: mirrors for all surfaces, and ssr_found)
+//    IN_OTHER (ssr_march), TEMPORAL, MASKED, MASK_ALONE (reflection-mask: mirrors for all surfaces, and ssr_found)
 #include "shared/ggx.h"
 #include "shared/pixel_list.h"
 #include "shared/sample.h"
 #include "shared/screen_ray.h"
 #include "shared/wanted.h"
 #include "ssr/params.h"
+#if STEREO || TEMPORAL
+#include "shared/neighbour.h"
+#endif
+#if TEMPORAL
+#include "shared/history.h"
+#endif
 
 #if MASK_ALONE
 typedef ReflectionMaskParams Params;
 #elif STEREO
-#include "shared/neighbour.h"
 typedef StereoSsrParams Params;
+#elif TEMPORAL
+typedef TemporalSssrParams Params;
 #else
 typedef SssrParams Params;
 #endif
@@ -870,11 +878,7 @@ static inline mask on_surface(Reflector s, real3 v) {
   return height * height <= (scalar)0.25f * dot3(v, v) + (scalar)1e-6f;
 }
 
-#if REPROJECTION
-typedef struct {
-  global const float *depth, *instance, *x, *y, *z, *r, *g, *b, *length, *density, *confidence;
-} OtherRays;
-
+#if REPROJECTION || TEMPORAL
 // Where the other eye sees the virtual image of what the pixel's rays meet at this distance: on the plane of the surface, on
 // the way from the image behind it to that eye.
 static inline Projection same_virtual_image(Frame frame, Neighbour n, Reflector s, real length, mask counts) {
@@ -891,6 +895,12 @@ static inline Projection same_virtual_image(Frame frame, Neighbour n, Reflector 
   return project_into(n, make3(image.x + to_eye.x * share, image.y + to_eye.y * share, image.z + to_eye.z * share),
                       meets);
 }
+#endif
+
+#if REPROJECTION
+typedef struct {
+  global const float *depth, *instance, *x, *y, *z, *r, *g, *b, *length, *density, *confidence;
+} OtherRays;
 
 static inline void take_rays_of_other(Frame frame, Neighbour n, Params params, Reflector s, OtherRays rays,
                                       real instance, mask counts, Reflected* sum) {
@@ -954,7 +964,12 @@ kernel void ssr_resolve(Frame frame,
                         PLANE other_ray_b, PLANE other_ray_length, PLANE other_ray_confidence,
 #endif
                         WANTED_ARGUMENT PLANE_OUT reflection_r, PLANE_OUT reflection_g, PLANE_OUT reflection_b,
-                        PLANE_OUT reflection_a) {
+                        PLANE_OUT reflection_a
+#if TEMPORAL
+                        ,
+                        PLANE_OUT reach
+#endif
+) {
   SKIP_UNWANTED(frame, no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
@@ -1004,6 +1019,10 @@ kernel void ssr_resolve(Frame frame,
   take_rays_of_other(frame, neighbour, params, s, others, load(instance, here), s.reflects & !s.is_mirror & !is_rough,
                      &sum);
 #endif
+#if TEMPORAL
+  const mask has_met = sum.met > 0;
+  store(choose(has_met, sum.length / choose(has_met, sum.met, (real)(1)), (real)(0)), reach, here);
+#endif
   const mask is_known = (sum.weights > (scalar)1e-12f) & is_wanted;
   const real albedo = choose(s.is_mirror, (real)(1), directional_albedo(s.roughness, s.to_eye.z));
   const real scale = choose(is_known, albedo / choose(is_known, sum.weights, (real)(1)), (real)(0));
@@ -1023,5 +1042,60 @@ kernel void ssr_resolve(Frame frame,
         reflection_b, here);
   store(choose(is_known, sum.confidence / choose(is_known, sum.weights, (real)(1)), (real)(0)), reflection_a, here);
 }
+
+#if TEMPORAL
+// Each surface's mean over the frames that showed it. What it reflects moves as its virtual image does, if that stands still; else,
+// and where it is rough, as the surface. Of the two places in the frame before, the one counts that is more like the neighbours
+// are now. Mirrors have no noise: they are of this frame alone.
+kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                           PLANE normal_z, PLANE roughness, PLANE reflectance_r, PLANE reflectance_g,
+                           PLANE reflectance_b, PLANE motion_x, PLANE motion_y, PLANE reach, PLANE now_r, PLANE now_g,
+                           PLANE now_b, PLANE now_a, PLANE history_r, PLANE history_g, PLANE history_b, PLANE history_a,
+                           PLANE history_depth, PLANE history_frames, WANTED_ARGUMENT PLANE_OUT reflection_r,
+                           PLANE_OUT reflection_g, PLANE_OUT reflection_b, PLANE_OUT reflection_a, PLANE_OUT frames) {
+  SKIP_UNWANTED(frame, no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here);
+                store((real)(0), frames, here))
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
+                                   reflectance_g, reflectance_b);
+  const mask counts = s.reflects & !s.is_mirror & is_wanted;
+  if (!ANY(s.reflects)) {
+    no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here);
+    store((real)(0), frames, here);
+    return;
+  }
+  const Past as_surface = past_at(frame, history_depth, s.point.x + load(motion_x, here),
+                                  s.point.y + load(motion_y, here), s.depth, params.same_depth, counts);
+  const real length = load(reach, here);
+  const Projection there = same_virtual_image(frame, neighbour, s, length, counts & (length > 0));
+  const Past as_image =
+      past_at(neighbour.frame, history_depth, there.x, there.y, there.depth, params.same_depth, there.is_seen);
+  PLANE now[4] = {now_r, now_g, now_b, now_a};
+  PLANE history[4] = {history_r, history_g, history_b, history_a};
+  PLANE_OUT result[4] = {reflection_r, reflection_g, reflection_b, reflection_a};
+  const Alike alike = alike_around(frame, depth, s.depth, params.same_depth);
+  Around around_here[4];
+  real of_surface[4], of_image[4],
+      unlike = 0;  // by how much the surface's past is less like the neighbours than the image's
+  for (int c = 0; c < 4; ++c) {
+    around_here[c] = around_of(frame, alike, now[c]);
+    of_surface[c] = value_of(as_surface, history[c]);
+    of_image[c] = value_of(as_image, history[c]);
+    if (c < 3) unlike += fabs(of_surface[c] - around_here[c].mean) - fabs(of_image[c] - around_here[c].mean);
+  }
+  const mask takes_image = as_image.is_known & (!as_surface.is_known | (unlike >= 0));
+  const mask is_known = as_surface.is_known | as_image.is_known;
+  const real before =
+      clamp(choose(takes_image, value_of(as_image, history_frames), value_of(as_surface, history_frames)), (real)(0),
+            (real)((scalar)params.most_frames - 1));
+  const real share = (scalar)1 / (before + 1);
+  for (int c = 0; c < 4; ++c) {
+    const real own = choose(s.reflects & is_wanted, load(now[c], here), (real)(0));
+    const real kept = kept_near(around_here[c], choose(takes_image, of_image[c], of_surface[c]), params.kept_within);
+    store(choose(is_known, kept + (own - kept) * share, own), result[c], here);
+  }
+  store(choose(s.reflects & is_wanted, before + 1, (real)(0)), frames, here);
+}
+#endif
 #endif
 #endif

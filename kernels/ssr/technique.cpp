@@ -19,10 +19,15 @@ struct Choices {
   bool jitter = false;
   bool traversal = false, fade = false, reprojection = false;  ///< what of the other eye counts
   int other_neighbours = 0;
+  bool accumulates = false;  ///< over frames
 };
 
 Choices choices_of(const SssrParams& p) {
   return {.rays = p.rays, .neighbours = p.neighbours, .jitter = p.jitter != 0};
+}
+
+Choices choices_of(const TemporalSssrParams& p) {
+  return {.rays = p.rays, .neighbours = p.neighbours, .jitter = p.jitter != 0, .accumulates = true};
 }
 
 Choices choices_of(const StereoSsrParams& p) {
@@ -71,6 +76,7 @@ class Passes {
     if (c_.traversal) passes.push_back(march_in_other());
     passes.push_back(see());
     passes.push_back(resolve());
+    if (c_.accumulates) passes.push_back(accumulate());
     return with_defines(std::move(passes));
   }
 
@@ -173,13 +179,30 @@ class Passes {
     Pass pass{.name = "resolve",
               .kernel = "ssr_resolve",
               .reads = reflector() + rays() + seen(),
-              .writes = {"reflection"},
+              .writes = {{"reflection", c_.accumulates ? "reflection_raw" : "reflection"}},
               .can_skip = true,
               .reach_x = 2,
               .reach_y = 2};
+    if (c_.accumulates) pass.writes.push_back({"reach", "ssr_reach"});
     if (c_.reprojection)
       pass.reads = pass.reads + Bindings{"instance"} + of_other_eye(Bindings{"depth", "instance"} + rays() + seen());
     return pass;
+  }
+
+  Pass accumulate() const {
+    return {.name = "accumulate",
+            .kernel = "ssr_accumulate",
+            .reads = reflector() + Bindings{"motion",
+                                            {"reach", "ssr_reach"},
+                                            {"now", "reflection_raw"},
+                                            "history",
+                                            "history_depth",
+                                            "history_frames"},
+            .writes = {"reflection", "frames"},
+            .can_skip = true,
+            .reach_x = 2,
+            .reach_y = 2,
+            .from_frame_before = true};
   }
 
   std::vector<Pass> with_defines(std::vector<Pass> passes) const {
@@ -189,6 +212,7 @@ class Passes {
                              {"JITTER", c_.jitter},
                              {"STEREO", std::is_same_v<Params, StereoSsrParams>},
                              {"MASK_ALONE", std::is_same_v<Params, ReflectionMaskParams>},
+                             {"TEMPORAL", c_.accumulates},
                              {"TRAVERSAL", c_.traversal},
                              {"FADE", c_.fade},
                              {"REPROJECTION", c_.reprojection},
@@ -203,6 +227,7 @@ class Passes {
 
 std::vector<Pass> sssr_passes(const SssrParams& p) { return Passes(p).all(); }
 std::vector<Pass> stereo_passes(const StereoSsrParams& p) { return Passes(p).all(); }
+std::vector<Pass> temporal_passes(const TemporalSssrParams& p) { return Passes(p).all(); }
 std::vector<Pass> mask_passes(const ReflectionMaskParams& p) { return Passes(p).mask(); }
 
 Technique plain() {
@@ -250,6 +275,20 @@ Technique for_two_eyes() {
   return t;
 }
 
+Technique over_frames() {
+  Technique t = plain();
+  t.name = "temporal-sssr";
+  t.summary = "reflections of a sequence: each frame takes over what the frame before showed of the same surfaces";
+  t.paper = "Stachowiak, Uludag 2015; Yang, Liu, Salvi 2020";
+  t.reads.insert(t.reads.end(), {"motion", "history", "history_depth", "history_frames"});
+  t.writes = t.outputs = {"reflection", "hit", "frames"};
+  t.default_for.clear();
+  t.parameters = TemporalSssrParams::table();
+  t.passes = passes_of(temporal_passes);
+  t.effect = {};
+  return t;
+}
+
 Technique where() {
   Technique t;
   t.name = "reflection-mask";
@@ -265,6 +304,6 @@ Technique where() {
 
 }  // namespace
 
-std::vector<Technique> ssr() { return {plain(), for_two_eyes(), where()}; }
+std::vector<Technique> ssr() { return {plain(), over_frames(), for_two_eyes(), where()}; }
 
 }  // namespace gloam::techniques

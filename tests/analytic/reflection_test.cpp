@@ -410,6 +410,145 @@ TEST(StereoReflection, WithoutItsModulesItIsThePlainOne) {
   EXPECT_TRUE(same_bits(plain_one, stereo));
 }
 
+// --- A sequence
+
+/// The room again, with a nearly perfect mirror, so that it has a lobe, and a wall whose colour changes smoothly.
+struct SmoothRoom : MirrorRoom {
+  explicit SmoothRoom(const Shot& shot_, double eye_x = 0, float roughness = 0.04f) : MirrorRoom(shot_, eye_x) {
+    for (int y = 0; y < shot.height; ++y) {
+      for (int x = 0; x < shot.width; ++x) {
+        const dvec3 color = is_floor(x, y) ? dvec3(0) : smooth(point(x, y));
+        for (size_t i = 0; i < 3; ++i) plane_of(frame, "color").channels[i].at(x, y) = float(color[int(i)]);
+        plane_of(frame, "roughness").channels[0].at(x, y) = roughness;
+      }
+    }
+  }
+  static dvec3 smooth(const dvec3& p) { return {0.5 + 0.4 * std::sin(4 * p.x), 0.5 + 0.4 * std::cos(4 * p.y), 0.5}; }
+
+  /// Takes over `reflection`, made of so many frames, from where the eye was before.
+  void follow(const MirrorRoom& before, const Plane& reflection, float frames) {
+    View& view = frame.views[0];
+    view.camera_before = before.frame.views[0].camera;
+    const auto take = [&](const std::string& name, const Plane& plane) {
+      view.planes[name] = plane.clone();
+      view.planes[name].name = name;
+    };
+    take("history", reflection);
+    take("history_depth", *before.frame.views[0].find("depth"));
+    for (const char* name : {"motion", "history_frames"}) plane_of(frame, name);
+    for (int y = 0; y < shot.height; ++y) {
+      for (int x = 0; x < shot.width; ++x) {
+        const glm::dvec2 there = before.projected(point(x, y)) - glm::dvec2(x + 0.5, y + 0.5);
+        for (const int i : {0, 1}) plane_of(frame, "motion").channels[size_t(i)].at(x, y) = float(there[i]);
+        plane_of(frame, "history_frames").channels[0].at(x, y) = frames;
+      }
+    }
+  }
+
+  /// What a mirror shows; a 1.
+  Plane exact() const {
+    Plane reflection{"reflection", {}};
+    for (int c = 0; c < 4; ++c) reflection.channels.emplace_back(Layout(shot.width, shot.height), c == 3 ? 1.0f : 0.0f);
+    for (int y = 0; y < shot.height; ++y) {
+      for (int x = 0; x < shot.width; ++x) {
+        const dvec3 color = is_floor(x, y) ? smooth(reflected(x, y)) : dvec3(0);
+        for (size_t c = 0; c < 3; ++c) reflection.channels[c].at(x, y) = float(color[int(c)]);
+      }
+    }
+    return reflection;
+  }
+};
+
+const Settings all_of_history = {{"most_frames", "1024"}, {"kept_within", "1000000"}, {"fade_border", "0"}};
+
+/// Where the floor shows what both images do, away from their borders.
+double rmse_on_floor(const SmoothRoom& room, const SmoothRoom& before, const Plane& test) {
+  const Plane exact = room.exact();
+  double squares = 0;
+  long count = 0;
+  for (int y = 0; y < room.shot.height; ++y) {
+    for (int x = 0; x < room.shot.width; ++x) {
+      const bool counts = room.is_floor(x, y) && room.shows(room.reflected(x, y), 8) &&
+                          before.shows(room.reflected(x, y), 8) && before.shows(room.point(x, y), 8);
+      for (size_t c = 0; counts && c < 3; ++c) {
+        const double off = double(test.channels[c].at(x, y)) - double(exact.channels[c].at(x, y));
+        squares += off * off;
+        ++count;
+      }
+    }
+  }
+  EXPECT_GT(count, 1000);
+  return std::sqrt(squares / double(count));
+}
+
+TEST(TemporalReflection, WhatAMirrorShowsMovesAsItsVirtualImage) {
+  for (const Shot& shot : shots()) {
+    const SmoothRoom before(shot);
+    SmoothRoom now(shot, 0.3);
+    now.follow(before, before.exact(), 1e6f);
+    for (const RunOptions& options : {RunOptions{.math = Math::precise, .lanes = 1}, RunOptions{.math = Math::fast}}) {
+      const Frame found = outputs_of(find_technique("temporal-sssr"), now.frame, all_of_history, options);
+      Frame lost = clone(now.frame);
+      lost.views[0].camera_before.reset();
+      const Frame as_surface = outputs_of(find_technique("temporal-sssr"), lost, all_of_history, options);
+      const double a = rmse_on_floor(now, before, *found.views[0].find("reflection"));
+      const double b = rmse_on_floor(now, before, *as_surface.views[0].find("reflection"));
+      std::printf("as its image %.4f, as the surface %.4f\n", a, b);
+      EXPECT_LT(a, 0.02);
+      // Rays that are all parallel move with the surface.
+      EXPECT_GT(b, shot.camera.orthographic ? 0.99 * a : 5 * a);
+    }
+  }
+}
+
+TEST(TemporalReflection, AStandingImageIsTheMeanOfItsFrames) {
+  const Shot shot = perspective(96, 64, 70);
+  SmoothRoom room(shot, 0, 0.5f);
+  const RunOptions first{.math = Math::precise, .seed = 1}, second{.math = Math::precise, .seed = 2};
+  const Frame a = outputs_of(find_technique("sssr"), room.frame, {}, first),
+              b = outputs_of(find_technique("sssr"), room.frame, {}, second);
+  room.follow(room, *a.views[0].find("reflection"), 3);
+  const Frame both = outputs_of(find_technique("temporal-sssr"), room.frame, {{"kept_within", "1000000"}}, second);
+  double worst = 0;
+  int compared = 0;
+  for (int y = 0; y < shot.height; ++y) {
+    for (int x = 0; x < shot.width; ++x) {
+      if (!room.is_floor(x, y)) continue;
+      EXPECT_NEAR(both.views[0].find("frames")->channels[0].at(x, y), 4, 1e-4);
+      // Where no neighbour finds anything now, nothing is kept.
+      if (b.views[0].find("reflection")->channels[3].at(x, y) < 0.01) continue;
+      ++compared;
+      for (size_t c = 0; c < 4; ++c) {
+        const auto at = [&](const Frame& frame) {
+          return double(frame.views[0].find("reflection")->channels[c].at(x, y));
+        };
+        worst = std::max(worst, std::abs(at(both) - (3 * at(a) + at(b)) / 4));
+      }
+    }
+  }
+  EXPECT_GT(compared, 500);
+  EXPECT_LT(worst, 1e-4);
+}
+
+TEST(TemporalReflection, MirrorsAndWhatWasHiddenAreOfThisFrameAlone) {
+  const Shot shot = perspective(96, 64, 70);
+  for (const bool is_mirror : {true, false}) {
+    SmoothRoom room(shot, 0, is_mirror ? 0.0f : 0.5f);
+    const Frame alone = outputs_of(find_technique("sssr"), room.frame, {}, {.math = Math::precise});
+    room.follow(room, room.exact(), 5);
+    if (!is_mirror) {
+      Channel& depth = plane_of(room.frame, "history_depth").channels[0];
+      for (int y = 0; y < shot.height; ++y)
+        for (int x = 0; x < shot.width; ++x) depth.at(x, y) *= 1.2f;
+    }
+    const Frame after = outputs_of(find_technique("temporal-sssr"), room.frame, {}, {.math = Math::precise});
+    EXPECT_EQ(difference(*alone.views[0].find("reflection"), *after.views[0].find("reflection")).max, 0) << is_mirror;
+    for (int y = 0; y < shot.height; ++y)
+      for (int x = 0; x < shot.width; ++x)
+        EXPECT_EQ(after.views[0].find("frames")->channels[0].at(x, y), room.is_floor(x, y) ? 1 : 0) << is_mirror;
+  }
+}
+
 // --- Against rays, in a scene with rough and smooth surfaces
 
 struct Errors {

@@ -173,7 +173,7 @@ Frame clone(const Frame& frame) {
   copy.window = frame.window;
   copy.assumed = frame.assumed;
   for (const View& view : frame.views) {
-    copy.views.push_back({view.name, view.camera, view.origin, {}});
+    copy.views.push_back({view.name, view.camera, view.camera_before, view.origin, {}});
     for (const auto& [name, plane] : view.planes) copy.views.back().planes.emplace(name, plane.clone());
   }
   return copy;
