@@ -54,10 +54,6 @@ void check_one_view(const FrameFile& file) {
                    file.path().string(), enumerate(quoted));
 }
 
-std::string in_words(const Window& window) {
-  return fmt::format("{}x{} pixels from ({}, {})", window.width(), window.height(), window.x0, window.y0);
-}
-
 void check_same_size(const FrameFile& first, const FrameFile& second) {
   if (first.display() == second.display()) return;
   throw Error("{}: shows {}, and {} {}; the eyes of a frame are of one size, render both alike", second.path().string(),

@@ -7,17 +7,22 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "lists.h"
+#include "view_planes.h"
 
 namespace gloam {
 namespace {
 
-/// One frame for every surface.
-Plane one_frame(const Plane& depth) {
+/// One frame for every surface that reflects: what a mask left out has none.
+Plane one_frame(const Plane& depth, const Plane& reflection) {
   Plane frames{"frames", {}};
   const Layout& layout = depth.channels.front().layout();
   Channel& counts = frames.channels.emplace_back(layout, 0.0f);
   for (int y = 0; y < layout.height; ++y) {
-    for (int x = 0; x < layout.width; ++x) counts.at(x, y) = is_background(depth.channels.front().at(x, y)) ? 0.f : 1.f;
+    for (int x = 0; x < layout.width; ++x) {
+      const bool has_any = std::any_of(reflection.channels.begin(), reflection.channels.end(),
+                                       [&](const Channel& channel) { return channel.at(x, y) != 0; });
+      if (has_any && !is_background(depth.channels.front().at(x, y))) counts.at(x, y) = 1;
+    }
   }
   return frames;
 }
@@ -37,20 +42,28 @@ const std::vector<std::string>& History::planes() {
   return names;
 }
 
+const std::vector<std::string>& History::planes_of_file() {
+  static const std::vector<std::string> names = {"reflection", "depth", "frames"};
+  return names;
+}
+
 void History::add_to(Frame& frame, const std::vector<std::string>& planes) {
-  std::vector<std::string> read = {"reflection", "depth"};
-  if (contains(file_.common_planes(), "frames")) read.push_back("frames");
-  Frame before = file_.read(read);
-  if (before.width() != frame.width() || before.height() != frame.height())
-    throw Error("--history {}: is {}x{} pixels, and the frame {}x{}; frames of a sequence are of one size",
-                file_.path().string(), before.width(), before.height(), frame.width(), frame.height());
+  std::vector<std::string> there = planes_of_file();
+  std::erase_if(there, [&](const std::string& plane) { return !contains(file_.common_planes(), plane); });
+  Frame before = file_.read(there);
+  if (before.window != frame.window || before.display != frame.display)
+    throw Error("--history {}: shows {}, and the frame {}; frames of a sequence are of one size and place",
+                file_.path().string(), in_words(before.window), in_words(frame.window));
   for (View& view : frame.views) {
     const auto same = std::find_if(before.views.begin(), before.views.end(),
                                    [&](const View& other) { return other.name == view.name; });
-    const bool only_one = before.views.size() == 1 && frame.views.size() == 1;
-    if (same == before.views.end() && !only_one)
-      throw Error("--history {}: has no view '{}', which the frame has", file_.path().string(), view.name);
-    View& from = only_one ? before.views.front() : *same;
+    // A file that names no view is of the only one there is.
+    const bool is_unnamed =
+        before.views.size() == 1 && frame.views.size() == 1 && (view.name.empty() || before.views.front().name.empty());
+    if (same == before.views.end() && !is_unnamed)
+      throw Error("--history {}: has no view '{}', which the frame has; give what gloam run wrote for that view",
+                  file_.path().string(), view.name);
+    View& from = same == before.views.end() ? before.views.front() : *same;
     const auto add = [&](const std::string& name, Plane plane) {
       if (!contains(planes, name)) return;
       plane.name = name;
@@ -58,7 +71,8 @@ void History::add_to(Frame& frame, const std::vector<std::string>& planes) {
     };
     view.camera_before = from.camera;
     const Plane& depth = from.planes.at("depth");
-    add("history_frames", from.find("frames") ? from.find("frames")->clone() : one_frame(depth));
+    add("history_frames",
+        from.find("frames") ? from.find("frames")->clone() : one_frame(depth, from.planes.at("reflection")));
     add("history_depth", depth.clone());
     add("history", std::move(from.planes.at("reflection")));
   }

@@ -279,10 +279,20 @@ std::map<std::string, std::string> substitutes(const Wanted& wanted, const Techn
   return instead;
 }
 
-/// "gloam capture --peel N makes 'peel'"; empty where that is not known.
-std::string source_of(const std::string& plane) {
-  const std::string source = is_stack(plane) ? stack_kind(plane).source : plane_kind(plane).source;
-  return source.empty() ? "" : fmt::format("{} makes '{}'", source, plane);
+/// What makes a plane that no technique makes: "gloam capture --peel N"; empty where that is not known.
+std::string maker_outside(const std::string& plane) {
+  return is_stack(plane) ? stack_kind(plane).source : plane_kind(plane).source;
+}
+
+/// "gloam capture --peel N makes 'peel'", with all of `planes` that it makes.
+std::string source_of(const std::string& plane, const std::vector<std::string>& planes) {
+  const std::string source = maker_outside(plane);
+  if (source.empty()) return "";
+  std::vector<std::string> made;
+  for (const std::string& other : planes) {
+    if (maker_outside(other) == source) made.push_back("'" + other + "'");
+  }
+  return fmt::format("{} makes {}", source, enumerate(made));
 }
 
 /// Planes that are not at hand, in words; what would take least first.
@@ -293,7 +303,9 @@ std::string source_of(const std::string& plane) {
   for (const std::string& plane : missing) {
     const auto least = instead.find(plane);
     quoted.push_back("'" + (least == instead.end() ? plane : least->second) + "'");
-    const std::string first = least == instead.end() ? "" : source_of(least->second), own = source_of(plane);
+    const std::string first = least == instead.end() ? "" : source_of(least->second, {least->second});
+    const std::string own = source_of(plane, missing);
+    if (sources.find(own) != std::string::npos && first.empty()) continue;  // said of another plane
     if (!first.empty()) sources += first + (own.empty() ? "; " : ", or " + own + ", which does as well; ");
     if (first.empty() && !own.empty()) sources += own + "; ";
   }
@@ -544,6 +556,8 @@ bool reads_from(const Technique& reader, const Technique& writer) {
                      [&](const std::string& plane) { return contains(writer.writes, plane); });
 }
 
+namespace {
+
 /// Motion is told in pixels of the image.
 void check_full_resolution(const PlanRequest& request, const Techniques& techniques) {
   if (request.resolution == 1) return;
@@ -553,6 +567,8 @@ void check_full_resolution(const PlanRequest& request, const Techniques& techniq
                        technique->name);
   }
 }
+
+}  // namespace
 
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
   Wanted wanted = wanted_by(request, available);

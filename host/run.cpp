@@ -353,8 +353,10 @@ void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, Target& targe
   cl_uint index = 0;
   set_frame(kernel, index++, target, planned.pass.scale, options);
   if (const int scale = other_scale(planned, target.layouts)) set_frame(kernel, index++, target, scale, options);
-  if (reads_other_view(planned.pass)) set_neighbour(kernel, index++, planned, target, *other, options);
-  if (planned.pass.from_frame_before) set_neighbour_before(kernel, index++, planned, target, options);
+  if (reads_other_view(planned.pass))
+    set_neighbour(kernel, index++, planned, target, *other, options);
+  else if (planned.pass.from_frame_before)
+    set_neighbour_before(kernel, index++, planned, target, options);
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {

@@ -8,6 +8,11 @@
 #include "lists.h"
 
 namespace gloam {
+
+std::string in_words(const Window& window) {
+  return fmt::format("{}x{} pixels from ({}, {})", window.width(), window.height(), window.x0, window.y0);
+}
+
 namespace {
 
 /// Whether a view's stack ends before this layer, and another view's does not.

@@ -27,4 +27,7 @@ std::string why_missing(const std::vector<PlaneSource>& sources, const std::vect
 std::vector<std::string> unused_planes(const std::vector<PlaneSource>& sources, const std::vector<std::string>& views,
                                        const std::vector<std::string>& planes, const std::string& remedy);
 
+/// "64x36 pixels from (0, 0)"
+std::string in_words(const Window& window);
+
 }  // namespace gloam

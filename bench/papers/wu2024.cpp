@@ -18,6 +18,7 @@ constexpr double eyes_apart = 0.065;
 constexpr int divisor = 2;  ///< of the images that rays are traced for
 /// Shares of the reflected light that either eye shows, so that it can be found, or hardly can.
 constexpr double well_shown = 0.9, hardly_shown = 0.1;
+constexpr double all_shown = 2;  ///< more than a share can be, with its rounding
 
 /// What the paper has of a scene: SSIM of left and right, and milliseconds.
 struct OfThePaper {
@@ -84,21 +85,17 @@ Truth traced(Study& study, const Stage& s, const std::string& scene) {
   return {image_of(std::move(reference.frame), "reflection"), exposure};
 }
 
-/// What an eye shows too much or too little, as a screen shows it, in one number: what is equally wrong for both eyes is no
-/// inconsistency, and what changes with the direction of view is in the truth too.
+/// What an eye shows too much or too little: what is equally wrong for both eyes is no inconsistency, and what changes with the
+/// direction of view is in the truth too.
 Image errors_of(const Image& test, const Truth& truth) {
   Image errors;
   for (const auto& [view, plane] : test) {
-    const Plane& expected = truth.image.at(view);
-    Plane error{"error", {}};
-    error.channels.push_back(plane.channels[0].clone());
-    Channel& out = error.channels[0];
-    for (int y = 0; y < out.layout().height; ++y) {
-      for (int x = 0; x < out.layout().width; ++x) {
-        double sum = 0;
-        for (size_t c = 0; c < 3; ++c)
-          sum += double(plane.channels[c].at(x, y)) - double(expected.channels[c].at(x, y));
-        out.at(x, y) = float(truth.exposure * sum / 3);
+    Plane error = shown(plane, truth.exposure);
+    const Plane expected = shown(truth.image.at(view), truth.exposure);
+    for (size_t c = 0; c < error.channels.size(); ++c) {
+      Channel& out = error.channels[c];
+      for (int y = 0; y < out.layout().height; ++y) {
+        for (int x = 0; x < out.layout().width; ++x) out.at(x, y) -= expected.channels[c].at(x, y);
       }
     }
     errors.emplace(view, std::move(error));
@@ -106,14 +103,14 @@ Image errors_of(const Image& test, const Truth& truth) {
   return errors;
 }
 
-/// The surfaces of a view where more than, or less than, so much of what is reflected is shown by either eye.
+/// The surfaces of a view where either eye shows from `low` on and less than `high` of what is reflected.
 Mask where_shown(const Stage& s, const Truth& truth, const std::string& view, double low, double high) {
   Mask mask = s.surfaces.at(view);
   const Channel& shown = truth.image.at(view).channels[3];
   for (int y = 0; y < s.frame.height(); ++y) {
     for (int x = 0; x < s.frame.width(); ++x) {
       const double share = double(shown.at(x, y));
-      if (share < low || share > high) mask[size_t(y) * size_t(s.frame.width()) + size_t(x)] = 0;
+      if (share < low || share >= high) mask[size_t(y) * size_t(s.frame.width()) + size_t(x)] = 0;
     }
   }
   return mask;
@@ -130,7 +127,7 @@ Disagreement disagreement(const Stage& s, const Image& test, const Truth& truth)
   Disagreement result{in_hundred_thousandths(of_eyes.both), 0};
   double sum = 0, count = 0;
   for (size_t eye = 0; eye < 2; ++eye) {
-    const Mask mask = where_shown(s, truth, s.frame.views[eye].name, well_shown, 1);
+    const Mask mask = where_shown(s, truth, s.frame.views[eye].name, well_shown, all_shown);
     const StereoErrors& errors = of_eyes.views[eye];
     for (size_t i = 0; i < mask.size(); ++i) {
       if (!mask[i] || errors.pixels[i] != StereoPixel::counted) continue;
@@ -156,7 +153,7 @@ void state_errors(Study& study, const Stage& s, const Subject& subject, const Tr
     add("SSIM to the truth", "SSIM", of_plain.ssim, of_stereo.ssim);
     study.fact(table + "SSIM to the truth", row, "paper: SSSR", subject.paper.plain_ssim[eye], "SSIM");
     study.fact(table + "SSIM to the truth", row, "paper: ours", subject.paper.stereo_ssim[eye], "SSIM");
-    add("FLIP to the truth", "FLIP", of_plain.flip.value_or(0), of_stereo.flip.value_or(0));
+    add("FLIP to the truth", "FLIP", of_plain.flip.value(), of_stereo.flip.value());
     add("GMSD to the truth", "GMSD", of_plain.gmsd, of_stereo.gmsd);
     add("RMSE to the truth", "RMSE", of_plain.rmse, of_stereo.rmse);
     const Plane expected = shown(truth.image.at(view), truth.exposure);
@@ -181,7 +178,7 @@ void state_modules(Study& study, const Stage& s, const Subject& subject, const T
     for (const View& view : s.frame.views) {
       const Metrics m = metrics_of(s, image, truth, view.name);
       study.fact(figure + "SSIM", named.name, view.name, m.ssim, "SSIM");
-      study.fact(figure + "RSE", named.name, view.name, m.rse.value_or(0), "RSE");
+      study.fact(figure + "RSE", named.name, view.name, m.rse.value(), "RSE");
     }
     const Disagreement eyes = disagreement(s, image, truth);
     const std::string apart = figure + "how far the errors of both eyes are apart";
@@ -209,7 +206,7 @@ void state_failures(Study& study, const Stage& s, const Subject& subject, const 
       study.fact(figure + ": RMSE", row, where, m.rmse, "RMSE");
       study.fact(figure + ": bias", row, where, m.bias, "bias");
     };
-    state("over 90 % shown", well_shown, 1);
+    state("over 90 % shown", well_shown, all_shown);
     state("between", hardly_shown, well_shown);
     state("below 10 % shown", 0, hardly_shown);
   }

@@ -216,6 +216,9 @@ void auto_command(const AutoCommand& flags) {
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out}, {"--explain", flags.explain}, {"--json", flags.json.file()}});
+  if (!flags.frame.history.empty())
+    throw UsageError("--history {}: auto takes nothing over from the frame before; leave it out, or use gloam run",
+                     flags.frame.history);
   FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
   const PlanRequest asked = flags.technique_flags.request({});
   Candidates candidates = candidates_for(asked, files);

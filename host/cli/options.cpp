@@ -365,6 +365,13 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
       for (const ChannelSource& channel : source.channels) names.push_back(prefix + channel.name);
     }
   }
+  if (!files.history() || !contains(planes, "history")) return names;
+  const FrameFile& before = files.history()->file();
+  for (const PlaneSource& source : before.planes()) {
+    if (!contains(History::planes_of_file(), source.plane)) continue;
+    for (const ChannelSource& channel : source.channels)
+      names.push_back(before.path().filename().string() + ": " + channel.name);
+  }
   return names;
 }
 
@@ -387,9 +394,28 @@ std::string holdings(const FrameFiles& files) {
   return enumerate(words);
 }
 
+namespace {
+
+/// A history that nothing asks for was most likely meant for another technique.
+void check_history(const Plan& plan, const FrameFiles& files) {
+  if (!files.history() || reads_history(plan)) return;
+  std::vector<std::string> takers;
+  for (const Technique& technique : registry()) {
+    if (contains(technique.reads, "history")) takers.push_back(technique.name);
+  }
+  note({fmt::format("--history: '{}' takes nothing over from the frame before, as {} would", plan.technique,
+                    fmt::join(takers, " or "))});
+}
+
+}  // namespace
+
+bool reads_history(const Plan& plan) { return contains(plan.inputs, "history"); }
+
 Plan plan_for(const FrameFiles& files, const PlanRequest& request) {
   try {
-    return make_plan(request, files.common_planes(), holdings(files));
+    Plan plan = make_plan(request, files.common_planes(), holdings(files));
+    check_history(plan, files);
+    return plan;
   } catch (const MissingPlanes& missing) {
     // Where one view has what another lacks, the list of channels would only confuse.
     std::vector<std::string> wanted = missing.planes;

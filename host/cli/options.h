@@ -93,6 +93,9 @@ std::string first_names(std::vector<std::string> names);
 std::string holdings(const FrameFile& file);
 std::string holdings(const FrameFiles& files);
 
+/// Whether it takes anything over from the frame before.
+bool reads_history(const Plan& plan);
+
 /// A plan for a frame; `MissingPlanes` names what it does hold.
 Plan plan_for(const FrameFiles& files, const PlanRequest& request);
 

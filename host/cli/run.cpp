@@ -213,8 +213,8 @@ std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& 
 }
 
 /// Other random numbers than the frame before had: the same ones would have nothing to add.
-int seed_after(const std::optional<History>& history) {
-  const int before = history ? history->seed().value_or(0) : -1;
+int seed_after(const History& history) {
+  const int before = history.seed().value_or(0);
   return before < std::numeric_limits<int>::max() ? before + 1 : 0;
 }
 
@@ -232,8 +232,8 @@ void run_command(const RunCommand& flags) {
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
   FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
-  if (flags.run_flags.seed.empty()) options.seed = seed_after(files.history());
   Plan plan = plan_for(files, request);
+  if (reads_history(plan) && flags.run_flags.seed.empty()) options.seed = seed_after(*files.history());
   watch.lap("open");
   // The device starts up and compiles while the planes are decoded. A large frame waits to hear that the device has the
   // memory for it.

@@ -22,7 +22,7 @@ typedef struct {
   FRAME_SCALAR perspective, parallel;  // (1, 0) or (0, 1)
 } FRAME_NAME;
 
-// The other view: what is at p in this view's space (scene units) is at rotation * p + translation in the other's.
+// The other view, or this one in the frame before: what is at p in this view's space (scene units) is at rotation * p + translation in the other's.
 typedef struct {
   FRAME_NAME frame;
   FRAME_SCALAR rotation[9];  // by rows

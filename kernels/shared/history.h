@@ -5,7 +5,8 @@
 
 #include "shared/sample.h"
 
-// The four pixels of the frame before around a place; their weights add up to 1 over those that show the same surface.
+// The four pixels of the frame before around a place; their weights add up to 1 over those that count: surfaces about as far away, of
+// which something was kept.
 typedef struct {
   integer pixel[4];  // from the plane's start
   real weight[4];
@@ -14,8 +15,8 @@ typedef struct {
 
 // `x`, `y`: the place, in pixels from the middle of the first. `depth`: of the surface, where `counts`; its depth may have
 // changed by so large a share.
-static inline Past past_at(Frame frame, PLANE history_depth, real x, real y, real depth, scalar same_depth,
-                           mask counts) {
+static inline Past past_at(Frame frame, PLANE history_depth, PLANE history_frames, real x, real y, real depth,
+                           scalar same_depth, mask counts) {
   Past past;
   const real inside_x = clamp(x, (real)(-2), (real)((scalar)frame.width + 1));
   const real inside_y = clamp(y, (real)(-2), (real)((scalar)frame.height + 1));
@@ -28,7 +29,8 @@ static inline Past past_at(Frame frame, PLANE history_depth, real x, real y, rea
     const integer safe_row = clamp(row, (integer)(0), (integer)(frame.height - 1));
     past.pixel[k] = FRAME_GUARD + safe_row * frame.pitch + safe_column;
     const real z = gather(history_depth, past.pixel[k]);
-    const mask is_same = counts & is_inside & !is_background(z) & (fabs(z - depth) <= same_depth * depth);
+    const mask is_same = counts & is_inside & !is_background(z) & (fabs(z - depth) <= same_depth * depth) &
+                         (gather(history_frames, past.pixel[k]) >= (scalar)0.5f);
     const real share = (k & 1 ? right_share : 1 - right_share) * (k >> 1 ? lower_share : 1 - lower_share);
     past.weight[k] = choose(is_same, share, (real)(0));
     sum += past.weight[k];
@@ -47,7 +49,7 @@ static inline real value_of(Past past, PLANE plane) {
   return value;
 }
 
-// Which neighbours of a row of pixels show the same surface: every second pixel of 5 x 5, as filtered ones are alike where they
+// Which neighbours of a row of pixels show a surface about as far away: every second pixel of 5 x 5, as filtered ones are alike where they
 // touch.
 typedef struct {
   mask counts[9];

@@ -1,4 +1,4 @@
-// A pixel's point as the other of two views sees it (frame.h).
+// A pixel's point as the other of two views sees it, or the view itself in the frame before (frame.h).
 #ifndef GLOAM_NEIGHBOUR_H
 #define GLOAM_NEIGHBOUR_H
 

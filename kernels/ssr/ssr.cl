@@ -879,7 +879,7 @@ static inline mask on_surface(Reflector s, real3 v) {
 }
 
 #if REPROJECTION || TEMPORAL
-// Where the other eye sees the virtual image of what the pixel's rays meet at this distance: on the plane of the surface, on
+// Where the other eye, or the one of the frame before, sees the virtual image of what the pixel's rays meet at this distance: on the plane of the surface, on
 // the way from the image behind it to that eye.
 static inline Projection same_virtual_image(Frame frame, Neighbour n, Reflector s, real length, mask counts) {
   const real3 p = position_at(frame, s.point.x, s.point.y, s.depth);
@@ -1064,12 +1064,12 @@ kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLAN
     store((real)(0), frames, here);
     return;
   }
-  const Past as_surface = past_at(frame, history_depth, s.point.x + load(motion_x, here),
+  const Past as_surface = past_at(frame, history_depth, history_frames, s.point.x + load(motion_x, here),
                                   s.point.y + load(motion_y, here), s.depth, params.same_depth, counts);
   const real length = load(reach, here);
   const Projection there = same_virtual_image(frame, neighbour, s, length, counts & (length > 0));
-  const Past as_image =
-      past_at(neighbour.frame, history_depth, there.x, there.y, there.depth, params.same_depth, there.is_seen);
+  const Past as_image = past_at(neighbour.frame, history_depth, history_frames, there.x, there.y, there.depth,
+                                params.same_depth, there.is_seen);
   PLANE now[4] = {now_r, now_g, now_b, now_a};
   PLANE history[4] = {history_r, history_g, history_b, history_a};
   PLANE_OUT result[4] = {reflection_r, reflection_g, reflection_b, reflection_a};

@@ -281,7 +281,8 @@ Technique over_frames() {
   t.summary = "reflections of a sequence: each frame takes over what the frame before showed of the same surfaces";
   t.paper = "Stachowiak, Uludag 2015; Yang, Liu, Salvi 2020";
   t.reads.insert(t.reads.end(), {"motion", "history", "history_depth", "history_frames"});
-  t.writes = t.outputs = {"reflection", "hit", "frames"};
+  t.outputs = {"reflection", "hit", "frames"};
+  t.writes = {"reflection", "hit", "frames", "reflection_raw"};
   t.default_for.clear();
   t.parameters = TemporalSssrParams::table();
   t.passes = passes_of(temporal_passes);

@@ -530,6 +530,32 @@ TEST(TemporalReflection, AStandingImageIsTheMeanOfItsFrames) {
   EXPECT_LT(worst, 1e-4);
 }
 
+TEST(TemporalReflection, WhatAMaskLeftOutIsNotTakenOver) {
+  const Shot shot = perspective(96, 64, 70);
+  SmoothRoom room(shot, 0, 0.5f);
+  const Frame alone = outputs_of(find_technique("sssr"), room.frame, {}, {.math = Math::precise});
+  Plane before = room.exact();
+  for (Channel& channel : before.channels) {
+    for (int y = 0; y < shot.height; ++y)
+      for (int x = 0; x < shot.width / 2; ++x) channel.at(x, y) = 0;
+  }
+  room.follow(room, before, 5);
+  Channel& frames = plane_of(room.frame, "history_frames").channels[0];
+  for (int y = 0; y < shot.height; ++y)
+    for (int x = 0; x < shot.width / 2; ++x) frames.at(x, y) = 0;
+  const Frame after = outputs_of(find_technique("temporal-sssr"), room.frame, {}, {.math = Math::precise});
+  for (int y = 0; y < shot.height; ++y) {
+    for (int x = 0; x < shot.width; ++x) {
+      if (!room.is_floor(x, y) || x == shot.width / 2 - 1 || x == shot.width / 2) continue;
+      EXPECT_NEAR(after.views[0].find("frames")->channels[0].at(x, y), x < shot.width / 2 ? 1 : 6, 1e-4) << x;
+      if (x >= shot.width / 2) continue;
+      EXPECT_EQ(after.views[0].find("reflection")->channels[0].at(x, y),
+                alone.views[0].find("reflection")->channels[0].at(x, y))
+          << x << ", " << y;
+    }
+  }
+}
+
 TEST(TemporalReflection, MirrorsAndWhatWasHiddenAreOfThisFrameAlone) {
   const Shot shot = perspective(96, 64, 70);
   for (const bool is_mirror : {true, false}) {

@@ -74,7 +74,7 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
     EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
   };
   const Arguments run = {"run", "temporal-sssr", frame(2), "-o", result(2)};
-  refused(run, 1, "gloam run --history PREVIOUS.exr makes 'history'");
+  refused(run, 1, "(gloam run --history PREVIOUS.exr makes 'history', 'history_depth' and 'history_frames'; see");
   const auto with = [&](Arguments more) {
     more.insert(more.begin(), run.begin(), run.end());
     return more;
@@ -85,12 +85,18 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
   refused(with({"--history", result(1), "--resolution", "half"}), 2, "--resolution");
   refused(with({"--history", result(2)}), 2, "is also --history");
   EXPECT_EQ(files(), (std::vector<std::string>{"f.0001.exr", "f.0002.exr", "path.json", "r.0001.exr"}));
+  const Result unused = gloam({"run", "sssr", frame(2), "--history", result(1), "-o", path("unused.exr")});
+  EXPECT_EQ(unused.status, 0);
+  EXPECT_NE(unused.err.find("'sssr' takes nothing over"), std::string::npos) << unused.err;
   const Json plan = gloam({"plan", "temporal-sssr", frame(2), "--history", result(1), "--json", "-"}).json();
   EXPECT_EQ(plan["passes"].back()["name"], "temporal-sssr/accumulate");
+  EXPECT_NE(plan.dump().find("r.0001.exr: reflection.R"), std::string::npos) << plan;
+  EXPECT_EQ(plan.dump().find("r.0001.exr: frames"), std::string::npos) << "the file has none";
   ASSERT_EQ(gloam(with({"--history", result(1)})).status, 0);
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("small.exr"), "--size", "16x9"}).status, 0);
   ASSERT_EQ(gloam({"run", "sssr", path("small.exr"), "-o", path("small_r.exr")}).status, 0);
-  refused(with({"--history", path("small_r.exr")}), 1, "16x9");
+  refused(with({"--history", path("small_r.exr")}), 1, "shows 16x9 pixels from (0, 0), and the frame 32x18");
+  refused({"auto", frame(2), "--history", result(1), "-o", path("auto.exr")}, 2, "auto takes nothing over");
 }
 
 }  // namespace

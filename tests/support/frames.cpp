@@ -46,6 +46,9 @@ float invented_value(const PlaneKind& kind, const Frame& frame, int component, i
   }
   // Whole numbers, in blocks: some are corners, some are not.
   if (kind.name == "outline_count") return float(((x + 40) / 80 + (y + 30) / 60) % 2 * 2);
+  // Past every border of the image.
+  if (kind.name == "motion") return 6 * pattern(x, y, component) - 3;
+  if (kind.name == "history_frames") return std::floor(6 * pattern(x, y, component));
   return pattern(x, y, component);
 }
 
