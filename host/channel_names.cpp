@@ -210,7 +210,7 @@ const std::vector<Spelling>& spellings() {
       {"bent_normal", "bentnormal", xyz, generic},
       {"cone", "*", "cone", own},
       {"reflection", "reflection", "r,g,b,a", own},
-      {"reflection_raw", "reflection_raw", "r,g,b,a", own},
+      {"reflection_raw", "reflectionraw", "r,g,b,a", own},
       {"frames", "", "frames", own},
       {"history", "history", "r,g,b,a", own},
       {"history_depth", "history", "z", own},
