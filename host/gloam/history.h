@@ -24,7 +24,8 @@ class History {
   const FrameFile& file() const { return file_; }
 
   /// Adds those of its planes that are asked for to every view of a frame: from the view of the same name, or from the only
-  /// one to the only one where one of them has no name; and the view's `camera_before`. Where the file does not say of how many frames it is made, it is one.
+  /// one to the only one where one of them has no name; and the view's `camera_before`. Where the file does not say of how many
+  /// frames it is made, it is one.
   /// Throws Error for an image of another window and a view that the file lacks.
   void add_to(Frame& frame, const std::vector<std::string>& planes);
 

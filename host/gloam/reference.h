@@ -69,7 +69,8 @@ struct ReflectionReferenceOptions {
 ///
 /// Planes `reflection`, whose a is the share of the light's weight that comes from something that a view of the frame shows,
 /// so that a screen-space ray could meet it; and `reflection_noise`, the error of the mean of r, g and b. Background is 0.
-/// Numbers and attributes: reflectionSamples, reflectionNoise, gloamExposure (what brings nearly all of it to 1 at most), reflectionDefinition, gloamScene.
+/// Numbers and attributes: reflectionSamples, reflectionNoise, gloamExposure (what brings nearly all of it to 1 at most),
+/// reflectionDefinition, gloamScene.
 /// Throws as `ao_reference` does.
 Reference reflection_reference(const Tracer& tracer, const Frame& frame, const ReflectionReferenceOptions& options);
 

@@ -82,8 +82,7 @@ struct Effect {
   /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
   /// than it saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;
-  std::vector<std::pair<std::string, std::string>>
-      settings;                    ///< of the technique in `gloam auto`, under the user's own
+  std::vector<std::pair<std::string, std::string>> settings;  ///< of the technique in `gloam auto`, under the user's own
   std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
 };
 
