@@ -8,7 +8,6 @@
 
 #include "back_check.h"
 #include "eyes.h"
-#include "lists.h"
 #include "study.h"
 #include "timed_table.h"
 
@@ -58,11 +57,6 @@ Asked at_resolution(Asked asked, int resolution) {
   return asked;
 }
 
-/// Counts the passes of these names, whichever technique's they are.
-std::function<bool(const std::string&)> any_of(const std::vector<std::string>& passes) {
-  return [passes](const std::string& label) { return contains(passes, label.substr(label.find('/') + 1)); };
-}
-
 void measure_both_sizes(Study& study, const TimedStages& stages, const std::string& name,
                         const std::vector<Row>& rows) {
   for (size_t i = 0; i < stages.size(); ++i) {
@@ -71,7 +65,7 @@ void measure_both_sizes(Study& study, const TimedStages& stages, const std::stri
       const std::string column = fmt::format("{}, {}", size_of(stages[i]), resolution == 1 ? "full" : "half");
       for (const Row& row : rows)
         entries.push_back({row.name, column, at_resolution(row.asked, resolution), &stages[i],
-                           row.paper[2 * i + size_t(resolution) - 1], row.is_base, any_of(row.passes), row.view});
+                           row.paper[2 * i + size_t(resolution) - 1], row.is_base, passes_named(row.passes), row.view});
     }
     measure(study, {.name = name, .base = "the mono total", .parts_name = {}}, entries);
   }
@@ -124,7 +118,7 @@ void figure_7(Study& study, const TimedStages& stages) {
   const std::string figure = "Figure 7: rows and columns against squares, 13x13 taps (paper: 46.57 dB)";
   const Stage& s = stages.front();
   const Asked rows = filtered_by_13_taps("stereo-ao"), squares = with(rows, "filter", "stereo2d");
-  const auto filter = any_of({"horizontal", "vertical", "square", "blend"});
+  const auto filter = passes_named({"horizontal", "vertical", "square", "blend"});
   measure(study,
           {.name = "Figure 7: the filter over squares (paper: about 3 times)",
            .base = "rows and columns",
@@ -323,7 +317,8 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
       "The paper's filter looks at both eyes in its passes X and Y. Here each eye is filtered by itself, and one pass "
       "more, `blend`, puts both together; the total has all three.",
       "The paper's figure 5 takes the nearest pixel whatever it shows; here `no-back-check` still asks that its depth "
-      "be within 2 % of the pixel's own, and `reproject=on` that the way back ends where it began and one of the pixels "
+      "be within 2 % of the pixel's own, and `reproject=on` that the way back ends where it began and one of the "
+      "pixels "
       "around shows the surface.",
       fmt::format(
           "F is traced with {} rays per pixel, and `error to F` is to it. No falloff dims what its rays meet, and "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "lists.h"
 #include "timing.h"
 
 namespace gloam::bench {
@@ -57,6 +58,10 @@ void state_parts(Study& study, const TimedTable& table, const Entry& e, const Ti
 }
 
 }  // namespace
+
+std::function<bool(const std::string&)> passes_named(const std::vector<std::string>& names) {
+  return [names](const std::string& label) { return contains(names, label.substr(label.find('/') + 1)); };
+}
 
 void measure(Study& study, const TimedTable& table, const std::vector<Entry>& entries) {
   std::vector<std::shared_ptr<TimedPlan>> timed;  // one per entry

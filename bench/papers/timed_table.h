@@ -10,6 +10,9 @@
 
 namespace gloam::bench {
 
+/// Counts the passes of these names, whichever technique's they are.
+std::function<bool(const std::string& pass)> passes_named(const std::vector<std::string>& names);
+
 /// One row of one column, and what of its passes counts. Those that ask for the same of the same stage share their runs.
 struct Entry {
   std::string row, column;

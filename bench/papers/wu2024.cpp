@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "eyes.h"
 #include "gloam/metrics.h"
@@ -228,28 +229,21 @@ void draw(Study& study, const Stage& s, const Subject& subject, const Truth& tru
 
 // --- Times
 
-std::function<bool(const std::string&)> any_but(const std::string& name) {
-  return [name](const std::string& label) { return label.substr(label.find('/') + 1) != name; };
-}
-
-std::function<bool(const std::string&)> only(const std::string& name) {
-  return [name](const std::string& label) { return label.substr(label.find('/') + 1) == name; };
-}
-
 void table_3(Study& study) {
   for (const Subject& subject : subjects) {
     study.tell(fmt::format("capturing {}", subject.stand_in.scene));
     const Stage s =
         study.timed_stage({.scene = subject.stand_in.scene, .eyes_apart = eyes_apart, .with_materials = true});
     const OfThePaper& p = subject.paper;
+    const auto is_filter = passes_named({"resolve"});
     std::vector<Entry> entries;
     const auto add = [&](const std::string& what, double plain_ms, double stereo_ms,
                          const std::function<bool(const std::string&)>& counts) {
       entries.push_back({"sssr", what, plain(), &s, plain_ms, true, counts});
       entries.push_back({"stereo-ssr", what, stereo(), &s, stereo_ms, false, counts});
     };
-    add("traversal", p.plain_traversal, p.stereo_traversal, any_but("resolve"));
-    add("spatial filter", p.plain_filter, p.stereo_filter, only("resolve"));
+    add("traversal", p.plain_traversal, p.stereo_traversal, std::not_fn(is_filter));
+    add("spatial filter", p.plain_filter, p.stereo_filter, is_filter);
     add("total", p.plain_total, p.stereo_total, [](const std::string&) { return true; });
     measure(study, {.name = "Table 3: " + name_of(subject), .base = "sssr", .parts_name = {}}, entries);
     measure(study, {.name = "Equal samples and marching: time", .base = "sssr", .parts_name = {}},

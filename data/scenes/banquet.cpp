@@ -40,28 +40,8 @@ struct Materials {
 
 // --- Pictures that are computed.
 
-/// Smooth noise in [0, 1].
-float noise(float x, float y, uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto at = [&](int dx, int dy) { return hash01(uint32_t(int(fx) + dx), uint32_t(int(fy) + dy), seed); };
-  const float u = x - fx, v = y - fy, su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
-  return glm::mix(glm::mix(at(0, 0), at(1, 0), su), glm::mix(at(0, 1), at(1, 1), su), sv);
-}
-
-using Painter = vec3 (*)(float x, float y, uint32_t seed);
-
-int add_texture(Scene& scene, const std::string& name, int width, int tall, Painter painter, uint32_t seed = 0) {
-  Texture texture{.name = name, .width = width, .height = tall};
-  for (int y = 0; y < tall; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const vec3 colour = painter((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(tall), seed);
-      for (int c = 0; c < 3; ++c)
-        texture.texels.push_back(uint8_t(std::lround(255 * glm::clamp(colour[c], 0.0f, 1.0f))));
-      texture.texels.push_back(255);
-    }
-  }
-  scene.textures.push_back(std::move(texture));
-  return int(scene.textures.size()) - 1;
+Painter seeded(vec3 (*paint)(float x, float y, uint32_t seed), uint32_t seed = 0) {
+  return [=](float x, float y) { return paint(x, y, seed); };
 }
 
 /// Two leaves of figured mahogany, mirrored at the middle as a cabinet maker lays them; the grain runs along y.
@@ -222,18 +202,19 @@ int add_painted(Scene& scene, const std::string& name, float roughness, int text
 }
 
 void add_painted_materials(Scene& scene, Materials& m) {
-  m.table = add_painted(scene, "polished table", 0.2f, add_texture(scene, "figured wood", 512, 1024, wood, 3));
-  scene.materials[size_t(m.table)].roughness_texture = add_texture(scene, "wear of the polish", 256, 512, wear, 5);
-  m.cloth = add_painted(scene, "checked cloth", 0.95f, add_texture(scene, "check", 64, 64, check_pattern));
-  m.runner = add_painted(scene, "striped linen", 0.95f, add_texture(scene, "stripes", 64, 64, stripe_pattern));
+  m.table = add_painted(scene, "polished table", 0.2f, add_texture(scene, "figured wood", 512, 1024, seeded(wood, 3)));
+  scene.materials[size_t(m.table)].roughness_texture =
+      add_texture(scene, "wear of the polish", 256, 512, seeded(wear, 5));
+  m.cloth = add_painted(scene, "checked cloth", 0.95f, add_texture(scene, "check", 64, 64, seeded(check_pattern)));
+  m.runner = add_painted(scene, "striped linen", 0.95f, add_texture(scene, "stripes", 64, 64, seeded(stripe_pattern)));
   for (uint32_t i = 0; i < 3; ++i) {
     const std::string name = "label " + std::to_string(i);
-    m.labels.push_back(add_painted(scene, name, 0.6f, add_texture(scene, name, 160, 192, label, i)));
+    m.labels.push_back(add_painted(scene, name, 0.6f, add_texture(scene, name, 160, 192, seeded(label, i))));
   }
   for (uint32_t i = 0; i < 4; ++i) {
     const std::string name = "painting " + std::to_string(i);
     m.pictures.push_back(
-        add_painted(scene, name, 0.2f, add_texture(scene, name, 160, 128, i % 2 ? bouquet : landscape, i)));
+        add_painted(scene, name, 0.2f, add_texture(scene, name, 160, 128, seeded(i % 2 ? bouquet : landscape, i))));
   }
 }
 

@@ -1,5 +1,6 @@
 // A museum: two rooms under skylights, framed pictures, sculptures on pedestals, a polished floor, ropes and benches.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -23,14 +24,6 @@ struct Materials {
 
 vec3 hue(float t) {
   return 0.5f + 0.45f * vec3(std::cos(2 * pi * t), std::cos(2 * pi * (t - 0.33f)), std::cos(2 * pi * (t - 0.67f)));
-}
-
-/// Smooth noise in [0, 1].
-float noise(float x, float y, uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto at = [&](int dx, int dy) { return hash01(uint32_t(int(fx) + dx), uint32_t(int(fy) + dy), seed); };
-  const float u = x - fx, v = y - fy, su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
-  return glm::mix(glm::mix(at(0, 0), at(1, 0), su), glm::mix(at(0, 1), at(1, 1), su), sv);
 }
 
 /// Hills under an evening sky.
@@ -94,20 +87,11 @@ vec3 portrait(float x, float y, uint32_t seed) {
 }
 
 int add_picture(Scene& scene, uint32_t seed) {
-  using Painter = vec3 (*)(float, float, uint32_t);
-  const Painter painters[] = {landscape, fields, discs, portrait};
-  Texture texture{.name = "picture " + std::to_string(seed), .width = 160, .height = 128};
-  for (int y = 0; y < texture.height; ++y) {
-    for (int x = 0; x < texture.width; ++x) {
-      const float u = (float(x) + 0.5f) / float(texture.width), v = (float(y) + 0.5f) / float(texture.height);
-      const vec3 colour = glm::clamp(painters[seed % 4](u, v, seed), 0.0f, 1.0f);
-      for (int c = 0; c < 3; ++c) texture.texels.push_back(uint8_t(std::lround(255 * colour[c])));
-      texture.texels.push_back(255);
-    }
-  }
-  const int material = add_material(scene, texture.name, vec3(1), seed % 4 == 3 ? 0.25f : 0.6f);
-  scene.materials.back().albedo_texture = int(scene.textures.size());
-  scene.textures.push_back(std::move(texture));
+  const auto paint = std::array{landscape, fields, discs, portrait}[seed % 4];
+  const std::string name = "picture " + std::to_string(seed);
+  const int material = add_material(scene, name, vec3(1), seed % 4 == 3 ? 0.25f : 0.6f);
+  scene.materials.back().albedo_texture =
+      add_texture(scene, name, 160, 128, [=](float x, float y) { return paint(x, y, seed); });
   return material;
 }
 

@@ -26,31 +26,7 @@ struct Materials {
   std::vector<int> books, bottles, pictures, towers;
 };
 
-// --- Textures. Colours are sRGB as they are stored; x goes right, y down.
-
-using Painter = std::function<vec3(float x, float y)>;
-
-int add_texture(Scene& scene, const std::string& name, int width, int rows, const Painter& painter) {
-  Texture texture{.name = name, .width = width, .height = rows};
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const vec3 colour = painter((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(rows));
-      for (int c = 0; c < 3; ++c)
-        texture.texels.push_back(uint8_t(std::lround(255 * std::clamp(colour[c], 0.0f, 1.0f))));
-      texture.texels.push_back(255);
-    }
-  }
-  scene.textures.push_back(std::move(texture));
-  return int(scene.textures.size()) - 1;
-}
-
-/// Smooth noise in [0, 1].
-float noise(float x, float y, uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto at = [&](int dx, int dy) { return hash01(uint32_t(int(fx) + dx), uint32_t(int(fy) + dy), seed); };
-  const float u = x - fx, v = y - fy, su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
-  return glm::mix(glm::mix(at(0, 0), at(1, 0), su), glm::mix(at(0, 1), at(1, 1), su), sv);
-}
+// --- Textures.
 
 /// Noise of four sizes, in [0, 1].
 float clouds(float x, float y, uint32_t seed) {

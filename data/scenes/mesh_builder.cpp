@@ -164,6 +164,27 @@ vec2 mean_direction(vec2 a, vec2 b) {
 
 float hash01(uint32_t a, uint32_t b, uint32_t c) { return float(hash(a + hash(b + hash(c))) >> 8) * 0x1p-24f; }
 
+float noise(float x, float y, uint32_t seed) {
+  const float fx = std::floor(x), fy = std::floor(y);
+  const auto at = [&](int dx, int dy) { return hash01(uint32_t(int(fx) + dx), uint32_t(int(fy) + dy), seed); };
+  const float u = x - fx, v = y - fy, su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
+  return glm::mix(glm::mix(at(0, 0), at(1, 0), su), glm::mix(at(0, 1), at(1, 1), su), sv);
+}
+
+int add_texture(Scene& scene, const std::string& name, int width, int height, const Painter& painter) {
+  Texture texture{.name = name, .width = width, .height = height};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const vec3 colour = painter((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height));
+      for (int c = 0; c < 3; ++c)
+        texture.texels.push_back(uint8_t(std::lround(255 * std::clamp(colour[c], 0.0f, 1.0f))));
+      texture.texels.push_back(255);
+    }
+  }
+  scene.textures.push_back(std::move(texture));
+  return int(scene.textures.size()) - 1;
+}
+
 int add_material(Scene& scene, const std::string& name, vec3 albedo, float roughness, float metallic) {
   scene.materials.push_back({.name = name, .albedo = albedo, .roughness = roughness, .metallic = metallic});
   return int(scene.materials.size()) - 1;

@@ -17,6 +17,15 @@ using glm::vec3;
 /// A number in [0, 1) that depends on its arguments alone.
 float hash01(uint32_t a, uint32_t b = 0, uint32_t c = 0);
 
+/// Smooth noise in [0, 1]; its cells have sides of 1.
+float noise(float x, float y, uint32_t seed);
+
+/// The colour of a picture at a point in [0, 1]^2, as it is stored (sRGB); x goes right, y down.
+using Painter = std::function<vec3(float x, float y)>;
+
+/// Adds an opaque texture, painted at the middles of its texels and cut off at 0 and 1, and gives its index.
+int add_texture(Scene& scene, const std::string& name, int width, int height, const Painter& painter);
+
 /// Adds a material and gives its index.
 int add_material(Scene& scene, const std::string& name, vec3 albedo, float roughness = 0.8f, float metallic = 0);
 
