@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gloam/projection.h"
 #include "timing.h"
 
 namespace gloam::bench {
@@ -97,7 +98,7 @@ double median_reach(const Frame& frame, double radius) {
   if (!view.camera || !view.find("depth")) return 0;
   const double depth = median_depth(view);
   if (depth == 0) return 0;
-  return radius * view.camera->fx / (view.camera->orthographic ? 1 : depth);
+  return radius * pixels_per_unit(*view.camera, depth);
 }
 
 }  // namespace gloam::bench

@@ -14,6 +14,7 @@
 
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "json_text.h"
 
 namespace gloam {
 namespace {
@@ -74,41 +75,12 @@ bool holds_camera(const json& value) {
   return std::any_of(fields.begin(), fields.end(), [&](const char* field) { return value.contains(field); });
 }
 
-/// NaN and Infinity, which Python writes and JSON does not know, as texts of these names: `number` says what is wrong.
-std::string with_quoted_literals(const std::string& text) {
-  const auto literal_at = [&](size_t i) -> std::string_view {
-    for (std::string_view literal : {"NaN", "-Infinity", "Infinity"})
-      if (text.compare(i, literal.size(), literal) == 0) return literal;
-    return "";
-  };
-  std::string result;
-  bool quoted = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (const std::string_view literal = quoted ? "" : literal_at(i); !literal.empty()) {
-      result += fmt::format("\"{}\"", literal);
-      i += literal.size() - 1;
-      continue;
-    }
-    if (text[i] == '"') quoted = !quoted;
-    result += text[i];
-    if (quoted && text[i] == '\\' && i + 1 < text.size()) result += text[++i];
-  }
-  return result;
-}
-
-bool is_nonfinite_literal(const json& value) { return value == "NaN" || value == "Infinity" || value == "-Infinity"; }
-
 /// Throws Error naming the file.
 json parse_json(const fs::path& file) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
   if (!failed && size > largest_camera_file) throw Error("{}: {} bytes, too large for a camera", file.string(), size);
-  try {
-    return json::parse(with_quoted_literals(read_text(file)));
-  } catch (const json::exception& e) {
-    const std::string_view what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
-    throw Error("{}: not readable as JSON: {}", file.string(), what.substr(what.find("] ") + 2));
-  }
+  return json_of_text(read_text(file), file.string());
 }
 
 /// Whether a JSON without a camera's name holds one all the same. Other JSON files lie beside frames too, gloam's own

@@ -9,6 +9,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 
 namespace gloam {
 namespace {
@@ -208,9 +209,8 @@ struct NormalPair {
 };
 
 glm::dvec3 view_position(const Channel& depth, const Window& window, const Camera& camera, int x, int y) {
-  const double z = depth.at(x, y), reach = camera.orthographic ? 1 : z;
-  return {(window.x0 + x + 0.5 - camera.cx) / camera.fx * reach, (camera.cy - window.y0 - y - 0.5) / camera.fy * reach,
-          -z};
+  const std::optional<ViewRay> ray = view_ray(camera, {window.x0 + x + 0.5, window.y0 + y + 0.5});
+  return ray ? ray->at(depth.at(x, y)) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// The step of the surface from a pixel towards +x or +y, to whichever neighbour is nearer in depth; none where both
@@ -401,6 +401,8 @@ void tidy_view(View& view, const Background& background, bool as_stored) {
 
 std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
                           const ReadOptions& options, std::vector<std::string>& assumed) {
+  if (camera.slits && options.depth != DepthConvention::automatic && options.depth != DepthConvention::z)
+    throw UsageError("--depth ray, ndc and reversed are of cameras with one eye; the depth of a display's module is z");
   if (options.depth == DepthConvention::ndc || options.depth == DepthConvention::reversed)
     return window_to_depth(depth, alpha, camera, options, assumed);
 

@@ -29,6 +29,8 @@
 #include "exr_verify.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "gloam/files.h"
+#include "gloam/light_field.h"
 #include "gloam/planes.h"
 #include "lists.h"
 #include "view_planes.h"
@@ -305,7 +307,7 @@ struct FrameFile::Impl {
   Window display, window;
   NamedPlanes names;
   std::vector<std::string> channel_names;
-  std::map<std::string, Camera> cameras;
+  std::map<std::string, Camera> cameras, modules;
   std::map<std::string, Pose> poses;  // of views whose header tells the pose and nothing else
   std::string json_name;              // of the camera JSON that was read
   bool json_is_shared = false;        // it is that of the other eye's file too
@@ -328,6 +330,7 @@ struct FrameFile::Impl {
   const Imf::Header& header_of(const std::string& view) const;
   template <typename Found>
   auto in_headers(const std::string& view, const Found& found) const;
+  const std::map<std::string, Camera>& display_cameras();
   std::optional<Camera> header_camera(const std::string& view);
   std::optional<Pose> header_pose(const std::string& view);
   std::map<std::string, Camera> json_cameras();
@@ -442,7 +445,19 @@ auto FrameFile::Impl::in_headers(const std::string& view, const Found& found) co
   return Result{};
 }
 
+/// Of the modules of the light-field display that the header describes.
+const std::map<std::string, Camera>& FrameFile::Impl::display_cameras() {
+  if (const std::string json = any_text("gloamDisplay"); modules.empty() && !json.empty()) {
+    for (auto& [name, camera] : module_cameras(display_from_text(json, "attribute gloamDisplay"), display)) {
+      camera.source = "header";
+      modules.emplace(name, camera);
+    }
+  }
+  return modules;
+}
+
 std::optional<Camera> FrameFile::Impl::header_camera(const std::string& view) {
+  if (const auto module = display_cameras().find(view); module != modules.end()) return module->second;
   return in_headers(view, [&](const Imf::Header& header, const std::string& prefix) {
     return camera_in(header, prefix, display, camera_notes);
   });
@@ -470,6 +485,10 @@ std::map<std::string, Camera> FrameFile::Impl::json_cameras() {
   const std::optional<fs::path> others = eye && options.camera_file.empty() ? find_camera_file(eye->other) : json;
   std::error_code unknown;
   json_is_shared = eye && others && fs::equivalent(*others, *json, unknown);
+  if (!options.camera_file.empty() && is_display_text(read_text(*json))) {
+    const auto of_modules = module_cameras(read_display(*json), display);
+    return {of_modules.begin(), of_modules.end()};
+  }
   return read_camera_file(*json, display, camera_notes);
 }
 

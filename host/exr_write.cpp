@@ -116,7 +116,11 @@ Imf::Slice slice_for(std::list<std::vector<uint32_t>>& copies, const Output& out
 void insert_camera(Imf::Header& header, const Camera& camera, const Window& display, const std::string& prefix) {
   const CameraMatrices matrices = matrices_of(camera, display);
   header.insert(prefix + "worldToCamera", Imf::M44fAttribute(Imath::M44f(matrices.world_to_camera)));
-  header.insert(prefix + "worldToNDC", Imf::M44fAttribute(Imath::M44f(matrices.world_to_ndc)));
+  // No matrix says what a display's module shows.
+  if (camera.slits)
+    header.insert("gloamDisplay", Imf::StringAttribute(*camera.slits->display));
+  else
+    header.insert(prefix + "worldToNDC", Imf::M44fAttribute(Imath::M44f(matrices.world_to_ndc)));
   header.insert(prefix + "gloamOrigin",
                 Imf::V3dAttribute(Imath::V3d(matrices.origin.x, matrices.origin.y, matrices.origin.z)));
   if (camera.near) header.insert(prefix + "near", Imf::FloatAttribute(float(*camera.near)));

@@ -10,6 +10,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 
 namespace gloam {
 namespace {
@@ -50,18 +51,15 @@ Motion motion_between(const Pose& from, const Pose& to) {
 
 /// What the centre of a pixel shows, view space.
 glm::dvec3 point_of(const Eye& eye, int x, int y) {
-  const Camera& c = eye.camera;
-  const double depth = double(eye.depth.at(x, y)), along = c.orthographic ? 1 : depth;
-  return {(eye.window.x0 + x + 0.5 - c.cx) / c.fx * along, (c.cy - (eye.window.y0 + y + 0.5)) / c.fy * along, -depth};
+  const std::optional<ViewRay> ray = view_ray(eye.camera, {eye.window.x0 + x + 0.5, eye.window.y0 + y + 0.5});
+  return ray ? ray->at(double(eye.depth.at(x, y))) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Where a point lands, pixels from the corner of the window; NaN for a point that is not before the camera.
+/// Where a point lands, pixels from the corner of the window; NaN for a point that the camera does not show.
 glm::dvec2 place_of(const Eye& eye, const glm::dvec3& point) {
-  const double depth = -point.z;
-  if (!(depth > 0)) return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
-  const Camera& c = eye.camera;
-  const double along = c.orthographic ? 1 : depth;
-  return {c.cx + c.fx * point.x / along - eye.window.x0, c.cy - c.fy * point.y / along - eye.window.y0};
+  const std::optional<glm::dvec2> place = gloam::place_of(eye.camera, point);
+  if (!place) return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+  return *place - glm::dvec2(eye.window.x0, eye.window.y0);
 }
 
 bool is_inside(const Eye& eye, const glm::dvec2& place) {  // false for NaN

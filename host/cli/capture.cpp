@@ -12,6 +12,7 @@
 #include "camera_io.h"
 #include "elapsed.h"
 #include "gloam/error.h"
+#include "gloam/light_field.h"
 #include "gloam/visualise.h"
 #include "scene_flags.h"
 
@@ -19,9 +20,10 @@ namespace gloam::cli {
 namespace {
 
 struct CaptureCommand {
-  std::string out, size = "1920x1080", planes, peel = "0", path, picture, compression = "zip";
+  std::string out, size, planes, peel = "0", path, picture, compression = "zip";
+  std::string display, modules;
   std::string stochastic, alpha, stochastic_seed, view2, stereo, convergence, outlines, outline_method, outline_angle;
-  bool half = false, toe_in = false;
+  bool half = false, toe_in = false, separate = false;
   SceneFlags scene;
   SceneCameraFlags camera;
   JsonFlag json;
@@ -102,12 +104,13 @@ std::optional<StereoRig> stereo_of(const CaptureCommand& flags) {
   return rig;
 }
 
-/// --view2 and --stereo make two views of one, which the frames of a path have no place for.
+/// Each says which views a frame has.
 void check_second_view_flags(const CaptureCommand& flags) {
   std::vector<std::string> given;
   if (!flags.view2.empty()) given.push_back("--view2");
   if (!flags.stereo.empty()) given.push_back("--stereo");
   if (!flags.path.empty()) given.push_back("--camera-path");
+  if (!flags.display.empty()) given.push_back("--display");
   if (given.size() > 1)
     throw UsageError("{} cannot be given together, as each says which views a frame has; give one of them",
                      enumerate(given));
@@ -134,6 +137,81 @@ struct Shot {
   std::string file, picture;
   std::vector<CaptureView> views;
 };
+
+/// "frame.exr" and "module07" make "frame.module07.exr".
+std::string of_view(const std::string& path, const std::string& view) {
+  const std::filesystem::path p(path);
+  return (p.parent_path() / fmt::format("{}.{}{}", p.stem().string(), view, p.extension().string())).string();
+}
+
+/// The modules that --modules names, by number and from-to; all without it.
+std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
+  std::vector<size_t> chosen;
+  if (flags.modules.empty()) {
+    for (size_t i = 0; i < count; ++i) chosen.push_back(i);
+    return chosen;
+  }
+  for (const std::string& item : split_list(flags.modules, "--modules")) {
+    const size_t dash = item.find('-');
+    const int last_allowed = int(count) - 1;
+    const int from = parse_whole_number(item.substr(0, dash), "--modules", 0, last_allowed);
+    const int to =
+        dash == std::string::npos ? from : parse_whole_number(item.substr(dash + 1), "--modules", from, last_allowed);
+    for (int i = from; i <= to; ++i) {
+      if (std::find(chosen.begin(), chosen.end(), size_t(i)) != chosen.end())
+        throw UsageError("--modules {}: names module {} twice; name each once", flags.modules, i);
+      chosen.push_back(size_t(i));
+    }
+  }
+  return chosen;
+}
+
+/// The display, with the part of the world that it shows: its own, or what the scene's camera frames, whose middle depth comes
+/// to lie in the screen.
+LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer) {
+  LightFieldDisplay display = read_display(flags.display);
+  if (display.world) {
+    if (flags.camera.any())
+      throw UsageError(
+          "--display {}: says itself which part of the world it shows; leave out --camera, --eye, --target "
+          "and --fov",
+          flags.display);
+    return display;
+  }
+  // As wide as the screen, and small: only the middle depth is asked for.
+  constexpr int height = 90;
+  const int width = std::max(1, int(std::lround(height * display.screen_width / display.screen_height)));
+  CaptureOptions options;
+  options.width = width, options.height = height;
+  for (const auto& [name, camera] : flags.camera.cameras(tracer.scene(), width, height))
+    options.views.push_back({"", camera, {}});
+  if (options.views.size() != 1)
+    throw UsageError("--display {}: shows what one camera frames, and {} has {}; give a camera of one view",
+                     flags.display, flags.camera.camera, options.views.size());
+  const CaptureResult seen = capture(tracer, options);
+  const auto depths = visible_depths(seen.frame.views[0].planes.at("depth").channels[0]);
+  if (!depths)
+    throw Error(
+        "--display {}: the camera shows nothing of the scene that the display could; another --camera or --eye may",
+        flags.display);
+  return fitted_to(display, options.views[0].camera, height, depths->median);
+}
+
+/// One file with all modules, or one for each.
+std::vector<Shot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
+  const LightFieldDisplay display = display_for(flags, tracer);
+  if (flags.size.empty()) options.width = display.width, options.height = display.height;
+  const auto cameras = module_cameras(display, {0, 0, options.width, options.height});
+  std::vector<Shot> shots;
+  if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});
+  for (const size_t i : chosen_modules(flags, cameras.size())) {
+    const std::string& name = cameras[i].first;
+    if (flags.separate)
+      shots.push_back({of_view(flags.out, name), flags.picture.empty() ? "" : of_view(flags.picture, name), {}});
+    shots.back().views.push_back({name, cameras[i].second, {}});
+  }
+  return shots;
+}
 
 std::vector<Shot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height) {
   std::vector<Shot> shots;
@@ -321,6 +399,10 @@ void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
   check_picture_name(flags.picture, "--picture");
   check_frame_name(flags.out, "-o");
   check_second_view_flags(flags);
+  if (flags.display.empty() && !flags.modules.empty())
+    throw UsageError("--modules are of a light-field display; give --display FILE too");
+  if (flags.display.empty() && flags.separate)
+    throw UsageError("--separate is of the modules of a light-field display; give --display FILE too");
   if (!flags.path.empty() && flags.camera.any())
     throw UsageError(
         "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "
@@ -338,7 +420,8 @@ void check_files(const CaptureCommand& flags, const std::vector<Shot>& shots) {
   }
   check_paths({{"the scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
                {"--camera", flags.camera.camera},
-               {"--camera-path", flags.path}},
+               {"--camera-path", flags.path},
+               {"--display", flags.display}},
               outputs);
 }
 
@@ -346,8 +429,9 @@ void capture_command(const CaptureCommand& flags) {
   const WriteOptions write{flags.half, flags.compression};
   check_flags(flags, write);
   if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
+  if (!flags.display.empty()) read_display(flags.display);                       // what is wrong with it is said first
   CaptureOptions options;
-  std::tie(options.width, options.height) = parse_size(flags.size, "--size");
+  if (!flags.size.empty()) std::tie(options.width, options.height) = parse_size(flags.size, "--size");
   options.planes = planes_of(flags);
   options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
   options.stochastic = stochastic_of(flags);
@@ -358,10 +442,11 @@ void capture_command(const CaptureCommand& flags) {
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = flags.scene.load();
   figures.load = seconds_since(start);
-  const std::vector<Shot> shots = shots_of(flags, scene, options.width, options.height);
+  const Tracer tracer(scene);
+  const std::vector<Shot> shots = flags.display.empty() ? shots_of(flags, scene, options.width, options.height)
+                                                        : shots_of_display(flags, tracer, options);
   check_files(flags, shots);
   figures.camera = shots.front().views.front().camera.source;
-  const Tracer tracer(scene);
   figures.build = tracer.build_seconds();
   std::optional<Outlines> outlines;
   if (outline_options) options.outlines = &outlines.emplace(tracer, *outline_options);
@@ -421,6 +506,13 @@ void add_capture(CLI::App& app) {
       ->add_option("--convergence", flags->convergence, "with --stereo: depth of no disparity; default: parallel eyes")
       ->type_name("D");
   command->add_flag("--toe-in", flags->toe_in, "with --convergence: turn the eyes, instead of shifting their frusta");
+  command
+      ->add_option("--display", flags->display,
+                   "the views of all optical modules of a light-field display (docs/light-field.md), in its size")
+      ->type_name("FILE.json");
+  command->add_option("--modules", flags->modules, "with --display: these only, by number: 0,5,10-19")
+      ->type_name("N,N-N");
+  command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
@@ -436,6 +528,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
       "  gloam capture courtyard -o courtyard.exr --outlines 0.5\n"
       "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
+      "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
       "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");

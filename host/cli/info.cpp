@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "gloam/error.h"
+#include "gloam/light_field.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 #include "gloam/visualise.h"
 #include "options.h"
 
@@ -57,7 +59,19 @@ std::optional<double> background_share(const Frame& frame) {
   return double(background) / double(pixels);
 }
 
+/// A module of a light-field display, in the display's units.
+Json module_document(const Camera& camera) {
+  const TwoSlits& slits = *camera.slits;
+  return {{"source", camera.source},
+          {"type", "two slits"},
+          {"display", display_from_text(*slits.display, "gloamDisplay").name},
+          {"module", {slits.module.x, slits.module.y, slits.module.z}},
+          {"observer_distance", slits.observer_distance},
+          {"depth_of_slit", depth_of_slit(camera)}};
+}
+
 Json camera_document(const Camera& camera, const Window& display) {
+  if (camera.slits) return module_document(camera);
   Json document = {{"source", camera.source}, {"type", camera.orthographic ? "orthographic" : "perspective"},
                    {"fx", camera.fx},         {"fy", camera.fy},
                    {"cx", camera.cx},         {"cy", camera.cy}};
@@ -126,6 +140,9 @@ std::string types_of(const PlaneSource& source) {
 }
 
 std::string camera_line(const Json& camera) {
+  if (camera.contains("display"))
+    return fmt::format("module of display '{}', {}", camera["display"].get<std::string>(),
+                       camera["source"].get<std::string>());
   std::string line = fmt::format("{}, {}", camera["type"].get<std::string>(), camera["source"].get<std::string>());
   if (camera.contains("hfov_deg")) line += fmt::format(", hfov {:.2f} deg", camera["hfov_deg"].get<double>());
   line += fmt::format(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}", camera["fx"].get<double>(),

@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 #include "gloam/stereo_consistency.h"
 #include "gloam/visualise.h"
 #include "options.h"
@@ -53,7 +54,7 @@ double median_radius_pixels(const Frame& frame, double radius) {
     for (int y = 0; y < frame.height(); y += 1 + frame.height() / 64) {
       for (int x = 0; x < frame.width(); x += 1 + frame.width() / 64) {
         if (!is_background(z.at(x, y)))
-          pixels.push_back(radius * view.camera->fx / (view.camera->orthographic ? 1 : z.at(x, y)));
+          pixels.push_back(radius * pixels_per_unit(*view.camera, z.at(x, y)));
       }
     }
   }

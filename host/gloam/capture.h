@@ -71,7 +71,7 @@ const std::vector<std::string>& capture_planes();
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
 
 /// The ray through a point of the image, in pixels (centres at +0.5). Distances along it are planar view-space depths.
-/// Relative to Scene::origin.
+/// Relative to Scene::origin. Throws Error where a light-field display shows nothing (`view_ray`).
 TracerRay camera_ray(const Camera& camera, const glm::dvec3& scene_origin, double x, double y);
 
 /// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with

@@ -17,6 +17,7 @@
 #include "elapsed.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 #include "lists.h"
 #include "low_discrepancy.h"
 #include "shared/stochastic.h"
@@ -90,12 +91,13 @@ void put(Channel* const (&channels)[n], int x, int y, const Vector& value) {
 
 /// Where a point (w = 1) or a direction (w = 0) of the world lands in an image, pixels; none when behind the camera.
 std::optional<glm::dvec2> projected(const Camera& camera, const dvec3& world, double w) {
-  const dvec3 view = camera.pose->world_to_view * (world - w * camera.pose->position);
-  if (camera.orthographic)
-    return w == 0 ? std::nullopt
-                  : std::optional(glm::dvec2(camera.cx + camera.fx * view.x, camera.cy - camera.fy * view.y));
-  if (!(view.z < 0)) return {};
-  return glm::dvec2(camera.cx - camera.fx * view.x / view.z, camera.cy + camera.fy * view.y / view.z);
+  if (camera.orthographic && w == 0) return {};
+  return place_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
+}
+
+/// Whether the image shows anything at a pixel: light of a display's module may miss the screen there.
+bool shows(const Camera& camera, int x, int y) {
+  return !camera.slits || view_ray(camera, {x + 0.5, y + 0.5}).has_value();
 }
 
 /// Pixels that are not background.
@@ -153,7 +155,7 @@ class OutlineCounter {
  public:
   OutlineCounter(const Outlines* outlines, const Camera& camera, const Target& target)
       : outlines_(outlines), camera_(camera), target_(target) {
-    if (!outlines_ || camera.orthographic) return;
+    if (!outlines_ || camera.orthographic || camera.slits) return;
     at_eye_ = outlines_->around(camera.pose->position - outlines_->scene().origin);
   }
 
@@ -161,6 +163,7 @@ class OutlineCounter {
   void row(int y) const {
     if (!outlines_) return;
     for (int x = 0; x < target_.depth->layout().width; ++x) {
+      if (!shows(camera_, x, y)) continue;
       // From the eye on, whatever the near plane hides: an outline that begins before it is one to be in.
       TracerRay ray = camera_ray(camera_, outlines_->scene().origin, x + 0.5, y + 0.5);
       const float depth = target_.depth->at(x, y);
@@ -216,10 +219,11 @@ class Capturer {
 
  private:
   void pixel(int x, int y, uint32_t seed, std::vector<Surface>& surfaces) const {
+    surfaces.clear();
+    if (!shows(view_.camera, x, y)) return;
     TracerRay ray = camera_ray(view_.camera, tracer_.scene().origin, x + 0.5, y + 0.5);
     ray.near = view_.camera.near.value_or(0);
     ray.far = far_of(view_.camera);
-    surfaces.clear();
     if (needs_all_) {
       tracer_.all(ray, surfaces);
     } else if (const std::optional<Surface> first = tracer_.first(ray)) {
@@ -407,17 +411,13 @@ const std::vector<std::string>& capture_planes() {
 }
 
 TracerRay camera_ray(const Camera& camera, const dvec3& scene_origin, double x, double y) {
+  const std::optional<ViewRay> seen = view_ray(camera, {x, y});
+  if (!seen) throw Error("nothing is shown at ({:g}, {:g}): the module's light misses the screen", x, y);
   const glm::dmat3 to_world = glm::transpose(camera.pose->world_to_view);
   const dvec3 eye = camera.pose->position - scene_origin;
-  const double across = (x - camera.cx) / camera.fx, up = (camera.cy - y) / camera.fy;
   TracerRay ray;
-  if (camera.orthographic) {
-    ray.origin = eye + to_world * dvec3(across, up, 0);
-    ray.direction = to_world * dvec3(0, 0, -1);
-  } else {
-    ray.origin = eye;
-    ray.direction = to_world * dvec3(across, up, -1);
-  }
+  ray.origin = eye + to_world * seen->start;
+  ray.direction = to_world * seen->per_depth;
   return ray;
 }
 

@@ -12,6 +12,7 @@ void add_plane(Fingerprint& print, const Plane* plane) {
 
 void add_camera(Fingerprint& print, const Camera& c) {
   print.add(std::vector<double>{c.fx, c.fy, c.cx, c.cy, c.near.value_or(0), double(c.orthographic)});
+  if (c.slits) print.add(*c.slits->display), print.add(c.slits->module);
   if (!c.pose) return;
   print.add(c.pose->position);
   print.add(c.pose->world_to_view);

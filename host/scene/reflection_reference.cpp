@@ -6,6 +6,7 @@
 #include "fingerprint.h"
 #include "gloam/capture.h"
 #include "gloam/error.h"
+#include "gloam/projection.h"
 #include "gloam/reference.h"
 #include "low_discrepancy.h"
 #include "reference_rows.h"
@@ -72,10 +73,9 @@ class Shown {
     return std::any_of(frame_.views.begin(), frame_.views.end(), [&](const View& view) {
       const Camera& camera = *view.camera;
       const dvec3 p = camera.pose->world_to_view * (world - w * camera.pose->position);
-      const double lateral = camera.orthographic ? 1.0 : -p.z;
-      if (!(p.z < 0) || (camera.orthographic && w == 0)) return false;
-      const double x = std::floor(camera.cx + camera.fx * p.x / lateral) - frame_.window.x0;
-      const double y = std::floor(camera.cy - camera.fy * p.y / lateral) - frame_.window.y0;
+      const std::optional<glm::dvec2> place = camera.orthographic && w == 0 ? std::nullopt : place_of(camera, p);
+      if (!place) return false;
+      const double x = std::floor(place->x) - frame_.window.x0, y = std::floor(place->y) - frame_.window.y0;
       if (!(x >= 0 && y >= 0 && x < frame_.width() && y < frame_.height())) return false;
       return fits(-p.z, view.planes.at("depth").channels[0].at(int(x), int(y)));
     });

@@ -1,0 +1,16 @@
+// JSON from files that people and scripts write.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace gloam {
+
+/// Parses a text. NaN and Infinity, which Python writes and JSON does not know, become texts of these names. Throws Error
+/// that begins with `name`.
+nlohmann::json json_of_text(const std::string& text, const std::string& name);
+
+/// Whether a value is one of these texts, for which no number can be had.
+bool is_nonfinite_literal(const nlohmann::json& value);
+
+}  // namespace gloam
