@@ -11,6 +11,8 @@
 #include "device_impl.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "kernel_projection.h"
+#include "key_views.h"
 #include "lists.h"
 #include "mask.h"
 
@@ -241,7 +243,9 @@ std::vector<std::string> declared_arguments(const PlannedPass& planned, const La
   std::vector<std::string> names = {"frame"};
   if (other_scale(planned, layouts) != 0) names.push_back("other");
   if (reads_other_view(planned.pass) || planned.pass.from_frame_before) names.push_back("neighbour");
+  if (planned.pass.projects) names.push_back("projections");
   if (!planned.technique->parameters.empty()) names.push_back("params");
+  for (const auto& [argument, unused] : planned.pass.tables) names.push_back(argument);
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
       for (const std::string& component : plane_kind(binding.plane).components) {
@@ -292,10 +296,22 @@ struct Target {
   Layout layout;
   Layouts layouts;
   Buffers buffers;
-  std::set<std::string> planes;     // at hand: inputs, and what passes make here
-  std::vector<cl::Kernel> kernels;  // of the passes that run here
-  std::vector<size_t> passes;       // which these are
-  std::vector<size_t> times;        // where their times go
+  Pass::Views on = Pass::Views::key;     // what it is
+  std::set<std::string> planes = {};     // at hand: inputs, and what passes make here
+  std::vector<cl::Kernel> kernels = {};  // of the passes that run here
+  std::vector<cl::Buffer> numbers = {};  // projections and tables that they read
+  std::vector<size_t> passes = {};       // which these are
+  std::vector<PassTime> times = {};      // of each
+};
+
+/// The views that a target's passes may look into; null where there is none.
+struct Others {
+  Target* other = nullptr;                    // of two
+  Target *nearest = nullptr, *far = nullptr;  // key views
+  Target* of(const Binding& binding) const {
+    if (binding.of_key > 0) return binding.of_key == 1 ? nearest : far;
+    return binding.of_other ? other : nullptr;
+  }
 };
 
 template <typename KernelFrame>
@@ -347,20 +363,47 @@ void set_neighbour_before(cl::Kernel& kernel, cl_uint index, const PlannedPass& 
     kernel.setArg(index, neighbour_before<NeighbourOfFloats, FrameOfFloats>(target, scale, options.seed));
 }
 
-/// `other`: the other view, null where there is none.
-void set_arguments(cl::Kernel& kernel, const PlannedPass& planned, Target& target, Target* other,
-                   const RunOptions& options) {
+template <typename Number>
+cl::Buffer constants(Device::Impl& device, const std::vector<Number>& numbers) {
+  return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, numbers.size() * sizeof(Number),
+          const_cast<Number*>(numbers.data())};
+}
+
+/// The view's own, then those of the key views.
+cl::Buffer projections_of(Device::Impl& device, const Plan& plan, const PlannedPass& planned, const Target& target,
+                          const Others& others, const RunOptions& options) {
+  const bool are_computed = !contains(plan.inputs, "position");
+  std::vector<ProjectionOfDoubles> projections;
+  for (const Target* to :
+       {&target, static_cast<const Target*>(others.nearest), static_cast<const Target*>(others.far)}) {
+    if (to)
+      projections.push_back(kernel_projection(target.frame, target.view, to->view, planned.pass.scale, are_computed));
+  }
+  if (options.real == Real::float64) return constants(device, projections);
+  std::vector<ProjectionOfFloats> floats;
+  for (const ProjectionOfDoubles& projection : projections) floats.push_back(in_floats(projection));
+  return constants(device, floats);
+}
+
+void set_arguments(cl::Kernel& kernel, const Plan& plan, const PlannedPass& planned, Device::Impl& device,
+                   Target& target, const Others& others, const RunOptions& options) {
   cl_uint index = 0;
   set_frame(kernel, index++, target, planned.pass.scale, options);
   if (const int scale = other_scale(planned, target.layouts)) set_frame(kernel, index++, target, scale, options);
   if (reads_other_view(planned.pass))
-    set_neighbour(kernel, index++, planned, target, *other, options);
+    set_neighbour(kernel, index++, planned, target, *others.other, options);
   else if (planned.pass.from_frame_before)
     set_neighbour_before(kernel, index++, planned, target, options);
+  const auto set_numbers = [&](cl::Buffer buffer) {
+    kernel.setArg(index++, buffer);
+    target.numbers.push_back(std::move(buffer));
+  };
+  if (planned.pass.projects) set_numbers(projections_of(device, plan, planned, target, others, options));
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
+  for (const auto& [unused, table] : planned.pass.tables) set_numbers(constants(device, table));
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
-      Target& from = binding.of_other ? *other : target;
+      Target& from = others.of(binding) ? *others.of(binding) : target;
       for (cl::Buffer& buffer : from.buffers.of(binding.plane)) kernel.setArg(index++, buffer);
     }
   }
@@ -481,29 +524,28 @@ void fill(Target& target, const Plan& plan) {
 /// Whether a pass runs on a view: it is meant for it, and what it reads of it is there.
 bool runs_on(const PlannedPass& planned, const Target& target, size_t number) {
   if (planned.pass.view >= 0 && size_t(planned.pass.view) != number) return false;
+  if (planned.pass.on != Pass::Views::every && planned.pass.on != target.on) return false;
   return std::all_of(planned.pass.reads.begin(), planned.pass.reads.end(),
-                     [&](const Binding& b) { return b.of_other || target.planes.count(b.plane) > 0; });
+                     [&](const Binding& b) { return b.of_other || b.of_key > 0 || target.planes.count(b.plane) > 0; });
+}
+
+void add_kernel(const Plan& plan, size_t k, Target& target, const Others& others, Device::Impl& device,
+                const RunOptions& options, int lanes) {
+  const PlannedPass& planned = plan.passes[k];
+  target.kernels.push_back(build_kernel(planned, target.layouts, device, options, lanes));
+  set_arguments(target.kernels.back(), plan, planned, device, target, others, options);
+  target.passes.push_back(k);
+  target.times.push_back({target.view.name, planned.label(), {}});
+  for (const Binding& written : planned.pass.writes) target.planes.insert(written.plane);
 }
 
 /// Finds out which passes run on which views, and builds their kernels.
 void add_kernels(const Plan& plan, std::vector<Target>& targets, Device::Impl& device, const RunOptions& options,
-                 int lanes, RunResult& result) {
+                 int lanes) {
   for (size_t k = 0; k < plan.passes.size(); ++k) {
-    const PlannedPass& planned = plan.passes[k];
     for (size_t i = 0; i < targets.size(); ++i) {
-      Target& target = targets[i];
-      if (!runs_on(planned, target, i)) continue;
-      Target* other = targets.size() == 2 ? &targets[1 - i] : nullptr;
-      target.kernels.push_back(build_kernel(planned, target.layouts, device, options, lanes));
-      set_arguments(target.kernels.back(), planned, target, other, options);
-      target.passes.push_back(k);
-      for (const Binding& written : planned.pass.writes) target.planes.insert(written.plane);
-    }
-  }
-  for (Target& target : targets) {
-    for (const size_t k : target.passes) {
-      target.times.push_back(result.passes.size());
-      result.passes.push_back({target.view.name, plan.passes[k].label(), {}});
+      const Others others{.other = targets.size() == 2 ? &targets[1 - i] : nullptr};
+      if (runs_on(plan.passes[k], targets[i], i)) add_kernel(plan, k, targets[i], others, device, options, lanes);
     }
   }
 }
@@ -566,38 +608,142 @@ void count(const Plan& plan, std::vector<Target>& targets, int lanes, Counted& c
   }
 }
 
+/// Runs pass `k` of a target's once. `counts`: its time is kept.
+void launch_once(const Plan& plan, Target& target, size_t k, Device::Impl& device, int lanes, bool counts) {
+  const PlannedPass& planned = plan.passes[target.passes[k]];
+  try {
+    constexpr cl_int nothing = 0;
+    for (const Binding& written : planned.pass.writes) {
+      if (written.starts_empty)
+        device.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
+    }
+    const double ms =
+        launch(device, target.kernels[k], planned.pass, reduced(target.layout, planned.pass.scale), lanes);
+    if (counts) target.times[k].ms.push_back(ms);
+  } catch (const cl::Error& error) {
+    throw Error("{} on {}: {} ({})", planned.label(), device.info.name, error.what(), cl_error_name(error.err()));
+  }
+}
+
+/// What a view comes to, and what it took.
+void collect(const Plan& plan, Target& target, RunResult& result) {
+  View out{.name = target.view.name,
+           .camera = target.view.camera,
+           .origin = position_origin(target.view, !contains(plan.inputs, "position")),
+           .planes = {}};
+  download(plan, target, out);
+  // A view that is only looked into has no result of its own.
+  if (!out.planes.empty()) result.frame.views.push_back(std::move(out));
+  for (PassTime& time : target.times) result.passes.push_back(std::move(time));
+}
+
+Target target_of(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device) {
+  const Layout layout(frame.width(), frame.height());
+  Target target{frame, view, layout, Layouts(plan, layout), Buffers(device)};
+  fill(target, plan);
+  return target;
+}
+
 /// Views that are on the device together.
 void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
                const RunOptions& options, int lanes, RunResult& result, Counted& counted) {
-  const Layout layout(frame.width(), frame.height());
   std::vector<Target> targets;
-  for (const View* view : views) {
-    targets.push_back({frame, *view, layout, Layouts(plan, layout), Buffers(device), {}, {}, {}, {}});
-    fill(targets.back(), plan);
-  }
-  add_kernels(plan, targets, device, options, lanes, result);
+  for (const View* view : views) targets.push_back(target_of(plan, frame, *view, device));
+  add_kernels(plan, targets, device, options, lanes);
   size_t launches = 0, done = 0;
   for (const Target& target : targets) launches += target.kernels.size();
   const int warm_ups = options.repeat > 1 ? 1 : 0;
   for (int i = -warm_ups; i < options.repeat; ++i) {
     for_each_launch(plan, targets, [&](Target& target, size_t k) {
-      const PlannedPass& planned = plan.passes[target.passes[k]];
-      try {
-        const double ms = launch(device, target.kernels[k], planned.pass, reduced(layout, planned.pass.scale), lanes);
-        if (i >= 0) result.passes[target.times[k]].ms.push_back(ms);
-      } catch (const cl::Error& error) {
-        throw Error("{} on {}: {} ({})", planned.label(), device.info.name, error.what(), cl_error_name(error.err()));
-      }
+      launch_once(plan, target, k, device, lanes, i >= 0);
       if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
     });
   }
   count(plan, targets, lanes, counted);
-  for (Target& target : targets) {
-    View out{.name = target.view.name, .camera = target.view.camera, .origin = target.view.origin, .planes = {}};
-    download(plan, target, out);
-    // A view that is only looked into has no result of its own.
-    if (!out.planes.empty()) result.frame.views.push_back(std::move(out));
+  for (Target& target : targets) collect(plan, target, result);
+}
+
+/// Runs a frame's views one after another, of which some are key views that others look into. Of these no more are on the device
+/// than are looked into from where the run has come to.
+class KeyViewsRun {
+ public:
+  KeyViewsRun(const Plan& plan, const Frame& frame, int spacing, Device::Impl& device, const RunOptions& options,
+              int lanes)
+      : plan_(plan),
+        frame_(frame),
+        device_(device),
+        options_(options),
+        lanes_(lanes),
+        roles_(key_view_roles(int(frame.views.size()), spacing)),
+        results_(frame.views.size()) {}
+
+  void run(RunResult& result) {
+    for (size_t i = 0; i < roles_.size(); ++i) {
+      const KeyViewRole& role = roles_[i];
+      if (role.is_key)
+        key(i);
+      else
+        between(i, key(size_t(role.nearest)), key(size_t(role.far)));
+      // Views come in order: no later one looks into key views before these.
+      release_before(role.is_key ? i : size_t(std::min(role.nearest, role.far)));
+    }
+    release_before(roles_.size());
+    for (RunResult& own : results_) {
+      std::move(own.frame.views.begin(), own.frame.views.end(), std::back_inserter(result.frame.views));
+      std::move(own.passes.begin(), own.passes.end(), std::back_inserter(result.passes));
+    }
   }
+
+ private:
+  Target& key(size_t i) {
+    const auto known = keys_.find(i);
+    if (known != keys_.end()) return known->second;
+    Target& target = keys_.emplace(i, target_of(plan_, frame_, frame_.views[i], device_)).first->second;
+    compute(target, {});
+    return target;
+  }
+
+  void between(size_t i, Target& nearest, Target& far) {
+    Target target = target_of(plan_, frame_, frame_.views[i], device_);
+    target.on = Pass::Views::between;
+    compute(target, {.nearest = &nearest, .far = &far});
+    collect(plan_, target, results_[i]);
+  }
+
+  void compute(Target& target, const Others& others) {
+    for (size_t k = 0; k < plan_.passes.size(); ++k) {
+      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, lanes_);
+    }
+    const int warm_ups = options_.repeat > 1 ? 1 : 0;
+    for (int i = -warm_ups; i < options_.repeat; ++i) {
+      for (size_t k = 0; k < target.kernels.size(); ++k) launch_once(plan_, target, k, device_, lanes_, i >= 0);
+    }
+    if (options_.progress) options_.progress(++done_, int(roles_.size()));
+  }
+
+  void release_before(size_t end) {
+    while (!keys_.empty() && keys_.begin()->first < end) {
+      collect(plan_, keys_.begin()->second, results_[keys_.begin()->first]);
+      keys_.erase(keys_.begin());
+    }
+  }
+
+  const Plan& plan_;
+  const Frame& frame_;
+  Device::Impl& device_;
+  const RunOptions& options_;
+  int lanes_, done_ = 0;
+  std::vector<KeyViewRole> roles_;
+  std::vector<RunResult> results_;  // view by view
+  std::map<size_t, Target> keys_;   // on the device
+};
+
+/// Every how many views of a plan one is a key view; 1 where all are alike.
+int key_view_spacing(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.pass.on != Pass::Views::every) return planned.technique->key_views(planned.values);
+  }
+  return 1;
 }
 
 bool needs_two_views(const Plan& plan) {
@@ -620,6 +766,30 @@ void check_two_views(const Plan& plan, const Frame& frame) {
   }
 }
 
+/// What a view has to have for the plan's passes to make sense of it.
+void check_projections(const Plan& plan, const Frame& frame) {
+  const bool reads_positions = contains(plan.inputs, "position");
+  for (const View& view : frame.views) {
+    if (reads_positions && !view.camera->pose)
+      throw Error(
+          "{}: positions of view '{}' are the world's, and nothing tells where its camera stands; --plane "
+          "position=none has "
+          "them made from depth",
+          plan.technique, view.name);
+    if (!view.camera->slits) continue;
+    for (const PlannedPass& planned : plan.passes) {
+      if (planned.technique->any_projection) continue;
+      std::vector<std::string> able;
+      for (const Technique& technique : registry()) {
+        if (technique.any_projection && technique.key_views) able.push_back(technique.name);
+      }
+      throw Error(
+          "{}: view '{}' is of a light-field display's module, whose rays meet in no eye; {} compute such views",
+          planned.technique->name, view.name, enumerate(able));
+    }
+  }
+}
+
 }  // namespace
 
 unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
@@ -627,6 +797,8 @@ unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
   unsigned long long bytes = 0;
   for (const std::string& name : planes_of(plan))
     bytes += plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
+  // A view between two key views.
+  if (key_view_spacing(plan) > 1) return 3 * bytes;
   return needs_two_views(plan) ? 2 * bytes : bytes;
 }
 
@@ -655,10 +827,18 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   for (const View& view : frame.views) {
     if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);
   }
+  check_projections(plan, frame);
   if (needs_two_views(plan)) check_two_views(plan, frame);
   std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
   for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
   Counted counted;
+  const int spacing = frame.views.size() > 1 ? key_view_spacing(plan) : 1;
+  if (spacing > 1) groups.clear();
+  try {
+    if (spacing > 1) KeyViewsRun(plan, frame, spacing, impl, options, result.lanes).run(result);
+  } catch (const cl::Error& error) {
+    throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
+  }
   for (const std::vector<const View*>& views : groups) {
     try {
       run_views(plan, frame, views, impl, options, result.lanes, result, counted);

@@ -18,11 +18,15 @@ namespace gloam {
 /// the technique's own resolution whatever the pass's, or with `as_launched` of the pass's. A pass that reads and writes
 /// such a stack names it once, as written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
 ///
-/// With `of_other` it is the plane of the other of two views (`Technique::views`).
+/// With `of_other` it is the plane of the other of two views (`Technique::views`); with `of_key` that of a key view
+/// (`Pass::on`): 1 of the nearest one, 2 of the next one on the other side, or of the nearest again where there is none.
+///
+/// With `starts_empty`, which is for lists that a pass writes (shared/pixel_list.h), the plane's first number is 0 when the pass
+/// begins.
 struct Binding {
   std::string argument, plane;
-  int layers = 0;
-  bool of_other = false, as_launched = false;
+  int layers = 0, of_key = 0;
+  bool of_other = false, as_launched = false, starts_empty = false;
   Binding(const char* name) : argument(name), plane(name) {}
   Binding(std::string argument, std::string plane, int layers = 0)
       : argument(std::move(argument)), plane(std::move(plane)), layers(layers) {}
@@ -34,7 +38,18 @@ inline Binding of_other(Binding binding) {
   return binding;
 }
 
-/// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, Params params, reads..., writes...).
+inline Binding of_key(int number, Binding binding) {
+  binding.of_key = number;
+  return binding;
+}
+
+inline Binding starts_empty(Binding binding) {
+  binding.starts_empty = true;
+  return binding;
+}
+
+/// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, projections, Params params, tables...,
+/// reads..., writes...).
 /// A technique without parameters has no `params`. `other` is there only where planes of a second resolution are bound:
 /// their frame; `neighbour` (frame.h) only where planes of the other view are, or `from_frame_before`.
 struct Pass {
@@ -59,6 +74,13 @@ struct Pass {
   /// The neighbour is the camera that the view had in the frame before (`View::camera_before`); where that is not known it sees
   /// nothing.
   bool from_frame_before = false;
+  /// Its kernel asks how the view projects (`projections`, shared/projection.h), and how key views do that it reads: the view's
+  /// own, then those of the nearest and of the further key view.
+  bool projects = false;
+  /// Numbers that its kernel reads, the same for all pixels, by argument.
+  std::vector<std::pair<std::string, std::vector<float>>> tables;
+  /// Which views of a frame of many it runs on (`Technique::key_views`): all, key views, or those between them.
+  enum class Views { every, key, between } on = Views::every;
   /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
   bool repeats_cells = false;
 };
@@ -82,7 +104,8 @@ struct Effect {
   /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
   /// than it saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;
-  std::vector<std::pair<std::string, std::string>> settings;  ///< of the technique in `gloam auto`, under the user's own
+  std::vector<std::pair<std::string, std::string>>
+      settings;                    ///< of the technique in `gloam auto`, under the user's own
   std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
 };
 
@@ -99,7 +122,12 @@ struct Technique {
   std::vector<std::pair<std::string, std::string>> then_with;  ///< settings that the follower has by default
   std::vector<std::string> default_for;  ///< planes that it makes where they are asked for by name and several could
   int views = 1;                         ///< that a frame needs: 2 where passes read the other view's planes
-  std::vector<std::string> extras;       ///< planes made beside `writes` where they are asked for by name
+  /// Its passes ask for the projection and for nothing else that only a camera with an eye has: it runs on the views of
+  /// light-field displays as well.
+  bool any_projection = false;
+  /// For given parameters, every how many views one is a key view, which other views may look into; 1: all are alike.
+  std::function<int(const ParameterValues&)> key_views;
+  std::vector<std::string> extras;  ///< planes made beside `writes` where they are asked for by name
   std::vector<Parameter> parameters;
   std::vector<Preset> presets;
   /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant

@@ -33,6 +33,7 @@ std::vector<Technique> gaussian() {
       .source = "gaussian/gaussian.cl",
       .reads = {"ao_raw", "depth"},
       .writes = {"ao"},
+      .any_projection = true,
       .parameters = GaussianParams::table(),
       .passes = passes_of(passes),
   }};

@@ -49,6 +49,13 @@ static inline Ball ball_of(real3 axis, scalar inner, Noise noise) {
   return ball;
 }
 
+// How far away the point at this share of the volume lies, 0 to 1, once it is shifted by the pixel's noise.
+static inline real distance_at(const Ball* ball, scalar share) {
+  const real sum = ball->shift + share;
+  const real fraction = choose(sum >= 1, sum - 1, sum);
+  return rough_cube_root(ball->inner_cubed + (1 - ball->inner_cubed) * fraction);
+}
+
 // Point k of SAMPLES, to be asked for in order.
 static inline BallPoint next_point(Ball* ball, int k) {
   BallPoint p;
@@ -56,9 +63,7 @@ static inline BallPoint next_point(Ball* ball, int k) {
   const scalar sine = sqrt(1 - p.axis * p.axis);
   p.x = sine * ball->cosine;
   p.y = sine * ball->sine;
-  const real sum = ball->shift + (scalar)(((uint)k * DISTANCE_STEP) >> 8) * (scalar)0x1p-24f;
-  const real fraction = choose(sum >= 1, sum - 1, sum);
-  p.distance = rough_cube_root(ball->inner_cubed + (1 - ball->inner_cubed) * fraction);
+  p.distance = distance_at(ball, (scalar)(((uint)k * DISTANCE_STEP) >> 8) * (scalar)0x1p-24f);
   turn_golden(&ball->cosine, &ball->sine);
   return p;
 }

@@ -1,0 +1,18 @@
+// Which views of a row of many are key views, and which of these the others look into.
+#pragma once
+
+#include <vector>
+
+namespace gloam {
+
+struct KeyViewRole {
+  bool is_key = false;
+  int nearest = -1,
+      far = -1;  ///< numbers of the nearest key view and of the nearest on the other side, or the same again
+};
+
+/// Of `count` views in the order of the frame, every `spacing`-th is a key view, and those at both ends are no further from one than
+/// the others are. `spacing`: at least 2.
+std::vector<KeyViewRole> key_view_roles(int count, int spacing);
+
+}  // namespace gloam

@@ -1,0 +1,146 @@
+#include <cmath>
+#include <numbers>
+
+#include "gloam/ambient_occlusion.h"
+#include "gloam/point_sets.h"
+#include "lightfield/params.h"
+
+namespace gloam::techniques {
+namespace {
+
+using Points = LightfieldSsaoParams::points_values;
+
+/// As `ssao` has them (shared/ball.h): a Fibonacci spiral, and distances by a sequence beside it. Further radii go on with both.
+glm::dvec3 of_spiral(int k, int radius, int samples) {
+  constexpr double golden_turns = 0.38196601125010515;
+  constexpr uint32_t distance_step = 0xbb67ae85u;
+  const uint32_t number = uint32_t(k + radius * samples);
+  const double turns = number * golden_turns;
+  return {(k + 0.5) / samples, turns - std::floor(turns), ((number * distance_step) >> 8) * 0x1p-24};
+}
+
+std::vector<glm::dvec3> points_of(const LightfieldSsaoParams& p, int radius) {
+  if (p.points != Points::spiral) {
+    const PointSet set[] = {PointSet::random, PointSet::random, PointSet::jittered, PointSet::latin_square,
+                            PointSet::poisson_disk};
+    return point_set(set[p.points], p.samples, uint32_t(radius));
+  }
+  std::vector<glm::dvec3> points;
+  for (int k = 0; k < p.samples; ++k) points.push_back(of_spiral(k, radius, p.samples));
+  return points;
+}
+
+/// Algorithms 3 and 4: by the height on the axis, the angle about it and the share of the volume.
+std::vector<float> table_of(const LightfieldSsaoParams& p) {
+  std::vector<float> table;
+  for (int radius = 0; radius < p.radii; ++radius) {
+    for (const glm::dvec3& point : points_of(p, radius)) {
+      // The spiral of the whole ball begins at its top, as in `ssao`.
+      const double whole = p.points == Points::spiral ? 1 - 2 * point.x : 2 * point.x - 1;
+      const double axis = p.hemisphere ? point.x : whole, sine = std::sqrt(1 - axis * axis);
+      const double angle = 2 * std::numbers::pi * point.y;
+      for (const double value : {sine * std::cos(angle), sine * std::sin(angle), axis, point.z})
+        table.push_back(float(value));
+    }
+  }
+  return table;
+}
+
+/// With --set reuse=on: the estimate on key views, and on the others what these do not show.
+template <typename Params>
+std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
+  estimate.reads.push_back("position");
+  estimate.projects = true;
+  estimate.defines.emplace_back("REUSE", p.reuse);
+  if (!p.reuse) return {estimate};
+  // Which pixels are new is another thing on every view, and no mask leaves them out.
+  estimate.can_skip = false;
+  Pass reuse{.name = "reuse",
+             .kernel = "lightfield_reuse",
+             .reads = {"depth", "position"},
+             .writes = {"ao_raw", starts_empty("newly_visible")},
+             .defines = estimate.defines,
+             .projects = true,
+             .on = Pass::Views::between};
+  for (const auto& [prefix, key] : {std::pair{"key_", 1}, {"far_", 2}}) {
+    for (const auto& [argument, plane] : {std::pair{"depth", "depth"}, {"position", "position"}, {"ao", "ao_raw"}})
+      reuse.reads.push_back(of_key(key, {std::string(prefix) + argument, plane}));
+  }
+  Pass rest = estimate;
+  rest.name = "newly visible";
+  rest.kernel += "_list";
+  rest.reads.push_back("newly_visible");
+  rest.looks_around = false;
+  rest.on = Pass::Views::between;
+  estimate.on = Pass::Views::key;
+  return {estimate, reuse, rest};
+}
+
+std::vector<Pass> ssao_passes(const LightfieldSsaoParams& p) {
+  Pass estimate = ambient_occlusion_estimate(
+      p, "lightfield_ssao_estimate",
+      {{"ESTIMATE", 1}, {"SAMPLES", p.samples}, {"RADII", p.radii}, {"HEMISPHERE", p.hemisphere}});
+  estimate.tables = {{"points", table_of(p)}};
+  return with_reuse(std::move(estimate), p);
+}
+
+std::vector<Pass> hbao_plus_passes(const LightfieldHbaoPlusParams& p) {
+  return with_reuse(
+      ambient_occlusion_estimate(p, "lightfield_hbao_plus_estimate",
+                                 {{"ESTIMATE", 2},
+                                  {"DIRECTIONS", p.directions},
+                                  {"STEPS", p.steps},
+                                  {"NO_FALLOFF", p.falloff == LightfieldHbaoPlusParams::falloff_values::none}}),
+      p);
+}
+
+int key_views(const ParameterValues& values) {
+  return values.number("reuse") != 0 ? int(values.number("key_views")) : 1;
+}
+
+Technique through_projection(std::string name, std::string summary) {
+  Technique t = ambient_occlusion(std::move(name), std::move(summary), "Doronin, Kara, Barsi, Martini 2017",
+                                  "lightfield/lightfield.cl");
+  t.reads.push_back("position");
+  t.any_projection = true;
+  t.key_views = key_views;
+  t.then = "gaussian";
+  t.then_with = {{"sigma", "1"}, {"half_width", "2"}};
+  return t;
+}
+
+Technique ssao() {
+  Technique t = through_projection(
+      "lightfield-ssao",
+      "ambient occlusion through any projection: points in balls of several radii, for light-field displays");
+  t.parameters = LightfieldSsaoParams::table();
+  t.presets = {{"low", {{"samples", "4"}}},
+               {"medium", {{"samples", "8"}}},
+               {"high", {{"samples", "16"}}},
+               {"ultra", {{"samples", "32"}}}};
+  t.converged = {{"samples", "256"}};
+  t.passes = passes_of(ssao_passes);
+  t.samples = [](const ParameterValues& values) { return int(values.number("samples") * values.number("radii")); };
+  return t;
+}
+
+Technique hbao_plus() {
+  Technique t = through_projection("lightfield-hbao+",
+                                   "ambient occlusion through any projection: mean obscurance over directions x steps");
+  t.paper += "; NVIDIA 2016";
+  t.parameters = LightfieldHbaoPlusParams::table();
+  t.presets = {{"low", {{"directions", "4"}, {"steps", "2"}}},
+               {"medium", {{"directions", "6"}, {"steps", "3"}}},
+               {"high", {{"directions", "8"}, {"steps", "4"}}},
+               {"ultra", {{"directions", "12"}, {"steps", "6"}}}};
+  t.converged = {{"directions", "32"}, {"steps", "32"}};
+  t.passes = passes_of(hbao_plus_passes);
+  t.samples = directions_times_steps;
+  return t;
+}
+
+}  // namespace
+
+std::vector<Technique> lightfield() { return {ssao(), hbao_plus()}; }
+
+}  // namespace gloam::techniques
