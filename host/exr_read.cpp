@@ -346,6 +346,7 @@ struct FrameFile::Impl {
   void convert_depth(View& view, Frame& frame);
   void convert_normals(View& view, Frame& frame);
   void judge_reflectance(View& view, Frame& frame) const;
+  void judge_positions(View& view, Frame& frame) const;
   NormalSpace said_space(const PlaneSource& normal) const;
   void settle_camera(View& view, Frame& frame) const;
 };
@@ -728,6 +729,12 @@ void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
   append_new(frame.assumed, notes);
 }
 
+/// Positions are the world's.
+void FrameFile::Impl::judge_positions(View& view, Frame& frame) const {
+  if (view.camera->pose || view.planes.erase("position") == 0) return;
+  append_new(frame.assumed, {"positions: not used, as where the camera stands is not known (--camera tells)"});
+}
+
 /// Cycles' GlossCol is 1 where a Principled BSDF is no metal, whatever that reflects.
 void FrameFile::Impl::judge_reflectance(View& view, Frame& frame) const {
   const Plane* reflectance = view.find("reflectance");
@@ -846,6 +853,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
     impl_->convert_depth(view, frame);
     impl_->convert_normals(view, frame);
     impl_->judge_reflectance(view, frame);
+    if (!impl_->options.as_stored) impl_->judge_positions(view, frame);
   }
   const bool has_depth = std::any_of(frame.views.begin(), frame.views.end(), [](View& v) { return v.find("depth"); });
   if (const auto value = impl_->options.background; value && has_depth && !impl_->background_seen)

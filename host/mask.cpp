@@ -122,8 +122,10 @@ class Restriction {
 }  // namespace
 
 const Technique& masking() {
-  static const Technique technique = {
-      .name = "mask", .summary = "from a mask to the pixels that it leaves", .source = "mask/mask.cl"};
+  static const Technique technique = {.name = "mask",
+                                      .summary = "from a mask to the pixels that it leaves",
+                                      .source = "mask/mask.cl",
+                                      .any_projection = true};
   return technique;
 }
 

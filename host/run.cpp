@@ -15,6 +15,7 @@
 #include "key_views.h"
 #include "lists.h"
 #include "mask.h"
+#include "resample.h"
 
 namespace gloam {
 namespace {
@@ -779,6 +780,8 @@ void check_projections(const Plan& plan, const Frame& frame) {
     if (!view.camera->slits) continue;
     for (const PlannedPass& planned : plan.passes) {
       if (planned.technique->any_projection) continue;
+      if (planned.technique == &resampling())
+        throw UsageError("--resolution: view '{}' is of a light-field display's module; leave it out", view.name);
       std::vector<std::string> able;
       for (const Technique& technique : registry()) {
         if (technique.any_projection && technique.key_views) able.push_back(technique.name);

@@ -169,20 +169,49 @@ struct Candidates {
   std::vector<Outcome> impossible;  ///< and why
 };
 
+bool is_of_display(const FrameFiles& files) {
+  for (const FrameFile& file : files.files()) {
+    for (const std::string& view : file.views()) {
+      const std::optional<Camera> camera = file.camera(view);
+      if (camera && camera->slits) return true;
+    }
+  }
+  return false;
+}
+
+bool has_effect_for_displays(const std::string& name) {
+  const std::vector<const Technique*> all = techniques_with_effects();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Technique* t) { return t->effect.for_displays && t->effect.name == name; });
+}
+
+Outcome impossible(const Technique& technique, std::string why) {
+  Outcome outcome;
+  outcome.decision.effect.technique = &technique;
+  outcome.decision.effect.why = std::move(why);
+  outcome.ms_everywhere = std::numeric_limits<double>::quiet_NaN();
+  return outcome;
+}
+
 /// Throws what is wrong with all of them where none is possible, and for a setting that means nothing to any.
 Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
   Candidates found;
   std::optional<MissingPlanes> missing;
+  const bool of_display = is_of_display(files);
   for (const Technique* technique : techniques_with_effects()) {
+    if (technique->effect.for_displays && !of_display) continue;
+    if (of_display && !technique->any_projection) {
+      // Of one name there may be a technique that can.
+      if (!has_effect_for_displays(technique->effect.name))
+        found.impossible.push_back(
+            impossible(*technique, "its kernels need a camera with an eye, and a display has none"));
+      continue;
+    }
     try {
       found.possible.push_back({technique, asked_of_effect(*technique, asked, files.common_planes(), holdings(files))});
     } catch (const MissingPlanes& error) {
       if (!missing) missing = error;
-      Outcome outcome;
-      outcome.decision.effect.technique = technique;
-      outcome.decision.effect.why = fmt::format("the frame has no '{}'", error.planes.front());
-      outcome.ms_everywhere = std::numeric_limits<double>::quiet_NaN();
-      found.impossible.push_back(std::move(outcome));
+      found.impossible.push_back(impossible(*technique, fmt::format("the frame has no '{}'", error.planes.front())));
     }
   }
   if (found.possible.empty()) throw *missing;

@@ -97,6 +97,8 @@ struct Effect {
   /// Technique whose effect this one makes better: it runs instead where a frame holds what it reads, and calls for it. Empty
   /// for an effect by itself.
   std::string refines;
+  bool for_displays =
+      false;  ///< of frames of light-field displays, which techniques with `any_projection` take, and of no others
   std::string mask;  ///< technique whose mask says where it is called for
   /// Settings and resolution with which the mask costs next to nothing, and still tells how much calls for it.
   std::vector<std::pair<std::string, std::string>> glance;

@@ -8,10 +8,7 @@
 // corner_find
 //   in : depth, normal       of these pixels
 //   out: found               1 where something rises, else 0; 0 on background
-// corner_grow
-//   in : found               out: grown  the largest of each cell and those around it
-// corner_spread     `frame` is the image, `other` that of the cells
-//   in : grown               out: result  each pixel its cell's
+// then                       shared/cells.h
 // Of what is hidden behind the depth the same question is asked by hidden-mask:
 //
 // corner_subsample_hidden
@@ -29,6 +26,7 @@ typedef HiddenMaskParams Params;
 #else
 typedef CornerMaskParams Params;
 #endif
+#include "shared/cells.h"
 
 kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                              PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
@@ -128,23 +126,4 @@ kernel void corner_find(Frame frame, Params params, PLANE depth, PLANE normal_x,
     LOOK_AROUND(rises, frame, r, r.reach, something_rises(frame, params, depth, SEARCHED r, fan, within))
   }
   store(choose(rises, (real)(1), (real)(0)), found, r.here);
-}
-
-kernel void corner_grow(Frame frame, Params params, PLANE found, PLANE_OUT grown) {
-  const int here = index_of(frame, FIRST_X, ROW_Y);
-  const mask has_left = to_mask(FIRST_X + IOTA > 0), has_right = to_mask(FIRST_X + IOTA + 1 < frame.width);
-  real most = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;
-    const int there = here + dy * frame.pitch;
-    most = larger(load(found, there), most);
-    most = larger(choose(has_left, load(found, there - 1), (real)(0)), most);
-    most = larger(choose(has_right, load(found, there + 1), (real)(0)), most);
-  }
-  store(most, grown, here);
-}
-
-kernel void corner_spread(Frame frame, Frame other, Params params, PLANE grown, PLANE_OUT result) {
-  const integer column = min(FIRST_X + IOTA, (integer)(frame.width - 1)) / SCALE;
-  store(gather(grown, index_of(other, 0, ROW_Y / SCALE) + column), result, index_of(frame, FIRST_X, ROW_Y));
 }

@@ -1,6 +1,5 @@
-#include "gloam/technique.h"
-
 #include "corner_mask/params.h"
+#include "gloam/masks.h"
 
 namespace gloam::techniques {
 namespace {
@@ -15,31 +14,19 @@ std::vector<std::pair<std::string, int>> defines_of(const Params& p) {
 }
 
 std::vector<Pass> passes_in_cells(int cell, const std::vector<std::pair<std::string, int>>& defines) {
-  return {{.name = "subsample",
-           .kernel = "corner_subsample",
-           .reads = {"depth", "normal"},
-           .writes = {{"low_depth", "depth@cells"}, {"low_normal", "normal@cells"}},
-           .defines = defines,
-           .scale = cell},
-          {.name = "find",
-           .kernel = "corner_find",
-           .reads = {{"depth", "depth@cells"}, {"normal", "normal@cells"}},
-           .writes = {{"found", "corners"}},
-           .defines = defines,
-           .scale = cell,
-           .looks_around = true},
-          {.name = "grow",
-           .kernel = "corner_grow",
-           .reads = {{"found", "corners"}},
-           .writes = {{"grown", "corners.grown"}},
-           .defines = defines,
-           .scale = cell},
-          {.name = "spread",
-           .kernel = "corner_spread",
-           .reads = {{"grown", "corners.grown"}},
-           .writes = {{"result", "mask"}},
-           .defines = defines,
-           .repeats_cells = true}};
+  return mask_of_cells({{.name = "subsample",
+                         .kernel = "corner_subsample",
+                         .reads = {"depth", "normal"},
+                         .writes = {{"low_depth", "depth@cells"}, {"low_normal", "normal@cells"}},
+                         .defines = defines,
+                         .scale = cell},
+                        {.name = "find",
+                         .kernel = "corner_find",
+                         .reads = {{"depth", "depth@cells"}, {"normal", "normal@cells"}},
+                         .writes = {{"found", "corners"}},
+                         .defines = defines,
+                         .scale = cell,
+                         .looks_around = true}});
 }
 
 std::vector<Pass> corner_passes(const CornerMaskParams& p) { return passes_in_cells(p.cell, defines_of(p)); }

@@ -12,21 +12,33 @@
 // out: ao_raw    1 = open .. 0 = closed, unfiltered; 1 on background
 // ..._list: the same for the pixels of a list (shared/pixel_list.h), whatever their order
 //
+// lightfield_find: where something within the radius may occlude, as `corner-mask` asks it, one pixel for each cell
+// in : depth, normal, position  of the pixels that stand for cells (lightfield_subsample)
+// out: found     1 where something rises over the tangent plane, else 0; 0 on background; then shared/cells.h
+//
 // lightfield_reuse: what key views show of the same points
 // in : key_depth, key_position, key_ao      of the nearest key view; far_...: of the next one on the other side
 // out: ao_raw    of the first of them that shows the point; else 1, and the pixel is in `newly_visible`
-// -D ESTIMATE (0: reuse, 1: ssao, 2: hbao+), REUSE, MASKED (wanted.h), OUTSIDE_OPEN, JITTER; SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
+// -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, MASKED (wanted.h), OUTSIDE_OPEN, JITTER, SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
 #include "estimators/ball.h"
 #include "estimators/obscurance.h"
 #include "lightfield/params.h"
 #include "shared/pixel_list.h"
 #include "shared/projection.h"
 #if ESTIMATE == 1
-#include "shared/ball.h"
 typedef LightfieldSsaoParams Params;
-#else
-#include "shared/fan.h"
+#include "shared/ball.h"
+#elif ESTIMATE == 2
 typedef LightfieldHbaoPlusParams Params;
+#else
+typedef LightfieldMaskParams Params;
+#endif
+#if ESTIMATE > 1
+#include "shared/fan.h"
+#endif
+#if ESTIMATE == 3
+#include "shared/cells.h"
+#include "shared/subsample.h"
 #endif
 
 // The planes that tell surfaces.
@@ -345,34 +357,45 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, TABLE point
 
 #endif
 // ---------------------------------------------------------------------------------------------------------------------
-#if ESTIMATE == 2
+#if ESTIMATE > 1
 
-// From the point to what is seen at an offset in pixels, in depths: of either axes, where those of the normal are the same.
-static inline __attribute__((always_inline)) real obscurance_at(PROJECTIONS p, Params params, Surfaces planes,
-                                                                const Spot* s, Reach reach, integer dx, integer dy,
-                                                                integer place, int straight) {
-  const real depth = gather(planes.depth + s->here, place);
-#if GATHERS_ONLY
-  return depth;
-#endif
+// From the point to what is seen at an offset in pixels, in depths, and the normal in the same axes; background is far away.
+static inline __attribute__((always_inline)) void look_at(Surfaces planes, const Spot* s, real depth, integer dx,
+                                                          integer dy, integer place, int straight, real3* v,
+                                                          real3* normal) {
   if (straight) {
     const real e = relative_depth(s->point, s->depth, depth), x = to_real(dx), y = to_real(dy);
     const real ray_x = multiply_add(x * s->point.across_x, s->spread_x, s->point.ray_x);
     const real ray_y = multiply_add(y * s->point.across_y, -s->spread_y, s->point.ray_y);
-    const real3 v =
-        make3(multiply_add(e, ray_x, x * s->point.across_x), multiply_add(e, ray_y, y * -s->point.across_y), -e);
-    return obscurance(v, s->normal, params.bias, reach.inverse_square);
+    *v = make3(multiply_add(e, ray_x, x * s->point.across_x), multiply_add(e, ray_y, y * -s->point.across_y), -e);
+    *normal = s->normal;
+    return;
   }
   const real3 there =
       gather3(planes.position_x + s->here, planes.position_y + s->here, planes.position_z + s->here, place);
-  const real3 v = scale3(minus3(there, s->stored_position), s->point.inverse_depth);
-  const real found = obscurance(v, s->stored_normal, params.bias, reach.inverse_square);
-  return choose(is_background(depth), (real)(0), found);
+  *v = scale3(minus3(there, s->stored_position), s->point.inverse_depth);
+  *v = choose3(is_background(depth), make3((real)(FARTHEST), (real)(0), (real)(0)), *v);
+  *normal = s->stored_normal;
 }
 
-static inline __attribute__((always_inline)) real sum_of_obscurance(Frame f, PROJECTIONS p, Params params,
-                                                                    Surfaces planes, const Spot* s, Reach reach,
-                                                                    Fan fan, int straight, int within) {
+#endif
+#if ESTIMATE == 2
+
+static inline __attribute__((always_inline)) real obscurance_at(Params params, Surfaces planes, const Spot* s,
+                                                                Reach reach, integer dx, integer dy, integer place,
+                                                                int straight) {
+  const real depth = gather(planes.depth + s->here, place);
+#if GATHERS_ONLY
+  return depth;
+#endif
+  real3 v, normal;
+  look_at(planes, s, depth, dx, dy, place, straight, &v, &normal);
+  return obscurance(v, normal, params.bias, reach.inverse_square);
+}
+
+static inline __attribute__((always_inline)) real sum_of_obscurance(Frame f, Params params, Surfaces planes,
+                                                                    const Spot* s, Reach reach, Fan fan, int straight,
+                                                                    int within) {
   real sum = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
 #pragma unroll
@@ -380,7 +403,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame f, PRO
       integer dx, dy, place;
       step_at(fan, k, &dx, &dy);
       const mask counts = place_sample(f, s, within, &dx, &dy, &place);
-      const real found = obscurance_at(p, params, planes, s, reach, dx, dy, place, straight);
+      const real found = obscurance_at(params, planes, s, reach, dx, dy, place, straight);
       sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
     }
     turn(&fan);
@@ -392,12 +415,67 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, Surfaces pl
   real in_depths, sum;
   const Reach reach = reach_in_image(f, &s, params.radius, params.max_reach, &in_depths);
   const Fan fan = fan_of(reach, s.noise);
-  LOOK_THROUGH(sum, f, p, s, reach, sum_of_obscurance(f, p, params, planes, &s, reach, fan, straight, within))
+  LOOK_THROUGH(sum, f, p, s, reach, sum_of_obscurance(f, params, planes, &s, reach, fan, straight, within))
   return 1 - sum * (params.strength * 2 / (DIRECTIONS * STEPS));
 }
 
 #define POINTS_ARGUMENT
 #define OPEN_SHARE(f, p, params, planes, spot) open_share(f, p, params, planes, spot)
+
+#endif
+// ---------------------------------------------------------------------------------------------------------------------
+#if ESTIMATE == 3
+
+kernel void lightfield_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                                 PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,
+                                 PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
+                                 PLANE_OUT low_normal_z, PLANE_OUT low_position_x, PLANE_OUT low_position_y,
+                                 PLANE_OUT low_position_z) {
+  subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
+                    low_normal_z);
+  subsample_vector(frame, other, position_x, position_y, position_z, low_position_x, low_position_y, low_position_z);
+}
+
+// Whether in any direction something rises as high as counts. Ends where that is so for each lane.
+static inline __attribute__((always_inline)) real something_rises(Frame f, Params params, Surfaces planes,
+                                                                  const Spot* s, Fan fan, real farthest, int straight,
+                                                                  int within) {
+  mask rises = s->point.background;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+#pragma unroll
+    for (int k = 0; k < STEPS; ++k) {
+      integer dx, dy, place;
+      step_at(fan, k, &dx, &dy);
+      const mask counts = place_sample(f, s, within, &dx, &dy, &place);
+      real3 v, normal;
+      look_at(planes, s, gather(planes.depth + s->here, place), dx, dy, place, straight, &v, &normal);
+      const real height = fused_dot3(normal, v), square = square_of(v);
+      rises |= counts & (height > 0) & (square < farthest) &
+               (height * height > params.least_sine * params.least_sine * square);
+    }
+    if (!ANY(!rises)) break;
+    turn(&fan);
+  }
+  return choose(rises & !s->point.background, (real)(1), (real)(0));
+}
+
+kernel void lightfield_find(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE normal_x,
+                            PLANE normal_y, PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,
+                            PLANE_OUT found) {
+  const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);
+  const Spot s = spot_in_row(frame, projections, planes, normal_x, normal_y, normal_z);
+  real rises = 0, in_depths;
+  // Nothing is within a radius of 0, not even what lies in the same cell.
+  if (params.radius > 0 && ANY(!s.point.background)) {
+    const Reach reach = reach_in_image(frame, &s, params.radius, params.max_reach, &in_depths);
+    // Both cells stand for pixels that may be nearer to one another.
+    const real farthest = in_depths + s.point.across_x + s.point.across_y;
+    const Fan fan = fan_of(reach, s.noise);
+    LOOK_THROUGH(rises, frame, projections, s, reach,
+                 something_rises(frame, params, planes, &s, fan, farthest * farthest, straight, within))
+  }
+  store(rises, found, s.here);
+}
 
 #endif
 // ---------------------------------------------------------------------------------------------------------------------
@@ -412,7 +490,7 @@ static inline real open_or_background(const Spot* s, real open) {
 #define ESTIMATE_NAME lightfield_hbao_plus_estimate
 #endif
 
-#if ESTIMATE
+#if ESTIMATE < 3
 kernel void ESTIMATE_NAME(Frame frame, PROJECTIONS projections, Params params, POINTS_ARGUMENT PLANE depth,
                           PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE position_x, PLANE position_y,
                           PLANE position_z, WANTED_ARGUMENT PLANE_OUT ao_raw) {
@@ -440,9 +518,35 @@ kernel void JOIN(ESTIMATE_NAME, _list)(Frame frame, PROJECTIONS projections, Par
 #endif
 
 #if REUSE
+// Pixels as far away as the nearest one, to within so many radii, count as the same surface.
+#define SAME_DEPTH ((scalar)0.1f)
+
+// A plane between pixels, of those around a place that show the same surface as the nearest, at `nearest_place` and at this depth.
+static inline real fetched_at(Frame f, real x, real y, integer nearest_place, real depth, scalar tolerance,
+                              global const float* depths, global const float* plane) {
+  const integer column = nearest(floor(x)), row = nearest(floor(y));
+  const real right = x - to_real(column), below = y - to_real(row);
+  real sum = 0, weights = 0;
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const int i = k % 2, j = k / 2;
+    const real weight = (i ? right : 1 - right) * (j ? below : 1 - below);
+    const integer to_x = clamp(column + i, (integer)(0), (integer)(f.width - 1));
+    const integer to_y = clamp(row + j, (integer)(0), (integer)(f.height - 1));
+    // Rows are the same in all modules of a straight display.
+    if (!ANY(weight > (scalar)0x1p-8f)) continue;
+    const integer place = FRAME_GUARD + to_y * f.pitch + to_x;
+    const mask counts = fabs(gather(depths, place) - depth) <= tolerance;
+    sum += choose(counts, weight * gather(plane, place), (real)(0));
+    weights += choose(counts, weight, (real)(0));
+  }
+  const mask is_known = weights > (scalar)0x1p-8f;
+  return choose(is_known, sum / choose(is_known, weights, (real)(1)), gather(plane, nearest_place));
+}
+
 // What a key view has at the pixel where it shows a point (view space of the pixel at hand), and whether it shows that point: the
 // way back from what it shows there ends within `back_check` pixels of the pixel.
-static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, scalar back_check, real x, real y, real3 v,
+static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params params, real x, real y, real3 v,
                             mask is_asked, Surfaces planes, global const float* ao, mask* is_found) {
   real there_x, there_y, back_x, back_y;
   mask is_inside, is_back;
@@ -460,8 +564,9 @@ static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, scalar ba
     seen = view_of_position(key, gather3(planes.position_x, planes.position_y, planes.position_z, place));
   place_in(own, f, back_from_view(key, seen), is_surface, &back_x, &back_y, &is_back);
   const real dx = back_x - x, dy = back_y - y;
-  *is_found = is_back & (dx * dx + dy * dy <= back_check * back_check);
-  return gather(ao, place);
+  *is_found = is_back & (dx * dx + dy * dy <= params.back_check * params.back_check);
+  if (!ANY(*is_found)) return (real)(1);
+  return fetched_at(f, there_x, there_y, place, depth, SAME_DEPTH * params.radius, planes.depth, ao);
 }
 
 kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE position_x,
@@ -475,12 +580,12 @@ kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params
   const mask is_surface = in_row & !is_background(load(depth, here));
   const real3 v = view_of_position(projections, load3(position_x, position_y, position_z, here));
   mask is_found, is_found_far = (mask)(0);
-  real open = found_in(frame, projections, projections + 1, params.back_check, x, y, v, is_surface,
+  real open = found_in(frame, projections, projections + 1, params, x, y, v, is_surface,
                        surfaces_of(key_depth, key_position_x, key_position_y, key_position_z), key_ao, &is_found);
   const mask is_left = is_surface & !is_found;
   if (ANY(is_left)) {
     const real far =
-        found_in(frame, projections, projections + 2, params.back_check, x, y, v, is_left,
+        found_in(frame, projections, projections + 2, params, x, y, v, is_left,
                  surfaces_of(far_depth, far_position_x, far_position_y, far_position_z), far_ao, &is_found_far);
     open = choose(is_found_far, far, open);
     is_found |= is_found_far;

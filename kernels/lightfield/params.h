@@ -29,5 +29,14 @@
   P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")                \
   REUSE_PARAMS(P)
 
+#define LIGHTFIELD_MASK_PARAMS(P)                                                                      \
+  REACH_PARAMS(P)                                                                                      \
+  P(int, search_directions, 8, 1, 32, "", "directions searched from the pixel that stands for a cell") \
+  P(int, search_steps, 3, 1, 32, "", "samples along each direction")                                   \
+  P(float, least_sine, 0.02f, 0.001f, 1, "",                                                           \
+    "of the elevation over the tangent plane from which on something occludes")                        \
+  P(int, cell, 4, 2, 16, "pixels", "width and height of the cells that are wanted or not")
+
+PARAMS(LightfieldMaskParams, LIGHTFIELD_MASK_PARAMS)
 PARAMS(LightfieldSsaoParams, LIGHTFIELD_SSAO_PARAMS)
 PARAMS(LightfieldHbaoPlusParams, LIGHTFIELD_HBAO_PLUS_PARAMS)

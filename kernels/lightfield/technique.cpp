@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "gloam/ambient_occlusion.h"
+#include "gloam/masks.h"
 #include "gloam/point_sets.h"
 #include "lightfield/params.h"
 
@@ -139,8 +140,62 @@ Technique hbao_plus() {
   return t;
 }
 
+std::vector<Pass> mask_passes(const LightfieldMaskParams& p) {
+  const std::vector<std::pair<std::string, int>> defines = {
+      {"ESTIMATE", 3},
+      {"SCALE", p.cell},
+      {"DIRECTIONS", p.search_directions},
+      {"STEPS", p.search_steps},
+      {"JITTER", p.jitter},
+      {"OUTSIDE_OPEN", p.outside == LightfieldMaskParams::outside_values::open}};
+  Pass subsample{
+      .name = "subsample",
+      .kernel = "lightfield_subsample",
+      .reads = {"depth", "normal", "position"},
+      .writes = {{"low_depth", "depth@cells"}, {"low_normal", "normal@cells"}, {"low_position", "position@cells"}},
+      .defines = defines,
+      .scale = p.cell};
+  Pass find{.name = "find",
+            .kernel = "lightfield_find",
+            .reads = {{"depth", "depth@cells"}, {"normal", "normal@cells"}, {"position", "position@cells"}},
+            .writes = {{"found", "corners"}},
+            .defines = defines,
+            .scale = p.cell,
+            .looks_around = true,
+            .projects = true};
+  return mask_of_cells({std::move(subsample), std::move(find)});
+}
+
+Technique mask() {
+  return {.name = "lightfield-mask",
+          .summary = "where something within the radius may occlude, through any projection",
+          .paper = "after OdSSAO 2020, for Doronin, Kara, Barsi, Martini 2017",
+          .source = "lightfield/lightfield.cl",
+          .reads = {"depth", "normal", "position"},
+          .writes = {"mask"},
+          .any_projection = true,
+          .parameters = LightfieldMaskParams::table(),
+          .passes = passes_of(mask_passes)};
+}
+
+/// Key views need no mask, and the others compute little: where anything occludes all of it is computed.
+Effect effect_of_displays() {
+  return {.name = "ambient occlusion",
+          .for_displays = true,
+          .mask = "lightfield-mask",
+          .glance = {{"cell", "8"}, {"search_steps", "2"}},
+          .most_share = 0,
+          .settings = {{"reuse", "on"}},
+          .somewhere = "something rises over the surface within the radius",
+          .nowhere = "nothing rises over any surface within the radius"};
+}
+
 }  // namespace
 
-std::vector<Technique> lightfield() { return {ssao(), hbao_plus()}; }
+std::vector<Technique> lightfield() {
+  Technique of_displays = ssao();
+  of_displays.effect = effect_of_displays();
+  return {std::move(of_displays), hbao_plus(), mask()};
+}
 
 }  // namespace gloam::techniques

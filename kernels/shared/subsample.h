@@ -17,4 +17,14 @@ static inline void subsample_surface(Frame frame, Frame other, PLANE depth, PLAN
   store(gather(normal_z + from, step), low_normal_z, to);
 }
 
+// The same of a plane of three components.
+static inline void subsample_vector(Frame frame, Frame other, PLANE x, PLANE y, PLANE z, PLANE_OUT low_x,
+                                    PLANE_OUT low_y, PLANE_OUT low_z) {
+  const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
+  const integer step = IOTA * (integer)(SCALE);
+  store(gather(x + from, step), low_x, to);
+  store(gather(y + from, step), low_y, to);
+  store(gather(z + from, step), low_z, to);
+}
+
 #endif

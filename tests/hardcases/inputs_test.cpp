@@ -44,6 +44,8 @@ Frame fuzzed_frame(const Technique& technique, const Shot& shot, uint32_t seed, 
     if (is_stack(name)) continue;  // its layers are added below
     if (with_normals || name == "depth") plane_of(frame, name);
   }
+  // Positions are the world's.
+  if (frame.views[0].find("position")) frame.views[0].camera->pose.emplace();
   plan_for(technique, frame);  // adds what nothing makes
   fuzz(frame, seed);
   return frame;
