@@ -599,14 +599,12 @@ double pixels_in_rows(Target& target, const std::string& bits_name, int lanes) {
   return pixels;
 }
 
-void count(const Plan& plan, std::vector<Target>& targets, int lanes, Counted& counted) {
-  for (Target& target : targets) {
-    const Layout layout = target.layouts.of(plan.wanted);
-    const double all = double(layout.width) * layout.height;
-    counted.of += all;
-    if (!plan.wanted.empty()) counted.skipped += all - pixels_in_rows(target, plan.wanted, lanes);
-    if (!plan.rest.empty()) counted.rest += pixels_in_rows(target, plan.rest, lanes);
-  }
+void count(const Plan& plan, Target& target, int lanes, Counted& counted) {
+  const Layout layout = target.layouts.of(plan.wanted);
+  const double all = double(layout.width) * layout.height;
+  counted.of += all;
+  if (!plan.wanted.empty()) counted.skipped += all - pixels_in_rows(target, plan.wanted, lanes);
+  if (!plan.rest.empty()) counted.rest += pixels_in_rows(target, plan.rest, lanes);
 }
 
 /// Runs pass `k` of a target's once. `counts`: its time is kept.
@@ -660,8 +658,10 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
       if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
     });
   }
-  count(plan, targets, lanes, counted);
-  for (Target& target : targets) collect(plan, target, result);
+  for (Target& target : targets) {
+    count(plan, target, lanes, counted);
+    collect(plan, target, result);
+  }
 }
 
 /// Runs a frame's views one after another, of which some are key views that others look into. Of these no more are on the device
@@ -669,12 +669,13 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
 class KeyViewsRun {
  public:
   KeyViewsRun(const Plan& plan, const Frame& frame, int spacing, Device::Impl& device, const RunOptions& options,
-              int lanes)
+              int lanes, Counted& counted)
       : plan_(plan),
         frame_(frame),
         device_(device),
         options_(options),
         lanes_(lanes),
+        counted_(counted),
         roles_(key_view_roles(int(frame.views.size()), spacing)),
         results_(frame.views.size()) {}
 
@@ -719,6 +720,7 @@ class KeyViewsRun {
     for (int i = -warm_ups; i < options_.repeat; ++i) {
       for (size_t k = 0; k < target.kernels.size(); ++k) launch_once(plan_, target, k, device_, lanes_, i >= 0);
     }
+    count(plan_, target, lanes_, counted_);
     if (options_.progress) options_.progress(++done_, int(roles_.size()));
   }
 
@@ -734,6 +736,7 @@ class KeyViewsRun {
   Device::Impl& device_;
   const RunOptions& options_;
   int lanes_, done_ = 0;
+  Counted& counted_;
   std::vector<KeyViewRole> roles_;
   std::vector<RunResult> results_;  // view by view
   std::map<size_t, Target> keys_;   // on the device
@@ -838,7 +841,7 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   const int spacing = frame.views.size() > 1 ? key_view_spacing(plan) : 1;
   if (spacing > 1) groups.clear();
   try {
-    if (spacing > 1) KeyViewsRun(plan, frame, spacing, impl, options, result.lanes).run(result);
+    if (spacing > 1) KeyViewsRun(plan, frame, spacing, impl, options, result.lanes, counted).run(result);
   } catch (const cl::Error& error) {
     throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
   }

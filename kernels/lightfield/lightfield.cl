@@ -185,15 +185,14 @@ static inline __attribute__((always_inline)) mask place_sample(Frame f, const Sp
     RESULT = CALL;                                           \
   }
 
-// A radius in scene units as the image shows it: in depths of the pixel, and in pixels of each axis, capped.
-static inline Reach reach_in_image(Frame f, const Spot* s, scalar radius, scalar max_reach, real* in_depths) {
+// A radius in scene units as the image shows it, in pixels of each axis, capped (reach_of, sample.h).
+static inline Reach reach_in_image(Frame f, const Spot* s, scalar radius, scalar max_reach) {
   const real most = (real)(max_reach * (scalar)f.width), relative = radius * s->point.inverse_depth;
   Reach r;
   r.pixels_x = smaller(relative / s->point.across_x, most);
   r.pixels_y = smaller(relative / s->point.across_y, most);
   const real inverse = larger(quick_inverse(larger(relative, (real)(1e-18f))), (real)(1e-15f));
   r.inverse_square = inverse * inverse;
-  *in_depths = relative;
   return r;
 }
 
@@ -222,8 +221,7 @@ typedef struct {
 static inline Sphere sphere_at(Frame f, PROJECTIONS p, Params params, const Spot* s, const Directions* d,
                                scalar radius) {
   Sphere b;
-  real wanted;
-  b.reach = reach_in_image(f, s, radius, params.max_reach, &wanted);
+  b.reach = reach_in_image(f, s, radius, params.max_reach);
   b.reach.pixels_x = smaller(b.reach.pixels_x, b.reach.pixels_y * (s->point.across_y / s->point.across_x));
   const real spread = larger(fabs(s->spread_x), fabs(s->spread_y));
   b.radius = b.reach.pixels_x * s->point.across_x;
@@ -412,8 +410,8 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame f, Par
 }
 
 static inline real open_share(Frame f, PROJECTIONS p, Params params, Surfaces planes, Spot s) {
-  real in_depths, sum;
-  const Reach reach = reach_in_image(f, &s, params.radius, params.max_reach, &in_depths);
+  real sum;
+  const Reach reach = reach_in_image(f, &s, params.radius, params.max_reach);
   const Fan fan = fan_of(reach, s.noise);
   LOOK_THROUGH(sum, f, p, s, reach, sum_of_obscurance(f, params, planes, &s, reach, fan, straight, within))
   return 1 - sum * (params.strength * 2 / (DIRECTIONS * STEPS));
@@ -464,12 +462,12 @@ kernel void lightfield_find(Frame frame, PROJECTIONS projections, Params params,
                             PLANE_OUT found) {
   const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);
   const Spot s = spot_in_row(frame, projections, planes, normal_x, normal_y, normal_z);
-  real rises = 0, in_depths;
+  real rises = 0;
   // Nothing is within a radius of 0, not even what lies in the same cell.
   if (params.radius > 0 && ANY(!s.point.background)) {
-    const Reach reach = reach_in_image(frame, &s, params.radius, params.max_reach, &in_depths);
-    // Both cells stand for pixels that may be nearer to one another.
-    const real farthest = in_depths + s.point.across_x + s.point.across_y;
+    const Reach reach = reach_in_image(frame, &s, params.radius, params.max_reach);
+    // Both cells stand for pixels that may be nearer to one another. Background is out of any reach.
+    const real farthest = 1 / sqrt(reach.inverse_square) + s.point.across_x + s.point.across_y;
     const Fan fan = fan_of(reach, s.noise);
     LOOK_THROUGH(rises, frame, projections, s, reach,
                  something_rises(frame, params, planes, &s, fan, farthest * farthest, straight, within))
@@ -573,11 +571,12 @@ kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params
                              PLANE position_y, PLANE position_z, PLANE key_depth, PLANE key_position_x,
                              PLANE key_position_y, PLANE key_position_z, PLANE key_ao, PLANE far_depth,
                              PLANE far_position_x, PLANE far_position_y, PLANE far_position_z, PLANE far_ao,
-                             PLANE_OUT ao_raw, PIXEL_LIST_OUT newly_visible) {
+                             WANTED_ARGUMENT PLANE_OUT ao_raw, PIXEL_LIST_OUT newly_visible) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);
   const mask in_row = to_mask(FIRST_X + IOTA < frame.width);
-  const mask is_surface = in_row & !is_background(load(depth, here));
+  const mask is_surface = is_wanted & in_row & !is_background(load(depth, here));
   const real3 v = view_of_position(projections, load3(position_x, position_y, position_z, here));
   mask is_found, is_found_far = (mask)(0);
   real open = found_in(frame, projections, projections + 1, params, x, y, v, is_surface,

@@ -54,13 +54,12 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
   estimate.projects = true;
   estimate.defines.emplace_back("REUSE", p.reuse);
   if (!p.reuse) return {estimate};
-  // Which pixels are new is another thing on every view, and no mask leaves them out.
-  estimate.can_skip = false;
   Pass reuse{.name = "reuse",
              .kernel = "lightfield_reuse",
              .reads = {"depth", "position"},
              .writes = {"ao_raw", starts_empty("newly_visible")},
              .defines = estimate.defines,
+             .can_skip = true,
              .projects = true,
              .on = Pass::Views::between};
   for (const auto& [prefix, key] : {std::pair{"key_", 1}, {"far_", 2}}) {
@@ -71,7 +70,7 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
   rest.name = "newly visible";
   rest.kernel += "_list";
   rest.reads.push_back("newly_visible");
-  rest.looks_around = false;
+  rest.looks_around = rest.can_skip = false;
   rest.on = Pass::Views::between;
   estimate.on = Pass::Views::key;
   return {estimate, reuse, rest};
