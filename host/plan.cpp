@@ -44,21 +44,21 @@ struct Wanted {
   Techniques makers;  ///< in order of preference
 };
 
-/// Whether some technique leaves its outputs to this one.
-bool follows_by_default(const Technique& technique) {
-  return std::any_of(registry().begin(), registry().end(),
-                     [&](const Technique& other) { return other.then == technique.name; });
+/// How many techniques leave their outputs to this one.
+std::ptrdiff_t followed_by_default(const Technique& technique) {
+  return std::count_if(registry().begin(), registry().end(),
+                       [&](const Technique& other) { return other.then == technique.name; });
 }
 
 /// The technique that makes a plane: one of the makers, else the one of the registry that says it is the default for it, else
-/// one that follows others by default, else the one that reads the fewest planes (the first by name of these); never the
-/// one that asks.
+/// the one that follows most others by default, else the one that reads the fewest planes (the first by name of these); never
+/// the one that asks.
 const Technique* maker_of(const std::string& plane, const Technique* asking, const Techniques& makers) {
   for (const Technique* t : makers) {
     if (t != asking && makes(*t, plane)) return t;
   }
   const auto rank = [&](const Technique& t) {
-    return std::tuple(!contains(t.default_for, plane), !follows_by_default(t), t.reads.size());
+    return std::tuple(!contains(t.default_for, plane), -followed_by_default(t), t.reads.size());
   };
   const Technique* simplest = nullptr;
   for (const Technique& t : registry()) {
