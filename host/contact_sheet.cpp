@@ -101,7 +101,7 @@ void draw_caption(Sheet& sheet, const SheetTile& tile, cv::Point corner, const W
 void draw_tile(Sheet& sheet, const SheetTile& tile, const Scales& scales, int column, int row) {
   const std::vector<Range>& scale = scales.at(scale_key(tile));
   const cv::Point corner(sheet.left(column), sheet.top(row));
-  draw_caption(sheet, tile, corner, range_in_words({&tile}, scale));
+  draw_caption(sheet, tile, corner, range_in_words({&tile}, ranges_of({&tile}), scale));
   put_panel(sheet.canvas, colours_of(tile, scale), background_mask(tile), corner, sheet.panel.image, sheet.unit,
             sampling_of(tile));
 }

@@ -92,27 +92,46 @@ void choose_ends(Range& range, std::vector<float>& sample, Look look) {
   range.last = last;
 }
 
-/// Over the tiles that are drawn on one scale.
-Range range_of(const std::vector<const Tile*>& tiles, size_t component) {
+/// Values of one component, and every so many of them for the ends of the colours.
+struct Values {
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   std::vector<float> sample;
-  size_t pixels = 0, seen = 0;
+};
+
+Values values_of(const Tile& tile, size_t component, long long step) {
+  Values values;
+  Range& range = values.range;
+  for (int y = 0; y < tile.layout().height; ++y)
+    for (int x = 0; x < tile.layout().width; ++x) {
+      if (tile.is_background(x, y)) continue;
+      const double v = value_at(*tile.plane, tile.look, component, x, y);
+      if (!std::isfinite(v)) continue;
+      range.low = std::min(range.low, v);
+      range.high = std::max(range.high, v);
+      if (range.finite++ % step == 0) values.sample.push_back(float(v));
+    }
+  return values;
+}
+
+/// Over the tiles that are drawn on one scale.
+Range range_of(const std::vector<const Tile*>& tiles, size_t component) {
+  size_t pixels = 0;
   for (const Tile* tile : tiles) pixels += size_t(tile->layout().width) * size_t(tile->layout().height);
-  const size_t step = 1 + pixels / sample_size;
-  for (const Tile* tile : tiles)
-    for (int y = 0; y < tile->layout().height; ++y)
-      for (int x = 0; x < tile->layout().width; ++x) {
-        if (tile->is_background(x, y)) continue;
-        const double v = value_at(*tile->plane, tile->look, component, x, y);
-        if (!std::isfinite(v)) continue;
-        range.low = std::min(range.low, v);
-        range.high = std::max(range.high, v);
-        ++range.finite;
-        if (seen++ % step == 0) sample.push_back(float(v));
-      }
-  if (range.finite == 0) range.low = range.high = 0;
-  choose_ends(range, sample, tiles.front()->look);
-  return range;
+  const long long step = 1 + (long long)(pixels / sample_size);
+  std::vector<Values> of_tiles(tiles.size());
+  cv::parallel_for_(cv::Range(0, int(tiles.size())), [&](const cv::Range& part) {
+    for (int i = part.start; i < part.end; ++i) of_tiles[size_t(i)] = values_of(*tiles[size_t(i)], component, step);
+  });
+  Values all;
+  for (const Values& values : of_tiles) {
+    all.range.low = std::min(all.range.low, values.range.low);
+    all.range.high = std::max(all.range.high, values.range.high);
+    all.range.finite += values.range.finite;
+    all.sample.insert(all.sample.end(), values.sample.begin(), values.sample.end());
+  }
+  if (all.range.finite == 0) all.range.low = all.range.high = 0;
+  choose_ends(all.range, all.sample, tiles.front()->look);
+  return all.range;
 }
 
 const std::string depth_key = "all depths";
@@ -230,6 +249,10 @@ cv::Vec3b colour_at(const Tile& tile, const std::vector<Range>& ranges, int x, i
 }
 
 bool is_finite(const Tile& tile, int x, int y) {
+  if (tile.look == Look::depth) {  // and so has a logarithm
+    const float depth = tile.plane->channels[0].at(x, y);
+    return depth > 0 && std::isfinite(depth);
+  }
   for (size_t c = 0; c < components_of(*tile.plane, tile.look); ++c)
     if (!std::isfinite(value_at(*tile.plane, tile.look, c, x, y))) return false;
   return true;
@@ -396,8 +419,8 @@ void draw_depth_scale(cv::Mat& canvas, const Range& depths, cv::Point at, int wi
 
 }  // namespace
 
-Wordings range_in_words(const std::vector<const Tile*>& tiles, const std::vector<Range>& scale) {
-  const std::vector<Range> own = ranges_of(tiles);
+Wordings range_in_words(const std::vector<const Tile*>& tiles, const std::vector<Range>& own,
+                        const std::vector<Range>& scale) {
   const long long not_finite = pixels_not_finite(tiles);
   if (united(own).finite == 0) return {not_finite == 0 ? "no surface" : "nothing finite"};
   Wordings wordings = values_in_words(tiles, own, scale);

@@ -78,8 +78,10 @@ Sampling sampling_of(const Tile& tile);
 /// Several ways to say it, the longest first.
 using Wordings = std::vector<std::string>;
 
-/// What the values of tiles of one look and plane are. `scale`: what they are drawn on, of more tiles perhaps.
-Wordings range_in_words(const std::vector<const Tile*>& tiles, const std::vector<Range>& scale);
+/// What the values of tiles of one look and plane are: their `own` ranges, and the `scale` that they are drawn on, of more
+/// tiles perhaps.
+Wordings range_in_words(const std::vector<const Tile*>& tiles, const std::vector<Range>& own,
+                        const std::vector<Range>& scale);
 
 /// The longest wording that fits into `width`, else the last, shortened.
 std::string fitting(const Wordings& wordings, double width, const Style& style);

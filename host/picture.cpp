@@ -3,9 +3,13 @@
 #include <png.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -15,8 +19,47 @@
 namespace gloam {
 namespace {
 
-double shown(double v, PlaneKind::Meaning meaning) {
-  return meaning == PlaneKind::unit_vector ? 0.5 + 0.5 * v : srgb(std::clamp(v, 0.0, 1.0));
+/// to_byte(srgb(v)) of any float, from tables: powers would take most of a picture's time.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (int byte = 1; byte < 256; ++byte) steps_.push_back(least_value_of(byte));
+    steps_.push_back(std::numeric_limits<float>::infinity());
+    for (uint32_t i = 0; i <= bits_of_one >> shift; ++i) {
+      const float value = std::bit_cast<float>(i << shift);
+      at_.push_back(static_cast<unsigned char>(std::upper_bound(steps_.begin(), steps_.end(), value) - steps_.begin()));
+    }
+  }
+
+  unsigned char operator()(float v) const {
+    if (!(v > 0)) return 0;
+    if (v >= 1) return 255;
+    const unsigned char byte = at_[std::bit_cast<uint32_t>(v) >> shift];
+    return static_cast<unsigned char>(byte + (v >= steps_[byte]));
+  }
+
+ private:
+  /// Positive floats are in the order of their bits. Those alike in all but the last 15 are so near one another that no
+  /// two bytes begin among them.
+  static constexpr int shift = 15;
+  static constexpr uint32_t bits_of_one = std::bit_cast<uint32_t>(1.0f);
+
+  static float least_value_of(int byte) {
+    uint32_t below = 0, from = bits_of_one;
+    while (from - below > 1) {
+      const uint32_t middle = below + (from - below) / 2;
+      (to_byte(srgb(std::bit_cast<float>(middle))) < byte ? below : from) = middle;
+    }
+    return std::bit_cast<float>(from);
+  }
+
+  std::vector<float> steps_;       ///< the least value of each byte from 1 on, and of none
+  std::vector<unsigned char> at_;  ///< the byte of each float whose last bits are 0
+};
+
+unsigned char shown(float v, PlaneKind::Meaning meaning) {
+  static const SrgbBytes bytes;
+  return meaning == PlaneKind::unit_vector ? to_byte(0.5 + 0.5 * double(v)) : bytes(v);
 }
 
 cv::Mat grey_image(const Channel& channel) {
@@ -34,7 +77,7 @@ cv::Mat colour_image(const Plane& plane) {
   for (size_t c = 0; c < std::min<size_t>(plane.channels.size(), 3); ++c)
     for (int y = 0; y < image.rows; ++y)
       for (int x = 0; x < image.cols; ++x)
-        image.at<cv::Vec3b>(y, x)[int(2 - c)] = to_byte(shown(plane.channels[c].at(x, y), meaning));
+        image.at<cv::Vec3b>(y, x)[int(2 - c)] = shown(plane.channels[c].at(x, y), meaning);
   return image;
 }
 

@@ -71,6 +71,26 @@ TEST_F(Visualise, ColoursGoThroughSrgb) {
   EXPECT_EQ(p.at(1, 2), (Pixel{188, 3, 255}));
 }
 
+/// The table against the curve (IEC 61966-2-1), at values of all sizes and beside each byte's least value.
+TEST_F(Visualise, SrgbIsExactForEveryByte) {
+  const auto byte_of = [](double v) {
+    const double curve = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    return int(std::lrint(255 * curve));
+  };
+  std::vector<float> values;
+  for (int i = 0; i < 20000; ++i) values.push_back(std::pow(10.0f, -6.0f * float(i) / 20000));
+  for (int byte = 0; byte < 255; ++byte) {
+    const double curve = (byte + 0.5) / 255;
+    const float edge = float(curve <= 0.04045 ? curve / 12.92 : std::pow((curve + 0.055) / 1.055, 2.4));
+    for (const float away : {0.99999f, 1.00001f}) values.push_back(edge * away);
+  }
+  const int width = int(values.size());
+  const Pattern pattern = [&](int x, int) { return values[size_t(x)]; };
+  const Picture p = single(plane_of("color", width, 1, {pattern, level(-3), level(1e30f)}));
+  for (int x = 0; x < width; ++x)
+    ASSERT_EQ(p.at(x, 0), (Pixel{byte_of(values[size_t(x)]), 0, 255})) << values[size_t(x)];
+}
+
 TEST_F(Visualise, NormalsAreCentredOnGrey) {
   const Picture p = single(plane_of("normal", 1, 1, {level(-1), level(0), level(1)}));
   EXPECT_EQ(p.at(0, 0), (Pixel{0, 128, 255}));
