@@ -114,7 +114,7 @@ cv::Mat resized(const cv::Mat& image, cv::Size size, Sampling sampling) {
   cv::Mat smaller, out;
   const cv::Size least(std::min(size.width, image.cols), std::min(size.height, image.rows));
   cv::resize(image, smaller, least, 0, 0, sampling == Sampling::average ? cv::INTER_AREA : cv::INTER_NEAREST_EXACT);
-  cv::resize(smaller, out, size, 0, 0, cv::INTER_NEAREST);
+  cv::resize(smaller, out, size, 0, 0, cv::INTER_NEAREST_EXACT);
   return out;
 }
 

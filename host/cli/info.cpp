@@ -9,6 +9,7 @@
 #include "gloam/planes.h"
 #include "gloam/projection.h"
 #include "gloam/visualise.h"
+#include "info_views.h"
 #include "options.h"
 
 namespace gloam::cli {
@@ -227,10 +228,31 @@ void write_planes_picture(const std::string& picture, const std::string& path, c
   write_contact_sheet(picture, frame, {.title = std::filesystem::path(path).filename().string()});
 }
 
-void info_command(const std::string& path, const std::string& picture, const FrameFlags& flags, const JsonFlag& json) {
-  check_picture_name(picture, "--picture");
-  check_paths({{"the frame", path}, {"--camera", flags.camera}}, {{"--picture", picture}, {"--json", json.file()}});
-  ReadOptions options = flags.read_options();
+struct InfoFlags {
+  std::string frame, picture;
+  ViewPictureFlags views;
+  FrameFlags frame_flags;
+  JsonFlag json;
+
+  /// Pictures of one plane need that plane alone.
+  bool is_pictures_only() const { return views.any() && picture.empty() && json.path.empty(); }
+};
+
+void check_outputs(const InfoFlags& flags) {
+  check_picture_name(flags.picture, "--picture");
+  flags.views.check();
+  std::vector<NamedPath> outputs = flags.views.outputs();
+  outputs.insert(outputs.end(), {{"--picture", flags.picture}, {"--json", flags.json.file()}});
+  check_paths({{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}}, outputs);
+}
+
+void print_written(const std::vector<std::string>& pictures) {
+  for (const std::string& picture : pictures) fmt::print("wrote {}\n", printable(picture));
+}
+
+void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
+  const std::string &path = flags.frame, &picture = flags.picture;
+  ReadOptions options = flags.frame_flags.read_options();
   options.count_nonfinite = true;
   options.as_stored = true;
   FrameFile file(path, options);
@@ -270,31 +292,39 @@ void info_command(const std::string& path, const std::string& picture, const Fra
                          {"lacks", abilities.lacks},
                          {"unread", unread_channels(file)}};
   write_planes_picture(picture, path, frame);
-  json.write(document, picture.empty() ? std::vector<std::string>() : std::vector<std::string>{picture});
-  if (json.only_json()) return;
+  if (!picture.empty()) pictures.push_back(picture);
+  flags.json.write(document, pictures);
+  if (flags.json.only_json()) return;
   print_info(file, facts, document, frame.assumed, abilities);
-  if (!picture.empty()) fmt::print("wrote {}\n", printable(picture));
+  print_written(pictures);
+}
+
+void info_command(const InfoFlags& flags) {
+  check_outputs(flags);
+  const std::vector<std::string> pictures = write_view_pictures(flags.frame, flags.views, flags.frame_flags);
+  if (flags.is_pictures_only())
+    print_written(pictures);
+  else
+    describe(flags, pictures);
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
-  struct Flags {
-    std::string frame, picture;
-    FrameFlags frame_flags;
-    JsonFlag json;
-  };
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand("info", "what a frame holds, what is assumed, what can run on it");
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
   command->add_option("--picture", flags->picture, "also all planes as a contact sheet")->type_name("PLANES.png");
+  flags->views.add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
       "Examples:\n  gloam info frame.exr\n  gloam info frame.exr --picture planes.png\n"
+      "  gloam info display.exr --sheet views.png\n"
+      "  gloam info display.exr --scan-line line.png --row 400 --what depth\n"
       "  gloam info frame.exr --depth ray --json -\n"
       "  gloam info frame.exr --plane depth=Layer.Z");
-  command->callback([flags] { info_command(flags->frame, flags->picture, flags->frame_flags, flags->json); });
+  command->callback([flags] { info_command(*flags); });
 }
 
 }  // namespace gloam::cli

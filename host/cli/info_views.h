@@ -1,0 +1,26 @@
+// gloam info --sheet and --scan-line: one plane of all views as a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "options.h"
+
+namespace gloam::cli {
+
+struct ViewPictureFlags {
+  std::string sheet, scan_line, row, what;
+
+  void add_to(CLI::App& app);
+  bool any() const { return !sheet.empty() || !scan_line.empty(); }
+  /// Throws UsageError for names that are no PNG's and for flags that have nothing to go with.
+  void check() const;
+  /// For `check_paths`.
+  std::vector<NamedPath> outputs() const { return {{"--sheet", sheet}, {"--scan-line", scan_line}}; }
+};
+
+/// Draws what is asked for, and returns the files. Decodes the plane, and depth to know the background by, and no more.
+std::vector<std::string> write_view_pictures(const std::string& path, const ViewPictureFlags& flags,
+                                             const FrameFlags& frame_flags);
+
+}  // namespace gloam::cli
