@@ -12,7 +12,7 @@
 #include "camera_io.h"
 #include "elapsed.h"
 #include "gloam/error.h"
-#include "gloam/light_field.h"
+#include "gloam/light_field_capture.h"
 #include "gloam/visualise.h"
 #include "scene_flags.h"
 
@@ -178,37 +178,31 @@ LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer)
           flags.display);
     return display;
   }
-  // As wide as the screen, and small: only the middle depth is asked for.
-  constexpr int height = 90;
-  const int width = std::max(1, int(std::lround(height * display.screen_width / display.screen_height)));
-  CaptureOptions options;
-  options.width = width, options.height = height;
-  for (const auto& [name, camera] : flags.camera.cameras(tracer.scene(), width, height))
-    options.views.push_back({"", camera, {}});
-  if (options.views.size() != 1)
+  const FittingSize size = fitting_size(display);
+  const auto cameras = flags.camera.cameras(tracer.scene(), size.width, size.height);
+  if (cameras.size() != 1)
     throw UsageError("--display {}: shows what one camera frames, and {} has {}; give a camera of one view",
-                     flags.display, flags.camera.camera, options.views.size());
-  const CaptureResult seen = capture(tracer, options);
-  const auto depths = visible_depths(seen.frame.views[0].planes.at("depth").channels[0]);
-  if (!depths)
+                     flags.display, flags.camera.camera, cameras.size());
+  const auto fitted = fitted_to(display, tracer, cameras.begin()->second);
+  if (!fitted)
     throw Error(
         "--display {}: the camera shows nothing of the scene that the display could; another --camera or --eye may",
         flags.display);
-  return fitted_to(display, options.views[0].camera, height, depths->median);
+  return *fitted;
 }
 
 /// One file with all modules, or one for each.
 std::vector<Shot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
   const LightFieldDisplay display = display_for(flags, tracer);
   if (flags.size.empty()) options.width = display.width, options.height = display.height;
-  const auto cameras = module_cameras(display, {0, 0, options.width, options.height});
+  const std::vector<CaptureView> views = module_views(display, options.width, options.height);
   std::vector<Shot> shots;
   if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});
-  for (const size_t i : chosen_modules(flags, cameras.size())) {
-    const std::string& name = cameras[i].first;
+  for (const size_t i : chosen_modules(flags, views.size())) {
+    const std::string& name = views[i].name;
     if (flags.separate)
       shots.push_back({of_view(flags.out, name), flags.picture.empty() ? "" : of_view(flags.picture, name), {}});
-    shots.back().views.push_back({name, cameras[i].second, {}});
+    shots.back().views.push_back(views[i]);
   }
   return shots;
 }

@@ -1,0 +1,32 @@
+#include "gloam/light_field_capture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gloam/secondary_camera.h"
+
+namespace gloam {
+
+FittingSize fitting_size(const LightFieldDisplay& display) {
+  constexpr int height = 90;  // only the middle depth is asked for
+  return {std::max(1, int(std::lround(height * display.screen_width / display.screen_height))), height};
+}
+
+std::optional<LightFieldDisplay> fitted_to(const LightFieldDisplay& display, const Tracer& tracer,
+                                           const Camera& camera) {
+  const FittingSize size = fitting_size(display);
+  CaptureOptions options{.width = size.width, .height = size.height};
+  options.views = {{"", camera, {}}};
+  const CaptureResult seen = capture(tracer, options);
+  const auto depths = visible_depths(seen.frame.views[0].planes.at("depth").channels[0]);
+  if (!depths) return {};
+  return fitted_to(display, camera, size.height, depths->median);
+}
+
+std::vector<CaptureView> module_views(const LightFieldDisplay& display, int width, int height) {
+  std::vector<CaptureView> views;
+  for (const auto& [name, camera] : module_cameras(display, {0, 0, width, height})) views.push_back({name, camera, {}});
+  return views;
+}
+
+}  // namespace gloam
