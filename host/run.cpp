@@ -195,6 +195,13 @@ class Buffers {
     return bits;
   }
 
+  /// How many pixels a list has (shared/pixel_list.h): the first number of the plane's memory.
+  int length_of_list(const std::string& name) {
+    cl_int length = 0;
+    device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, 0, sizeof length, &length);
+    return length;
+  }
+
   /// Takes a computed plane back to the host; it is no longer on the device then.
   Plane download(const std::string& name, const Layout& layout) {
     const PlaneKind kind = plane_kind(name);
@@ -607,6 +614,16 @@ void count(const Plan& plan, Target& target, int lanes, Counted& counted) {
   if (!plan.rest.empty()) counted.rest += pixels_in_rows(target, plan.rest, lanes);
 }
 
+void count_listed(const Plan& plan, Target& target, std::map<std::string, long long>& listed) {
+  std::set<std::string> lists;
+  for (const size_t k : target.passes) {
+    for (const Binding& written : plan.passes[k].pass.writes) {
+      if (written.starts_empty) lists.insert(written.plane);
+    }
+  }
+  for (const std::string& list : lists) listed[list] += target.buffers.length_of_list(list);
+}
+
 /// Runs pass `k` of a target's once. `counts`: its time is kept.
 void launch_once(const Plan& plan, Target& target, size_t k, Device::Impl& device, int lanes, bool counts) {
   const PlannedPass& planned = plan.passes[target.passes[k]];
@@ -630,6 +647,7 @@ void collect(const Plan& plan, Target& target, RunResult& result) {
            .camera = target.view.camera,
            .origin = position_origin(target.view, !contains(plan.inputs, "position")),
            .planes = {}};
+  count_listed(plan, target, result.listed);
   download(plan, target, out);
   // A view that is only looked into has no result of its own.
   if (!out.planes.empty()) result.frame.views.push_back(std::move(out));
@@ -693,6 +711,7 @@ class KeyViewsRun {
     for (RunResult& own : results_) {
       std::move(own.frame.views.begin(), own.frame.views.end(), std::back_inserter(result.frame.views));
       std::move(own.passes.begin(), own.passes.end(), std::back_inserter(result.passes));
+      for (const auto& [list, length] : own.listed) result.listed[list] += length;
     }
   }
 
