@@ -3,10 +3,16 @@
 namespace gloam::bench {
 
 StereoInconsistency inconsistency(const Stage& s, const Image& ao, const StereoOptions& options) {
+  return inconsistency(s.frame, {0, 1}, ao, options);
+}
+
+StereoInconsistency inconsistency(const Frame& frame, const std::array<size_t, 2>& views, const Image& ao,
+                                  const StereoOptions& options) {
   Frame pair;
-  pair.display = s.frame.display;
-  pair.window = s.frame.window;
-  for (const View& view : s.frame.views) {
+  pair.display = frame.display;
+  pair.window = frame.window;
+  for (const size_t i : views) {
+    const View& view = frame.views.at(i);
     View& copy = pair.views.emplace_back();
     copy.name = view.name;
     copy.camera = view.camera;

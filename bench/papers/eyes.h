@@ -1,6 +1,8 @@
 // How far images of two eyes are from each other, for the papers that measure it.
 #pragma once
 
+#include <array>
+
 #include "gloam/stereo_consistency.h"
 #include "study.h"
 
@@ -8,6 +10,10 @@ namespace gloam::bench {
 
 /// Of an image of each eye, made of the stage's frame. Throws what `stereo_inconsistency` throws.
 StereoInconsistency inconsistency(const Stage& s, const Image& ao, const StereoOptions& options = {});
+
+/// Of two views of a frame of many.
+StereoInconsistency inconsistency(const Frame& frame, const std::array<size_t, 2>& views, const Image& ao,
+                                  const StereoOptions& options = {});
 
 /// The mean in `inconsistency_unit`.
 double in_hundred_thousandths(const StereoFigures& figures);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "document.h"
+#include "doronin2017.h"
 #include "lists.h"
 #include "odssao2020.h"
 #include "report/markdown_text.h"
@@ -82,7 +83,7 @@ void add_tables(std::string& text, const std::vector<Entry>& entries, std::strin
 }  // namespace
 
 const std::vector<Paper>& papers() {
-  static const std::vector<Paper> all = {vermeer2021(), shi2022(), odssao2020(), wu2024()};
+  static const std::vector<Paper> all = {vermeer2021(), shi2022(), odssao2020(), wu2024(), doronin2017()};
   return all;
 }
 

@@ -46,6 +46,7 @@ struct Stage {
   Foreground surfaces;
   std::unique_ptr<Outlines> outlines;  ///< where the frame counts them
   double outline_seconds = 0;          ///< that this took
+  double capture_seconds = 0;          ///< tracing the frame in all, where that is stated
 };
 
 /// "1920x1080"
