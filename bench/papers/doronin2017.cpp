@@ -130,22 +130,26 @@ constexpr std::array<const char*, 5> point_sets = {"spiral", "random", "jittered
 
 /// Where the points lie.
 struct Shape {
-  const char *name, *radii, *hemisphere, *inner;
+  const char *name, *radii, *hemisphere, *inner, *range = "2";
 };
-constexpr std::array<Shape, 8> shapes = {{{"5 radii, half ball", "5", "on", "0"},
+constexpr std::array<Shape, 9> shapes = {{{"5 radii, half ball", "5", "on", "0"},
                                           {"5 radii, half shell", "5", "on", "0.8"},
                                           {"5 radii, ball", "5", "off", "0"},
-                                          {"5 radii, shell (the paper)", "5", "off", "0.8"},
+                                          {"5 radii, shell", "5", "off", "0.8"},
                                           {"1 radius, half ball", "1", "on", "0"},
                                           {"1 radius, half shell", "1", "on", "0.8"},
                                           {"1 radius, ball", "1", "off", "0"},
-                                          {"1 radius, shell", "1", "off", "0.8"}}};
-const Shape &usual = shapes[0], &of_the_paper = shapes[3], &one_radius = shapes[4];
+                                          {"1 radius, shell", "1", "off", "0.8"},
+                                          {"the paper: 5 radii, shell, any range", "5", "off", "0.8", "inf"}}};
+const Shape &usual = shapes[0], &one_radius = shapes[4], &of_the_paper = shapes[8];
 
 Asked asked_of(const Shape& shape, const char* points) {
   Asked asked = ssao();
-  asked.settings = {
-      {"radii", shape.radii}, {"hemisphere", shape.hemisphere}, {"inner", shape.inner}, {"points", points}};
+  asked.settings = {{"radii", shape.radii},
+                    {"hemisphere", shape.hemisphere},
+                    {"inner", shape.inner},
+                    {"range", shape.range},
+                    {"points", points}};
   return asked;
 }
 
@@ -234,10 +238,9 @@ void draw(Study& study, const Stage& s, const Image& truth) {
 
 std::vector<std::string> notes_of(const PaperOptions& options) {
   return {
-      fmt::format(
-          "One built-in scene, `{}`, with about the faces of the paper's three models stands for them: so the model's "
-          "size alone differs. All three are on display as the first is.",
-          scene),
+      fmt::format("One built-in scene, `{}`, with about the faces of the paper's three models stands for them: so the "
+                  "model's size alone differs. All three are on display as the first is.",
+                  scene),
       "The display has 80 modules in a line behind a flat screen, as data/displays/eighty.json; where one module is "
       "measured, it is the middle one. Each module's image has the size that is stated above.",
       "gloam does not rasterise, so the paper's times without SSAO have no counterpart. Beside the paper's differences "
@@ -247,12 +250,11 @@ std::vector<std::string> notes_of(const PaperOptions& options) {
       "scene's own, and each is half of the one before.",
       fmt::format("Truths are traced with {} rays per pixel, over the whole scene within the radius, without falloff.",
                   options.rays),
-      "The paper's shell lies in the whole ball, in which a plane is half closed: so its AO is darker than what rays "
-      "find. "
-      "Its own framework turns the same points for no pixel alone, as far as it says; here each pixel turns them.",
+      "In the whole ball a plane is half closed, and of several radii the one that takes most counts: so the paper's "
+      "AO is darker than what rays find. Each pixel turns the same points its own way, so an uneven set is wrong alike "
+      "everywhere, and no filter takes that away.",
       "Section 5 has `lightfield-ssao` and `lightfield-hbao+` as they are when nothing is set. Key views are computed "
-      "in "
-      "full; the others take over what these show."};
+      "in full; the others take over what these show."};
 }
 
 PaperResult reproduce(Device& device, const PaperOptions& options) {

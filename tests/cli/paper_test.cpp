@@ -215,6 +215,89 @@ TEST_F(Cli, TwoEyesReflectMoreAlikeAndNearerToTheTruth) {
     EXPECT_TRUE(std::filesystem::exists(path("paper") / picture["file"].get<std::string>())) << picture;
 }
 
+/// The rows of tables whose name starts so, by row and column.
+std::map<std::string, std::map<std::string, Json>> times_of(const Json& document, const std::string& table) {
+  std::map<std::string, std::map<std::string, Json>> times;
+  for (const Json& row : document["paper"]) {
+    if (row["table"] == table) times[row["row"]][row["column"]] = row;
+  }
+  return times;
+}
+
+TEST_F(Cli, ALightFieldDisplaySharesWhatItsModulesSee) {
+  const Result result = gloam({"bench", "--paper", "doronin2017", "-o", path("paper"), "--size", "64x48", "--rounds",
+                               "1", "--rays", "32", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  for (const Json& row : document["paper"]) {
+    EXPECT_GT(row["ms"], 0) << row;
+    if (!row["ratio"].is_null()) {
+      EXPECT_GT(row["ratio"], 0) << row;
+    }
+  }
+
+  auto models = times_of(document, "Table 1: AO of one module");
+  ASSERT_EQ(models.size(), 4u);
+  EXPECT_EQ(models["29520 faces, for Ammonite"]["all passes"]["paper_ms"], 6.43);
+  EXPECT_NEAR(models["29520 faces, for Ammonite"]["all passes"]["paper_ratio"].get<double>(), 6.43 / 6.46, 1e-9);
+  EXPECT_NEAR(models["212574 faces, for Armadillo"]["all passes"]["paper_ratio"].get<double>(), 6.48 / 6.46, 1e-9);
+  EXPECT_TRUE(models["5011 faces, for Statue"]["all passes"]["ratio"].is_null());
+  for (auto& [faces, in_all] : values_of(document, "Table 1: faces of the scene"))
+    EXPECT_NEAR(in_all.at("in all"), std::stod(faces), 0.03 * in_all.at("in all"));
+
+  for (const std::string technique : {"lightfield-ssao", "lightfield-hbao+"}) {
+    auto views = times_of(document, "Section 5: 80 modules, " + technique);
+    EXPECT_EQ(views.size(), 4u);
+    for (auto& [reuse, columns] : views)
+      EXPECT_NEAR(80 * columns["per view"]["ms"].get<double>(), columns["80 views"]["ms"].get<double>(), 1e-6) << reuse;
+    const auto value = [&](const std::string& figure, const std::string& row) {
+      return values_of(document, "80 modules: " + figure).at(row).at(technique);
+    };
+    double before = 1;
+    for (const int spacing : {2, 4, 8}) {
+      const std::string row = "reuse=on, key_views=" + std::to_string(spacing);
+      // Hardly anything is new so near a key view.
+      const double computed = value("computed, of all surfaces", row);
+      EXPECT_GE(computed, 1.0 / spacing) << row;
+      EXPECT_LT(computed, 1.0 / spacing + 0.02) << row;
+      EXPECT_LT(computed, before) << row;
+      before = computed;
+      const double newly = value("newly computed, of the surfaces between key views", row);
+      EXPECT_GE(newly, 0) << row;
+      EXPECT_LT(newly, 0.05) << row;
+      const double off = value("RMSE to reuse=off", row), between = value("RMSE to reuse=off, between key views", row);
+      EXPECT_GT(off, 0) << row;
+      EXPECT_GT(between, off) << row;
+      EXPECT_LT(between, 0.08) << row;
+      EXPECT_LT(value("RMSE to converged AO, eight modules in the middle", row), 0.08) << row;
+    }
+  }
+
+  // Two neighbours differ by their noise: less where it has converged.
+  auto apart = values_of(document, "80 modules: inconsistency of neighbours");
+  EXPECT_LT(apart["converged"]["lightfield-ssao"], 0.9 * apart["reuse=off"]["lightfield-ssao"]);
+
+  // 256 points have less noise than 8, and the filter leaves less of it.
+  auto raw = values_of(document, "Section 6: noise, RMSE to the same of 256 points, without Gaussian"),
+       smooth = values_of(document, "Section 6: noise, RMSE to the same of 256 points, with Gaussian"),
+       errors = values_of(document, "Section 6: RMSE to rays, with Gaussian");
+  ASSERT_EQ(raw.size(), 9u);
+  for (auto& [shape, of_sets] : raw) {
+    EXPECT_EQ(of_sets.size(), 5u) << shape;
+    for (const auto& [points, noise] : of_sets) {
+      EXPECT_GT(noise, 0) << shape << points;
+      EXPECT_LT(smooth[shape][points], noise) << shape << points;
+      EXPECT_LT(errors[shape][points], 0.8) << shape << points;
+    }
+    // Points that are spread leave less to chance.
+    EXPECT_LT(of_sets["spiral"], of_sets["random"]) << shape;
+  }
+  EXPECT_LT(errors["5 radii, half ball"]["spiral"], errors["5 radii, ball"]["spiral"]);
+  EXPECT_EQ(document["pictures"].size(), 6u);
+  for (const Json& picture : document["pictures"])
+    EXPECT_TRUE(std::filesystem::exists(path("paper") / picture["file"].get<std::string>())) << picture;
+}
+
 TEST_F(Cli, OnlyPapersThatAreKnown) {
   const Result unknown = gloam({"bench", "--paper", "vermer2021", "-o", path("paper")});
   EXPECT_EQ(unknown.status, 2);
