@@ -344,8 +344,12 @@ LightFieldDisplay read_display(const std::filesystem::path& file) {
 }
 
 bool is_display_text(const std::string& text) {
-  const json document = json::parse(text, nullptr, false);
-  return document.is_object() && document.contains("modules");
+  try {
+    const json document = json_of_text(text, "");
+    return document.is_object() && document.contains("modules");
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 std::string text_of(const LightFieldDisplay& display) {

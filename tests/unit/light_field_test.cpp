@@ -222,6 +222,8 @@ TEST(DisplayJson, IsToldFromACamera) {
   EXPECT_FALSE(is_display_text(R"({"fx": 3, "camera_to_world": []})"));
   EXPECT_FALSE(is_display_text("[1]"));
   EXPECT_FALSE(is_display_text("{"));
+  // A display with a fault is a display: its fault is what has to be said.
+  EXPECT_TRUE(is_display_text(R"({"observer": {"distance": NaN}, "modules": {}})"));
 }
 
 // --- Faults
