@@ -263,6 +263,8 @@ std::optional<WorldToPhysical> from_boxes(const Object& document) {
   const dvec3 scale = to.size / from.size;
   const dmat3 rows(scale.x * glm::normalize(right), scale.y * glm::normalize(up), scale.z * glm::normalize(ahead));
   WorldToPhysical map{glm::transpose(rows), {}};
+  // Sizes as far apart as doubles go.
+  check_transform(document.file, "region_of_interest", map.linear);
   map.origin = from.centre - glm::inverse(map.linear) * to.centre;
   return map;
 }

@@ -280,6 +280,7 @@ TEST(DisplayFault, SingularAndMirrored) {
                {"region_of_interest.physical.size[2] is 0", "singular"});
   expect_fault(with_boxes([](json& r) { r["world"]["size"][0] = -2; }),
                {"region_of_interest.world.size[0]", "-2", "> 0"});
+  expect_fault(with_boxes([](json& r) { r["world"]["size"][0] = 1e-320; }), {"region_of_interest", "singular"});
   expect_fault(with_boxes([](json& r) {
                  r["world"]["up"] = {2, 0, 0};
                }),
