@@ -191,7 +191,8 @@ void read_modules(const Object& document, LightFieldDisplay& display) {
   display.width = whole(modules, "resolution[0]", (*resolution)[0], most_pixels);
   display.height = whole(modules, "resolution[1]", (*resolution)[1], most_pixels);
   const json* list = find(modules, "list");
-  if (list && find(modules, "count")) refuse(modules, "count", "is given beside list", "one of the two");
+  for (const char* field : {"count", "line", "arc", "facing"})
+    if (list && find(modules, field)) refuse(modules, field, "is given beside list", "one of the two");
   display.modules = list ? listed(modules, *list) : evenly_placed(modules);
 }
 

@@ -396,6 +396,11 @@ TEST(DisplayFault, WhatExcludesEachOther) {
   document = flat_display();
   document["modules"]["list"] = {{{"position", {0, 0, -1}}}};
   expect_fault(fault_of(document), {"modules.count is given beside list"});
+  for (const char* field : {"line", "arc", "facing"}) {
+    json listed = flat_display();
+    listed["modules"] = {{"resolution", {8, 8}}, {"list", {{{"position", {0, 0, -1}}}}}, {field, 1}};
+    expect_fault(fault_of(listed), {fmt::format("modules.{} is given beside list", field)});
+  }
 }
 
 TEST(DisplayFault, ModulesThatDoNotLightTheScreen) {
