@@ -119,11 +119,15 @@ std::vector<std::pair<std::string, Camera>> module_cameras(const LightFieldDispl
   return cameras;
 }
 
-LightFieldDisplay fitted_to(LightFieldDisplay display, const Camera& camera, int height, double depth) {
-  const double reach = camera.orthographic ? 1 : depth;
-  const double across = display.screen_height / (height / camera.fy * reach), along = display.observer_distance / depth;
+LightFieldDisplay fitted_to(LightFieldDisplay display, const Camera& camera, const Window& window, double depth) {
+  const double reach = camera.orthographic ? 1 : depth, height = window.height() / camera.fy * reach;
+  const double across = display.screen_height / height, along = display.observer_distance / depth;
+  // What the middle of the image shows at the depth becomes the middle of the screen, though the observers be higher.
+  const double x = (0.5 * (window.x0 + window.x1) - camera.cx) / camera.fx * reach;
+  const double y = (camera.cy - 0.5 * (window.y0 + window.y1)) / camera.fy * reach;
+  const dvec3 per_z(across * x / depth, (across * y + display.observer_height) / depth, along);
   WorldToPhysical world;
-  world.linear = dmat3(across, 0, 0, 0, across, 0, 0, 0, along) * camera.pose->world_to_view;
+  world.linear = dmat3(dvec3(across, 0, 0), dvec3(0, across, 0), per_z) * camera.pose->world_to_view;
   const dvec3 middle_of_line(0, display.observer_height, display.observer_distance);
   world.origin = camera.pose->position - glm::inverse(world.linear) * middle_of_line;
   display.world = world;

@@ -61,7 +61,7 @@ std::vector<std::string> module_names(const LightFieldDisplay& display);
 std::vector<std::pair<std::string, Camera>> module_cameras(const LightFieldDisplay& display, const Window& window);
 
 /// With the part of the world on display that a camera's image frames: who stands in the middle of the observer line stands where
-/// the camera does, and its image at `depth` fills the screen from top to bottom. The camera has a pose.
-LightFieldDisplay fitted_to(LightFieldDisplay display, const Camera& camera, int height, double depth);
+/// the camera does, and its image at `depth` fills the screen from top to bottom, about its middle. The camera has a pose.
+LightFieldDisplay fitted_to(LightFieldDisplay display, const Camera& camera, const Window& window, double depth);
 
 }  // namespace gloam

@@ -20,7 +20,7 @@ std::optional<LightFieldDisplay> fitted_to(const LightFieldDisplay& display, con
   const CaptureResult seen = capture(tracer, options);
   const auto depths = visible_depths(seen.frame.views[0].planes.at("depth").channels[0]);
   if (!depths) return {};
-  return fitted_to(display, camera, size.height, depths->median);
+  return fitted_to(display, camera, {0, 0, size.width, size.height}, depths->median);
 }
 
 std::vector<CaptureView> module_views(const LightFieldDisplay& display, int width, int height) {

@@ -608,6 +608,50 @@ TEST(TwoSlitRays, PixelsPerUnit) {
   }
 }
 
+// --- Fitted to a camera
+
+TEST(FittedDisplay, ShowsWhatTheCameraFrames) {
+  for (const double height_of_observers : {0.0, 0.25}) {
+    for (const bool is_off_axis : {false, true}) {
+      json document = flat_display();
+      document.erase("world_to_physical");
+      document["observer"]["height"] = height_of_observers;
+      Camera camera;
+      camera.fx = camera.fy = 500;
+      camera.cx = is_off_axis ? 260 : 320, camera.cy = is_off_axis ? 300 : 240;
+      Pose pose;
+      pose.world_to_view = glm::transpose(dmat3(dvec3(0, 0, -1), dvec3(0, 1, 0), dvec3(1, 0, 0)));
+      pose.position = {1e6, 2, 3};
+      camera.pose = pose;
+      const double depth = 7;
+      const LightFieldDisplay d = fitted_to(read(document), camera, {0, 0, 640, 480}, depth);
+      const auto physical = [&](const dvec3& view) {
+        const dvec3 world = pose.position + glm::transpose(pose.world_to_view) * view;
+        return d.world->linear * (world - d.world->origin);
+      };
+      expect_near(physical({0, 0, 0}), {0, height_of_observers, 3}, 1e-8);
+      // The borders of the image at the depth are those of the screen.
+      const auto at = [&](double x, double y) { return physical(depth * view_ray(camera, {x, y})->per_depth); };
+      expect_near(at(320, 0), {0, 0.6, 0}, 1e-8);
+      expect_near(at(320, 480), {0, -0.6, 0}, 1e-8);
+      expect_near(at(0, 240), {-0.8, 0, 0}, 1e-8);
+      expect_near(at(640, 240), {0.8, 0, 0}, 1e-8);
+    }
+  }
+}
+
+TEST(FittedDisplay, OfAnOrthographicCamera) {
+  json document = flat_display();
+  document.erase("world_to_physical");
+  Camera camera;
+  camera.orthographic = true;
+  camera.fx = camera.fy = 100, camera.cx = 320, camera.cy = 240;
+  camera.pose = Pose{};
+  const LightFieldDisplay d = fitted_to(read(document), camera, {0, 0, 640, 480}, 5);
+  expect_near(d.world->linear * (dvec3(0, 2.4, -5) - d.world->origin), {0, 0.6, 0}, 1e-12);
+  expect_near(d.world->linear * (dvec3(0) - d.world->origin), {0, 0.1, 3}, 1e-12);
+}
+
 // --- Key views
 
 TEST(KeyViews, EveryViewHasOneNear) {
