@@ -8,6 +8,7 @@
 #include "analytic_scene.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 #include "low_discrepancy.h"
 
 namespace gloam::test {
@@ -72,6 +73,11 @@ Shot orthographic(int width, int height, double units_across) {
 }
 
 EyeRay ray_through(const Shot& shot, double x, double y) {
+  if (shot.camera.slits) {
+    const std::optional<ViewRay> ray = view_ray(shot.camera, {x, y});
+    const glm::dvec3 nowhere(std::numeric_limits<double>::quiet_NaN());
+    return ray ? EyeRay{ray->start, ray->per_depth} : EyeRay{nowhere, nowhere};
+  }
   const glm::dvec3 aside((x - shot.camera.cx) / shot.camera.fx, (shot.camera.cy - y) / shot.camera.fy, 0);
   const glm::dvec3 ahead(0, 0, -1);
   return shot.camera.orthographic ? EyeRay{aside, ahead} : EyeRay{glm::dvec3(0), aside + ahead};
@@ -143,7 +149,8 @@ Frame shoot(const Shot& shot, const Scene& scene, bool with_normals) {
   if (with_normals) plane_of(frame, "normal");
   for (int y = 0; y < shot.height; ++y) {
     for (int x = 0; x < shot.width; ++x) {
-      const std::optional<Surface> seen = scene(ray_through(shot, x + 0.5, y + 0.5));
+      const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5);
+      const std::optional<Surface> seen = std::isnan(ray.direction.z) ? std::nullopt : scene(ray);
       plane_of(frame, "depth").channels[0].at(x, y) = seen ? float(seen->depth) : infinity;
       if (!with_normals) continue;
       for (int i = 0; i < 3; ++i)

@@ -26,7 +26,8 @@ Shot perspective(int width, int height, double fov = 60);
 /// `units_across`: scene units from the left to the right border.
 Shot orthographic(int width, int height, double units_across);
 
-/// Where the eye looks through a point of the image (pixels): origin + depth * direction; direction.z = -1.
+/// Where the eye looks through a point of the image (pixels): origin + depth * direction; direction.z = -1. Not a number where a
+/// light-field display shows nothing.
 struct EyeRay {
   glm::dvec3 origin, direction;
 };

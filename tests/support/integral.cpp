@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "gloam/exr.h"
+#include "gloam/projection.h"
 #include "support/depth_layers.h"
 
 namespace gloam::test {
@@ -119,6 +120,8 @@ double pixels_across(const Shot& shot, double length, double depth) {
 }
 
 glm::dvec2 place_of(const Shot& shot, const glm::dvec3& point) {
+  if (shot.camera.slits)
+    return gloam::place_of(shot.camera, point).value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
   const double nearness = shot.camera.orthographic ? 1 : -1 / point.z;
   return {shot.camera.cx + point.x * nearness * shot.camera.fx, shot.camera.cy - point.y * nearness * shot.camera.fy};
 }
