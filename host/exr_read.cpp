@@ -487,7 +487,8 @@ std::map<std::string, Camera> FrameFile::Impl::json_cameras() {
   std::error_code unknown;
   json_is_shared = eye && others && fs::equivalent(*others, *json, unknown);
   if (!options.camera_file.empty() && is_display_text(read_text(*json))) {
-    const auto of_modules = module_cameras(read_display(*json), display);
+    const LightFieldDisplay of_file = read_display(*json);
+    const auto of_modules = named(*json, [&] { return module_cameras(of_file, display); });
     return {of_modules.begin(), of_modules.end()};
   }
   return read_camera_file(*json, display, camera_notes);
