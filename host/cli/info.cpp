@@ -98,6 +98,14 @@ std::vector<std::string> lacking_views(const Technique& technique, const Frame& 
   return has_poses ? std::vector<std::string>() : std::vector<std::string>{"cameras with poses"};
 }
 
+/// Rays of a light-field display's module meet in no eye, and most techniques need one.
+bool lacks_eye(const Plan& plan, const Frame& frame) {
+  const bool has_modules = std::any_of(frame.views.begin(), frame.views.end(),
+                                       [](const View& view) { return view.camera && view.camera->slits; });
+  return has_modules && std::any_of(plan.passes.begin(), plan.passes.end(),
+                                    [](const PlannedPass& planned) { return !planned.technique->any_projection; });
+}
+
 /// Techniques that the file can feed, and what the others lack.
 struct Abilities {
   std::vector<std::string> runs;
@@ -110,7 +118,8 @@ Abilities abilities_of(const FrameFile& file, const Frame& frame) {
   for (const Technique& technique : registry()) {
     std::vector<std::string> lacks, words;
     try {
-      make_plan({.outputs = {technique.name}}, file.common_planes(), holdings(file));
+      const Plan plan = make_plan({.outputs = {technique.name}}, file.common_planes(), holdings(file));
+      if (lacks_eye(plan, frame)) lacks = words = {"cameras with one eye"};
     } catch (const MissingPlanes& missing) {
       for (const std::string& plane : missing.planes) {
         const auto instead = missing.instead.find(plane);

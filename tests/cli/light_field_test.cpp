@@ -143,6 +143,12 @@ TEST_F(Display, InfoSaysWhichDisplayAndWhatRuns) {
   EXPECT_EQ(said["camera"]["display"], "small");
   EXPECT_NEAR(said["camera"]["module"][0], -0.18, 1e-12);
   EXPECT_EQ(said["camera"]["observer_distance"], 3);
+  const Arguments runs = said["runs"];
+  const auto can = [&](const char* name) { return std::find(runs.begin(), runs.end(), name) != runs.end(); };
+  EXPECT_TRUE(can("lightfield-ssao") && can("lightfield-hbao+") && can("positions"));
+  EXPECT_FALSE(can("hbao+") || can("gtao") || can("normals"));
+  EXPECT_EQ(said["lacks"]["hbao+"], Arguments{"cameras with one eye"});
+  EXPECT_NE(text.out.find("lacks  hbao+: cameras with one eye"), std::string::npos) << text.out;
 }
 
 TEST_F(Display, ReferenceAndItsError) {
