@@ -789,6 +789,24 @@ void check_two_views(const Plan& plan, const Frame& frame) {
   }
 }
 
+/// Of a view that is no camera's with an eye. Who asked for a technique that can see it lacks a plane that another would make.
+[[noreturn]] void refuse_module(const Plan& plan, const PlannedPass& planned, const View& view) {
+  const bool is_for_modules = std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) {
+    return p.technique->name == plan.technique && p.technique->any_projection;
+  });
+  if (is_for_modules)
+    throw Error(
+        "{}: view '{}' is of a light-field display's module, whose rays meet in no eye, and {} needs one; give a frame "
+        "with {}",
+        plan.technique, view.name, planned.technique->name, enumerate(planned.technique->writes));
+  std::vector<std::string> able;
+  for (const Technique& technique : registry()) {
+    if (technique.any_projection && technique.key_views) able.push_back(technique.name);
+  }
+  throw Error("{}: view '{}' is of a light-field display's module, whose rays meet in no eye; {} compute such views",
+              planned.technique->name, view.name, enumerate(able));
+}
+
 /// What a view has to have for the plan's passes to make sense of it.
 void check_projections(const Plan& plan, const Frame& frame) {
   const bool reads_positions = contains(plan.inputs, "position");
@@ -796,21 +814,11 @@ void check_projections(const Plan& plan, const Frame& frame) {
     if (reads_positions && !view.camera->pose)
       throw Error(
           "{}: positions of view '{}' are the world's, and nothing tells where its camera stands; --plane "
-          "position=none has "
-          "them made from depth",
+          "position=none has them made from depth",
           plan.technique, view.name);
     if (!view.camera->slits) continue;
     for (const PlannedPass& planned : plan.passes) {
-      if (planned.technique->any_projection) continue;
-      if (planned.technique == &resampling())
-        throw UsageError("--resolution: view '{}' is of a light-field display's module; leave it out", view.name);
-      std::vector<std::string> able;
-      for (const Technique& technique : registry()) {
-        if (technique.any_projection && technique.key_views) able.push_back(technique.name);
-      }
-      throw Error(
-          "{}: view '{}' is of a light-field display's module, whose rays meet in no eye; {} compute such views",
-          planned.technique->name, view.name, enumerate(able));
+      if (!planned.technique->any_projection) refuse_module(plan, planned, view);
     }
   }
 }

@@ -172,6 +172,9 @@ TEST_F(Display, OtherTechniquesRefuseItsViews) {
   expect_refused({"auto", file("F.exr"), "-o", file("O.exr")}, 1, {"view 'module01'", "light-field display"});
   expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--depth", "ray"}, 2,
                  {"F.exr", "--depth"});
+  // One that could has no normals, and what would make them cannot.
+  expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--plane", "normal=none"}, 1,
+                 {"lightfield-ssao", "normals needs one", "a frame with normal"});
 }
 
 TEST_F(Display, WrongModules) {
