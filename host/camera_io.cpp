@@ -489,6 +489,9 @@ std::map<std::string, Camera> read_camera_file(const fs::path& file, const Windo
   const auto views = document.find("views");
   if (views == document.end() && document.contains("path"))
     throw Error("{}: holds a path of cameras; give it as --camera-path of gloam capture", file.string());
+  if (document.contains("modules") && !holds_camera(document))
+    throw Error("{}: describes a light-field display and no camera; give it as --display of gloam capture",
+                file.string());
   if (views == document.end()) {
     cameras[""] = camera_from({file.string(), "", document, document}, display, assumed);
     return cameras;

@@ -215,6 +215,8 @@ TEST_F(Display, ACameraIsNoDisplay) {
   write("cam.json", one_camera);
   expect_refused({"capture", "colonnade", "-o", file("F.exr"), "--display", file("cam.json")}, 1,
                  {"cam.json", "no field of a display", "observer, screen, modules"});
+  expect_refused({"capture", "colonnade", "-o", file("F.exr"), "--camera", file("small.json")}, 1,
+                 {"small.json", "light-field display", "--display"});
   expect_refused({"capture", "colonnade", "-o", file("F.exr"), "--display", file("none.json")}, 1, {"none.json"});
   write("broken.json", "{\"observer\": {\"distance\": NaN}}");
   expect_refused({"capture", "colonnade", "-o", file("F.exr"), "--display", file("broken.json")}, 1,
