@@ -72,7 +72,7 @@ void set_slits(ProjectionOfDoubles& p, const Camera& c) {
     const double r = *s.screen_radius;
     p.circle_x = s.module.x;
     p.circle_z = s.module.z + r;
-    p.circle_constant = p.circle_x * p.circle_x + p.circle_z * p.circle_z - r * r;
+    p.circle_constant = p.circle_x * p.circle_x + s.module.z * (s.module.z + 2 * r);
   }
   put(p.turn, glm::transpose(s.turn));
   p.fx = c.fx;

@@ -16,10 +16,12 @@ std::optional<double> reach_of_screen(const TwoSlits& s, double slope) {
   if (!s.screen_radius) return -s.module.z;
   // (x, z) = module + t (slope, 1) on the circle about (0, -radius); the outer crossing is the screen's front.
   const double r = *s.screen_radius, x = s.module.x, z = s.module.z + r;
-  const double a = 1 + slope * slope, b = slope * x + z, c = x * x + z * z - r * r;
+  const double a = 1 + slope * slope, b = slope * x + z, c = x * x + s.module.z * (s.module.z + 2 * r);
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0)) return {};
-  return (-b + std::sqrt(discriminant)) / a;
+  const double root = std::sqrt(discriminant);
+  // Two ways to say it, of which one subtracts almost equal numbers.
+  return b > 0 ? -c / (b + root) : (root - b) / a;
 }
 
 /// A light ray, physical space: how far it goes sideways and up on its way towards the observers, per z.

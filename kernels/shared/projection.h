@@ -92,7 +92,9 @@ static inline Slopes slopes_through(PROJECTIONS p, real3 q) {
 static inline real reach_of_screen(PROJECTIONS p, real across) {
   if (!p->is_curved) return (real)(p->screen_ahead);
   const real a = 1 + across * across, b = across * p->circle_x + p->circle_z;
-  return (sqrt(b * b - a * p->circle_constant) - b) / a;
+  const real root = sqrt(b * b - a * p->circle_constant);
+  // Two ways to say it, of which one subtracts almost equal numbers.
+  return choose(b > 0, -p->circle_constant / (b + root), (root - b) / a);
 }
 
 // The column and the row, not rounded, of such a point. `is_shown`: it has a place, inside the image or not.
@@ -149,10 +151,9 @@ static inline real3 point_at(PROJECTIONS p, real x, real y, real depth) {
       p->turn, make3((x + (scalar)0.5 - p->cx) / p->fx, (p->cy - y - (scalar)0.5) / p->fy, (real)(1)));
   const real across = out.x / out.z, ahead = reach_of_screen(p, across);
   const real up = (p->observer_up - out.y / out.z * ahead) / (p->observer_ahead - ahead);
-  // The last row of to_physical has one element.
-  const real left = depth * p->to_physical[8], from_module = p->observer_ahead - left;
-  const real3 q = make3(across * from_module, p->observer_up - up * left, from_module);
-  return times3(p->from_physical, make3(q.x - p->view_origin[0], q.y - p->view_origin[1], q.z - p->view_origin[2]));
+  // The last row of to_physical has one element. From the observers' line on, near which digits would be lost else.
+  const real left = depth * p->to_physical[8];
+  return times3(p->from_physical, make3(across * (p->observer_ahead - left) - p->view_origin[0], -up * left, -left));
 }
 
 #endif
