@@ -230,6 +230,11 @@ static inline Sphere sphere_at(Frame f, PROJECTIONS p, Params params, const Spot
   b.reach.pixels_y = b.radius / s->point.across_y;
   b.per_range = per_range_of(params.range, b.radius);
   b.heights = heights_of(s->point, d->surface, d->axis, b.reach.pixels_x);
+  // Positions are rounded by their own size, whatever the depth: beside an observer who stands aside they are far longer.
+  if (!p->is_straight)
+    b.heights.rounding += (scalar)0x1p-21 *
+                          (fabs(s->stored_position.x) + fabs(s->stored_position.y) + fabs(s->stored_position.z)) *
+                          s->point.inverse_depth;
   // What bounds the offsets of all points.
   b.reach = longer(b.reach, (scalar)1.01 * d->surface.length / (1 - b.radius * spread));
   return b;
@@ -255,21 +260,21 @@ static inline void set_skewed_axes(Sphere* b, PROJECTIONS p, const Spot* s, Axes
   b->from_module = physical_of(p, s->position);
 }
 
-// Where the image shows a point, in pixels from the pixel; skewed: `q` is where it lies, physical.
+// Where the image shows a point, in pixels from the pixel.
 static inline __attribute__((always_inline)) void project_point(PROJECTIONS p, const Spot* s, const Sphere* b,
-                                                                BallPoint point, int straight, integer* dx, integer* dy,
-                                                                real3* q) {
+                                                                BallPoint point, int straight, integer* dx,
+                                                                integer* dy) {
   const real3 v = direction_of(point, b->axes);
   if (straight) {
     *dx = nearest(v.x * (point.distance * rough_inverse(1 - point.distance * v.z * s->spread_x)));
     *dy = nearest(v.y * (point.distance * rough_inverse(1 - point.distance * v.z * s->spread_y)));
     return;
   }
-  *q = make3(b->from_module.x + point.distance * v.x, b->from_module.y + point.distance * v.y,
-             b->from_module.z + point.distance * v.z);
+  const real3 q = make3(b->from_module.x + point.distance * v.x, b->from_module.y + point.distance * v.y,
+                        b->from_module.z + point.distance * v.z);
   real x, y;
   mask is_shown;
-  place_through_slits(p, *q, &x, &y, &is_shown);
+  place_through_slits(p, q, &x, &y, &is_shown);
   // Light that misses a curved screen has no place: the pixel itself stands for it.
   *dx = nearest(choose(is_shown, x - s->point.x, (real)(0)));
   *dy = nearest(choose(is_shown, y - s->point.y, (real)(0)));
@@ -278,7 +283,7 @@ static inline __attribute__((always_inline)) void project_point(PROJECTIONS p, c
 // How much a point is occluded, 0 to 1.
 static inline __attribute__((always_inline)) real occlusion_at(PROJECTIONS p, Surfaces planes, const Spot* s,
                                                                const Sphere* b, integer dx, integer dy, integer place,
-                                                               real height, real3 q, int straight) {
+                                                               real height, int straight) {
   const real depth = gather(planes.depth + s->here, place);
 #if GATHERS_ONLY
   return depth;
@@ -292,9 +297,13 @@ static inline __attribute__((always_inline)) real occlusion_at(PROJECTIONS p, Su
   } else {
     const real3 there =
         gather3(planes.position_x + s->here, planes.position_y + s->here, planes.position_z + s->here, place);
-    const real above = dot3(s->stored_normal, minus3(there, s->stored_position)) * s->point.inverse_depth;
-    const Slopes slopes = slopes_through(p, q);
-    // Along the light's way to the observers height grows by what it falls along depth.
+    const real3 off = minus3(there, s->stored_position);
+    const real above = dot3(s->stored_normal, off) * s->point.inverse_depth;
+    // Along the light's way to the observers height grows by what it falls along depth: along that of what is seen, which lies
+    // beside the point's. Of the two, on a plane that is seen edge-on, one may come down to it and the other not.
+    const real3 seen = times3(p->to_physical, times3(p->to_view, off));
+    const Slopes slopes =
+        slopes_through(p, make3(b->from_module.x + seen.x, b->from_module.y + seen.y, b->from_module.z + seen.z));
     const real3 ahead = times3(p->from_physical, make3(slopes.across, slopes.up, (real)(1)));
     is_behind = !is_background(depth) & stands_before((real)(0), -dot3(s->normal, ahead), above - height);
   }
@@ -314,11 +323,10 @@ static inline __attribute__((always_inline)) real occluded_points(Frame f, PROJE
     point.axis = points[4 * k + 2];
     point.distance = distance_at(&d->ball, points[4 * k + 3]);
     integer dx, dy, place;
-    real3 q = make3((real)(0), (real)(0), (real)(0));
-    project_point(p, s, b, point, straight, &dx, &dy, &q);
+    project_point(p, s, b, point, straight, &dx, &dy);
     const mask counts = place_sample(f, s, within, &dx, &dy, &place);
     const real height = point.distance * ((point.axis + bias) * b->radius) + b->heights.rounding;
-    const real found = occlusion_at(p, planes, s, b, dx, dy, place, height, q, straight);
+    const real found = occlusion_at(p, planes, s, b, dx, dy, place, height, straight);
     sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
   }
   return sum;
