@@ -789,22 +789,34 @@ void check_two_views(const Plan& plan, const Frame& frame) {
   }
 }
 
-/// Of a view that is no camera's with an eye. Who asked for a technique that can see it lacks a plane that another would make.
-[[noreturn]] void refuse_module(const Plan& plan, const PlannedPass& planned, const View& view) {
-  const bool is_for_modules = std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) {
-    return p.technique->name == plan.technique && p.technique->any_projection;
-  });
-  if (is_for_modules)
-    throw Error(
-        "{}: view '{}' is of a light-field display's module, whose rays meet in no eye, and {} needs one; give a frame "
-        "with {}",
-        plan.technique, view.name, planned.technique->name, enumerate(planned.technique->writes));
-  std::vector<std::string> able;
-  for (const Technique& technique : registry()) {
-    if (technique.any_projection && technique.key_views) able.push_back(technique.name);
+/// The technique that the plan is named after, if it runs.
+const Technique* leading_technique(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.technique->name == plan.technique) return planned.technique;
   }
-  throw Error("{}: view '{}' is of a light-field display's module, whose rays meet in no eye; {} compute such views",
-              planned.technique->name, view.name, enumerate(able));
+  return nullptr;
+}
+
+/// Of a view that is no camera's with an eye. Who asked for a technique that can see it has asked for more, or lacks a plane.
+[[noreturn]] void refuse_module(const Plan& plan, const Technique& refusing, const View& view) {
+  const std::string what =
+      fmt::format("view '{}' is of a light-field display's module, whose rays meet in no eye", view.name);
+  const Technique* leading = leading_technique(plan);
+  if (!leading || !leading->any_projection) {
+    std::vector<std::string> able;
+    for (const Technique& technique : registry()) {
+      if (technique.any_projection && technique.key_views) able.push_back(technique.name);
+    }
+    throw Error("{}: {}; {} compute such views", refusing.name, what, enumerate(able));
+  }
+  for (const std::string& plane : refusing.writes) {
+    if (contains(leading->reads, plane))
+      throw Error("{}: {}, and {} needs one; give a frame with {}", leading->name, what, refusing.name, plane);
+  }
+  // What is no technique for anyone to ask for is the plan's own.
+  const bool is_asked_for = contains(technique_names(), refusing.name);
+  throw Error("{}: {}, and {} needs one; leave it out", leading->name, what,
+              is_asked_for ? refusing.name : "what --resolution or --adaptive adds");
 }
 
 /// What a view has to have for the plan's passes to make sense of it.
@@ -818,7 +830,7 @@ void check_projections(const Plan& plan, const Frame& frame) {
           plan.technique, view.name);
     if (!view.camera->slits) continue;
     for (const PlannedPass& planned : plan.passes) {
-      if (!planned.technique->any_projection) refuse_module(plan, planned, view);
+      if (!planned.technique->any_projection) refuse_module(plan, *planned.technique, view);
     }
   }
 }
