@@ -250,17 +250,16 @@ Box box_of(const Object& object) {
 std::optional<WorldToPhysical> from_boxes(const Object& document) {
   const std::optional<Object> region = object(document, "region_of_interest", {"physical", "world"});
   if (!region) return {};
-  const std::optional<Object> world = object(*region, "world", {"centre", "size", "right", "up"});
-  if (!world) return {};
-  const Box to = box_of(needed_object(*region, "physical", {"centre", "size"})), from = box_of(*world);
-  const dvec3 right = point(*world, "right").value_or(dvec3(1, 0, 0)),
-              up = point(*world, "up").value_or(dvec3(0, 1, 0));
+  const Object physical = needed_object(*region, "physical", {"centre", "size"}),
+               world = needed_object(*region, "world", {"centre", "size", "right", "up"});
+  const Box to = box_of(physical), from = box_of(world);
+  const dvec3 right = point(world, "right").value_or(dvec3(1, 0, 0)), up = point(world, "up").value_or(dvec3(0, 1, 0));
   const dvec3 ahead = glm::cross(right, up);
   if (!(glm::length(ahead) > 1e-9 * glm::length(right) * glm::length(up)))
     throw Error("{}: {}: right and up lie on one line: the transform to physical space would be singular",
-                document.file, world->name);
+                document.file, world.name);
   if (std::abs(glm::dot(right, up)) > 1e-6 * glm::length(right) * glm::length(up))
-    refuse(*world, "up", "is not at a right angle to right", "the box's edges at right angles");
+    refuse(world, "up", "is not at a right angle to right", "the box's edges at right angles");
   const dvec3 scale = to.size / from.size;
   const dmat3 rows(scale.x * glm::normalize(right), scale.y * glm::normalize(up), scale.z * glm::normalize(ahead));
   WorldToPhysical map{glm::transpose(rows), {}};
