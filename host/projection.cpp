@@ -88,6 +88,11 @@ std::optional<dvec2> place_of(const Camera& camera, const dvec3& point) {
   return dvec2(camera.cx + camera.fx * point.x / along, camera.cy - camera.fy * point.y / along);
 }
 
+std::optional<dvec2> place_in_world(const Camera& camera, const dvec3& world, double w) {
+  if ((camera.orthographic || camera.slits) && w == 0) return {};
+  return place_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
+}
+
 double depth_of_slit(const Camera& camera) {
   if (!camera.slits) return std::numeric_limits<double>::infinity();
   return (camera.slits->observer_distance - camera.slits->module.z) / camera.slits->to_physical[2][2];

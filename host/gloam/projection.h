@@ -23,6 +23,10 @@ std::optional<ViewRay> view_ray(const Camera& camera, const glm::dvec2& place);
 /// before the observers or behind the module of a light-field display.
 std::optional<glm::dvec2> place_of(const Camera& camera, const glm::dvec3& point);
 
+/// The same of a point (w = 1) or a direction (w = 0) of the world, for a camera with a pose. Directions have a place in the image
+/// of an eye alone.
+std::optional<glm::dvec2> place_in_world(const Camera& camera, const glm::dvec3& world, double w);
+
 /// Depth at which all rays of a light-field display's module meet above one another, scene units; infinite for other cameras.
 double depth_of_slit(const Camera& camera);
 

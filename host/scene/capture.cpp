@@ -89,12 +89,6 @@ void put(Channel* const (&channels)[n], int x, int y, const Vector& value) {
   for (size_t i = 0; i < n; ++i) channels[i]->at(x, y) = float(value[int(i)]);
 }
 
-/// Where a point (w = 1) or a direction (w = 0) of the world lands in an image, pixels; none when behind the camera.
-std::optional<glm::dvec2> projected(const Camera& camera, const dvec3& world, double w) {
-  if (camera.orthographic && w == 0) return {};
-  return place_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
-}
-
 /// Whether the image shows anything at a pixel: light of a display's module may miss the screen there.
 bool shows(const Camera& camera, int x, int y) {
   return !camera.slits || view_ray(camera, {x + 0.5, y + 0.5}).has_value();
@@ -272,7 +266,7 @@ class Capturer {
 
   void moved(int x, int y, const dvec3& world, double w) const {
     if (!target_.motion[0] || !view_.previous_camera) return;
-    const std::optional<glm::dvec2> before = projected(*view_.previous_camera, world, w);
+    const std::optional<glm::dvec2> before = place_in_world(*view_.previous_camera, world, w);
     if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
   }
 

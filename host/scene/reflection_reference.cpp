@@ -72,9 +72,9 @@ class Shown {
   bool in_a_view(const dvec3& world, double w, const Fits& fits) const {
     return std::any_of(frame_.views.begin(), frame_.views.end(), [&](const View& view) {
       const Camera& camera = *view.camera;
-      const dvec3 p = camera.pose->world_to_view * (world - w * camera.pose->position);
-      const std::optional<glm::dvec2> place = camera.orthographic && w == 0 ? std::nullopt : place_of(camera, p);
+      const std::optional<glm::dvec2> place = place_in_world(camera, world, w);
       if (!place) return false;
+      const dvec3 p = camera.pose->world_to_view * (world - w * camera.pose->position);
       const double x = std::floor(place->x) - frame_.window.x0, y = std::floor(place->y) - frame_.window.y0;
       if (!(x >= 0 && y >= 0 && x < frame_.width() && y < frame_.height())) return false;
       return fits(-p.z, view.planes.at("depth").channels[0].at(int(x), int(y)));
