@@ -5,12 +5,7 @@
 
 namespace gloam::bench {
 
-LightFieldDisplay eighty_modules() {
-  return display_from_text(R"({"name": "eighty modules", "unit": "metres",
-    "observer": {"distance": 5}, "screen": {"width": 3.2, "height": 2.4},
-    "modules": {"resolution": [1024, 768], "count": 80, "line": {"from": [-2.4, 0, -4], "to": [2.4, 0, -4]}}})",
-                           "eighty modules");
-}
+LightFieldDisplay eighty_modules() { return display_from_text(eighty_modules_json, "data/displays/eighty.json"); }
 
 size_t middle_module(const LightFieldDisplay& display) { return display.modules.size() / 2; }
 

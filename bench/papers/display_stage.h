@@ -9,7 +9,8 @@
 
 namespace gloam::bench {
 
-/// As data/displays/eighty.json: 80 modules in a line behind a flat screen.
+/// Text of data/displays/eighty.json: 80 modules in a line behind a flat screen.
+extern const char* const eighty_modules_json;
 LightFieldDisplay eighty_modules();
 
 /// The number of the module in the middle of the line, or right of it.

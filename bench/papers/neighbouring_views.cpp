@@ -30,12 +30,6 @@ Asked asked_of(const std::string& technique, int spacing) {
 /// The numbers of views that follow one another.
 using Numbers = std::vector<size_t>;
 
-Numbers all_of(const Frame& frame) {
-  Numbers all;
-  for (size_t i = 0; i < frame.views.size(); ++i) all.push_back(i);
-  return all;
-}
-
 /// Those that are no key views.
 Numbers between_keys(const Frame& frame, int spacing) {
   Numbers between;
