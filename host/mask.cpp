@@ -153,6 +153,13 @@ void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& technique
       throw UsageError("--only: restricts techniques that look at one view, and {} looks at two; leave it out",
                        technique->name);
   }
+  const bool looks_into_key_views = std::any_of(plan.passes.begin(), plan.passes.end(), [](const PlannedPass& planned) {
+    return planned.pass.on != Pass::Views::every;
+  });
+  if (elsewhere && looks_into_key_views)
+    throw UsageError(
+        "--elsewhere {}: what views take over from one another (reuse=on) is one technique's; leave out one of both",
+        elsewhere->name);
   Restriction restriction(plan, techniques, elsewhere);
   if (!restriction.has_work())
     throw UsageError("--only: {} has no work that a mask can leave out; leave it out", plan.technique);

@@ -304,7 +304,7 @@ struct Target {
   Layout layout;
   Layouts layouts;
   Buffers buffers;
-  Pass::Views on = Pass::Views::key;     // what it is
+  Pass::Views on = Pass::Views::key;     // whether others look into it, or it into others
   std::set<std::string> planes = {};     // at hand: inputs, and what passes make here
   std::vector<cl::Kernel> kernels = {};  // of the passes that run here
   std::vector<cl::Buffer> numbers = {};  // projections and tables that they read
@@ -472,8 +472,8 @@ int lanes_for(const DeviceInfo& info, const RunOptions& options) {
 
 std::string mebibytes(unsigned long long bytes) { return fmt::format("{} MiB", (bytes + (1 << 20) - 1) >> 20); }
 
-void check_memory(const Plan& plan, const Layout& layout, const DeviceInfo& info) {
-  const unsigned long long needed = device_bytes(plan, layout);
+void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info) {
+  const unsigned long long needed = device_bytes(plan, layout, views);
   if (needed > info.memory) {
     throw Error("{}: {}x{} pixels need {} of device memory, and {} has {}; use a smaller frame or another --device",
                 plan.technique, layout.width, layout.height, mebibytes(needed), info.name, mebibytes(info.memory));
@@ -606,11 +606,12 @@ double pixels_in_rows(Target& target, const std::string& bits_name, int lanes) {
   return pixels;
 }
 
-void count(const Plan& plan, Target& target, int lanes, Counted& counted) {
+/// `in_full`: the estimate skips nothing, since others look into it.
+void count(const Plan& plan, Target& target, int lanes, bool in_full, Counted& counted) {
   const Layout layout = target.layouts.of(plan.wanted);
   const double all = double(layout.width) * layout.height;
   counted.of += all;
-  if (!plan.wanted.empty()) counted.skipped += all - pixels_in_rows(target, plan.wanted, lanes);
+  if (!plan.wanted.empty() && !in_full) counted.skipped += all - pixels_in_rows(target, plan.wanted, lanes);
   if (!plan.rest.empty()) counted.rest += pixels_in_rows(target, plan.rest, lanes);
 }
 
@@ -677,7 +678,7 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
     });
   }
   for (Target& target : targets) {
-    count(plan, target, lanes, counted);
+    count(plan, target, lanes, false, counted);
     collect(plan, target, result);
   }
 }
@@ -695,7 +696,12 @@ class KeyViewsRun {
         lanes_(lanes),
         counted_(counted),
         roles_(key_view_roles(int(frame.views.size()), spacing)),
-        results_(frame.views.size()) {}
+        results_(frame.views.size()) {
+    for (const KeyViewRole& role : roles_) {
+      for (const PlannedPass& planned : plan.passes)
+        launches_ += planned.pass.on == Pass::Views::every || planned.pass.on == kind_of(role);
+    }
+  }
 
   void run(RunResult& result) {
     for (size_t i = 0; i < roles_.size(); ++i) {
@@ -716,6 +722,8 @@ class KeyViewsRun {
   }
 
  private:
+  static Pass::Views kind_of(const KeyViewRole& role) { return role.is_key ? Pass::Views::key : Pass::Views::between; }
+
   Target& key(size_t i) {
     const auto known = keys_.find(i);
     if (known != keys_.end()) return known->second;
@@ -726,7 +734,7 @@ class KeyViewsRun {
 
   void between(size_t i, Target& nearest, Target& far) {
     Target target = target_of(plan_, frame_, frame_.views[i], device_);
-    target.on = Pass::Views::between;
+    target.on = kind_of(roles_[i]);
     compute(target, {.nearest = &nearest, .far = &far});
     collect(plan_, target, results_[i]);
   }
@@ -737,10 +745,12 @@ class KeyViewsRun {
     }
     const int warm_ups = options_.repeat > 1 ? 1 : 0;
     for (int i = -warm_ups; i < options_.repeat; ++i) {
-      for (size_t k = 0; k < target.kernels.size(); ++k) launch_once(plan_, target, k, device_, lanes_, i >= 0);
+      for (size_t k = 0; k < target.kernels.size(); ++k) {
+        launch_once(plan_, target, k, device_, lanes_, i >= 0);
+        if (options_.progress) options_.progress(++done_, launches_ * (options_.repeat + warm_ups));
+      }
     }
-    count(plan_, target, lanes_, counted_);
-    if (options_.progress) options_.progress(++done_, int(roles_.size()));
+    count(plan_, target, lanes_, target.on == Pass::Views::key, counted_);
   }
 
   void release_before(size_t end) {
@@ -754,7 +764,7 @@ class KeyViewsRun {
   const Frame& frame_;
   Device::Impl& device_;
   const RunOptions& options_;
-  int lanes_, done_ = 0;
+  int lanes_, launches_ = 0, done_ = 0;  // launches: of each repeat
   Counted& counted_;
   std::vector<KeyViewRole> roles_;
   std::vector<RunResult> results_;  // view by view
@@ -769,6 +779,9 @@ int key_view_spacing(const Plan& plan) {
   return 1;
 }
 
+/// The same of a frame of so many views.
+int key_view_spacing(const Plan& plan, size_t views) { return views > 1 ? key_view_spacing(plan) : 1; }
+
 bool needs_two_views(const Plan& plan) {
   return std::any_of(plan.passes.begin(), plan.passes.end(),
                      [](const PlannedPass& planned) { return planned.technique->views == 2; });
@@ -780,12 +793,16 @@ void check_two_views(const Plan& plan, const Frame& frame) {
         "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo IPD makes one, "
         "--views A,B takes two of more",
         plan.technique, frame.views.size());
+}
+
+/// Of views that look into one another.
+void check_poses(const Plan& plan, const Frame& frame) {
   for (const View& view : frame.views) {
     if (!view.camera->pose)
       throw Error(
-          "{}: view '{}' has a camera without a pose, so nothing tells where it stands beside the other; give "
+          "{}: view '{}' has a camera without a pose, so nothing tells where it stands beside the {}; give "
           "camera_to_world in a --camera file",
-          plan.technique, view.name);
+          plan.technique, view.name, frame.views.size() > 2 ? "others" : "other");
   }
 }
 
@@ -835,21 +852,34 @@ void check_projections(const Plan& plan, const Frame& frame) {
   }
 }
 
+/// Together where they look at one another, else one after another.
+void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, const RunOptions& options,
+                   RunResult& result, Counted& counted) {
+  if (const int spacing = key_view_spacing(plan, frame.views.size()); spacing > 1) {
+    KeyViewsRun(plan, frame, spacing, device, options, result.lanes, counted).run(result);
+    return;
+  }
+  std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
+  for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
+  for (const std::vector<const View*>& views : groups)
+    run_views(plan, frame, views, device, options, result.lanes, result, counted);
+}
+
 }  // namespace
 
-unsigned long long device_bytes(const Plan& plan, const Layout& layout) {
+unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views) {
   const Layouts layouts(plan, layout);
   unsigned long long bytes = 0;
   for (const std::string& name : planes_of(plan))
     bytes += plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
+  if (needs_two_views(plan)) return 2 * bytes;
   // A view between two key views.
-  if (key_view_spacing(plan) > 1) return 3 * bytes;
-  return needs_two_views(plan) ? 2 * bytes : bytes;
+  return key_view_spacing(plan, views) > 1 ? std::min<size_t>(views, 3) * bytes : bytes;
 }
 
-void check(const Plan& plan, const Layout& layout, const Device& device, const RunOptions& options) {
+void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options) {
   check_real(plan, device.info(), options);
-  check_memory(plan, layout, device.info());
+  check_memory(plan, layout, views, device.info());
 }
 
 void prepare(const Plan& plan, Device& device, const RunOptions& options) {
@@ -862,10 +892,10 @@ void prepare(const Plan& plan, Device& device, const RunOptions& options) {
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
   const Layout layout(frame.width(), frame.height());
-  check(plan, layout, device, options);
+  check(plan, layout, frame.views.size(), device, options);
   RunResult result;
   result.lanes = lanes_for(impl.info, options);
-  result.device_bytes = device_bytes(plan, layout);
+  result.device_bytes = device_bytes(plan, layout, frame.views.size());
   result.frame.display = frame.display;
   result.frame.window = frame.window;
   result.frame.assumed = frame.assumed;
@@ -874,22 +904,12 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   }
   check_projections(plan, frame);
   if (needs_two_views(plan)) check_two_views(plan, frame);
-  std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
-  for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
+  if (needs_two_views(plan) || key_view_spacing(plan, frame.views.size()) > 1) check_poses(plan, frame);
   Counted counted;
-  const int spacing = frame.views.size() > 1 ? key_view_spacing(plan) : 1;
-  if (spacing > 1) groups.clear();
   try {
-    if (spacing > 1) KeyViewsRun(plan, frame, spacing, impl, options, result.lanes, counted).run(result);
+    run_all_views(plan, frame, impl, options, result, counted);
   } catch (const cl::Error& error) {
     throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
-  }
-  for (const std::vector<const View*>& views : groups) {
-    try {
-      run_views(plan, frame, views, impl, options, result.lanes, result, counted);
-    } catch (const cl::Error& error) {
-      throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
-    }
   }
   if (counted.of > 0) {
     result.skipped_share = counted.skipped / counted.of;

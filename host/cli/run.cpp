@@ -53,8 +53,7 @@ double median_radius_pixels(const Frame& frame, double radius) {
     const Channel& z = depth->channels.front();
     for (int y = 0; y < frame.height(); y += 1 + frame.height() / 64) {
       for (int x = 0; x < frame.width(); x += 1 + frame.width() / 64) {
-        if (!is_background(z.at(x, y)))
-          pixels.push_back(radius * pixels_per_unit(*view.camera, z.at(x, y)));
+        if (!is_background(z.at(x, y))) pixels.push_back(radius * pixels_per_unit(*view.camera, z.at(x, y)));
       }
     }
   }
@@ -239,11 +238,12 @@ void run_command(const RunCommand& flags) {
   // The device starts up and compiles while the planes are decoded. A large frame waits to hear that the device has the
   // memory for it.
   const Layout layout(files.window().width(), files.window().height());
+  const size_t views = files.views().size();
   std::promise<void> checked;
   std::future<Device> starting = std::async(std::launch::async, [&, plan] {
     try {
       Device device(flags.run_flags.device);
-      check(plan, layout, device, options);
+      check(plan, layout, views, device, options);
       checked.set_value();
       prepare(plan, device, options);
       return device;
@@ -252,7 +252,7 @@ void run_command(const RunCommand& flags) {
       throw;
     }
   });
-  if (device_bytes(plan, layout) > (1ull << 30)) checked.get_future().get();
+  if (device_bytes(plan, layout, views) > (1ull << 30)) checked.get_future().get();
   std::vector<std::string> planes = plan.inputs;
   const std::vector<std::string> available = files.common_planes();
   if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");

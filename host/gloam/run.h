@@ -24,7 +24,7 @@ struct RunOptions {
   /// Instead of what samples contribute, adds up what is read: what a kernel's addresses and reads cost by themselves. The
   /// result means nothing.
   bool gathers_only = false;
-  std::function<void(int done, int of)> progress;  ///< called after each pass
+  std::function<void(int done, int of)> progress;  ///< called after each launch of a pass
 };
 
 struct PassTime {
@@ -43,14 +43,14 @@ struct RunResult {
   double rest_share = 0;
   /// Pixels of all views that passes put on a list, for others to compute one by one (shared/pixel_list.h): by the list's plane.
   std::map<std::string, long long> listed;
-  unsigned long long device_bytes = 0;  ///< of the largest view
+  unsigned long long device_bytes = 0;  ///< of the views that are there at the same time
 };
 
-/// Bytes of device memory that one view of a plan takes.
-unsigned long long device_bytes(const Plan& plan, const Layout& layout);
+/// Bytes of device memory that a plan takes for a frame of so many views: of one of them, or of those that look into one another.
+unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views = 1);
 
-/// Whether a device can run a plan: its memory, double precision. Throws what `run` would.
-void check(const Plan& plan, const Layout& layout, const Device& device, const RunOptions& options = {});
+/// Whether a device can run a plan on so many views: its memory, double precision. Throws what `run` would.
+void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options = {});
 
 /// Compiles a plan's kernels ahead of `run`, so that this goes on while a frame is decoded. Throws what `run` would.
 void prepare(const Plan& plan, Device& device, const RunOptions& options = {});

@@ -84,22 +84,23 @@ static inline void set_straight(Spot* s, Frame f, PROJECTIONS p) {
 
 // Where they do not: about the point itself.
 static inline void set_skewed(Spot* s, Frame f, PROJECTIONS p) {
-  const real step = (scalar)(1.0f / 64) * s->depth;
+  const real3 q = physical_of(p, s->position);
+  // Towards the middle of a curved screen: on the other side there may be none.
+  const real far = (scalar)(1.0f / 64) * s->depth, step = choose(q.x > 0, -far, far);
   real x, y, right, up, aside;
   mask unused;
-  place_through_slits(p, physical_of(p, s->position), &x, &y, &unused);
+  place_through_slits(p, q, &x, &y, &unused);
   place_through_slits(p, physical_of(p, make3(s->position.x + step, s->position.y, s->position.z)), &right, &aside,
                       &unused);
   place_through_slits(p, physical_of(p, make3(s->position.x, s->position.y + step, s->position.z)), &aside, &up,
                       &unused);
   s->point.across_x = (scalar)(1.0f / 64) / larger(fabs(right - x), (real)(1e-6f));
   s->point.across_y = (scalar)(1.0f / 64) / larger(fabs(up - y), (real)(1e-6f));
-  const Slopes slopes = slopes_through(p, physical_of(p, s->position));
+  const Slopes slopes = slopes_through(p, q);
   const real3 ahead = times3(p->from_physical, make3(slopes.across, slopes.up, (real)(1)));
   s->point.ray_x = -ahead.x / ahead.z;
   s->point.ray_y = -ahead.y / ahead.z;
   // For bounds alone: how near the module and the observers are.
-  const real3 q = physical_of(p, s->position);
   s->spread_x = -(p->observer_ahead - q.z) / q.z;
   s->spread_y = (real)(1);
 }
@@ -530,8 +531,11 @@ kernel void JOIN(ESTIMATE_NAME, _list)(Frame frame, PROJECTIONS projections, Par
 // A plane between pixels, of those around a place that show the same surface as the nearest, at `nearest_place` and at this depth.
 static inline real fetched_at(Frame f, real x, real y, integer nearest_place, real depth, scalar tolerance,
                               global const float* depths, global const float* plane) {
-  const integer column = nearest(floor(x)), row = nearest(floor(y));
-  const real right = x - to_real(column), below = y - to_real(row);
+  // In 256ths of a pixel, so that what rounding moves off a pixel's centre is that pixel.
+  const real snapped_x = to_real(nearest(x * 256)) * (scalar)(1.0f / 256);
+  const real snapped_y = to_real(nearest(y * 256)) * (scalar)(1.0f / 256);
+  const integer column = nearest(floor(snapped_x)), row = nearest(floor(snapped_y));
+  const real right = snapped_x - to_real(column), below = snapped_y - to_real(row);
   real sum = 0, weights = 0;
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
@@ -540,7 +544,7 @@ static inline real fetched_at(Frame f, real x, real y, integer nearest_place, re
     const integer to_x = clamp(column + i, (integer)(0), (integer)(f.width - 1));
     const integer to_y = clamp(row + j, (integer)(0), (integer)(f.height - 1));
     // Rows are the same in all modules of a straight display.
-    if (!ANY(weight > (scalar)0x1p-8f)) continue;
+    if (!ANY(weight > 0)) continue;
     const integer place = FRAME_GUARD + to_y * f.pitch + to_x;
     const mask counts = fabs(gather(depths, place) - depth) <= tolerance;
     sum += choose(counts, weight * gather(plane, place), (real)(0));
@@ -573,6 +577,13 @@ static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params pa
   *is_found = is_back & (dx * dx + dy * dy <= params.back_check * params.back_check);
   if (!ANY(*is_found)) return (real)(1);
   return fetched_at(f, there_x, there_y, place, depth, SAME_DEPTH * params.radius, planes.depth, ao);
+}
+
+// What a key view shows of what was computed for all.
+kernel void lightfield_key(Frame frame, Params params, PLANE ao_of_key, WANTED_ARGUMENT PLANE_OUT ao_raw) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  store(choose(is_wanted, load(ao_of_key, here), (real)(1)), ao_raw, here);
 }
 
 kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE position_x,

@@ -47,7 +47,8 @@ std::vector<float> table_of(const LightfieldSsaoParams& p) {
   return table;
 }
 
-/// With --set reuse=on: the estimate on key views, and on the others what these do not show.
+/// With --set reuse=on: the estimate on key views, and on the others what these do not show. What others may take over is
+/// computed whatever a mask leaves out of the key view itself.
 template <typename Params>
 std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
   estimate.reads.push_back("position");
@@ -62,9 +63,16 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
              .can_skip = true,
              .projects = true,
              .on = Pass::Views::between};
-  for (const auto& [prefix, key] : {std::pair{"key_", 1}, {"far_", 2}}) {
-    for (const auto& [argument, plane] : {std::pair{"depth", "depth"}, {"position", "position"}, {"ao", "ao_raw"}})
-      reuse.reads.push_back(of_key(key, {std::string(prefix) + argument, plane}));
+  Pass key{.name = "key",
+           .kernel = "lightfield_key",
+           .reads = {"ao_of_key"},
+           .writes = {"ao_raw"},
+           .defines = estimate.defines,
+           .can_skip = true,
+           .on = Pass::Views::key};
+  for (const auto& [prefix, number] : {std::pair{"key_", 1}, {"far_", 2}}) {
+    for (const auto& [argument, plane] : {std::pair{"depth", "depth"}, {"position", "position"}, {"ao", "ao_of_key"}})
+      reuse.reads.push_back(of_key(number, {std::string(prefix) + argument, plane}));
   }
   Pass rest = estimate;
   rest.name = "newly visible";
@@ -73,7 +81,9 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
   rest.looks_around = rest.can_skip = false;
   rest.on = Pass::Views::between;
   estimate.on = Pass::Views::key;
-  return {estimate, reuse, rest};
+  estimate.writes = {{"ao_raw", "ao_of_key"}};
+  estimate.can_skip = false;
+  return {estimate, key, reuse, rest};
 }
 
 std::vector<Pass> ssao_passes(const LightfieldSsaoParams& p) {

@@ -89,7 +89,7 @@ TEST(Stacks, ABufferTooLargeIsRefusedWithTheNameOfTheStack) {
   Names available = {"depth", "normal"};
   for (int number = 0; number < 100; ++number) available.push_back(layer_name("peel", number));
   const Plan plan = plan_of("dp-hbao+", available);
-  const std::string refusal = message_of([&] { check(plan, Layout(16384, 16384), device()); });
+  const std::string refusal = message_of([&] { check(plan, Layout(16384, 16384), 1, device()); });
   EXPECT_NE(refusal.find("16384x16384 pixels"), std::string::npos) << refusal;
 }
 
