@@ -151,14 +151,34 @@ TEST_F(Display, InfoSaysWhichDisplayAndWhatRuns) {
   EXPECT_NE(text.out.find("lacks  hbao+: cameras with one eye"), std::string::npos) << text.out;
 }
 
+/// What is called for is AO by a technique that sees such views; reflections have none.
+TEST_F(Display, AutoComputesWhatItsViewsAllow) {
+  expect_captured("F.exr");
+  const Result result = gloam({"auto", file("F.exr"), "-o", file("O.exr"), "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const FrameFile written(file("O.exr"), {});
+  EXPECT_EQ(written.views().size(), 6u);
+  EXPECT_TRUE(written.camera("module03")->slits) << "the cameras travel";
+  const Arguments planes = written.common_planes();
+  EXPECT_NE(std::find(planes.begin(), planes.end(), "ao"), planes.end());
+  const nlohmann::json effects = result.json()["effects"];
+  EXPECT_EQ(effects[0]["runs"], "lightfield-ssao");
+  EXPECT_EQ(effects[1]["name"], "reflections");
+  EXPECT_EQ(effects[1]["runs"], nullptr);
+  EXPECT_NE(effects[1]["why"].get<std::string>().find("a camera with an eye"), std::string::npos);
+}
+
 TEST_F(Display, ReferenceAndItsError) {
   expect_captured("F.exr", {"--modules", "2,3"});
   const Result reference = gloam({"reference", "ao", file("F.exr"), "-o", file("R.exr"), "--samples", "64"});
   ASSERT_EQ(reference.status, 0) << reference.err;
-  ASSERT_EQ(gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--radius", "0.6"}).status, 0);
-  const Result compared = gloam({"compare", file("O.exr"), file("R.exr"), "--json", "-"});
-  ASSERT_EQ(compared.status, 0) << compared.err;
-  EXPECT_LT(compared.json()["rmse"], 0.25) << "of another place it would be far more";
+  const auto error_of = [&](const char* radius) {
+    EXPECT_EQ(gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--radius", radius}).status, 0);
+    const Result compared = gloam({"compare", file("O.exr"), file("R.exr"), "--json", "-"});
+    EXPECT_EQ(compared.status, 0) << compared.err;
+    return compared.json()["rmse"].get<double>();
+  };
+  EXPECT_LT(error_of("0.6"), 0.75 * error_of("0")) << "without a radius nothing is occluded";
 }
 
 /// Their samples are where a camera with an eye would see them.
@@ -169,12 +189,35 @@ TEST_F(Display, OtherTechniquesRefuseItsViews) {
                    {technique, "view 'module01'", "light-field display", "lightfield-hbao+ and lightfield-ssao"});
   expect_refused({"run", "stereo-ao", file("F.exr"), "-o", file("O.exr"), "--views", "module02,module03"}, 1,
                  {"stereo-ao", "view 'module02'", "light-field display"});
-  expect_refused({"auto", file("F.exr"), "-o", file("O.exr")}, 1, {"view 'module01'", "light-field display"});
-  expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--depth", "ray"}, 2,
-                 {"F.exr", "--depth"});
+  for (const char* depth : {"ray", "ndc", "reversed"})
+    expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--depth", depth}, 2,
+                   {"F.exr", "--depth"});
   // One that could has no normals, and what would make them cannot.
   expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--plane", "normal=none"}, 1,
                  {"lightfield-ssao", "normals needs one", "a frame with normal"});
+  // Nor can what is asked for beside it.
+  const auto beside = [&](const Arguments& more, const std::string& what) {
+    Arguments all = {"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr")};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_refused(all, 1, {"lightfield-ssao", what + " needs one; leave it out"});
+  };
+  beside({"--filter", "bilateral"}, "bilateral");
+  beside({"--only", "corner-mask"}, "corner-mask");
+  beside({"--resolution", "half"}, "what --resolution or --adaptive adds");
+  beside({"--adaptive", "low"}, "what --resolution or --adaptive adds");
+}
+
+/// A plane says where, and no eye is needed for that.
+TEST_F(Display, OnlyWhereAPlaneWantsIt) {
+  expect_captured("F.exr", {"--modules", "1"});
+  ASSERT_EQ(gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--only", "roughness"}).status, 0);
+}
+
+TEST_F(Display, ReuseHasOneTechnique) {
+  expect_captured("F.exr", {"--modules", "1-3"});
+  expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--only", "roughness", "--elsewhere",
+                  "lightfield-hbao+", "--set", "lightfield-ssao.reuse=on"},
+                 2, {"--elsewhere lightfield-hbao+", "reuse=on"});
 }
 
 TEST_F(Display, WrongModules) {

@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "support/frames.h"
+#include "support/light_field.h"
 #include "support/techniques.h"
 
 namespace gloam::test {
@@ -92,6 +93,39 @@ int run_masked(const Technique& technique) {
   return passes;
 }
 
+/// Three modules of a display, the outer ones key views of the middle one, or the second a key view of both others.
+Frame frame_of_modules(LightFieldDisplay display) {
+  display.world->linear *= 2.0;
+  display.modules.resize(3, display.modules[0]);
+  Frame frame;
+  for (size_t i = 0; i < 3; ++i) {
+    display.modules[i].position.x += 0.2 * double(i);
+    Frame one = shoot(shot_of_module(display, width, height, i), room());
+    one.views[0].name = fmt::format("module{}", i);
+    frame.views.push_back(std::move(one.views[0]));
+  }
+  return frame;
+}
+
+/// Through slits whose rays change evenly over the image, and through others, with views that look into one another; 0 for a
+/// technique whose views do not.
+int run_modules(const Technique& technique) {
+  if (!technique.key_views) return 0;
+  int passes = 0;
+  for (const NamedDisplay& test : display_cases()) {
+    const Frame frame = frame_of_modules(test.display);
+    for (const char* key_views : {"2", "3"}) {
+      Settings settings = few_samples(technique);
+      settings.insert(settings.end(), {{"reuse", "on"}, {"key_views", key_views}});
+      const Plan plan =
+          make_plan({.outputs = {technique.name}, .settings = settings}, plane_names(frame), "the frame has not");
+      run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+      passes += int(plan.passes.size());
+    }
+  }
+  return passes;
+}
+
 /// Two estimates of one image: another technique where a mask is not, and fewer samples by tiles. The passes beside the
 /// estimates are the same for all techniques.
 int run_second_estimates() {
@@ -116,7 +150,7 @@ int run_all(size_t part, size_t parts) {
     passes += run_defaults(technique, perspective(width, height), true);
     passes += run_defaults(technique, orthographic(width, height, 4), false);
     for (const bool with_normals : {true, false}) passes += run_defaults(technique, perspective(1, 1), with_normals);
-    passes += run_variants(technique) + run_masked(technique);
+    passes += run_variants(technique) + run_masked(technique) + run_modules(technique);
     std::printf("%s\n", technique.name.c_str());
   }
   std::printf("ran %d passes on %s\n", passes, device().info().platform.c_str());

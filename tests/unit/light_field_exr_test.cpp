@@ -68,7 +68,8 @@ void expect_same(const Camera& a, const Camera& b) {
   for (const dvec2 pixel : {dvec2(0.5, 0.5), dvec2(12.5, 9.5), dvec2(23.5, 2.5)}) {
     const auto from = view_ray(a, pixel), to = view_ray(b, pixel);
     ASSERT_EQ(from.has_value(), to.has_value());
-    if (from) EXPECT_LT(glm::length(from->at(3) - to->at(3)), 1e-9);
+    if (!from) continue;
+    EXPECT_LT(glm::length(from->at(3) - to->at(3)), 1e-9);
   }
 }
 
