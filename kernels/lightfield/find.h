@@ -1,0 +1,60 @@
+// The mask: whether anything within the radius rises over a pixel's tangent plane, one pixel for each cell.
+#ifndef GLOAM_LIGHTFIELD_FIND_H
+#define GLOAM_LIGHTFIELD_FIND_H
+
+#include "lightfield/spot.h"
+#include "shared/cells.h"
+#include "shared/subsample.h"
+
+kernel void lightfield_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                                 PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,
+                                 PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
+                                 PLANE_OUT low_normal_z, PLANE_OUT low_position_x, PLANE_OUT low_position_y,
+                                 PLANE_OUT low_position_z) {
+  subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
+                    low_normal_z);
+  subsample_vector(frame, other, position_x, position_y, position_z, low_position_x, low_position_y, low_position_z);
+}
+
+// Whether in any direction something rises as high as counts. Ends where that is so for each lane.
+static inline __attribute__((always_inline)) real something_rises(Frame f, Params params, Surfaces planes,
+                                                                  const Spot* s, Fan fan, real farthest, int straight,
+                                                                  int within) {
+  mask rises = s->point.background;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+#pragma unroll
+    for (int k = 0; k < STEPS; ++k) {
+      integer dx, dy, place;
+      step_at(fan, k, &dx, &dy);
+      const mask counts = place_sample(f, s, within, &dx, &dy, &place);
+      real3 v, normal;
+      look_at(planes, s, gather(planes.depth + s->here, place), dx, dy, place, straight, &v, &normal);
+      const real height = fused_dot3(normal, v), square = square_of(v);
+      rises |= counts & (height > 0) & (square < farthest) &
+               (height * height > params.least_sine * params.least_sine * square);
+    }
+    if (!ANY(!rises)) break;
+    turn(&fan);
+  }
+  return choose(rises & !s->point.background, (real)(1), (real)(0));
+}
+
+kernel void lightfield_find(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE normal_x,
+                            PLANE normal_y, PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,
+                            PLANE_OUT found) {
+  const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);
+  const Spot s = spot_in_row(frame, projections, planes, normal_x, normal_y, normal_z);
+  real rises = 0;
+  // Nothing is within a radius of 0, not even what lies in the same cell.
+  if (params.radius > 0 && ANY(!s.point.background)) {
+    const Reach reach = reach_in_image(frame, &s, params.radius, params.max_reach);
+    // Both cells stand for pixels that may be nearer to one another. Background is out of any reach.
+    const real farthest = 1 / sqrt(reach.inverse_square) + s.point.across_x + s.point.across_y;
+    const Fan fan = fan_of(reach, s.noise);
+    LOOK_THROUGH(rises, frame, projections, s, reach,
+                 something_rises(frame, params, planes, &s, fan, farthest * farthest, straight, within))
+  }
+  store(rises, found, s.here);
+}
+
+#endif

@@ -1,0 +1,94 @@
+// What key views show of the same points.
+#ifndef GLOAM_LIGHTFIELD_REUSE_H
+#define GLOAM_LIGHTFIELD_REUSE_H
+
+#include "lightfield/spot.h"
+
+// Pixels as far away as the nearest one, to within so many radii, count as the same surface.
+#define SAME_DEPTH ((scalar)0.1f)
+
+// A plane between pixels, of those around a place that show the same surface as the nearest, at `nearest_place` and at this depth.
+static inline real fetched_at(Frame f, real x, real y, integer nearest_place, real depth, scalar tolerance,
+                              global const float* depths, global const float* plane) {
+  // In 256ths of a pixel, so that what rounding moves off a pixel's centre is that pixel.
+  const real snapped_x = to_real(nearest(x * 256)) * (scalar)(1.0f / 256);
+  const real snapped_y = to_real(nearest(y * 256)) * (scalar)(1.0f / 256);
+  const integer column = nearest(floor(snapped_x)), row = nearest(floor(snapped_y));
+  const real right = snapped_x - to_real(column), below = snapped_y - to_real(row);
+  real sum = 0, weights = 0;
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const int i = k % 2, j = k / 2;
+    const real weight = (i ? right : 1 - right) * (j ? below : 1 - below);
+    const integer to_x = clamp(column + i, (integer)(0), (integer)(f.width - 1));
+    const integer to_y = clamp(row + j, (integer)(0), (integer)(f.height - 1));
+    // Rows are the same in all modules of a straight display.
+    if (!ANY(weight > 0)) continue;
+    const integer place = FRAME_GUARD + to_y * f.pitch + to_x;
+    const mask counts = fabs(gather(depths, place) - depth) <= tolerance;
+    sum += choose(counts, weight * gather(plane, place), (real)(0));
+    weights += choose(counts, weight, (real)(0));
+  }
+  const mask is_known = weights > (scalar)0x1p-8f;
+  return choose(is_known, sum / choose(is_known, weights, (real)(1)), gather(plane, nearest_place));
+}
+
+// What a key view has at the pixel where it shows a point (view space of the pixel at hand), and whether it shows that point: the
+// way back from what it shows there ends within `back_check` pixels of the pixel.
+static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params params, real x, real y, real3 v,
+                            mask is_asked, Surfaces planes, global const float* ao, mask* is_found) {
+  real there_x, there_y, back_x, back_y;
+  mask is_inside, is_back;
+  place_in(key, f, into_view(key, v), is_asked, &there_x, &there_y, &is_inside);
+  *is_found = is_inside;
+  if (!ANY(is_inside)) return (real)(1);
+  const integer column = nearest(there_x), row = nearest(there_y);
+  const integer place = FRAME_GUARD + row * f.pitch + column;
+  const real depth = gather(planes.depth, place);
+  const mask is_surface = is_inside & !is_background(depth);
+  real3 seen;
+  if (key->is_straight)
+    seen = point_at(key, to_real(column), to_real(row), choose(is_surface, depth, (real)(1)));
+  else
+    seen = view_of_position(key, gather3(planes.position_x, planes.position_y, planes.position_z, place));
+  place_in(own, f, back_from_view(key, seen), is_surface, &back_x, &back_y, &is_back);
+  const real dx = back_x - x, dy = back_y - y;
+  *is_found = is_back & (dx * dx + dy * dy <= params.back_check * params.back_check);
+  if (!ANY(*is_found)) return (real)(1);
+  return fetched_at(f, there_x, there_y, place, depth, SAME_DEPTH * params.radius, planes.depth, ao);
+}
+
+// What a key view shows of what was computed for all.
+kernel void lightfield_key(Frame frame, Params params, PLANE ao_of_key, WANTED_ARGUMENT PLANE_OUT ao_raw) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  store(choose(is_wanted, load(ao_of_key, here), (real)(1)), ao_raw, here);
+}
+
+kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE position_x,
+                             PLANE position_y, PLANE position_z, PLANE key_depth, PLANE key_position_x,
+                             PLANE key_position_y, PLANE key_position_z, PLANE key_ao, PLANE far_depth,
+                             PLANE far_position_x, PLANE far_position_y, PLANE far_position_z, PLANE far_ao,
+                             WANTED_ARGUMENT PLANE_OUT ao_raw, PIXEL_LIST_OUT newly_visible) {
+  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);
+  const mask in_row = to_mask(FIRST_X + IOTA < frame.width);
+  const mask is_surface = is_wanted & in_row & !is_background(load(depth, here));
+  const real3 v = view_of_position(projections, load3(position_x, position_y, position_z, here));
+  mask is_found, is_found_far = (mask)(0);
+  real open = found_in(frame, projections, projections + 1, params, x, y, v, is_surface,
+                       surfaces_of(key_depth, key_position_x, key_position_y, key_position_z), key_ao, &is_found);
+  const mask is_left = is_surface & !is_found;
+  if (ANY(is_left)) {
+    const real far =
+        found_in(frame, projections, projections + 2, params, x, y, v, is_left,
+                 surfaces_of(far_depth, far_position_x, far_position_y, far_position_z), far_ao, &is_found_far);
+    open = choose(is_found_far, far, open);
+    is_found |= is_found_far;
+  }
+  store(choose(is_found, open, (real)(1)), ao_raw, here);
+  append_pixels(newly_visible, here, is_surface & !is_found);
+}
+
+#endif
