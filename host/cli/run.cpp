@@ -91,15 +91,38 @@ void check_views(const Plan& plan, const Frame& frame) {
   }
 }
 
+/// Of many views the sums, each pass with the number of views that it ran on.
+std::vector<PassTime> summed_over_views(const std::vector<PassTime>& passes) {
+  std::vector<PassTime> sums;
+  std::vector<int> views;
+  for (const PassTime& pass : passes) {
+    const auto known =
+        std::find_if(sums.begin(), sums.end(), [&](const PassTime& sum) { return sum.name == pass.name; });
+    if (known == sums.end()) {
+      sums.push_back(pass);
+      views.push_back(1);
+      continue;
+    }
+    ++views[size_t(known - sums.begin())];
+    for (size_t i = 0; i < pass.ms.size(); ++i) known->ms[i] += pass.ms[i];
+  }
+  for (size_t i = 0; i < sums.size(); ++i) sums[i].view = fmt::format("{} of them", views[i]);
+  return sums;
+}
+
 void print_times(const RunResult& result, const DeviceInfo& device, const Stopwatch& watch) {
-  const bool views = result.frame.views.size() > 1;
-  std::vector<std::vector<std::string>> rows = {{views ? "view" : "", "pass", "ms median", "min", "max"}};
+  constexpr size_t few = 4;
+  const size_t count = result.frame.views.size();
+  const bool views = count > 1;
+  const std::string heading = count > few ? fmt::format("{} views", count) : views ? "view" : "";
+  std::vector<std::vector<std::string>> rows = {{heading, "pass", "ms median", "min", "max"}};
   const auto row = [&](const std::string& view, const std::string& name, const std::vector<double>& ms) {
     const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
     rows.push_back(
         {view, name, fmt::format("{:.2f}", median(ms)), fmt::format("{:.2f}", *least), fmt::format("{:.2f}", *most)});
   };
-  for (const PassTime& pass : result.passes) row(pass.view, pass.name, pass.ms);
+  for (const PassTime& pass : count > few ? summed_over_views(result.passes) : result.passes)
+    row(pass.view, pass.name, pass.ms);
   row("", "total", result.total_ms);
   if (!views) {
     for (auto& r : rows) r.erase(r.begin());

@@ -120,6 +120,20 @@ TEST_F(Display, RunWithReuseAndCompare) {
   EXPECT_LT(compared.json()["inconsistency"]["mean"], 0.05);
 }
 
+/// Of many views each pass has one line.
+TEST_F(Display, TimesAreSummedOverManyViews) {
+  expect_captured("F.exr");
+  const Result all = gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--set", "reuse=on"});
+  ASSERT_EQ(all.status, 0) << all.err;
+  EXPECT_NE(all.out.find("6 views"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("2 of them  lightfield-ssao/estimate"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("4 of them  lightfield-ssao/reuse"), std::string::npos) << all.out;
+  const Result some = gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("P.exr"), "--views",
+                             "module00,module03", "--set", "reuse=off"});
+  ASSERT_EQ(some.status, 0) << some.err;
+  EXPECT_NE(some.out.find("module03  lightfield-ssao/estimate"), std::string::npos) << some.out;
+}
+
 TEST_F(Display, ViewsInAnyOrder) {
   expect_captured("F.exr");
   const auto run = [&](const std::string& views, const std::string& out) {
