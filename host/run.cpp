@@ -316,6 +316,7 @@ struct Target {
 struct Others {
   Target* other = nullptr;                    // of two
   Target *nearest = nullptr, *far = nullptr;  // key views
+  double share_of_far = 0;                    // where both show a point
   Target* of(const Binding& binding) const {
     if (binding.of_key > 0) return binding.of_key == 1 ? nearest : far;
     return binding.of_other ? other : nullptr;
@@ -386,6 +387,10 @@ cl::Buffer projections_of(Device::Impl& device, const Plan& plan, const PlannedP
        {&target, static_cast<const Target*>(others.nearest), static_cast<const Target*>(others.far)}) {
     if (to)
       projections.push_back(kernel_projection(target.frame, target.view, to->view, planned.pass.scale, are_computed));
+  }
+  if (projections.size() == 3) {
+    projections[1].share = 1 - others.share_of_far;
+    projections[2].share = others.share_of_far;
   }
   if (options.real == Real::float64) return constants(device, projections);
   std::vector<ProjectionOfFloats> floats;
@@ -733,9 +738,12 @@ class KeyViewsRun {
   }
 
   void between(size_t i, Target& nearest, Target& far) {
+    const auto steps_to = [i](int key) { return std::abs(double(i) - double(key)); };
+    const double to_nearest = steps_to(roles_[i].nearest), to_far = steps_to(roles_[i].far);
     Target target = target_of(plan_, frame_, frame_.views[i], device_);
     target.on = kind_of(roles_[i]);
-    compute(target, {.nearest = &nearest, .far = &far});
+    const double share_of_far = &nearest == &far ? 0 : to_nearest / (to_nearest + to_far);
+    compute(target, {.nearest = &nearest, .far = &far, .share_of_far = share_of_far});
     collect(plan_, target, results_[i]);
   }
 

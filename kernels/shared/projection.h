@@ -35,6 +35,7 @@ typedef struct {
       circle_constant;        // of the module about the middle of a curved one; |.|^2 - radius^2
   PROJECTION_SCALAR turn[9];  // rows: right, up, ahead of the module
   PROJECTION_SCALAR fx, fy, cx, cy;
+  PROJECTION_SCALAR share;  // of a key view, where another shows the point too
 } PROJECTION_NAME;
 
 #endif
@@ -42,7 +43,7 @@ typedef struct {
 #if defined(__OPENCL_VERSION__) && !defined(GLOAM_PROJECTION_FUNCTIONS)
 #define GLOAM_PROJECTION_FUNCTIONS
 
-typedef char projection_size_check[sizeof(Projection) == 8 + 73 * sizeof(scalar) ? 1 : -1];
+typedef char projection_size_check[sizeof(Projection) == 8 + 74 * sizeof(scalar) ? 1 : -1];
 
 // A kernel's argument, after the frame: the view's own, then those of the key views that it reads.
 #define PROJECTIONS constant Projection*

@@ -438,8 +438,8 @@ TEST(LightFieldReuse, TakesOverWhatKeyViewsShow) {
 }
 
 /// Nine modules, every fourth a key view. Measured on the views between, RMSE to what they converge to by themselves: lightfield-ssao
-/// 0.072, computed 0.038; lightfield-hbao+ 0.030, computed 0.008. Converged key views would leave 0.07 and 0.03: another module sees
-/// other occluders, and its pixels lie half a pixel aside. That the key's own image were taken as it is would read 0.134 and 0.072.
+/// 0.065, computed 0.038; lightfield-hbao+ 0.026, computed 0.010. Another module sees other occluders, and its pixels lie half a pixel
+/// aside. That the key's own image were taken as it is would read 0.133 and 0.071; the nearest key view alone 0.069 and 0.028.
 TEST(LightFieldReuse, IsNotMuchFurtherFromConvergedThanWithout) {
   const Frame frame = captured(row_of(9), 160, 128);
   const std::vector<KeyViewRole> roles = key_view_roles(9, 4);
@@ -458,8 +458,8 @@ TEST(LightFieldReuse, IsNotMuchFurtherFromConvergedThanWithout) {
     }
     std::printf("%s: RMSE to converged, reused %.4f, computed %.4f, of another view %.4f\n", technique.c_str(), reused,
                 computed, other);
-    EXPECT_LT(reused, computed + 0.045) << technique;
-    EXPECT_LT(reused, 0.65 * other) << technique;
+    EXPECT_LT(reused, computed + 0.0285) << technique;
+    EXPECT_LT(reused, 0.5 * other) << technique;
   }
 }
 
