@@ -19,7 +19,7 @@
 // lightfield_reuse: what key views show of the same points
 // in : key_depth, key_position, key_ao      of the nearest key view; far_...: of the next one on the other side
 // out: ao_raw    of those of them that show the point, their mean by `share` (projection.h); of none 1, and the pixel is in `newly_visible`
-// -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, MASKED (wanted.h), OUTSIDE_OPEN, JITTER, SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
+// -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, FROM_BOTH, MASKED (wanted.h), OUTSIDE_OPEN, JITTER, SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
 #include "lightfield/params.h"
 #include "lightfield/spot.h"
 #if ESTIMATE > 1

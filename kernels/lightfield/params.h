@@ -1,8 +1,10 @@
 #include "shared/ambient_occlusion.h"
 
-#define REUSE_PARAMS(P)                                                                                       \
+#define REUSE_PARAMS(P, from)                                                                                 \
   P(bool, reuse, off, "take over what key views have found of the same points, and compute only what is new") \
   P(int, key_views, 4, 2, 64, "views", "every so many views one is a key view, computed in full")             \
+  P(choice, reuse_from, from, (both, nearest),                                                                \
+    "where the key views on both sides show a point, their mean or the nearest's")                            \
   P(float, back_check, 1, 0.5f, 16, "pixels", "a key view shows the same point if the way there and back ends so near")
 
 #define LIGHTFIELD_SSAO_PARAMS(P)                                                                                    \
@@ -18,7 +20,7 @@
     "slope above the surface up to which what is seen occludes no point of the half ball")                           \
   P(float, range, 2, 0, INFINITY, "radii",                                                                           \
     "how far before the pixel's point an occluder counts in full; nothing from twice that on")                       \
-  REUSE_PARAMS(P)
+  REUSE_PARAMS(P, both)
 
 #define LIGHTFIELD_HBAO_PLUS_PARAMS(P)                                                                        \
   REACH_PARAMS(P)                                                                                             \
@@ -27,7 +29,7 @@
   P(int, steps, 4, 1, 32, "", "samples along each direction")                                                 \
   P(float, strength, 1, 0, 8, "", "factor on the obscurance")                                                 \
   P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")                \
-  REUSE_PARAMS(P)
+  REUSE_PARAMS(P, nearest)
 
 #define LIGHTFIELD_MASK_PARAMS(P)                                                                      \
   REACH_PARAMS(P)                                                                                      \

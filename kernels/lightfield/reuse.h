@@ -79,11 +79,17 @@ kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params
   mask is_found, is_found_far = (mask)(0);
   real open = found_in(frame, projections, projections + 1, params, x, y, v, is_surface,
                        surfaces_of(key_depth, key_position_x, key_position_y, key_position_z), key_ao, &is_found);
+#if FROM_BOTH
   // A mean of both has less noise, and AO in screen space, which goes with what each view shows, fades from one to the other.
+  const mask is_asked = is_surface;
   const scalar share = projections[2].share;
-  if (share > 0) {
+#else
+  const mask is_asked = is_surface & !is_found;
+  const scalar share = 0;
+#endif
+  if (projections[2].share > 0 && ANY(is_asked)) {
     const real far =
-        found_in(frame, projections, projections + 2, params, x, y, v, is_surface,
+        found_in(frame, projections, projections + 2, params, x, y, v, is_asked,
                  surfaces_of(far_depth, far_position_x, far_position_y, far_position_z), far_ao, &is_found_far);
     open = choose(is_found, multiply_add(share, choose(is_found_far, far - open, (real)(0)), open), far);
     is_found |= is_found_far;

@@ -70,6 +70,7 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
            .defines = estimate.defines,
            .can_skip = true,
            .on = Pass::Views::key};
+  reuse.defines.emplace_back("FROM_BOTH", p.reuse_from == Params::reuse_from_values::both);
   for (const auto& [prefix, number] : {std::pair{"key_", 1}, {"far_", 2}}) {
     for (const auto& [argument, plane] : {std::pair{"depth", "depth"}, {"position", "position"}, {"ao", "ao_of_key"}})
       reuse.reads.push_back(of_key(number, {std::string(prefix) + argument, plane}));

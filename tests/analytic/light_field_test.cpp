@@ -438,28 +438,35 @@ TEST(LightFieldReuse, TakesOverWhatKeyViewsShow) {
 }
 
 /// Nine modules, every fourth a key view. Measured on the views between, RMSE to what they converge to by themselves: lightfield-ssao
-/// 0.065, computed 0.038; lightfield-hbao+ 0.026, computed 0.010. Another module sees other occluders, and its pixels lie half a pixel
-/// aside. That the key's own image were taken as it is would read 0.133 and 0.071; the nearest key view alone 0.069 and 0.028.
+/// 0.065, computed 0.038; lightfield-hbao+ 0.028, computed 0.010. Another module sees other occluders, and its pixels lie half a pixel
+/// aside. That the key's own image were taken as it is would read 0.133 and 0.071. From the nearest key view alone lightfield-ssao takes 0.069, and from both lightfield-hbao+ 0.026.
 TEST(LightFieldReuse, IsNotMuchFurtherFromConvergedThanWithout) {
   const Frame frame = captured(row_of(9), 160, 128);
   const std::vector<KeyViewRole> roles = key_view_roles(9, 4);
   for (const std::string& technique : both_techniques) {
     const Settings radius = {{"radius", "0.6"}};
-    const Frame with = raw_of(technique, frame, joined(radius, {{"reuse", "on"}}));
+    const auto taken_from = [&](const char* which) {
+      return raw_of(technique, frame, joined(radius, {{"reuse", "on"}, {"reuse_from", which}}));
+    };
+    const Frame with = raw_of(technique, frame, joined(radius, {{"reuse", "on"}})), both = taken_from("both"),
+                nearest = taken_from("nearest");
     const Frame without = raw_of(technique, frame, radius);
     const Frame limit = raw_of(technique, frame, joined(radius, converged(technique)));
-    double reused = 0, computed = 0, other = 0;
+    double reused = 0, computed = 0, other = 0, of_both = 0, of_nearest = 0;
     for (size_t i = 0; i < 9; ++i) {
       EXPECT_EQ(same_ao(with.views[i], without.views[i]), roles[i].is_key) << technique << ", view " << i;
       if (roles[i].is_key) continue;
       reused += rmse(with.views[i], limit.views[i]) / 7;
+      of_both += rmse(both.views[i], limit.views[i]) / 7;
+      of_nearest += rmse(nearest.views[i], limit.views[i]) / 7;
       computed += rmse(without.views[i], limit.views[i]) / 7;
       other += rmse(without.views[size_t(roles[i].nearest)], limit.views[i]) / 7;
     }
     std::printf("%s: RMSE to converged, reused %.4f, computed %.4f, of another view %.4f\n", technique.c_str(), reused,
                 computed, other);
     EXPECT_LT(reused, computed + 0.0285) << technique;
-    EXPECT_LT(reused, 0.5 * other) << technique;
+    EXPECT_LT(reused, 0.55 * other) << technique;
+    EXPECT_LT(of_both, 0.97 * of_nearest) << technique << ": a mean has less noise";
   }
 }
 
