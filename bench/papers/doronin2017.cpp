@@ -43,17 +43,6 @@ struct Shown {
   std::optional<double> paper_ms;
 };
 
-Series series_of(const TimedPlan& timed, const Column& column) {
-  const auto counts = passes_named(column.passes);
-  Series sum;
-  for (const TimedPlan::Pass& pass : timed.passes()) {
-    if (!counts(pass.name)) continue;
-    sum.resize(pass.ms.size());
-    for (size_t i = 0; i < sum.size(); ++i) sum[i] += pass.ms[i];
-  }
-  return sum;
-}
-
 /// The value below which a share of them lies.
 double quantile(Series values, double share) {
   std::sort(values.begin(), values.end());
@@ -84,9 +73,9 @@ void measure_models(Study& study, const std::string& table, const std::vector<Sh
               [&](int done, int of) { study.tell(table + ": in turn", double(done) / of); });
   for (const Column& column : columns) {
     const bool is_all = &column == &columns.front();
-    const Series of_base = series_of(*timed[0], column);
+    const Series of_base = series_of(*timed[0], passes_named(column.passes));
     for (size_t i = 0; i < shown.size(); ++i) {
-      const Series ms = series_of(*timed[i], column);
+      const Series ms = series_of(*timed[i], passes_named(column.passes));
       PaperTime time{table, shown[i].name, column.name, median(ms), {}, {}, {}, "the first model"};
       if (is_all) time.paper_ms = shown[i].paper_ms;
       if (i > 0) time.ratio = ratio(ms, of_base);
@@ -99,7 +88,7 @@ void measure_models(Study& study, const std::string& table, const std::vector<Sh
 
 double share_of_surfaces(const Stage& s) {
   const Mask& mask = s.surfaces.begin()->second;
-  return double(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; })) / double(mask.size());
+  return pixels_of(mask) / double(mask.size());
 }
 
 void table_1(Study& study, const LightFieldDisplay& display) {

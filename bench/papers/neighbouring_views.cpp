@@ -57,10 +57,9 @@ Foreground surfaces_of(const Stage& s, const Numbers& views) {
   return surfaces;
 }
 
-double pixels_of(const Foreground& surfaces) {
+double pixels_in_all(const Foreground& surfaces) {
   double pixels = 0;
-  for (const auto& [view, mask] : surfaces)
-    pixels += double(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
+  for (const auto& [view, mask] : surfaces) pixels += pixels_of(mask);
   return pixels;
 }
 
@@ -162,7 +161,8 @@ class Comparison {
   }
 
   void state_shares(int spacing, double listed) const {
-    const double between = pixels_of(surfaces_of(s_, between_keys(s_.frame, spacing))), all = pixels_of(s_.surfaces);
+    const double between = pixels_in_all(surfaces_of(s_, between_keys(s_.frame, spacing))),
+                 all = pixels_in_all(s_.surfaces);
     fact("newly computed, of the surfaces between key views", name_of(spacing), listed / between, "share");
     fact("computed, of all surfaces", name_of(spacing), (all - between + listed) / all, "share");
   }

@@ -31,6 +31,10 @@ Asked with(Asked asked, const std::string& name, const std::string& value) {
   return asked;
 }
 
+double pixels_of(const Mask& mask) {
+  return double(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
+}
+
 Asked filtered(Asked asked) {
   asked.plane = "ao";
   return asked;

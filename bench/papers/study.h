@@ -37,6 +37,9 @@ Asked with(Asked asked, const std::string& name, const std::string& value);
 /// The same after its filter.
 Asked filtered(Asked asked);
 
+/// How many pixels a mask names.
+double pixels_of(const Mask& mask);
+
 /// A frame of a scene, with what its AO is measured with.
 struct Stage {
   Scene scene;

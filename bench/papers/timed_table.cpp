@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "lists.h"
-#include "timing.h"
 
 namespace gloam::bench {
 namespace {
@@ -12,20 +11,6 @@ namespace {
 void add(Series& sum, const Series& ms) {
   sum.resize(std::max(sum.size(), ms.size()));
   for (size_t i = 0; i < ms.size(); ++i) sum[i] += ms[i];
-}
-
-/// Of one view, or of all where none is named.
-Series counted(const TimedPlan& timed, const std::function<bool(const std::string&)>& counts,
-               const std::string& view = {}) {
-  Series sum;
-  for (const TimedPlan::Pass& pass : timed.passes()) {
-    if (!counts(pass.name)) continue;
-    if (view.empty())
-      add(sum, pass.ms);
-    else if (const auto own = pass.of_views.find(view); own != pass.of_views.end())
-      add(sum, own->second);
-  }
-  return sum;
 }
 
 /// The first entry with the same runs.
@@ -48,7 +33,7 @@ size_t base_of(const Entry& entry, const std::vector<Entry>& entries) {
 /// Each once, where several entries have it in common.
 void state_parts(Study& study, const TimedTable& table, const Entry& e, const TimedPlan& timed) {
   for (const Part& part : table.parts) {
-    const Series ms = counted(timed, part.counts);
+    const Series ms = series_of(timed, part.counts);
     PaperTime time{table.parts_name, e.row, e.column + ", " + part.name, median(ms), {}, {}, {}, table.base};
     const bool is_new = std::none_of(study.result.times.begin(), study.result.times.end(), [&](const PaperTime& known) {
       return known.table == time.table && known.row == time.row && known.column == time.column;
@@ -58,6 +43,19 @@ void state_parts(Study& study, const TimedTable& table, const Entry& e, const Ti
 }
 
 }  // namespace
+
+Series series_of(const TimedPlan& timed, const std::function<bool(const std::string&)>& counts,
+                 const std::string& view) {
+  Series sum;
+  for (const TimedPlan::Pass& pass : timed.passes()) {
+    if (!counts(pass.name)) continue;
+    if (view.empty())
+      add(sum, pass.ms);
+    else if (const auto own = pass.of_views.find(view); own != pass.of_views.end())
+      add(sum, own->second);
+  }
+  return sum;
+}
 
 std::function<bool(const std::string&)> passes_named(const std::vector<std::string>& names) {
   return [names](const std::string& label) { return contains(names, label.substr(label.find('/') + 1)); };
@@ -80,10 +78,10 @@ void measure(Study& study, const TimedTable& table, const std::vector<Entry>& en
   for (size_t i = 0; i < entries.size(); ++i) {
     const Entry& e = entries[i];
     const size_t base = base_of(e, entries);
-    const Series ms = counted(*timed[i], e.counts, e.view);
+    const Series ms = series_of(*timed[i], e.counts, e.view);
     PaperTime time{table.name, e.row, e.column, median(ms), {}, e.paper, {}, table.base};
     if (i != base) {
-      time.ratio = ratio(ms, counted(*timed[base], entries[base].counts, entries[base].view));
+      time.ratio = ratio(ms, series_of(*timed[base], entries[base].counts, entries[base].view));
       if (e.paper && entries[base].paper) time.paper_ratio = *e.paper / *entries[base].paper;
     }
     study.result.times.push_back(std::move(time));

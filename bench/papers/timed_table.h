@@ -7,11 +7,16 @@
 #include <vector>
 
 #include "study.h"
+#include "timing.h"
 
 namespace gloam::bench {
 
 /// Counts the passes of these names, whichever technique's they are.
 std::function<bool(const std::string& pass)> passes_named(const std::vector<std::string>& names);
+
+/// The sum over the passes that count, run by run: of one view, or of all where none is named.
+Series series_of(const TimedPlan& timed, const std::function<bool(const std::string& pass)>& counts,
+                 const std::string& view = {});
 
 /// One row of one column, and what of its passes counts. Those that ask for the same of the same stage share their runs.
 struct Entry {

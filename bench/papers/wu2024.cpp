@@ -194,12 +194,9 @@ void state_failures(Study& study, const Stage& s, const Subject& subject, const 
   const Image image = study.images(s, stereo());
   for (const View& view : s.frame.views) {
     const std::string row = fmt::format("{}, {}", name_of(subject), view.name);
-    const auto pixels = [](const Mask& mask) {
-      return double(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
-    };
     const auto state = [&](const std::string& where, double low, double high) {
       const Mask mask = where_shown(s, truth, view.name, low, high);
-      const double share = pixels(mask) / std::max(pixels(s.surfaces.at(view.name)), 1.0);
+      const double share = pixels_of(mask) / std::max(pixels_of(s.surfaces.at(view.name)), 1.0);
       study.fact(figure + ": pixels", row, where, share, "share");
       if (share == 0) return;
       const Metrics m = compare(without_confidence(image.at(view.name)), without_confidence(truth.image.at(view.name)),
