@@ -1,4 +1,4 @@
-// gloam list techniques|devices|metrics|scenes
+// gloam list techniques|devices|metrics|scenes|cases
 #include <memory>
 
 #include "gloam/device.h"
@@ -6,6 +6,7 @@
 #include "gloam/planes.h"
 #include "gloam/scene.h"
 #include "options.h"
+#include "stress/case.h"
 
 namespace gloam::cli {
 namespace {
@@ -215,6 +216,17 @@ void list_metrics(const JsonFlag& json) {
   if (!json.only_json()) print_table(rows, 2);
 }
 
+void list_cases(const JsonFlag& json) {
+  Json document = Json::array();
+  std::vector<std::vector<std::string>> rows;
+  for (const stress::Case& one : stress::cases()) {
+    document.push_back({{"case", one.number}, {"name", one.name}, {"property", one.property}});
+    rows.push_back({fmt::format("{}", one.number), one.name, one.property});
+  }
+  json.write(document);
+  if (!json.only_json()) print_table(rows, 3);
+}
+
 }  // namespace
 
 void add_list(CLI::App& app) {
@@ -224,8 +236,8 @@ void add_list(CLI::App& app) {
     JsonFlag json;
   };
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices, metrics or scenes");
-  command->add_option("what", flags->what, "techniques, devices, metrics or scenes")->required();
+  CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes or hard cases");
+  command->add_option("what", flags->what, "techniques, devices, metrics, scenes or cases")->required();
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
   flags->json.add_to(*command);
   command->footer("Examples:\n  gloam list techniques\n  gloam list devices --json -");
@@ -234,9 +246,10 @@ void add_list(CLI::App& app) {
     if (flags->what == "devices") return list_devices_command(flags->json);
     if (flags->what == "metrics") return list_metrics(flags->json);
     if (flags->what == "scenes") return list_scenes(flags->json);
-    const std::vector<std::string> known = {"techniques", "devices", "metrics", "scenes"};
-    throw UsageError("list: no '{}'{}; techniques, devices, metrics and scenes can be listed", flags->what,
-                     suggestion(flags->what, known));
+    if (flags->what == "cases") return list_cases(flags->json);
+    const std::vector<std::string> known = {"techniques", "devices", "metrics", "scenes", "cases"};
+    throw UsageError("list: no '{}'{}; {} can be listed", flags->what, suggestion(flags->what, known),
+                     enumerate(known));
   });
 }
 

@@ -142,6 +142,7 @@ int run_command(int argc, char** argv) {
       "  gloam reference ao frame.exr -o truth.exr --radius 0.5\n"
       "  gloam bench -o out/bench --frame frame.exr --truth truth.exr\n"
       "  gloam report out/bench\n"
+      "  gloam stress hbao+\n"
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("--version", "gloam " GLOAM_VERSION);
   app.require_subcommand(1);
@@ -157,6 +158,7 @@ int run_command(int argc, char** argv) {
   add_pick(app);
   add_auto(app);
   add_report(app);
+  add_stress(app);
   try {
     app.parse(with_parameter_flags(app, argc, argv));
   } catch (const CLI::Success& success) {

@@ -74,6 +74,9 @@ struct JsonFlag {
 /// written to, or when it is a folder or a device itself. Empty paths are passed over.
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
+/// A word as a shell takes it.
+std::string quoted(const std::string& word);
+
 /// "a,b" -> a b; throws UsageError for an empty item.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);
 
@@ -141,5 +144,6 @@ void add_bench(CLI::App& app);
 void add_pick(CLI::App& app);
 void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
+void add_stress(CLI::App& app);
 
 }  // namespace gloam::cli

@@ -61,17 +61,6 @@ PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out)
   return options;
 }
 
-/// As a shell takes it.
-std::string quoted(const std::string& text) {
-  const bool plain = !text.empty() && text.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789_./+-=:,@%") == std::string::npos;
-  if (plain) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 /// The flags on how to read the frame, as they were given.
 std::string reading_flags(const CLI::App& app) {
   std::string text;

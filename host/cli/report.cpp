@@ -90,14 +90,6 @@ std::string shown_path(const std::filesystem::path& path) {
   return (normal.parent_path().filename() / normal.filename()).generic_string();
 }
 
-/// As a shell takes it.
-std::string quoted(const std::string& word) {
-  const bool is_plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) || std::string("/._-+=,:@%").find(char(c)) != std::string::npos;
-  });
-  return is_plain ? word : "'" + word + "'";
-}
-
 std::string command_of(const ReportCommand& flags) {
   std::string command = "gloam report";
   for (const std::string& source : flags.sources) command += " " + quoted(shown_path(source));

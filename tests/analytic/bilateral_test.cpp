@@ -8,7 +8,7 @@
 
 #include "gloam/exr.h"
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

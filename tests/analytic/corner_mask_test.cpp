@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

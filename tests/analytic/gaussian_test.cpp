@@ -5,7 +5,7 @@
 #include <random>
 
 #include "gloam/exr.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

@@ -7,7 +7,7 @@
 
 #include "support/depth_layers.h"
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

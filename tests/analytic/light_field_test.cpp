@@ -16,7 +16,7 @@
 #include "kernel_projection.h"
 #include "key_views.h"
 #include "support/integral.h"
-#include "support/stereo.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

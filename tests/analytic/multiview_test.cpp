@@ -10,7 +10,7 @@
 #include "gloam/planes.h"
 #include "gloam/reference.h"
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

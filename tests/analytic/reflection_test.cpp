@@ -13,7 +13,7 @@
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
 #include "gloam/reference.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

@@ -9,7 +9,7 @@
 #include "gloam/capture.h"
 #include "gloam/planes.h"
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

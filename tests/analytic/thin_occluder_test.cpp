@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/surfaces.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

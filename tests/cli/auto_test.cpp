@@ -1,7 +1,6 @@
 // gloam auto: what a frame calls for, what is written either way, and what is refused.
 #include "gloam_process.h"
-#include "support/frames.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

@@ -4,7 +4,7 @@
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

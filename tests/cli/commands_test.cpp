@@ -9,7 +9,7 @@
 #include <set>
 
 #include "gloam_process.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

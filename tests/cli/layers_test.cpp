@@ -1,7 +1,7 @@
 // Peeled layers at the command line: what is told of them, decoded, and refused.
 #include "gloam/planes.h"
 #include "gloam_process.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

@@ -1,6 +1,6 @@
 // --only at the command line: what is planned, said, written and refused.
 #include "gloam_process.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

@@ -1,6 +1,6 @@
 // gloam capture --outlines, as a user runs it.
 #include "cli/gloam_process.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

@@ -1,7 +1,7 @@
 // --resolution and --with at the command line: what is planned, written and refused.
 #include "gloam/error.h"
 #include "gloam_process.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

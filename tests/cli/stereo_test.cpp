@@ -1,5 +1,5 @@
 // gloam compare --stereo: the document, the pictures, where depth, normals and cameras come from, and bad input.
-#include "support/stereo.h"
+#include "support/stress.h"
 
 #include <fmt/format.h>
 

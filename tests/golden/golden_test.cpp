@@ -7,8 +7,7 @@
 
 #include "gloam/exr.h"
 #include "gloam/planes.h"
-#include "support/frames.h"
-#include "support/stereo.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

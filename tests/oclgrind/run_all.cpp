@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "gloam/error.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/light_field.h"
 #include "support/techniques.h"
 

@@ -9,7 +9,7 @@
 #include "gloam/planes.h"
 #include "low_discrepancy.h"
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

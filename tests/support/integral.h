@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "support/estimate.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gloam/light_field.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 

@@ -16,7 +16,7 @@
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "mesh_builder.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam {

@@ -8,7 +8,7 @@
 #include "gloam/error.h"
 #include "gloam/frame_files.h"
 #include "message_of.h"
-#include "support/frames.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "gloam/planes.h"
 #include "gloam/run.h"
 #include "message_of.h"
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

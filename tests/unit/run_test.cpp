@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/frames.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {

@@ -11,8 +11,7 @@
 #include <numbers>
 
 #include "message_of.h"
-#include "support/stereo.h"
-#include "support/surfaces.h"
+#include "support/stress.h"
 
 namespace gloam::test {
 namespace {

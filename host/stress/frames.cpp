@@ -1,4 +1,4 @@
-#include "support/frames.h"
+#include "stress/frames.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,7 +11,7 @@
 #include "gloam/projection.h"
 #include "low_discrepancy.h"
 
-namespace gloam::test {
+namespace gloam::stress {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -71,6 +71,10 @@ Shot orthographic(int width, int height, double units_across) {
   shot.camera.cy = 0.5 * height;
   return shot;
 }
+
+std::vector<Shot> usual_shots() { return {perspective(80, 60), orthographic(80, 60, 4)}; }
+
+std::vector<Shot> odd_shots() { return {perspective(93, 61), orthographic(93, 61, 4)}; }
 
 EyeRay ray_through(const Shot& shot, double x, double y) {
   if (shot.camera.slits) {
@@ -204,4 +208,4 @@ void invent_plane(Frame& frame, const std::string& name) {
   normalise(frame);
 }
 
-}  // namespace gloam::test
+}  // namespace gloam::stress

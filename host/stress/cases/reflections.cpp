@@ -4,16 +4,13 @@
 #include <glm/geometric.hpp>
 
 #include "gloam/planes.h"
-#include "hard_case.h"
+#include "stress/case.h"
+#include "stress/frames.h"
 
-namespace gloam::test {
+namespace gloam::stress {
 namespace {
 
 constexpr double brightest = 1e4;
-
-bool makes_reflections(const Technique& technique) {
-  return std::find(technique.outputs.begin(), technique.outputs.end(), "reflection") != technique.outputs.end();
-}
 
 /// Normals towards the eye, across the view (n.v = 0), away from it, along the rows and columns of the image, and halfway
 /// between: rays go back to the eye, along the screen and out of the image from its border.
@@ -55,32 +52,56 @@ Frame frame_of(const Technique& technique, const Shot& shot) {
   return frame;
 }
 
-TEST_P(HardCase, Row19Reflections) {
-  SKIP_WHERE_OPTED_OUT(19);
-  if (!makes_reflections(technique())) GTEST_SKIP() << "makes no reflection";
-  double worst = 0;
-  for (const Shot& shot : usual_shots()) {
-    Frame frame = frame_of(technique(), shot);
-    for (const Settings& setting : {Settings{}, Settings{{"max_roughness", "1"}}, Settings{{"environment_r", "100"}},
-                                    Settings{{"max_distance", "0"}}, Settings{{"bias", "0"}, {"thickness", "inf"}}}) {
-      for (const RunOptions& way : two_ways()) {
-        const Frame out = outputs_of(technique(), frame, setting, way);
-        EXPECT_EQ(violation(out), "") << text_of(setting);
-        for (const View& view : out.views) {
-          const std::vector<Channel>& c = view.planes.at("reflection").channels;
-          for (int y = 0; y < shot.height; ++y) {
-            for (int x = 0; x < shot.width; ++x) {
-              for (size_t i = 0; i < 3; ++i)
-                worst = std::max({worst, c[i].at(x, y) / brightest - 1, double(-c[i].at(x, y))});
-              worst = std::max({worst, c[3].at(x, y) - 1.0, double(-c[3].at(x, y))});
-            }
-          }
+/// By how much, as a share, a reflection is brighter than the brightest there is, or its confidence or radiance below 0.
+Measured beyond_bounds(const Frame& outputs) {
+  Measured worst(0.0);
+  for (const View& view : outputs.views) {
+    const Plane* plane = view.find("reflection");
+    if (!plane) continue;  // of the first of two views
+    for (size_t i = 0; i < plane->channels.size(); ++i) {
+      const double most = i < 3 ? brightest : 1;
+      for (int y = 0; y < outputs.height(); ++y) {
+        for (int x = 0; x < outputs.width(); ++x) {
+          const double value = plane->channels[i].at(x, y), beyond = std::max(value / most - 1, -value);
+          if (beyond > worst.value)
+            worst = {beyond, Place{view.name, "reflection", x, y, fmt::format("{} in channel {}", value, i)}};
         }
       }
     }
   }
-  report(19, "brighter than the brightest that could be reflected, or darker than nothing", worst, 1e-5);
+  return worst;
+}
+
+void at_their_limits(Probe& probe) {
+  const std::vector<std::string>& made = gloam::outputs_of(probe.technique());
+  if (std::find(made.begin(), made.end(), "reflection") == made.end()) return probe.passes_over("makes no reflection");
+  for (const Shot& shot : usual_shots()) {
+    Lazy<Frame> frame([&] { return frame_of(probe.technique(), shot); });
+    for (const Settings& setting : {Settings{}, Settings{{"max_roughness", "1"}}, Settings{{"environment_r", "100"}},
+                                    Settings{{"max_distance", "0"}}, Settings{{"bias", "0"}, {"thickness", "inf"}}}) {
+      for (const RunOptions& way : probe.two_ways()) {
+        if (!probe.tries(fmt::format("{}, {}, {}", text_of(setting), text_of(shot.camera), text_of(way)))) continue;
+        Frame copy = clone(frame.get());
+        const Frame out = probe.outputs(copy, setting, way);
+        probe.measure_violation("value out of its range", out);
+        probe.measure("brighter than the brightest that could be reflected, or darker than nothing", beyond_bounds(out),
+                      1e-5);
+      }
+    }
+  }
 }
 
 }  // namespace
-}  // namespace gloam::test
+
+namespace case_files {
+
+std::vector<Case> reflections() {
+  return {{19,
+           "reflections at their limits",
+           "Rays towards the camera, along the screen and out of its border, surfaces seen edge-on, roughness 0 and 1, "
+           "and lamps of 1e4 give finite reflections, none brighter than the brightest that could be reflected.",
+           {at_their_limits}}};
+}
+
+}  // namespace case_files
+}  // namespace gloam::stress

@@ -1,4 +1,4 @@
-// Frames for tests, made from closed forms: what a pixel shows is solved for in double and rounded once to float.
+// Frames made from closed forms: what a pixel shows is solved for in double and rounded once to float.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace gloam::analytic {
 struct Scene;
 }
 
-namespace gloam::test {
+namespace gloam::stress {
 
 /// A camera at the origin of view space, and the size of its image.
 struct Shot {
@@ -25,6 +25,15 @@ struct Shot {
 Shot perspective(int width, int height, double fov = 60);
 /// `units_across`: scene units from the left to the right border.
 Shot orthographic(int width, int height, double units_across);
+
+// OpenCL on a CPU compiles each kernel anew for each combination of settings, lanes, mathematics and size of image, which takes
+// a hundred times as long as computing a small image. What is compiled is kept on disk and serves all cases that use it. So
+// the cases share few sizes, and few samples where they hold for any number.
+
+/// 80x60, through a perspective and an orthographic camera.
+std::vector<Shot> usual_shots();
+/// 93x61: no multiple of any number of lanes.
+std::vector<Shot> odd_shots();
 
 /// Where the eye looks through a point of the image (pixels): origin + depth * direction; direction.z = -1. Not a number where a
 /// light-field display shows nothing.
@@ -67,4 +76,4 @@ Frame clone(const Frame& frame);
 /// first of them the depth. The frame has depth.
 void invent_plane(Frame& frame, const std::string& name);
 
-}  // namespace gloam::test
+}  // namespace gloam::stress

@@ -1,10 +1,10 @@
-#include "support/surfaces.h"
+#include "stress/surfaces.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace gloam::test {
+namespace gloam::stress {
 
 glm::dvec3 point_at(const EyeRay& ray, double depth) { return ray.origin + depth * ray.direction; }
 
@@ -46,4 +46,4 @@ Scene step(double rise) {
   };
 }
 
-}  // namespace gloam::test
+}  // namespace gloam::stress

@@ -4,9 +4,9 @@
 #include <array>
 #include <functional>
 
-#include "support/frames.h"
+#include "stress/frames.h"
 
-namespace gloam::test {
+namespace gloam::stress {
 
 /// A camera in the world.
 struct Eye {
@@ -30,4 +30,4 @@ Scene seen_by(const Pose& pose, const Scene& world);
 /// The same frame with its data window elsewhere.
 void move_window(Frame& frame, int x, int y);
 
-}  // namespace gloam::test
+}  // namespace gloam::stress

@@ -1,10 +1,10 @@
-#include "support/stereo.h"
+#include "stress/eyes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "support/surfaces.h"
+#include "stress/surfaces.h"
 
-namespace gloam::test {
+namespace gloam::stress {
 
 Eye eye_at(const Shot& shot, const glm::dvec3& position, double turned) {
   Eye eye{shot, {}};
@@ -54,4 +54,4 @@ void move_window(Frame& frame, int x, int y) {
   }
 }
 
-}  // namespace gloam::test
+}  // namespace gloam::stress

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "support/frames.h"
+#include "stress/frames.h"
 
-namespace gloam::test {
+namespace gloam::stress {
 
 glm::dvec3 point_at(const EyeRay& ray, double depth);
 
@@ -27,4 +27,4 @@ Scene corner(double tilt = std::numbers::pi / 4);
 /// For an orthographic eye: a wall at depth 4 on the left (x < 0), and on the right one that is nearer by `rise`.
 Scene step(double rise);
 
-}  // namespace gloam::test
+}  // namespace gloam::stress

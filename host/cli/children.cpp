@@ -1,0 +1,110 @@
+#include "children.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "gloam/error.h"
+
+extern char** environ;
+
+namespace gloam::cli {
+namespace {
+
+/// Both ends of a pipe, closed with it; not handed on to other children.
+struct Pipe {
+  int from = -1, to = -1;
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Error("no pipe to a process of our own: {}", std::strerror(errno));
+    from = ends[0], to = ends[1];
+  }
+  ~Pipe() {
+    close_end(from);
+    close_end(to);
+  }
+  Pipe(const Pipe&) = delete;
+  static void close_end(int& end) {
+    if (end >= 0) close(end);
+    end = -1;
+  }
+};
+
+pid_t spawn(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err) {
+  std::vector<char*> argv = {const_cast<char*>("gloam")};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, out.to, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err.to, STDERR_FILENO);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed) throw Error("no process of our own: {}", std::strerror(failed));
+  return child;
+}
+
+/// Hands over what ends in a line end, and keeps the rest.
+void take_lines(std::string& text, const std::function<void(const std::string&)>& line) {
+  size_t start = 0;
+  for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', start)) {
+    line(text.substr(start, end - start));
+    start = end + 1;
+  }
+  text.erase(0, start);
+}
+
+/// False at its end.
+bool read_more(int end, std::string& text) {
+  std::array<char, 4096> buffer;
+  const ssize_t count = read(end, buffer.data(), buffer.size());
+  if (count > 0) text.append(buffer.data(), size_t(count));
+  return count > 0 || (count < 0 && errno == EINTR);
+}
+
+ChildEnd ended(pid_t child, bool was_killed, double patience) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (was_killed) return {-1, fmt::format("no sign of life for {:g} s", patience), ""};
+  if (WIFSIGNALED(status))
+    return {-1, fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))), ""};
+  return {WEXITSTATUS(status), "", ""};
+}
+
+}  // namespace
+
+ChildEnd run_child(const std::vector<std::string>& arguments, double patience,
+                   const std::function<void(const std::string&)>& line) {
+  Pipe out, err;
+  const pid_t child = spawn(arguments, out, err);
+  Pipe::close_end(out.to);
+  Pipe::close_end(err.to);
+  std::string text, said;
+  bool is_open = true, is_said = true, was_killed = false;
+  while (is_open || is_said) {
+    std::array<pollfd, 2> ends = {pollfd{is_open ? out.from : -1, POLLIN, 0}, {is_said ? err.from : -1, POLLIN, 0}};
+    const int ready = poll(ends.data(), ends.size(), int(patience * 1000));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) {
+      was_killed = true;
+      kill(child, SIGKILL);
+      break;
+    }
+    if (ends[0].revents) is_open = read_more(out.from, text);
+    if (ends[1].revents) is_said = read_more(err.from, said);
+    take_lines(text, line);
+  }
+  ChildEnd end = ended(child, was_killed, patience);
+  end.said = said;
+  return end;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,391 @@
+// gloam stress TECHNIQUE|all: hard cases, on any device
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "children.h"
+#include "gloam/error.h"
+#include "gloam/files.h"
+#include "options.h"
+#include "stress/document.h"
+#include "stress/page.h"
+
+namespace gloam::cli {
+namespace {
+
+using stress::Case;
+using stress::CaseResult;
+using stress::Finding;
+using stress::StressRun;
+
+struct StressCommand {
+  std::string technique, cases, trial, frames, seed, device, against = "all", jobs, patience = "600", out, markdown;
+  std::vector<std::string> from;
+  bool quick = false, is_child = false;
+  JsonFlag json;
+};
+
+/// What is examined, as the flags have it.
+struct Request {
+  std::vector<std::string> techniques;
+  std::vector<int> cases;
+  std::optional<int> trial;
+  int frames = 0;
+  unsigned seed = 1;
+  stress::Extent extent = stress::Extent::full;
+};
+
+std::vector<int> cases_of(const StressCommand& flags) {
+  std::vector<int> numbers;
+  for (const Case& one : stress::cases()) numbers.push_back(one.number);
+  if (flags.cases.empty()) return numbers;
+  std::vector<int> wanted;
+  for (const std::string& text : split_list(flags.cases, "--case"))
+    wanted.push_back(stress::find_case(parse_whole_number(text, "--case", 1, 999)).number);
+  return wanted;
+}
+
+Request request_of(const StressCommand& flags) {
+  Request request;
+  if (flags.technique == "all")
+    request.techniques = technique_names();
+  else
+    request.techniques = {find_technique(flags.technique).name};
+  request.cases = cases_of(flags);
+  request.extent = flags.quick ? stress::Extent::quick : stress::Extent::full;
+  if (!flags.frames.empty()) request.frames = parse_whole_number(flags.frames, "--frames", 1, 1000000000);
+  if (!flags.seed.empty()) request.seed = unsigned(parse_whole_number(flags.seed, "--seed", 0, 2147483647));
+  if (!flags.trial.empty()) {
+    request.trial = parse_whole_number(flags.trial, "--trial", 1, 2147483647);
+    if (request.techniques.size() != 1 || request.cases.size() != 1)
+      throw UsageError("--trial {} is a trial of one case on one technique; name both, such as hbao+ --case 3",
+                       flags.trial);
+  }
+  if (!flags.out.empty() && !request.trial)
+    throw UsageError("-o {} is where the frames of one trial are written; say which with --case and --trial",
+                     flags.out);
+  return request;
+}
+
+// --- In a process of its own
+
+/// Every device but the one at hand; those whose name holds `text`.
+std::vector<std::unique_ptr<Device>> other_devices(const DeviceInfo& own, const std::string& text) {
+  std::vector<std::unique_ptr<Device>> others;
+  if (text == "none") return others;
+  for (const DeviceInfo& info : list_devices()) {
+    if (info.name == own.name && info.platform == own.platform) continue;
+    if (text != "all" && (info.name + " " + info.platform).find(text) == std::string::npos) continue;
+    // By platform: one device has the same name on several.
+    others.push_back(std::make_unique<Device>(info.platform));
+  }
+  return others;
+}
+
+void say(const stress::Json& line) {
+  fmt::print("{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+/// Examines and tells on standard output, a line for each trial that begins and for each case that is done.
+void examine_here(const StressCommand& flags) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // a second implementation for CPUs, if it is installed
+  const Request request = request_of(flags);
+  Device device(flags.device);
+  const auto others = other_devices(device.info(), flags.against);
+  stress::Subject subject{.technique = &find_technique(request.techniques.front()),
+                          .device = &device,
+                          .extent = request.extent,
+                          .frames = request.frames,
+                          .seed = request.seed,
+                          .trial = request.trial,
+                          .folder = flags.out};
+  stress::Json names = stress::Json::array();
+  for (const auto& other : others) {
+    subject.others.push_back(other.get());
+    names.push_back(other->info().name + ", " + other->info().platform);
+  }
+  say({{"device", device.info().name},
+       {"driver", device.info().platform + " " + device.info().driver},
+       {"against", names}});
+  for (const int number : request.cases) {
+    subject.begins = [&](int trial, const std::string& conditions) {
+      say({{"case", number}, {"trial", trial}, {"conditions", conditions}});
+    };
+    say({{"result", document_of(examine(stress::find_case(number), subject))}});
+  }
+}
+
+// --- Here
+
+/// One technique in a process of its own, again with the cases that are left where one ends it.
+class Examination {
+ public:
+  Examination(const StressCommand& flags, const Request& request, std::string technique)
+      : flags_(flags), technique_(std::move(technique)), left_(request.cases), patience_(std::stod(flags.patience)) {}
+
+  std::vector<CaseResult> results;
+  stress::Json device;
+
+  void run() {
+    while (!left_.empty()) {
+      case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
+      const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
+      if (left_.empty() && end.status == 0) return;
+      if (end.ended_by.empty() && trial_ == 0) throw Error("{}", why(end.said));
+      CaseResult broken{.technique = technique_, .number = case_, .trials = trial_};
+      broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
+                                  end.ended_by.empty() ? why(end.said) : "ended by " + end.ended_by);
+      results.push_back(broken);
+      std::erase(left_, case_);
+    }
+  }
+
+ private:
+  std::vector<std::string> arguments() const {
+    std::vector<std::string> all = {"stress", technique_, "--child", "--against", flags_.against};
+    const auto add = [&](const char* flag, const std::string& value) {
+      if (!value.empty()) all.insert(all.end(), {flag, value});
+    };
+    add("--case", fmt::format("{}", fmt::join(left_, ",")));
+    add("--trial", flags_.trial);
+    add("--frames", flags_.frames);
+    add("--seed", flags_.seed);
+    add("--device", flags_.device);
+    add("-o", flags_.out);
+    if (flags_.quick) all.push_back("--quick");
+    return all;
+  }
+  void take(const std::string& text) {
+    const stress::Json line = stress::Json::parse(text, nullptr, false);
+    if (line.is_discarded()) return;  // a driver's own chatter
+    if (line.contains("device")) {
+      device = line;
+    } else if (line.contains("result")) {
+      results.push_back(stress::case_result_of(line.at("result")));
+      std::erase(left_, results.back().number);
+      if (!left_.empty()) case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
+    } else {
+      case_ = line.at("case"), trial_ = line.at("trial"), conditions_ = line.at("conditions");
+    }
+  }
+  /// What an ordinary failure has said, without our name.
+  static std::string why(std::string said) {
+    while (!said.empty() && said.back() == '\n') said.pop_back();
+    said.erase(0, said.rfind('\n') + 1);
+    return said.starts_with("gloam: ") ? said.substr(7) : said.empty() ? "it ended without a word" : said;
+  }
+
+  const StressCommand& flags_;
+  std::string technique_;
+  std::vector<int> left_;
+  double patience_;
+  int case_ = 0, trial_ = 0;
+  std::string conditions_;
+};
+
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "inf"; }
+
+std::string text_of(const stress::Place& place) {
+  if (place.plane.empty()) return "";
+  return fmt::format("{}{} at ({}, {}): {}", place.view.empty() ? "" : place.view + ".", place.plane, place.x, place.y,
+                     place.holds);
+}
+
+/// Every finding of one technique.
+void print_findings(const std::vector<CaseResult>& results) {
+  std::vector<std::vector<std::string>> rows = {{"case", "", "worst", "bound", "measured"}};
+  for (const CaseResult& result : results) {
+    const std::string number = fmt::format("{}", result.number);
+    if (!result.opted_out.empty()) rows.push_back({number, "-", "", "", "opted out: " + result.opted_out});
+    for (const std::string& reason : result.passed_over) rows.push_back({number, "-", "", "", "not asked: " + reason});
+    for (const Finding& f : result.findings)
+      rows.push_back({number, f.held() ? "held" : "FAILED", shown(f.worst),
+                      std::isinf(f.bound) ? "stated" : shown(f.bound), f.what});
+    if (!result.broken.empty()) rows.push_back({number, "FAILED", "", "", "broken off: " + result.broken});
+  }
+  print_table(rows, 5);
+}
+
+void print_failures(const StressRun& run, const std::string& device_flag) {
+  for (const CaseResult& result : run.results) {
+    const std::string name =
+        fmt::format("{}, case {} ({})", result.technique, result.number, stress::find_case(result.number).name);
+    if (!result.broken.empty()) fmt::print("\n{}\n  broken off in {}\n", name, result.broken);
+    for (const Finding& f : result.findings) {
+      if (f.held()) continue;
+      fmt::print("\n{}\n  {}: {} where {} is the most\n  {}\n  {}\n  again: {} -o FOLDER\n", name, f.what,
+                 shown(f.worst), shown(f.bound), f.conditions, text_of(f.place),
+                 replay_command(run, result.technique, result.number, f.trial, device_flag));
+    }
+  }
+}
+
+/// One line for each technique.
+void print_summary(const StressRun& run, const std::vector<std::string>& techniques) {
+  std::vector<std::vector<std::string>> rows = {{"technique", "cases", "trials", "held", "opted out", "failed"}};
+  for (const std::string& technique : techniques) {
+    int held = 0, opted_out = 0, failed = 0, trials = 0, count = 0;
+    for (const CaseResult& result : run.results) {
+      if (result.technique != technique) continue;
+      ++count;
+      trials += result.trials;
+      if (!result.opted_out.empty())
+        ++opted_out;
+      else
+        ++(result.held() ? held : failed);
+    }
+    rows.push_back({technique, fmt::format("{}", count), fmt::format("{}", trials), fmt::format("{}", held),
+                    fmt::format("{}", opted_out), fmt::format("{}", failed)});
+  }
+  print_table(rows, 1);
+}
+
+/// All techniques, several at a time. What ends one of them by an ordinary error, such as a device that is not there, ends all.
+void examine_all(const StressCommand& flags, const Request& request, StressRun& run) {
+  const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
+  const int jobs = flags.jobs.empty() ? cores : parse_whole_number(flags.jobs, "--jobs", 1, 1024);
+  std::map<std::string, std::vector<CaseResult>> all;
+  std::atomic<size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  int done = 0;
+  const auto progress = progress_bar();
+  const auto work = [&] {
+    for (size_t i = next++; i < request.techniques.size(); i = next++) {
+      Examination examination(flags, request, request.techniques[i]);
+      std::exception_ptr thrown;
+      try {
+        examination.run();
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (thrown) failure = thrown, next = request.techniques.size();
+      all[request.techniques[i]] = std::move(examination.results);
+      if (!examination.device.is_null()) {
+        run.device = examination.device.at("device");
+        run.driver = examination.device.at("driver");
+        run.others = examination.device.at("against");
+      }
+      if (progress) progress(++done, int(request.techniques.size()));
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int i = 0; i < std::min(jobs, int(request.techniques.size())); ++i) workers.emplace_back(work);
+  for (std::thread& worker : workers) worker.join();
+  if (failure) std::rethrow_exception(failure);
+  for (const std::string& technique : request.techniques) {
+    std::vector<CaseResult>& results = all[technique];
+    std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    std::move(results.begin(), results.end(), std::back_inserter(run.results));
+  }
+}
+
+void write_page(const std::string& path, const std::vector<stress::Json>& documents) {
+  if (path.empty()) return;
+  const std::string page = stress::stability_page(documents);
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << page;
+    stream.close();
+    if (!stream) throw Error("{}: cannot be written", path);
+  });
+}
+
+stress::Json read_document(const std::string& path) {
+  const stress::Json document = stress::Json::parse(read_text(path), nullptr, false);
+  if (document.is_discarded() || !document.is_object() || !document.contains("cases") || !document.contains("device"))
+    throw Error("{}: holds no results of gloam stress; gloam stress all --json FILE writes some", path);
+  return document;
+}
+
+/// A page from what earlier runs have found.
+void page_from_files(const StressCommand& flags) {
+  if (!flags.technique.empty())
+    throw UsageError("stress: --from makes a page of earlier results and examines nothing; leave out '{}'",
+                     flags.technique);
+  if (flags.markdown.empty()) throw UsageError("--from needs --markdown FILE, the page to write");
+  std::vector<stress::Json> documents;
+  std::vector<NamedPath> inputs;
+  for (const std::string& path : flags.from) {
+    inputs.emplace_back("--from", path);
+    documents.push_back(read_document(path));
+  }
+  check_paths(inputs, {{"--markdown", flags.markdown}});
+  write_page(flags.markdown, documents);
+  fmt::print("wrote {}\n", printable(flags.markdown));
+}
+
+void stress_command(const StressCommand& flags) {
+  if (flags.is_child) return examine_here(flags);
+  if (!flags.from.empty()) return page_from_files(flags);
+  if (flags.technique.empty()) throw UsageError("stress: which technique? name one, or all (gloam list techniques)");
+  const Request request = request_of(flags);
+  parse_number(flags.patience, "--patience", 1, 1e6);
+  check_paths({}, {{"--json", flags.json.file()}, {"--markdown", flags.markdown}});
+  if (!flags.out.empty()) std::filesystem::create_directories(flags.out);
+  StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
+  examine_all(flags, request, run);
+  const std::string device_flag = flags.device.empty() ? "" : " --device " + quoted(flags.device);
+  const stress::Json document = document_of(run, device_flag);
+  write_page(flags.markdown, {document});
+  flags.json.write(document);
+  const int failed = stress::failures(run);
+  if (!flags.json.only_json()) {
+    if (request.techniques.size() == 1)
+      print_findings(run.results);
+    else
+      print_summary(run, request.techniques);
+    print_failures(run, device_flag);
+    fmt::print("{}, {}\n", printable(run.device), printable(run.driver));
+  }
+  if (failed > 0)
+    throw Error("stress: {} of the figures {} beyond {} bound", failed, failed == 1 ? "is" : "are",
+                failed == 1 ? "its" : "their");
+}
+
+}  // namespace
+
+void add_stress(CLI::App& app) {
+  auto flags = std::make_shared<StressCommand>();
+  CLI::App* command =
+      app.add_subcommand("stress", "go through frames that are hard to get right, and say how stable a technique is");
+  command->add_option("technique", flags->technique, "a technique (gloam list techniques), or all");
+  command->add_option("--case", flags->cases, "only these, by number: 3 or 1,7 (gloam list cases)");
+  command->add_option("--trial", flags->trial, "only this trial of one case, to see what was found");
+  command->add_flag("--quick", flags->quick, "a few of each kind: what a build can afford each time");
+  command->add_option("--frames", flags->frames, "random frames of case 1 (quick 60, else 1000)");
+  command->add_option("--seed", flags->seed, "of the random frames (1)");
+  command->add_option("--device", flags->device, "part of the device's or platform's name (gloam list devices)");
+  command->add_option("--against", flags->against, "devices to compare with: part of a name, all, or none")
+      ->capture_default_str();
+  command->add_option("--jobs", flags->jobs, "techniques at a time (as many as there are cores)");
+  command->add_option("--patience", flags->patience, "seconds without a sign of life after which a trial is given up")
+      ->capture_default_str();
+  command->add_option("-o,--output", flags->out, "folder for the frames of a --trial and what was made of them");
+  command->add_option("--markdown", flags->markdown, "write a page with all figures");
+  command->add_option("--from", flags->from, "with --markdown: the page of what earlier runs wrote with --json")
+      ->take_all();
+  command->add_flag("--child", flags->is_child)->group("");
+  flags->json.add_to(*command);
+  command->footer(
+      "Examples:\n"
+      "  gloam stress hbao+\n"
+      "  gloam stress all --quick --device NVIDIA --json stress.json\n"
+      "  gloam stress gtao --case 3 --trial 17 -o out/trial\n"
+      "Exit status 1 when something is beyond its bound.");
+  command->callback([flags] { stress_command(*flags); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,254 @@
+#include "stress/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "gloam/error.h"
+
+namespace gloam::stress {
+namespace {
+
+/// One entry of "cases".
+struct Row {
+  std::string technique, what, conditions, place;
+  int number = 0, trial = 0;
+  double worst = 0, bound = 0;
+  bool held = true;
+};
+
+double number_of(const Json& value) { return value.is_null() ? INFINITY : value.get<double>(); }
+
+/// Of text that stands in a table.
+std::string cell(std::string text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
+  return out;
+}
+
+std::string text_of(const Json& place) {
+  if (place.is_null()) return "";
+  const std::string view = place.at("view"), plane = place.at("plane");
+  return fmt::format("{}{} ({}, {}): {}", view.empty() ? "" : view + ".", plane, place.at("x").get<int>(),
+                     place.at("y").get<int>(), place.at("holds").get<std::string>());
+}
+
+std::vector<Row> rows_of(const Json& document) {
+  std::vector<Row> rows;
+  for (const Json& entry : document.at("cases")) {
+    rows.push_back({entry.at("technique"), entry.at("what"), entry.at("conditions"), text_of(entry.at("place")),
+                    entry.at("case"), entry.at("trial"), number_of(entry.at("worst")), number_of(entry.at("bound")),
+                    entry.at("held")});
+  }
+  return rows;
+}
+
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.2g}", value) : "inf"; }
+std::string bound_of(const Row& row) { return std::isfinite(row.bound) ? shown(row.bound) : "stated"; }
+
+/// How much of its bound a figure takes; more than 1 fails. Stated figures come last.
+double taken(const Row& row) {
+  if (!std::isfinite(row.bound)) return -1;
+  if (row.bound == 0) return row.worst == 0 ? 0 : INFINITY;
+  return row.worst / row.bound;
+}
+
+std::vector<std::string> techniques_of(const std::vector<Row>& rows) {
+  std::set<std::string> names;
+  for (const Row& row : rows) names.insert(row.technique);
+  return {names.begin(), names.end()};
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back("`" + name + "`");
+  return quoted.empty() ? "none" : fmt::format("{}", fmt::join(quoted, ", "));
+}
+
+std::string introduction(const Json& document) {
+  const std::vector<Row> rows = rows_of(document);
+  const auto failed = document.at("failed").get<int>();
+  std::string against;
+  for (const Json& other : document.at("against")) against += (against.empty() ? "" : "; ") + other.get<std::string>();
+  return fmt::format(
+      "# Stability\n\n"
+      "What hard cases do to each technique. Written by `gloam stress`; do not edit. `script/stability` makes it "
+      "anew.\n\n"
+      "`gloam stress TECHNIQUE` examines one on any device, and `--case N --trial N -o FOLDER` makes one trial again "
+      "and "
+      "writes its frames: those are the numbers in the tables.\n\n"
+      "- {} techniques, {} cases, {} figures; {} beyond {} bound.\n"
+      "- Device: {} ({}). Compared with: {}.\n"
+      "- Extent {}, {}seed {}.\n\n",
+      techniques_of(rows).size(), cases().size(), rows.size(), failed, failed == 1 ? "its" : "their",
+      document.at("device").get<std::string>(), document.at("driver").get<std::string>(),
+      against.empty() ? "nothing" : against, document.at("extent").get<std::string>(),
+      document.at("frames").get<int>()
+          ? fmt::format("{} random frames for each technique, ", document.at("frames").get<int>())
+          : "",
+      document.at("seed").get<unsigned>());
+}
+
+std::string table_of_cases(const Json& document) {
+  std::string text = "## Cases\n\n| case | | what holds | techniques | opted out |\n|---|---|---|---|---|\n";
+  const std::vector<Row> rows = rows_of(document);
+  for (const Case& one : cases()) {
+    std::set<std::string> asked, out;
+    for (const Row& row : rows) {
+      if (row.number == one.number) asked.insert(row.technique);
+    }
+    for (const Json& entry : document.at("opted_out")) {
+      if (entry.at("case") == one.number) out.insert(entry.at("technique").get<std::string>());
+    }
+    text += fmt::format("| [{}](#case-{}) | {} | {} | {} | {} |\n", one.number, one.number, one.name, one.property,
+                        asked.size(), out.size());
+  }
+  return text + "\n";
+}
+
+/// A column of the table of comparisons: figures whose names hold these words.
+struct Comparison {
+  const char* name;
+  std::vector<std::string> words;
+};
+
+const std::vector<Comparison>& comparisons() {
+  static const std::vector<Comparison> all = {{"float / double, mean", {"float against double", "mean"}},
+                                              {"largest", {"float against double", "largest"}},
+                                              {"fast / precise, mean", {"fast against precise", "mean"}},
+                                              {"largest", {"fast against precise", "largest"}},
+                                              {"lanes / one, precise", {"precise: difference to one lane"}},
+                                              {"lanes / one, fast", {"fast: ", "difference to one lane"}},
+                                              {"other CPU, precise", {"precise: difference to another device"}},
+                                              {"other CPU, fast", {"fast: ", "difference to another device"}},
+                                              {"half depth, mean", {"half, ", "mean"}},
+                                              {"largest", {"half, ", "largest"}},
+                                              {"16 bit depth, mean", {"linear 16 bit", "mean"}},
+                                              {"largest", {"linear 16 bit", "largest"}},
+                                              {"reversed Z, largest", {"reversed-Z", "largest"}}};
+  return all;
+}
+
+bool holds_all(const std::string& text, const std::vector<std::string>& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return text.find(word) != std::string::npos; });
+}
+
+std::string table_of_comparisons(const std::vector<Row>& rows) {
+  std::string text =
+      "## What precision costs\n\nThe larger of the figures with exact normals and with normals made from depth, over "
+      "all "
+      "planes that the technique makes. 0: the same bits. -: not asked, or opted out.\n\n| technique |";
+  for (const Comparison& c : comparisons()) text += fmt::format(" {} |", c.name);
+  text += "\n|---|";
+  for (size_t i = 0; i < comparisons().size(); ++i) text += "---|";
+  text += "\n";
+  for (const std::string& technique : techniques_of(rows)) {
+    text += fmt::format("| `{}` |", technique);
+    for (const Comparison& c : comparisons()) {
+      double worst = -1;
+      for (const Row& row : rows) {
+        const bool is_fast_double = row.what.starts_with("fast float against double");  // the sum of both
+        if (row.technique == technique && !is_fast_double && holds_all(row.what, c.words))
+          worst = std::max(worst, row.worst);
+      }
+      text += worst < 0 ? " - |" : fmt::format(" {} |", shown(worst));
+    }
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+/// Of each technique the figure that is nearest to its bound, and those that are only stated and above 0.
+std::string section_of_case(const Case& one, const Json& document) {
+  std::string text = fmt::format("### Case {}\n\n{}: {}\n\n", one.number, one.name, one.property);
+  const std::vector<Row> all = rows_of(document);
+  std::map<std::string, const Row*> nearest;
+  for (const Row& row : all) {
+    if (row.number != one.number) continue;
+    const Row*& known = nearest[row.technique];
+    if (!known || taken(row) > taken(*known)) known = &row;
+  }
+  std::set<std::string> zero;
+  std::string table;
+  for (const auto& [technique, row] : nearest) {
+    if (row->worst == 0) {
+      zero.insert(technique);
+      continue;
+    }
+    table += fmt::format("| `{}` | {}{} | {} | {} | {} | {} | {} |\n", technique, shown(row->worst),
+                         row->held ? "" : " **beyond**", bound_of(*row), cell(row->what), cell(row->conditions),
+                         cell(row->place), row->trial);
+  }
+  if (!table.empty())
+    text +=
+        "| technique | worst | bound | of | on | worst pixel | trial |\n|---|---|---|---|---|---|---|\n" + table + "\n";
+  if (!zero.empty()) text += fmt::format("Nothing found, 0 in every trial: {}.\n\n", listed(zero));
+  return text;
+}
+
+std::string table_of_reasons(const std::string& title, const std::string& explanation, const Json& entries) {
+  std::string text = fmt::format("## {}\n\n{}\n\n", title, explanation);
+  // The same reason of many techniques is one row.
+  std::map<std::pair<int, std::string>, std::set<std::string>> reasons;
+  for (const Json& entry : entries)
+    reasons[{entry.at("case").get<int>(), entry.at("why").get<std::string>()}].insert(
+        entry.at("technique").get<std::string>());
+  text += "| case | why | techniques |\n|---|---|---|\n";
+  for (const auto& [reason, techniques] : reasons)
+    text += fmt::format("| {} | {} | {} |\n", reason.first, cell(reason.second), listed(techniques));
+  return text + "\n";
+}
+
+/// Parts of cases that a technique is not held to have no entry in a run: they stand in the techniques' pages alone.
+Json partial_opt_outs() {
+  Json entries = Json::array();
+  for (const Technique& technique : registry()) {
+    for (const OptOut& out : opt_outs(technique)) {
+      if (!out.part.empty())
+        entries.push_back({{"technique", technique.name}, {"case", out.number}, {"why", out.part + ": " + out.reason}});
+    }
+  }
+  return entries;
+}
+
+std::string section_of_device(const Json& document) {
+  const std::vector<Row> rows = rows_of(document);
+  std::string text =
+      fmt::format("## On {}\n\n{}. {} figures, {} beyond their bounds; extent {}.\n\n",
+                  document.at("device").get<std::string>(), document.at("driver").get<std::string>(), rows.size(),
+                  document.at("failed").get<int>(), document.at("extent").get<std::string>());
+  text += "| technique | case | of | worst | bound | on | worst pixel | trial |\n|---|---|---|---|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    const bool is_of_devices = row.number == 13 && row.what.find("device") != std::string::npos;
+    if (row.held && !is_of_devices) continue;
+    text += fmt::format("| `{}` | {} | {} | {}{} | {} | {} | {} | {} |\n", row.technique, row.number, cell(row.what),
+                        shown(row.worst), row.held ? "" : " **beyond**", bound_of(row), cell(row.conditions),
+                        cell(row.place), row.trial);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string stability_page(const std::vector<Json>& documents) {
+  try {
+    const Json& first = documents.at(0);
+    std::string page = introduction(first) + table_of_cases(first) + table_of_comparisons(rows_of(first));
+    page += "## Worst values\n\nOf each technique the figure that takes most of its bound.\n\n";
+    for (const Case& one : cases()) page += section_of_case(one, first);
+    page += table_of_reasons("Opted out", "Cases that a technique is not held to, and why its page says so.",
+                             first.at("opted_out"));
+    page += table_of_reasons("Opted out in part", "Held to the case, but for this part of it.", partial_opt_outs());
+    page += table_of_reasons("Not asked", "What a case has nothing to ask of.", first.at("passed_over"));
+    for (size_t i = 1; i < documents.size(); ++i) page += section_of_device(documents[i]);
+    while (page.ends_with("\n\n")) page.pop_back();
+    return page;
+  } catch (const Json::exception& error) {
+    throw Error("results of gloam stress that cannot be read ({}); gloam stress all --json FILE writes some",
+                error.what());
+  }
+}
+
+}  // namespace gloam::stress

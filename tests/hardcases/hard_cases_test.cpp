@@ -1,0 +1,55 @@
+// Every hard case on every technique of the registry, as `gloam stress --quick` goes through them. Adding a technique or a
+// case adds tests; nothing here names one.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "stress/case.h"
+#include "support/techniques.h"
+
+namespace gloam::test {
+namespace {
+
+/// GLOAM_STRESS=full in the environment: all there is instead of a quick look.
+Extent extent() {
+  const char* asked = std::getenv("GLOAM_STRESS");
+  return asked && std::string(asked) == "full" ? Extent::full : Extent::quick;
+}
+
+class HardCases : public testing::TestWithParam<std::string> {};
+
+void expect_held(const CaseResult& result) {
+  for (const Finding& f : result.findings) {
+    const std::string line =
+        fmt::format("hard case {}  {}  worst {:.3g}  bound {:.3g}  ({}; trial {}: {}; {} {} ({}, {}) {})",
+                    result.number, result.technique, f.worst, f.bound, f.what, f.trial, f.conditions, f.place.view,
+                    f.place.plane, f.place.x, f.place.y, f.place.holds);
+    std::printf("%s\n", line.c_str());
+    EXPECT_TRUE(f.held()) << line;
+  }
+  EXPECT_EQ(result.broken, "") << "hard case " << result.number;
+}
+
+TEST_P(HardCases, Hold) {
+  const Technique& technique = find_technique(GetParam());
+  Subject subject{.technique = &technique, .device = &device(), .extent = extent()};
+  for (const Case& hard_case : cases()) {
+    const CaseResult result = examine(hard_case, subject);
+    if (!result.opted_out.empty()) {
+      std::printf("hard case %d  %s  opted out: %s\n", result.number, result.technique.c_str(),
+                  result.opted_out.c_str());
+      continue;
+    }
+    for (const std::string& reason : result.passed_over)
+      std::printf("hard case %d  %s  passed over: %s\n", result.number, result.technique.c_str(), reason.c_str());
+    std::printf("hard case %d  %s  %d trials, %.1f s\n", result.number, result.technique.c_str(), result.trials,
+                result.seconds);
+    expect_held(result);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HardCases, testing::ValuesIn(technique_names()),
+                         [](const testing::TestParamInfo<std::string>& info) { return identifier(info.param); });
+
+}  // namespace
+}  // namespace gloam::test
