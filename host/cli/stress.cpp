@@ -231,24 +231,19 @@ void print_failures(const StressRun& run, const std::string& device_flag) {
   }
 }
 
-/// One line for each technique.
-void print_summary(const StressRun& run, const std::vector<std::string>& techniques) {
-  std::vector<std::vector<std::string>> rows = {{"technique", "cases", "trials", "held", "opted out", "failed"}};
-  for (const std::string& technique : techniques) {
-    int held = 0, opted_out = 0, failed = 0, trials = 0, count = 0;
-    for (const CaseResult& result : run.results) {
-      if (result.technique != technique) continue;
-      ++count;
-      trials += result.trials;
-      if (!result.opted_out.empty())
-        ++opted_out;
-      else
-        ++(result.held() ? held : failed);
-    }
-    rows.push_back({technique, fmt::format("{}", count), fmt::format("{}", trials), fmt::format("{}", held),
-                    fmt::format("{}", opted_out), fmt::format("{}", failed)});
+/// One line for a technique that is done, among many that take their time.
+void print_done(const std::string& technique, const std::vector<CaseResult>& results) {
+  int held = 0, opted_out = 0, failed = 0, trials = 0;
+  for (const CaseResult& result : results) {
+    trials += result.trials;
+    if (!result.opted_out.empty())
+      ++opted_out;
+    else
+      ++(result.held() ? held : failed);
   }
-  print_table(rows, 1);
+  fmt::print("{:<20} {:>6} trials, {:>2} cases held, {} opted out, {} failed\n", technique, trials, held, opted_out,
+             failed);
+  std::fflush(stdout);
 }
 
 /// All techniques, several at a time. What ends one of them by an ordinary error, such as a device that is not there, ends all.
@@ -278,6 +273,8 @@ void examine_all(const StressCommand& flags, const Request& request, StressRun& 
         run.driver = examination.device.at("driver");
         run.others = examination.device.at("against");
       }
+      if (request.techniques.size() > 1 && !thrown && !flags.json.only_json())
+        print_done(request.techniques[i], all[request.techniques[i]]);
       if (progress) progress(++done, int(request.techniques.size()));
     }
   };
@@ -337,16 +334,16 @@ void stress_command(const StressCommand& flags) {
   if (!flags.out.empty()) std::filesystem::create_directories(flags.out);
   StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
   examine_all(flags, request, run);
+  if (request.trial && !run.results.empty() && run.results[0].broken.empty() && run.results[0].trials < *request.trial)
+    throw UsageError("--trial {}: case {} of {} has {} trials{}", *request.trial, request.cases[0], flags.technique,
+                     run.results[0].trials, flags.quick ? " in a quick look" : "");
   const std::string device_flag = flags.device.empty() ? "" : " --device " + quoted(flags.device);
   const stress::Json document = document_of(run, device_flag);
   write_page(flags.markdown, {document});
   flags.json.write(document);
   const int failed = stress::failures(run);
   if (!flags.json.only_json()) {
-    if (request.techniques.size() == 1)
-      print_findings(run.results);
-    else
-      print_summary(run, request.techniques);
+    if (request.techniques.size() == 1) print_findings(run.results);
     print_failures(run, device_flag);
     fmt::print("{}, {}\n", printable(run.device), printable(run.driver));
   }

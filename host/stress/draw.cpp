@@ -10,6 +10,7 @@
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "stress/frames.h"
+#include "stress/modules.h"
 #include "stress/probe.h"
 #include "stress/random.h"
 
@@ -131,23 +132,35 @@ std::string Draw::text() const {
                      stress::text_of(settings), stress::text_of(options));
 }
 
+/// What any camera, or the modules of a display where the technique takes them, show of the room.
+Frame any_view(const Technique& technique, Random& random) {
+  if (technique.any_projection && random.one_in(3)) {
+    static const std::vector<std::pair<int, int>> sizes = {{17, 13}, {33, 1}, {80, 60}};
+    const auto [width, height] = random.of(sizes);
+    return shoot_modules(random.of(display_cases()).display, width, height, room());
+  }
+  return shoot(any_shot(random), room(), !random.one_in(3));
+}
+
 Draw draw(const Technique& technique, const Device& device, Extent extent, uint32_t seed, uint32_t number) {
   Random random(seed, number);
-  const Shot shot = any_shot(random);
-  Draw drawn{shoot(shot, room(), !random.one_in(3)), few_samples(technique), {}};
+  Draw drawn{any_view(technique, random), few_samples(technique), {}};
   View& first = drawn.frame.views[0];
+  const bool is_module = first.camera->slits != nullptr;
   for (const std::string& name : technique.reads) {
-    if (!is_stack(name) && name != "normal") plane_of(drawn.frame, name);
+    if (is_stack(name) || name == "normal") continue;
+    for (View& view : drawn.frame.views) plane_of(view, Layout(drawn.frame.width(), drawn.frame.height()), name);
   }
-  if (random.one_in(2) || first.find("position")) first.camera->pose = any_pose(random);  // positions are the world's
+  // Positions are the world's.
+  if (!is_module && (random.one_in(2) || first.find("position"))) first.camera->pose = any_pose(random);
   const std::vector<Settings> choices = variants(technique, drawn.frame);
   const bool is_choice = random.one_in(extent == Extent::quick ? 6 : 3);
   if (is_choice) drawn.settings = random.of(choices);
   const Plan plan = plan_for(technique, drawn.frame, drawn.settings);
   drawn.settings = drawn.settings + any_floats(plan, random);
-  for (size_t i = 1; i < drawn.frame.views.size(); ++i)
+  for (size_t i = 1; i < drawn.frame.views.size() && !is_module; ++i)
     drawn.frame.views[i].camera = beside(*drawn.frame.views[0].camera, random);
-  if (random.one_in(2)) {
+  if (random.one_in(2) && !is_module) {
     for (View& view : drawn.frame.views) view.camera_before = beside(*view.camera, random);
   }
   spoil(drawn.frame, random);

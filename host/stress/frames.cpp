@@ -30,11 +30,10 @@ float pattern(int x, int y, int component) {
   return float(mixed >> 8) * 0x1p-24f;
 }
 
-/// The camera of the only view, as a shot of the whole window.
-Shot shot_of(const Frame& frame) { return {*frame.views[0].camera, frame.width(), frame.height()}; }
+/// What a view's camera shows, as a shot of the whole window.
+Shot shot_of(const Frame& frame, const View& view) { return {*view.camera, frame.width(), frame.height()}; }
 
-float invented_value(const PlaneKind& kind, const Frame& frame, int component, int x, int y) {
-  const View& view = frame.views[0];
+float invented_value(const PlaneKind& kind, const Frame& frame, const View& view, int component, int x, int y) {
   const float depth = view.find("depth")->channels[0].at(x, y);
   if (kind.meaning == PlaneKind::view_depth) return depth * (1 + 0.1f * float(number_of(kind.name)));
   if (kind.meaning == PlaneKind::unit_vector) {
@@ -42,7 +41,7 @@ float invented_value(const PlaneKind& kind, const Frame& frame, int component, i
     return normal ? normal->channels[size_t(component)].at(x, y) : component == 2 ? 1.0f : 0.0f;
   }
   if (kind.name == "position") {
-    const EyeRay ray = ray_through(shot_of(frame), x + 0.5, y + 0.5);
+    const EyeRay ray = ray_through(shot_of(frame, view), x + 0.5, y + 0.5);
     return is_background(depth) ? 0 : float((ray.origin + double(depth) * ray.direction)[component]);
   }
   // Whole numbers, in blocks: some are corners, some are not.
@@ -165,14 +164,17 @@ Frame shoot(const Shot& shot, const Scene& scene, bool with_normals) {
   return frame;
 }
 
-Plane& plane_of(Frame& frame, const std::string& name) {
-  Plane& plane = frame.views[0].planes[name];
+Plane& plane_of(View& view, const Layout& layout, const std::string& name) {
+  Plane& plane = view.planes[name];
   if (!plane.channels.empty()) return plane;
   plane.name = name;
   const PlaneKind kind = plane_kind(name);
-  for (size_t i = 0; i < kind.components.size(); ++i)
-    plane.channels.emplace_back(Layout(frame.width(), frame.height()), kind.outside);
+  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
   return plane;
+}
+
+Plane& plane_of(Frame& frame, const std::string& name) {
+  return plane_of(frame.views[0], Layout(frame.width(), frame.height()), name);
 }
 
 std::vector<std::string> plane_names(const Frame& frame) {
@@ -199,10 +201,13 @@ void invent_plane(Frame& frame, const std::string& name) {
     return;
   }
   const PlaneKind kind = plane_kind(name);
-  Plane& plane = plane_of(frame, name);
-  for (size_t i = 0; i < plane.channels.size(); ++i) {
-    for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) plane.channels[i].at(x, y) = invented_value(kind, frame, int(i), x, y);
+  for (View& view : frame.views) {
+    Plane& plane = plane_of(view, Layout(frame.width(), frame.height()), name);
+    for (size_t i = 0; i < plane.channels.size(); ++i) {
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x)
+          plane.channels[i].at(x, y) = invented_value(kind, frame, view, int(i), x, y);
+      }
     }
   }
   normalise(frame);

@@ -65,13 +65,15 @@ Scene room();
 Frame blank(const Shot& shot);
 /// Depth and, if wanted, exact normals; has passed the door.
 Frame shoot(const Shot& shot, const Scene& scene, bool with_normals = true);
-/// The named plane of the only view, added (zero, or what lies outside for one of the known kinds) if it is not there.
+/// A view's plane of that name, added (zero, or what lies outside for one of the known kinds) if it is not there.
+Plane& plane_of(View& view, const Layout& layout, const std::string& name);
+/// The named plane of the first view, added (zero, or what lies outside for one of the known kinds) if it is not there.
 Plane& plane_of(Frame& frame, const std::string& name);
 std::vector<std::string> plane_names(const Frame& frame);
 /// Planes are move-only: a copy has to be asked for.
 Frame clone(const Frame& frame);
 
-/// Gives the frame a plane of that name with values that its kind allows and that show some variety: further depth
+/// Gives every view a plane of that name with values that its kind allows and that show some variety: further depth
 /// layers lie behind the visible surface, positions fit the depth, colours are a pattern. A stack is three layers, the
 /// first of them the depth. The frame has depth.
 void invent_plane(Frame& frame, const std::string& name);

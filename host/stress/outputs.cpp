@@ -192,6 +192,25 @@ Difference difference(const Frame& a, const Frame& b) {
   return worst;
 }
 
+double share_over(const Frame& a, const Frame& b, double limit) {
+  double over = 0, all = 0;
+  for (size_t i = 0; i < a.views.size(); ++i) {
+    for (const auto& [name, plane] : a.views[i].planes) {
+      for (size_t c = 0; c < plane.channels.size(); ++c) {
+        const Channel &one = plane.channels[c], &other = b.views[i].find(name)->channels[c];
+        for (int y = 0; y < a.height(); ++y) {
+          for (int x = 0; x < a.width(); ++x) {
+            const float p = one.at(x, y), q = other.at(x, y);
+            over += p != q && !(std::abs(p - q) <= limit);
+            ++all;
+          }
+        }
+      }
+    }
+  }
+  return over / std::max(all, 1.0);
+}
+
 Place first_violation(const Frame& frame) {
   for (const View& view : frame.views) {
     for (const auto& [name, plane] : view.planes) {

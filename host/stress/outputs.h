@@ -64,6 +64,9 @@ struct Difference {
 Difference difference(const Plane& a, const Plane& b);
 Difference difference(const Frame& a, const Frame& b);
 
+/// Share of the values of all planes that differ by more than a limit.
+double share_over(const Frame& a, const Frame& b, double limit);
+
 /// The first value that the kind of its plane does not allow: not finite, outside 0..1, a vector neither zero nor unit, a
 /// depth that is not positive. No plane where there is none.
 Place first_violation(const Frame& frame);

@@ -46,4 +46,12 @@ Scene step(double rise) {
   };
 }
 
+Scene near_and_far() {
+  return [](const EyeRay& ray) -> std::optional<Surface> {
+    const glm::dvec3 side = ray.origin + ray.direction;
+    const bool near = side.y > 0 ? side.x > 0 : (long(std::floor(side.x * 40)) & 1) != 0;
+    return Surface{near ? 1e-6 : 1e6, {0, 0, 1}};
+  };
+}
+
 }  // namespace gloam::stress

@@ -27,4 +27,7 @@ Scene corner(double tilt = std::numbers::pi / 4);
 /// For an orthographic eye: a wall at depth 4 on the left (x < 0), and on the right one that is nearer by `rise`.
 Scene step(double rise);
 
+/// A hand's breadth before the eye, at 1e-6, beside a mountain at 1e6: in halves above, pixel by pixel below.
+Scene near_and_far();
+
 }  // namespace gloam::stress

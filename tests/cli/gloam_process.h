@@ -56,11 +56,11 @@ class Cli : public ::testing::Test {
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     dup2(open(path("stdout").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
     dup2(open(path("stderr").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
-    std::vector<char*> argv = {const_cast<char*>(GLOAM_BINARY)};
+    std::vector<char*> argv = {const_cast<char*>(program)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     alarm(500);  // before ctest's own limit, so that what it said is still shown
-    execv(GLOAM_BINARY, argv.data());
+    execv(program, argv.data());
     _exit(127);
   }
 
@@ -87,6 +87,7 @@ class Cli : public ::testing::Test {
   }
 
   fs::path folder;
+  const char* program = GLOAM_BINARY;
 };
 
 inline const fs::path data_folder = fs::path(GLOAM_SOURCE_DIR) / "data";

@@ -93,25 +93,13 @@ int run_masked(const Technique& technique) {
   return passes;
 }
 
-/// Three modules of a display, the outer ones key views of the middle one, or the second a key view of both others.
-Frame frame_of_modules(LightFieldDisplay display) {
-  display.world->linear *= 2.0;
-  display.modules.resize(3, display.modules[0]);
-  for (size_t i = 0; i < 3; ++i) display.modules[i].position.x += 0.2 * double(i);
-  Frame frame = shoot(shot_of_module(display, width, height, 0), room());
-  for (size_t i = 1; i < 3; ++i)
-    frame.views.push_back(std::move(shoot(shot_of_module(display, width, height, i), room()).views[0]));
-  for (size_t i = 0; i < 3; ++i) frame.views[i].name = fmt::format("module{}", i);
-  return frame;
-}
-
 /// Through slits whose rays change evenly over the image, and through others, with views that look into one another; 0 for a
 /// technique whose views do not.
 int run_modules(const Technique& technique) {
   if (!technique.key_views) return 0;
   int passes = 0;
   for (const NamedDisplay& test : display_cases()) {
-    const Frame frame = frame_of_modules(test.display);
+    const Frame frame = shoot_modules(test.display, width, height, room());
     for (const char* key_views : {"2", "3"}) {
       Settings settings = few_samples(technique);
       settings.insert(settings.end(), {{"reuse", "on"}, {"key_views", key_views}});

@@ -1,4 +1,10 @@
 // Hard case 11: images of every shape. What lies beside an image in memory must not reach it.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "gloam/planes.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 
@@ -50,6 +56,98 @@ void sizes_and_padding(Probe& probe) {
   }
 }
 
+// --- 8192x8192
+
+/// Kilobytes after a key of a file of /proc; -1 where there is no such thing.
+long kilobytes(const char* file, const std::string& key) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(key + ":")) return std::stol(line.substr(key.size() + 1));
+  }
+  return -1;
+}
+
+long peak_kilobytes() { return kilobytes("/proc/self/status", "VmHWM"); }
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+constexpr int large = 8192, tile = 256;
+
+/// A wall with square blocks before it, the same in every tile: one look per tile tells all.
+Frame blocks() {
+  Frame frame = blank(orthographic(large, large, large / 64.0));
+  for (const char* name : {"depth", "normal"}) plane_of(frame, name);
+  Plane& normal = plane_of(frame, "normal");
+  Channel& depth = plane_of(frame, "depth").channels[0];
+  for (int y = 0; y < large; ++y) {
+    std::fill_n(normal.channels[2].row(y), large, 1.0f);
+    for (int x = 0; x < large; ++x) depth.row(y)[x] = (x % tile < tile / 2) == (y % tile < tile / 2) ? 2.0f : 2.2f;
+  }
+  return frame;
+}
+
+double mean_of_tile(const Channel& channel, int x0, int y0) {
+  double sum = 0;
+  for (int y = y0; y < y0 + tile; ++y) {
+    for (int x = x0; x < x0 + tile; ++x) sum += channel.at(x, y);
+  }
+  return sum / (tile * tile);
+}
+
+/// How far the mean of any tile, but for those at the border, is from that of the first.
+Measured difference_of_tiles(const std::string& name, const Channel& values) {
+  const double first = mean_of_tile(values, tile, tile);
+  Measured worst(0.0);
+  for (int y = tile; y < large - tile; y += tile) {
+    for (int x = tile; x < large - tile; x += tile) {
+      const double mean = mean_of_tile(values, x, y), here = std::abs(mean - first);
+      if (here > worst.value)
+        worst = {here, Place{"", name, x, y, fmt::format("{} from there on, against {}", mean, first)}};
+    }
+  }
+  return worst;
+}
+
+/// Of the memory predicted, by how much more was taken; what the compiler takes is not the image's.
+double memory_over_prediction(const Probe& probe, const Plan& plan, const Frame& frame, RunResult& result) {
+  Frame warm_up = shoot(perspective(64, 64), room());
+  plan_for(probe.technique(), warm_up);
+  run(plan, warm_up, probe.device());
+  forget_peak();
+  const long before = peak_kilobytes();
+  result = run(plan, frame, probe.device());
+  const double grown = double(peak_kilobytes() - before) * 1024;
+  double inputs = 0;  // the host's own pages on a CPU; on other devices they exist twice
+  for (const std::string& name : plan.inputs)
+    inputs += double(plane_kind(name).components.size()) * double(Layout(large, large).bytes());
+  return before < 0 ? 0 : (grown + inputs) / double(result.device_bytes) - 1;
+}
+
+void largest_image(Probe& probe) {
+  if (probe.is_quick()) return;
+  Frame small = shoot(perspective(8, 8), room());
+  const std::vector<std::string> given = plane_names(small);
+  const Settings lengths = set_lengths(probe.technique(), small, [](double) { return 0.5; });
+  const Plan plan = plan_for(probe.technique(), small, few_samples(probe.technique()) + lengths);
+  if (plane_names(small) != given || probe.technique().views > 1)
+    return probe.passes_over("8192x8192: needs more than depth and normals of one view");
+  const DeviceInfo& device = probe.device().info();
+  const double needed = double(device_bytes(plan, Layout(large, large)));
+  const long available = kilobytes("/proc/meminfo", "MemAvailable");
+  if (needed > double(device.memory) || (available >= 0 && double(available) * 1024 < 1.2 * needed))
+    return probe.passes_over(fmt::format("8192x8192: needs {:.1f} GB", needed * 1e-9));
+  if (!probe.tries("8192x8192, a pattern of blocks")) return;
+  RunResult result;
+  const double over = memory_over_prediction(probe, plan, blocks(), result);
+  probe.measure("8192x8192: columns and rows too few or too many",
+                double(std::abs(result.frame.width() - large) + std::abs(result.frame.height() - large)), 0);
+  probe.measure_violation("8192x8192: value out of its range", result.frame);
+  for (const std::string& name : unit_interval_outputs(plan))
+    probe.measure("8192x8192: difference between the means of like tiles",
+                  difference_of_tiles(name, result.frame.views[0].find(name)->channels[0]), 2e-3);
+  if (device.shares_memory)
+    probe.measure("8192x8192: memory over the prediction, as a share", std::max(0.0, over), 0.05);
+}
+
 }  // namespace
 
 namespace case_files {
@@ -58,8 +156,9 @@ std::vector<Case> sizes() {
   return {{11,
            "images of every shape",
            "Images of 1x1, one row, one column, odd sizes and 16384 pixels in a row have the right size, and the same "
-           "bits whatever lies beside them in memory and however many lanes compute them.",
-           {sizes_and_padding}}};
+           "bits whatever lies beside them in memory and however many lanes compute them; 8192x8192 takes the memory "
+           "predicted.",
+           {sizes_and_padding, largest_image}}};
 }
 
 }  // namespace case_files

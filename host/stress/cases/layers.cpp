@@ -1,0 +1,138 @@
+// Hard case 20: stochastic depth with any number of samples and layers.
+#include <algorithm>
+#include <cmath>
+
+#include "gloam/exr.h"
+#include "gloam/planes.h"
+#include "stress/case.h"
+#include "stress/frames.h"
+
+namespace gloam::stress {
+namespace {
+
+/// The planned technique that chooses surfaces at random: the one with a parameter `alpha`; null where none is.
+const Technique* chooser(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Parameter& p : planned.technique->parameters) {
+      if (p.name == "alpha") return planned.technique;
+    }
+  }
+  return nullptr;
+}
+
+/// So many surfaces under each pixel, the first of them the one seen.
+Frame with_layers(const Technique& technique, int count) {
+  Frame frame = shoot(perspective(80, 60), room());
+  const Channel& depth = frame.views[0].find("depth")->channels[0];
+  for (int k = 0; k < count; ++k) {
+    Channel& layer = plane_of(frame, layer_name("peel", k)).channels[0];
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) layer.at(x, y) = depth.at(x, y) * (1 + 0.02f * float(k));
+    }
+  }
+  normalise(frame);
+  plan_for(technique, frame);
+  return frame;
+}
+
+Settings settings_of(const Technique& technique, const std::string& samples, const std::string& alpha) {
+  return few_samples(technique) + Settings{{"stochastic-depth.samples", samples}, {"stochastic-depth.alpha", alpha}};
+}
+
+/// Whether the technique is one of these; notes why not.
+bool chooses(Probe& probe) {
+  Frame frame = shoot(perspective(8, 8), room());
+  plane_of(frame, "peel.00");
+  if (chooser(plan_for(probe.technique(), frame))) return true;
+  probe.passes_over("chooses no surfaces at random");
+  return false;
+}
+
+std::vector<std::string> sample_counts(const Probe& probe) {
+  return probe.is_quick() ? std::vector<std::string>{"4"} : std::vector<std::string>{"1", "2", "4", "8", "16"};
+}
+
+/// With alpha 1 every sample is offered every surface, and keeps the nearest: hidden layers change nothing.
+void all_samples_take_the_nearest(Probe& probe) {
+  if (!chooses(probe)) return;
+  for (const std::string& samples : sample_counts(probe)) {
+    for (const RunOptions& way : probe.two_ways()) {
+      if (!probe.tries(
+              fmt::format("alpha 1, {} samples, 64 layers against the depth alone, {}", samples, text_of(way))))
+        continue;
+      Frame deep = with_layers(probe.technique(), 64), flat = with_layers(probe.technique(), 1);
+      const Settings settings = settings_of(probe.technique(), samples, "1");
+      probe.measure_bits("alpha 1: difference to the ordinary depth", probe.outputs(deep, settings, way),
+                         probe.outputs(flat, settings, way));
+    }
+  }
+}
+
+void any_layers_and_samples(Probe& probe) {
+  if (!chooses(probe)) return;
+  for (const std::string& samples : sample_counts(probe)) {
+    for (const char* alpha : {"0", "0.2", "1"}) {
+      for (const int layers : {1, 3, 64}) {
+        for (const RunOptions& way : probe.two_ways()) {
+          if (!probe.tries(fmt::format("alpha {}, {} samples, {} layers, {}", alpha, samples, layers, text_of(way))))
+            continue;
+          Frame frame = with_layers(probe.technique(), layers);
+          probe.measure_violation("value out of its range",
+                                  probe.outputs(frame, settings_of(probe.technique(), samples, alpha), way));
+        }
+      }
+    }
+  }
+}
+
+/// Sample j holds surface i, counted from 0, with probability alpha (1 - alpha)^i (Vermeer 2021, section 3.1).
+void shares_of_layers(Probe& probe) {
+  if (!chooses(probe)) return;
+  Frame probing = with_layers(probe.technique(), 3);
+  const Plan plan = plan_for(probe.technique(), probing);
+  if (chooser(plan) != &probe.technique()) return;
+  constexpr int layers = 8, seeds = 16;
+  for (const std::string& samples : sample_counts(probe)) {
+    for (const double alpha : {0.1, 0.2, 0.5}) {
+      if (!probe.tries(fmt::format("alpha {}, {} samples, shares of {} layers", alpha, samples, layers))) continue;
+      Frame frame = with_layers(probe.technique(), layers);
+      std::vector<double> shares(layers);
+      double count = 0;
+      for (int seed = 0; seed < seeds; ++seed) {
+        const Frame out = probe.outputs(frame, settings_of(probe.technique(), samples, exact(alpha)), {.seed = seed});
+        for (const auto& [name, plane] : out.views[0].planes) {
+          if (!stack_layer(name)) continue;
+          for (int y = 0; y < frame.height(); ++y) {
+            for (int x = 0; x < frame.width(); ++x) {
+              const float depth = frame.views[0].find("depth")->channels[0].at(x, y), held = plane.channels[0].at(x, y);
+              if (is_background(depth)) continue;
+              ++count;
+              if (!is_background(held)) shares.at(size_t(std::lround((held / depth - 1) / 0.02f))) += 1;
+            }
+          }
+        }
+      }
+      double worst = 0;
+      for (int i = 0; i < layers; ++i)
+        worst = std::max(worst, std::abs(shares[size_t(i)] / count - alpha * std::pow(1 - alpha, i)));
+      // Independent draws would scatter by sqrt(0.25 / 70 000) = 0.002 for one sample, and less for more.
+      probe.measure("share of samples that hold a layer: distance from alpha (1 - alpha)^i", worst, 8e-3);
+    }
+  }
+}
+
+}  // namespace
+
+namespace case_files {
+
+std::vector<Case> layers() {
+  return {
+      {20,
+       "stochastic depth of every kind",
+       "1 to 16 samples, alpha 0 to 1, one layer or 64 give values in their range; with alpha 1 hidden layers change "
+       "no bit; layers are chosen as often as the formula says.",
+       {all_samples_take_the_nearest, any_layers_and_samples, shares_of_layers}}};
+}
+
+}  // namespace case_files
+}  // namespace gloam::stress

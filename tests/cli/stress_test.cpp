@@ -1,0 +1,168 @@
+// gloam stress: what it finds, how it says so, and what it takes.
+#include <numeric>
+
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Of a build whose techniques have a fault each (tests/faults).
+class StressOfFaults : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    program = GLOAM_WITH_FAULTS;
+  }
+  /// A quick look at one case of one technique.
+  Result look(const std::string& technique, const std::string& number, Arguments more = {}) const {
+    Arguments arguments = {"stress", technique, "--case", number, "--quick", "--against", "none", "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  }
+  /// The worst of those that are beyond their bound.
+  static Json first_failure(const Result& result) {
+    const Json document = result.json();
+    for (const Json& entry : document["cases"]) {
+      if (!entry["held"]) return entry;
+    }
+    return nullptr;
+  }
+};
+
+struct Fault {
+  std::string technique, number, what;
+};
+
+TEST_F(StressOfFaults, EachIsFoundByTheCaseThatIsThereForIt) {
+  for (const Fault& fault : {Fault{"absolute-epsilon", "3", "another unit"},
+                             {"background-unknown", "1", "out of its range"},
+                             {"by-lanes", "13", "one lane"},
+                             {"beside-the-image", "11", "beside the image"},
+                             {"shadows-itself", "2", "distance from open"},
+                             {"one-sided", "4", "mirrored"}}) {
+    const Result result = look(fault.technique, fault.number);
+    EXPECT_EQ(result.status, 1) << fault.technique;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    ASSERT_GT(result.json()["failed"], 0) << fault.technique;
+    const Json found = first_failure(result);
+    EXPECT_EQ(found["technique"], fault.technique);
+    EXPECT_EQ(found["case"], std::stoi(fault.number));
+    EXPECT_NE(std::string(found["what"]).find(fault.what), std::string::npos) << found["what"];
+    EXPECT_NE(found["place"], nullptr) << fault.technique;
+  }
+}
+
+TEST_F(StressOfFaults, WithoutAFaultAllIsHeld) {
+  const Result result = look("faultless", "1,2,3,4,5,7,8,9,10,11,12,13");
+  EXPECT_EQ(result.status, 0) << result.err << result.out;
+  EXPECT_EQ(result.json()["failed"], 0);
+}
+
+TEST_F(StressOfFaults, AreSeenAgainByTheirTrial) {
+  const Result all = look("absolute-epsilon", "3");
+  const Json found = first_failure(all);
+  const std::string replay = found["replay"];
+  const std::string expected =
+      "gloam stress absolute-epsilon --case 3 --trial " + std::to_string(int(found["trial"])) + " --quick";
+  EXPECT_EQ(replay.substr(0, expected.size()), expected);
+  const Result again =
+      look("absolute-epsilon", "3", {"--trial", std::to_string(int(found["trial"])), "-o", path("trial")});
+  ASSERT_EQ(again.json()["cases"].size(), 1u) << again.out;
+  EXPECT_EQ(again.json()["cases"][0]["worst"], found["worst"]);
+  EXPECT_EQ(again.json()["cases"][0]["place"], found["place"]);
+  // Both images that should be alike, and what each was made of.
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(path("trial"))) files += entry.path().extension() == ".exr";
+  EXPECT_EQ(files, 4);
+}
+
+TEST_F(StressOfFaults, ARandomFrameIsShrunk) {
+  const Json found = first_failure(look("background-unknown", "1"));
+  // One pixel of background is all that it takes.
+  EXPECT_NE(std::string(found["place"]["holds"]).find("smallest frame that shows it: 1x1"), std::string::npos)
+      << found["place"]["holds"];
+}
+
+TEST_F(StressOfFaults, ADriverThatCrashesIsAFindingAndTheNextCaseGoesOn) {
+  const Result result = look("crashes", "3,11");
+  EXPECT_EQ(result.status, 1);
+  const Json document = result.json();
+  ASSERT_EQ(document["cases"].size(), 2u) << result.out;
+  for (const Json& entry : document["cases"]) {
+    EXPECT_NE(std::string(entry["what"]).find("trial 1"), std::string::npos) << entry["what"];
+    EXPECT_NE(std::string(entry["what"]).find("signal 11"), std::string::npos) << entry["what"];
+  }
+}
+
+TEST_F(StressOfFaults, OneThatHangsIsGivenUp) {
+  const Result result = look("does-not-end", "11", {"--patience", "8"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(std::string(result.json()["cases"][0]["what"]).find("no sign of life for 8 s"), std::string::npos)
+      << result.out;
+}
+
+TEST_F(StressOfFaults, APageHasTheFiguresOfARun) {
+  const Result result = look("by-lanes", "13", {"--markdown", path("page.md")});
+  EXPECT_EQ(result.status, 1);
+  const std::string page = slurp(path("page.md"));
+  EXPECT_NE(page.find("### Case 13"), std::string::npos);
+  EXPECT_NE(page.find("| `by-lanes` | 0.015 **beyond** | 0 | precise: difference to one lane |"), std::string::npos)
+      << page;
+}
+
+class Stress : public Cli {};
+
+TEST_F(Stress, ATechniqueHoldsACase) {
+  const Result result = gloam({"stress", "hbao+", "--case", "3", "--quick", "--against", "none"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("difference to the scene with another unit"), std::string::npos) << result.out;
+}
+
+TEST_F(Stress, APageOfEarlierRunsIsTheSamePage) {
+  const Result first = gloam({"stress", "normals", "--case", "3,13", "--quick", "--against", "none", "--json",
+                              path("run.json"), "--markdown", path("page.md")});
+  ASSERT_EQ(first.status, 0) << first.err;
+  const Result second = gloam({"stress", "--from", path("run.json"), "--markdown", path("again.md")});
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(slurp(path("page.md")), slurp(path("again.md")));
+}
+
+TEST_F(Stress, CasesCanBeListed) {
+  const Json cases = gloam({"list", "cases", "--json", "-"}).json();
+  std::vector<int> numbers;
+  for (const Json& one : cases) numbers.push_back(one["case"]);
+  std::vector<int> expected(20);
+  std::iota(expected.begin(), expected.end(), 1);
+  EXPECT_EQ(numbers, expected);
+}
+
+TEST_F(Stress, RefusesWhatItCannotDo) {
+  const auto refused = [&](const Arguments& arguments, int status, const std::vector<std::string>& words) {
+    Arguments all = {"stress"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Result result = gloam(all);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_EQ(result.out, "");
+    for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  };
+  refused({}, 2, {"which technique", "all"});
+  refused({"hbao-"}, 2, {"hbao-", "did you mean"});
+  refused({"hbao+", "--case", "21"}, 2, {"no hard case 21", "gloam list cases"});
+  refused({"hbao+", "--case", "x"}, 2, {"--case", "x"});
+  refused({"hbao+", "--trial", "3"}, 2, {"--trial 3", "--case"});
+  refused({"all", "--case", "3", "--trial", "3"}, 2, {"--trial 3"});
+  refused({"hbao+", "--case", "3", "--trial", "1000000"}, 2, {"--trial 1000000", "trials"});
+  refused({"hbao+", "-o", path("x")}, 2, {"-o", "--trial"});
+  refused({"hbao+", "--device", "nonesuch", "--case", "3"}, 1, {"nonesuch"});
+  refused({"hbao+", "--patience", "0"}, 2, {"--patience 0"});
+  refused({"hbao+", "--jobs", "0"}, 2, {"--jobs 0"});
+  refused({"hbao+", "--from", path("x.json")}, 2, {"--from", "hbao+"});
+  refused({"--from", path("x.json"), "--markdown", path("y.md")}, 1, {"x.json"});
+  refused({"hbao+", "--case", "3", "--json", "/nonexistent/x.json"}, 1, {"/nonexistent"});
+}
+
+}  // namespace
+}  // namespace gloam::test

@@ -1,0 +1,34 @@
+// Techniques with a fault each, for tests of the hard cases: what these do not find, they would not find elsewhere.
+//
+// in : depth    view-space z, scene units, +inf = background
+//      normal   unit or zero, view space
+// out: ao       1 open .. 0 closed
+// -D FAULT: its number in technique.cpp
+#include "shared/camera.h"
+
+kernel void faults(Frame frame, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE_OUT ao) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real z = load(depth, here);
+  const mask background = is_background(z);
+  real open = (real)(1);
+#if FAULT == 1  // has an epsilon of its own, in scene units
+  open = choose(background, open, (real)(1) - (real)(0.01f) / (z + (real)(0.02f)));
+#elif FAULT == 2  // does not know background
+  open = z / (z + (real)(1));
+#elif FAULT == 3  // depends on the width of a row of lanes
+  open = choose(background, open, (real)(1) - (real)(0.001f * LANES));
+#elif FAULT == 4  // looks beside the image without asking where it ends
+  open = choose(load(depth, here + 1) < z, (real)(0), open);
+#elif FAULT == 5  // shadows itself
+  open = choose(background, open, fabs(load(normal_z, here)));
+#elif FAULT == 6  // looks to the left alone, and not beyond the border
+  const real left = load(depth, here - 1);
+  open = choose((FIRST_X + IOTA > 0) & (left < z), left / z, open);
+#elif FAULT == 7  // reads where nothing is
+  open = ((global const float*)8)[ROW_Y];
+#elif FAULT == 8  // does not end
+  volatile int more = 1;
+  while (more) open += (real)(1);
+#endif
+  store(open, ao, here);
+}
