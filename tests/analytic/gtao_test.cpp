@@ -16,6 +16,7 @@
 #include <numbers>
 
 #include "support/integral.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -155,11 +156,13 @@ void expect_on_pixels(const std::string& technique, const Settings& more, std::o
 TEST(GtaoIntegral, HorizonsOfWhatPixelsShow) { expect_on_pixels("gtao", {}, {}); }
 
 TEST(GtaoIntegral, SectorsOfWhatPixelsShow) {
+  ONLY_IN_LONG_RUN();
   expect_on_pixels("bitmask", {{"thickness", "0.1"}}, 0.1 * radius);
   expect_on_pixels("bitmask", {}, 0.4 * radius);
 }
 
 TEST(GtaoIntegral, BentNormalsAndCones) {
+  ONLY_IN_LONG_RUN();
   for (const bool bitmask : {false, true}) {
     const std::string technique = bitmask ? "bitmask" : "gtao";
     const std::optional<double> thickness = bitmask ? std::optional(0.4 * radius) : std::nullopt;

@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "support/integral.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -91,6 +92,7 @@ TEST(HbaoExpectation, Corner) {
 }
 
 TEST(HbaoExpectation, WavesOffTheCentre) {
+  ONLY_IN_LONG_RUN();
   // Smooth all over: no outline between pixels, and horizons that rise in many small steps.
   const Scene waves = [](const EyeRay& ray) -> std::optional<Surface> {
     const auto height = [](double x, double y) { return -4 + 0.45 * std::sin(2.5 * x + 1) * std::cos(2 * y); };

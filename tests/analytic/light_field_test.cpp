@@ -16,6 +16,7 @@
 #include "kernel_projection.h"
 #include "key_views.h"
 #include "support/integral.h"
+#include "support/long.h"
 #include "support/stress.h"
 
 namespace gloam::test {
@@ -280,6 +281,7 @@ double obscurance_integral(const IntegralCase& test, glm::ivec2 pixel, double ra
 }
 
 TEST(LightFieldCorner, HbaoPlusReadsItsIntegral) {
+  ONLY_IN_LONG_RUN();
   for (const auto& [name, display] : display_cases()) {
     const Shot shot = shot_of_module(display, 300, 240);
     for (const double roll : {0.4, 1.5}) {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "support/integral.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -64,6 +65,7 @@ IntegralCase corner_through(const Shot& shot, const std::string& more, const std
 
 /// Pixels that all levels have, so that nothing is interpolated; the levels' own pixels are up to 4 wide.
 TEST(MultiresExpectation, PixelsOfAllLevels) {
+  ONLY_IN_LONG_RUN();
   std::vector<glm::ivec2> pixels;
   for (int i = 0; i < 8; ++i) pixels.push_back({240 + 8 * i, 112 + 8 * i});
   expect_expectation(corner_through(perspective(480, 360), "", pixels), 1e-3);
@@ -74,6 +76,7 @@ TEST(MultiresExpectation, PixelsOfAllLevels) {
 /// of a ring bends: at the distance where the wall comes into the ring. There it is off by up to 5e-3 (measured: see what
 /// is printed); twice the resolution leaves less of it, and the mean over pixels is within 1e-3.
 TEST(MultiresExpectation, PixelsBetween) {
+  ONLY_IN_LONG_RUN();
   std::vector<glm::ivec2> pixels, finer;
   for (int i = 0; i < 8; ++i) pixels.push_back({243 + 7 * i, 125 + 5 * i});
   for (const glm::ivec2& p : pixels) finer.push_back({2 * p.x + 1, 2 * p.y + 1});
@@ -84,6 +87,7 @@ TEST(MultiresExpectation, PixelsBetween) {
 
 /// Where the radius ends within the finest ring, coarser levels are of no matter.
 TEST(Multires, LevelsBeyondTheRadiusChangeNothing) {
+  ONLY_IN_LONG_RUN();
   for (const Shot& shot : {perspective(320, 240), orthographic(320, 240, 4)}) {
     const Frame frame = shoot(shot, room());
     for (const int lanes : usual_lanes(device())) {
@@ -125,6 +129,7 @@ TEST(Multires, NoDistanceIsMissed) {
 
 /// Scales multiply: at half the resolution the levels are halves of halves.
 TEST(Multires, RunsAtALowerResolution) {
+  ONLY_IN_LONG_RUN();
   const Frame frame = shoot(perspective(640, 480), room());
   for (const char* combine : {"maximum", "maximum_and_mean"}) {
     const auto filtered_at = [&](int resolution) {

@@ -10,6 +10,7 @@
 #include "gloam/planes.h"
 #include "gloam/reference.h"
 #include "support/estimate.h"
+#include "support/long.h"
 #include "support/stress.h"
 
 namespace gloam::test {
@@ -125,6 +126,7 @@ TEST(Multiview, AnOccluderIsFoundWhereItStands) {
 
 /// The sides of the slab lie along the first view's rays, so that none meets them: no number of layers helps.
 TEST(Multiview, HalvesTheErrorBesideASlabThatLiesAlongTheView) {
+  ONLY_IN_LONG_RUN();
   const gloam::Scene scene = load_scene("slab", {});
   const Tracer tracer(scene);
   CaptureOptions options{.width = 320, .height = 180, .planes = {"depth", "normal"}, .stochastic = {.samples = 4}};

@@ -10,6 +10,7 @@
 #include "gloam/capture.h"
 #include "gloam/error.h"
 #include "mesh_builder.h"
+#include "support/long.h"
 
 namespace gloam {
 namespace {
@@ -120,6 +121,7 @@ TEST(Reference, SphereOverPlane) {
 
 // A wall without end, of height h, at distance a: 1/2 (1 - a / sqrt(a^2 + h^2)) is closed.
 TEST(Reference, CanyonFloor) {
+  ONLY_IN_LONG_RUN();
   Scene scene = scene_with(looking_at("main", {0, 1.9, 3}, {0, 0, -1}, 50));
   const float h = 2, half_width = 1, length = 4000;
   scenes::add_quad(mesh_of(scene, "floor"), {-half_width, 0, length}, {half_width, 0, length}, {half_width, 0, -length},

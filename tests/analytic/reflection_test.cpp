@@ -13,6 +13,7 @@
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
 #include "gloam/reference.h"
+#include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 
@@ -598,6 +599,7 @@ Errors errors_of(const Frame& frame, const Frame& truth, size_t view) {
 }
 
 TEST(StereoReflection, IsNearerToTheTruthThanThePlainOne) {
+  ONLY_IN_LONG_RUN();
   const gloam::Scene scene = load_scene("gallery", {});
   const Tracer tracer(scene);
   CaptureOptions options{.width = 320, .height = 180, .planes = {}};
@@ -660,6 +662,7 @@ class Kitchen : public testing::Test {
 };
 
 TEST_F(Kitchen, ReflectsAboutWhatItsRendererSays) {
+  ONLY_IN_LONG_RUN();
   const Settings rays = {{"rays", "4"}};
   const Frame too_bright = outputs_of(find_technique("sssr"), frames[0], rays, {});
   const Frame found = outputs_of(find_technique("sssr"), frames[1], rays, {});

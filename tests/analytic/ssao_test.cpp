@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "support/integral.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -66,6 +67,7 @@ TEST(SsaoIntegral, CornerAndBall) {
 }
 
 TEST(SsaoIntegral, OtherSettings) {
+  ONLY_IN_LONG_RUN();
   const IntegralCase corner = integral_case("corner, perspective"),
                      ball = integral_case("ball over a plane, perspective");
   expect_model(named(corner, "shell"), {.inner = 0.8});

@@ -7,6 +7,7 @@
 #include "gloam/capture.h"
 #include "gloam/planes.h"
 #include "support/estimate.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -44,6 +45,7 @@ const Settings directions_of_the_paper = {{"directions", "8"}, {"steps", "4"}};
 class StochasticDepthOn : public testing::TestWithParam<std::string> {};
 
 TEST_P(StochasticDepthOn, ClosesTheGapToAllLayers) {
+  ONLY_IN_LONG_RUN();
   const double radius = load_scene(GetParam(), {}).ao_radius;
   const Frame frame = captured(GetParam());
   const auto image = [&](const std::string& technique, const Settings& settings) {
@@ -71,6 +73,7 @@ TEST_P(StochasticDepthOn, ClosesTheGapToAllLayers) {
 
 /// What the early-out of the paper leaves out, and what the default one does: next to nothing.
 TEST_P(StochasticDepthOn, EarlyOutCostsLittle) {
+  ONLY_IN_LONG_RUN();
   const double radius = load_scene(GetParam(), {}).ao_radius;
   const Frame frame = captured(GetParam());
   for (const char* technique : {"ssao", "hbao", "hbao+", "gtao", "bitmask"}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 
@@ -54,6 +55,7 @@ double mean_error(const std::string& technique, const Settings& settings) {
 }
 
 TEST(ThinOccluder, DoesNotShadeLikeAWall) {
+  ONLY_IN_LONG_RUN();
   const Settings converged = {{"radius", "0.8"}, {"directions", "16"}, {"steps", "64"}, {"jitter", "off"}};
   Settings thinner = converged;
   thinner.push_back({"thickness", "0.05"});

@@ -1,5 +1,6 @@
 // gloam auto: what a frame calls for, what is written either way, and what is refused.
 #include "gloam_process.h"
+#include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 
@@ -99,9 +100,11 @@ TEST_F(CliAuto, WhatAFrameDoesNotHoldIsNotRefined) {
 }
 
 TEST_F(CliAuto, HiddenLayersAreLookedAtWhereTheyMatter) {
-  ASSERT_EQ(gloam({"capture", "corridor", "-o", path("frame.exr"), "--size", "960x540", "--stochastic", "4"}).status, 0);
-  const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--measure",
-                               "--set", "gtao.bias=0.02", "--explain", path("why.png")});
+  ONLY_IN_LONG_RUN();
+  ASSERT_EQ(gloam({"capture", "corridor", "-o", path("frame.exr"), "--size", "960x540", "--stochastic", "4"}).status,
+            0);
+  const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--measure", "--set",
+                               "gtao.bias=0.02", "--explain", path("why.png")});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json effect = effect_of(result);
   EXPECT_EQ(effect["runs"], "sd-gtao");

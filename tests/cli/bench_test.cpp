@@ -5,6 +5,7 @@
 
 #include "gloam_process.h"
 #include "picture.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -119,6 +120,7 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
 }
 
 TEST_F(Cli, BenchMeasuresVariantsOfOnePreset) {
+  ONLY_IN_LONG_RUN();
   const Result result =
       gloam({"bench",     "-o",           path("out"),   "--size",    "96x54",      "--rays",     "32",  "--scenes",
              "courtyard", "--techniques", "hbao+",       "--presets", "low,medium", "--variants", "all", "--rounds",
@@ -155,6 +157,7 @@ TEST_F(Cli, BenchMeasuresVariantsOfOnePreset) {
 }
 
 TEST_F(Cli, BenchSweepsSettings) {
+  ONLY_IN_LONG_RUN();
   const auto run = [&](const Arguments& more) {
     Arguments arguments = {"bench",        "-o",         path("out"), "--size",     "96x54",
                            "--rays",       "32",         "--rounds",  "1",          "--scenes",
@@ -269,6 +272,7 @@ TEST_F(Cli, BenchUsesTruthsAgain) {
 }
 
 TEST_F(Cli, BenchTracesTheTruthOfAFrameThatWasCapturedAnew) {
+  ONLY_IN_LONG_RUN();
   const auto measured = [&](const char* out) {
     const Result result = gloam({"bench",       "-o",          path(out), "--frame",    path("f.exr"), "--techniques",
                                  "hbao+",       "--presets",   "low",     "--variants", "none",        "--rays",
@@ -295,6 +299,7 @@ TEST_F(Cli, BenchTracesTheTruthOfAFrameThatWasCapturedAnew) {
 }
 
 TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
+  ONLY_IN_LONG_RUN();
   const Result result =
       gloam({"bench",    "-o",           path("out"),      "--size",    "96x54",    "--rays",     "64",   "--scenes",
              "hairball", "--techniques", "hbao+,dp-hbao+", "--presets", "low,high", "--variants", "none", "--rounds",
@@ -315,6 +320,7 @@ TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
 }
 
 TEST_F(Cli, BenchClimbsTheLadderOfSweepsOverStochasticDepth) {
+  ONLY_IN_LONG_RUN();
   const Result result =
       gloam({"bench",        "-o",        path("out"),   "--size",      "96x54",       "--rays",  "16",
              "--scenes",     "fence",     "--rounds",    "1",           "--ladder",    "all",     "--techniques",
@@ -380,6 +386,7 @@ Arguments of_frame(const std::string& frame, const std::string& folder, const Ar
 }
 
 TEST_F(Cli, BenchMeasuresGrowthOverThePeeledLayersThatAreRead) {
+  ONLY_IN_LONG_RUN();
   const auto growth_over = [&](const Arguments& layers) {
     Arguments capture = {"capture", "colonnade", "-o", path("f.exr"), "--size", "48x27"};
     capture.insert(capture.end(), layers.begin(), layers.end());
@@ -443,6 +450,7 @@ TEST_F(Cli, BenchGoesOnWithoutARowWhosePictureCannotBeWritten) {
 }
 
 TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
+  ONLY_IN_LONG_RUN();
   Frame flat = small_frame(48, 32, {"depth", "normal"}), pair = small_frame(48, 32, {"depth", "normal"});
   flat.views[0].camera->orthographic = true;
   pair.views[0].name = "left";
@@ -469,6 +477,7 @@ TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
 }
 
 TEST_F(Cli, BenchMeasuresOnTheFirstViewWhatMakesNoOther) {
+  ONLY_IN_LONG_RUN();
   ASSERT_EQ(gloam({"capture", "colonnade", "-o", path("two.exr"), "--size", "96x54", "--peel", "2", "--stochastic", "4",
                    "--view2", "30"})
                 .status,

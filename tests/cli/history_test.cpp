@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "gloam_process.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -29,6 +30,7 @@ class History : public Cli {
 };
 
 TEST_F(History, ASequenceComesNearerToTheTruthThanItsFrames) {
+  ONLY_IN_LONG_RUN();
   constexpr int last = 6;
   walk(last, "320x180");
   ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1)}).status, 0);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "gloam_process.h"
+#include "support/long.h"
 #include "unit/pictures.h"
 
 namespace gloam::test {
@@ -12,6 +13,7 @@ namespace {
 using Json = nlohmann::json;
 
 TEST_F(Cli, APaperIsMeasuredAgain) {
+  ONLY_IN_LONG_RUN();
   const Result result = gloam(
       {"bench", "--paper", "vermeer2021", "-o", path("paper"), "--size", "64x36", "--rounds", "1", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -78,6 +80,7 @@ std::pair<int, int> purple_halves(const Picture& picture) {
 }
 
 TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
+  ONLY_IN_LONG_RUN();
   const Result result = gloam({"bench", "--paper", "shi2022", "-o", path("paper"), "--size", "256x144", "--rounds", "1",
                                "--rays", "100", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -139,6 +142,7 @@ TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
 }
 
 TEST_F(Cli, OutlinesMissWhatCornersFind) {
+  ONLY_IN_LONG_RUN();
   const Result result = gloam({"bench", "--paper", "odssao2020", "-o", path("paper"), "--size", "240x160", "--rounds",
                                "1", "--rays", "16", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -175,6 +179,7 @@ TEST_F(Cli, OutlinesMissWhatCornersFind) {
 }
 
 TEST_F(Cli, TwoEyesReflectMoreAlikeAndNearerToTheTruth) {
+  ONLY_IN_LONG_RUN();
   const Result result = gloam({"bench", "--paper", "wu2024", "-o", path("paper"), "--size", "320x180", "--rounds", "1",
                                "--rays", "32", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -225,6 +230,7 @@ std::map<std::string, std::map<std::string, Json>> times_of(const Json& document
 }
 
 TEST_F(Cli, ALightFieldDisplaySharesWhatItsModulesSee) {
+  ONLY_IN_LONG_RUN();
   const Result result = gloam({"bench", "--paper", "doronin2017", "-o", path("paper"), "--size", "64x48", "--rounds",
                                "1", "--rays", "32", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;

@@ -1,11 +1,11 @@
 // gloam compare --stereo: the document, the pictures, where depth, normals and cameras come from, and bad input.
-#include "support/stress.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "gloam_process.h"
+#include "support/long.h"
+#include "support/stress.h"
 #include "unit/pictures.h"
 #include "unit/read_channel.h"
 
@@ -398,6 +398,7 @@ TEST_F(Cli, StereoOfTheApartmentsReference) {
 
 /// The ablation of figure 10: each part brings the eyes nearer to one another.
 TEST_F(Cli, EachPartOfStereoAoBringsTheEyesTogether) {
+  ONLY_IN_LONG_RUN();
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("pair.exr"), "--size", "240x135", "--stereo", "0.065"}).status, 0);
   const auto inconsistency = [&](const char* technique, const char* estimate, const char* reproject,
                                  const char* filter) {

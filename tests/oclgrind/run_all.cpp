@@ -1,5 +1,5 @@
 // Runs every technique once on small frames, one pixel per work-item: to be watched by oclgrind, which finds accesses
-// out of bounds.
+// out of bounds. All choices, switches and counts in the long run; the few samples of the defaults each time.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -7,6 +7,7 @@
 #include "gloam/error.h"
 #include "support/stress.h"
 #include "support/light_field.h"
+#include "support/long.h"
 #include "support/techniques.h"
 
 namespace gloam::test {
@@ -51,6 +52,7 @@ std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
 /// outside of the image.
 int run_variants(const Technique& technique) {
   int passes = 0;
+  if (!is_long_run()) return 0;
   Frame frame = shoot(perspective(width, 1), room());
   for (const Settings& variant : settings_of(technique, frame)) {
     Settings settings = few_samples(technique);
@@ -65,7 +67,7 @@ int run_variants(const Technique& technique) {
 /// With its defaults, and with normals or without.
 int run_defaults(const Technique& technique, const Shot& shot, bool with_normals) {
   Frame frame = shoot(shot, room(), with_normals);
-  const Plan plan = plan_for(technique, frame);
+  const Plan plan = plan_for(technique, frame, is_long_run() ? Settings{} : few_samples(technique));
   run(plan, frame, device(), {.math = with_normals ? Math::precise : Math::fast, .lanes = 1});
   return int(plan.passes.size());
 }
@@ -77,6 +79,7 @@ int run_masked(const Technique& technique) {
   plane_of(frame, "mask").channels[0].at(width / 2, 1) = 1;
   int passes = 0;
   for (const int resolution : {1, 2}) {
+    if (resolution > 1 && !is_long_run()) continue;
     try {
       const Plan plan = make_plan({.outputs = {technique.name},
                                    .with = technique.extras,
@@ -101,6 +104,7 @@ int run_modules(const Technique& technique) {
   for (const NamedDisplay& test : display_cases()) {
     const Frame frame = shoot_modules(test.display, width, height, room());
     for (const char* key_views : {"2", "3"}) {
+      if (key_views != std::string("2") && !is_long_run()) continue;
       Settings settings = few_samples(technique);
       settings.insert(settings.end(), {{"reuse", "on"}, {"key_views", key_views}});
       const Plan plan =

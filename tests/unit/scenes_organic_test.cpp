@@ -11,6 +11,7 @@
 
 #include "gloam/error.h"
 #include "gloam/scene.h"
+#include "support/long.h"
 
 namespace gloam {
 namespace {
@@ -180,6 +181,7 @@ TEST(Hairball, RefusesStrandsOutOfRange) {
 }
 
 TEST(Statue, IsOneClosedSurfaceAtEveryNumberOfFaces) {
+  ONLY_IN_LONG_RUN();
   for (const char* faces : {"5000", "50000", "200000", "500000"}) {
     const Scene scene = load_scene("statue", {{"faces", faces}});
     const Mesh& statue = mesh_named(scene, "statue");
@@ -191,6 +193,7 @@ TEST(Statue, IsOneClosedSurfaceAtEveryNumberOfFaces) {
 }
 
 TEST(Statue, FacesAreAsAskedFor) {
+  ONLY_IN_LONG_RUN();
   for (const double faces : {5000, 7000, 20000, 50000, 200000, 500000}) {
     const Scene scene = load_scene("statue", {{"faces", std::to_string(int(faces))}});
     EXPECT_NEAR(double(scene.faces()), faces, 0.02 * faces);
