@@ -178,6 +178,15 @@ void remove_temporaries_on_signal() {
 
 void say_on_interruption(const char* text) { interruption_text.store(text); }
 
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error("{}: cannot be written", path.string());
+  });
+}
+
 std::string read_text(const fs::path& path) {
   std::error_code code;
   if (fs::is_directory(path, code)) throw Error("{}: is a directory, not a text file", path.string());

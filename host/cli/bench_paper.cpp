@@ -51,7 +51,7 @@ void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   const PaperResult result = paper.reproduce(device, options);
   erase_status();
   const std::string text = page_of(paper, result, options, device.info());
-  write_atomically(page, [&](const std::filesystem::path& path) { std::ofstream(path) << text; });
+  write_text(page, text);
   const Json written = document_of(result, options, device.info());
   JsonFlag{document.string()}.write(written);
   json.write(written);

@@ -52,18 +52,10 @@ Value one_of(const std::string& text, const std::string& flag,
 }
 
 /// To a file, or to standard output as "-".
-void write_text(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
-    return;
-  }
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw Error("{}: cannot be written", path);
-  });
+void write_document(const std::string& path, const std::string& text) {
+  if (path != "-") return write_text(path, text);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
 }
 
 }  // namespace
@@ -337,7 +329,7 @@ void JsonFlag::add_to(CLI::App& app) {
 void JsonFlag::write(const Json& document, const std::vector<std::string>& complete) const {
   if (path.empty()) return;
   try {
-    write_text(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_document(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } catch (const Error& error) {
     if (complete.empty()) throw;
     throw Error("{}; {} {} complete", error.what(), enumerate(complete), complete.size() == 1 ? "is" : "are");

@@ -47,15 +47,6 @@ Json document_of(const report::Measurements& measurements, const std::string& pa
   return {{"report", path}, {"scenes", scenes}, {"classes", classes}};
 }
 
-void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << bytes;
-    stream.close();
-    if (!stream) throw Error("{}: cannot be written", path.string());
-  });
-}
-
 std::string counted(size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
@@ -73,7 +64,7 @@ void write_page(const ReportCommand& flags) {
   options.progress = progress_bar();
   const report::Page page = report::make_page(measurements, folder, options);
   note(page.notes);
-  write_bytes(path, page.html);
+  write_text(path, page.html);
   flags.json.write(document_of(measurements, path.string()));
   if (flags.json.only_json()) return;
   fmt::print("wrote {}: {}, {}, {}, {:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
@@ -152,8 +143,8 @@ void write_markdown(const ReportCommand& flags) {
   check_outputs(flags, page);
   note(page.notes);
   // The page last: it never links to a picture that is not there.
-  for (const report::PictureFile& picture : page.pictures) write_bytes(picture.path, picture.png);
-  write_bytes(flags.markdown, page.text);
+  for (const report::PictureFile& picture : page.pictures) write_text(picture.path, picture.png);
+  write_text(flags.markdown, page.text);
   flags.json.write(document_of(page, flags.markdown));
   if (flags.json.only_json()) return;
   fmt::print("wrote {}: from {}, {}\n", printable(flags.markdown), counted(sources.size(), "file"),

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include "children.h"
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "json_text.h"
 #include "options.h"
 #include "stress/document.h"
 #include "stress/page.h"
@@ -91,8 +91,9 @@ std::vector<std::unique_ptr<Device>> other_devices(const DeviceInfo& own, const 
   return others;
 }
 
+/// On a line of its own, whatever a driver may have written before.
 void say(const stress::Json& line) {
-  fmt::print("{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
+  fmt::print("\n{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
   std::fflush(stdout);
 }
 
@@ -141,7 +142,7 @@ class Examination {
     while (!left_.empty()) {
       case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
       const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
-      if (left_.empty() && end.status == 0) return;
+      if (left_.empty()) return;  // all has been told, however it ended
       if (end.ended_by.empty() && trial_ == 0) throw Error("{}", why(end.said));
       CaseResult broken{.technique = technique_, .number = case_, .trials = trial_};
       broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
@@ -168,14 +169,13 @@ class Examination {
   }
   void take(const std::string& text) {
     const stress::Json line = stress::Json::parse(text, nullptr, false);
-    if (line.is_discarded()) return;  // a driver's own chatter
     if (line.contains("device")) {
       device = line;
     } else if (line.contains("result")) {
       results.push_back(stress::case_result_of(line.at("result")));
       std::erase(left_, results.back().number);
       if (!left_.empty()) case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
-    } else {
+    } else if (line.contains("conditions")) {  // else it is a driver's own chatter
       case_ = line.at("case"), trial_ = line.at("trial"), conditions_ = line.at("conditions");
     }
   }
@@ -290,19 +290,12 @@ void examine_all(const StressCommand& flags, const Request& request, StressRun& 
 }
 
 void write_page(const std::string& path, const std::vector<stress::Json>& documents) {
-  if (path.empty()) return;
-  const std::string page = stress::stability_page(documents);
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << page;
-    stream.close();
-    if (!stream) throw Error("{}: cannot be written", path);
-  });
+  if (!path.empty()) write_text(path, stress::stability_page(documents));
 }
 
 stress::Json read_document(const std::string& path) {
-  const stress::Json document = stress::Json::parse(read_text(path), nullptr, false);
-  if (document.is_discarded() || !document.is_object() || !document.contains("cases") || !document.contains("device"))
+  const stress::Json document = json_of_text(read_text(path), path);
+  if (!document.is_object() || !document.contains("cases") || !document.contains("device"))
     throw Error("{}: holds no results of gloam stress; gloam stress all --json FILE writes some", path);
   return document;
 }

@@ -24,6 +24,9 @@ void remove_temporaries_on_signal();
 /// From now on an interruption says this instead of the number of files written. `text` must live as long as the program.
 void say_on_interruption(const char* text);
 
+/// A whole file, by `write_atomically`.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
 /// A whole text file. Throws Error naming it.
 std::string read_text(const std::filesystem::path& path);
 

@@ -100,6 +100,8 @@ std::string text_of(const RunOptions& options) {
                      options.math == Math::fast ? "fast" : "precise");
 }
 
+std::string normals_text(bool with_normals) { return with_normals ? "exact normals" : "normals from depth"; }
+
 std::string text_of(const Camera& camera) {
   if (camera.slits) return "light-field module";
   return camera.orthographic ? "orthographic" : "perspective";

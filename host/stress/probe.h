@@ -116,7 +116,9 @@ class Probe {
 
 /// "lanes 16, fast"
 std::string text_of(const RunOptions& options);
-/// "perspective", "orthographic"; with the field of view or the width where that says something.
+/// "exact normals", or "normals from depth" for frames that have none.
+std::string normals_text(bool with_normals);
+/// "perspective", "orthographic"
 std::string text_of(const Camera& camera);
 
 /// What is computed when it is first asked for: trials share what they are compared with, and one made alone needs only its own.

@@ -15,8 +15,6 @@
 namespace gloam::stress {
 namespace {
 
-std::string normals_text(bool with_normals) { return with_normals ? "exact normals" : "normals from depth"; }
-
 // --- Row 4
 
 bool points_aside(const std::string& plane) {

@@ -15,8 +15,6 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-std::string normals_text(bool with_normals) { return with_normals ? "exact normals" : "normals from depth"; }
-
 /// The frame as a renderer would have written it that marks background by `value`.
 Frame with_background(const Frame& frame, float value) {
   Frame copy = clone(frame);

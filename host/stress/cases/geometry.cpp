@@ -121,8 +121,8 @@ void unit_of_the_scene(Probe& probe) {
       for (const RunOptions& way : probe.all_ways()) {
         Lazy<Frame> expected([&] { return probe.outputs(frame, probe.usual_samples(), way); });
         for (int k = -20; k <= 20; k += probe.is_quick() ? 8 : 1) {
-          if (!probe.tries(fmt::format("2^{}, {}, {}, {}", k, text_of(shot.camera),
-                                       with_normals ? "exact normals" : "normals from depth", text_of(way))))
+          if (!probe.tries(
+                  fmt::format("2^{}, {}, {}, {}", k, text_of(shot.camera), normals_text(with_normals), text_of(way))))
             continue;
           Frame bigger = scaled(frame, k);
           const Settings lengths = set_lengths(technique, bigger, [&](double length) { return std::ldexp(length, k); });
@@ -146,7 +146,7 @@ void radius_zero_is_open(Probe& probe) {
       for (const Settings& variant : settings) {
         for (const RunOptions& way : probe.two_ways()) {
           if (!probe.tries(fmt::format("lengths 0, {}, {}, {}, {}", text_of(variant), text_of(shot.camera),
-                                       with_normals ? "exact normals" : "normals from depth", text_of(way))))
+                                       normals_text(with_normals), text_of(way))))
             continue;
           const Plan plan = plan_for(probe.technique(), frame, variant + zero);
           const Frame out = probe.outputs(plan, frame, way);
@@ -168,7 +168,7 @@ void radius_of_any_size_is_defined(Probe& probe) {
         for (const double length : {1e-30, 1e-6, 0.01, 100.0, 1e8, 1e30, infinity}) {
           for (const RunOptions& way : probe.all_ways()) {
             if (!probe.tries(fmt::format("lengths {}, {}, {}, {}", length, text_of(shot.camera),
-                                         with_normals ? "exact normals" : "normals from depth", text_of(way))))
+                                         normals_text(with_normals), text_of(way))))
               continue;
             const Settings lengths = set_lengths(probe.technique(), frame, [&](double) { return length; });
             probe.measure_violation("value out of its range at radii under a pixel to infinite",

@@ -56,8 +56,8 @@ void lane_widths(Probe& probe) {
       Lazy<Frame> precise([&] { return probe.outputs(frame, few, {.math = Math::precise, .lanes = 1}); });
       Lazy<Frame> fast([&] { return probe.outputs(frame, few, {.math = Math::fast, .lanes = 1}); });
       for (const int lanes : probe.is_quick() && own > 1 ? std::vector{own} : std::vector{4, 8, 16}) {
-        if (!probe.tries(fmt::format("{}, lanes {} against 1, {}", text_of(shot.camera), lanes,
-                                     with_normals ? "exact normals" : "normals from depth")))
+        if (!probe.tries(
+                fmt::format("{}, lanes {} against 1, {}", text_of(shot.camera), lanes, normals_text(with_normals))))
           continue;
         probe.measure_bits("precise: difference to one lane",
                            probe.outputs(frame, few, {.math = Math::precise, .lanes = lanes}), precise.get());
@@ -82,7 +82,7 @@ void other_devices(Probe& probe) {
         for (const Math math : {Math::precise, Math::fast}) {
           if (probe.is_quick() && (with_normals || shot.camera.orthographic)) continue;
           if (!probe.tries(fmt::format("{} against {}, {}, {}, {}", probe.device().info().name, name,
-                                       text_of(shot.camera), with_normals ? "exact normals" : "normals from depth",
+                                       text_of(shot.camera), normals_text(with_normals),
                                        math == Math::fast ? "fast" : "precise")))
             continue;
           Frame frame = shoot(shot, room(), with_normals);
@@ -111,7 +111,7 @@ void float_against_double(Probe& probe) {
   const Settings samples = probe.usual_samples();
   for (const bool with_normals : {true, false}) {
     if (!with_normals && !probe.opt_out("normals from depth").empty()) continue;
-    const std::string normals = with_normals ? "exact normals" : "normals from depth";
+    const std::string normals = normals_text(with_normals);
     Frame frame = shoot(perspective(160, 120), room(), with_normals);
     Lazy<Frame> exact([&] { return probe.outputs(frame, samples, {.math = Math::precise, .real = Real::float64}); });
     Lazy<Frame> precise([&] { return probe.outputs(frame, samples, {.math = Math::precise}); });
