@@ -221,6 +221,18 @@ const std::vector<Spelling>& spellings() {
   return table;
 }
 
+/// Those of a plane, in the order of the table.
+const std::vector<Spelling>& spellings_of(const std::string& plane) {
+  static const std::map<std::string, std::vector<Spelling>> by_plane = [] {
+    std::map<std::string, std::vector<Spelling>> sorted;
+    for (const Spelling& spelling : spellings()) sorted[spelling.plane].push_back(spelling);
+    return sorted;
+  }();
+  static const std::vector<Spelling> none;
+  const auto found = by_plane.find(plane);
+  return found == by_plane.end() ? none : found->second;
+}
+
 /// Layers whose channels are never taken for something else by their component alone, as when the part is named so.
 bool is_other_data(const std::string& layer) {
   static const std::set<std::string> known = {"mist",      "uv",          "indexob",    "indexma",
@@ -394,8 +406,7 @@ std::vector<Candidate> candidates_of(const std::string& plane, const std::vector
   std::vector<Candidate> candidates;
   for (const Layer& layer : layers) {
     const auto claimed = claimed_by_part_name(layer);
-    for (const Spelling& spelling : spellings()) {
-      if (plane != spelling.plane) continue;
+    for (const Spelling& spelling : spellings_of(plane)) {
       const std::optional<int> rank = fit(spelling, layer);
       if (!rank) continue;
       const std::string_view wanted = spelling.layer;

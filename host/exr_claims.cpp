@@ -5,7 +5,9 @@
 #include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
+#include <bit>
 
+#include "exr_attributes.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -47,26 +49,27 @@ Box united(const Box& a, const Box& b) {
 
 Window window_of(const Box& box) { return {int(box.x0), int(box.y0), int(box.x1), int(box.y1)}; }
 
-void check_size(const fs::path& path, const Box& box, const char* what) {
+void check_size(const fs::path& path, const Box& box, const char* what, long long most_pixels) {
   constexpr int64_t end = 1LL << 30;  // coordinates beyond it overflow in OpenEXR
   if (box.empty()) throw Error("{}: corrupted EXR: its {} window is empty", path.string(), what);
-  if (!box.too_large() && box.x0 > -end && box.y0 > -end && box.x1 < end && box.y1 < end) return;
-  throw Error("{}: claims a {} window of {} x {} pixels; at most 2^28 pixels in all are read", path.string(), what,
-              box.x1 - box.x0, box.y1 - box.y0);
+  if (!box.larger_than(most_pixels) && box.x0 > -end && box.y0 > -end && box.x1 < end && box.y1 < end) return;
+  throw Error("{}: claims a {} window of {} x {} pixels; at most 2^{} pixels in all are read", path.string(), what,
+              box.x1 - box.x0, box.y1 - box.y0, std::bit_width(uint64_t(most_pixels)) - 1);
 }
 
-void check_claims(const fs::path& path, ExrInput& stream) {
+void check_claims(const fs::path& path, ExrInput& stream, long long most_pixels) {
   char start[8];
   stream.read(start, 8);
   const unsigned flags = unsigned(uint8_t(start[5])) << 8;
   int version = int(uint8_t(start[4]) | flags);
+  check_attributes(path, stream, flags & Imf::MULTI_PART_FILE_FLAG);
   try {
     do {
       Imf::Header header;
       header.readFrom(stream, version);
       if (header.readsNothing()) break;
-      check_size(path, box_of(header.displayWindow()), "display");
-      check_size(path, box_of(header.dataWindow()), "data");
+      check_size(path, box_of(header.displayWindow()), "display", most_pixels);
+      check_size(path, box_of(header.dataWindow()), "data", most_pixels);
     } while (flags & Imf::MULTI_PART_FILE_FLAG);
   } catch (const IEX_NAMESPACE::BaseExc&) {
   }
