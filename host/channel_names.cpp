@@ -356,19 +356,20 @@ struct Candidate {
 
 std::vector<const FileChannel*> pick(const Layer& layer, const std::string& alternatives) {
   for (const std::string& alternative : split(alternatives, '|')) {
+    const std::vector<std::string> components = split(alternative, ',');
     std::vector<const FileChannel*> channels;
-    for (const std::string& component : split(alternative, ',')) {
+    for (const std::string& component : components) {
       const auto found = layer.components.find(component);
       if (found != layer.components.end()) channels.push_back(found->second);
     }
-    if (channels.size() == split(alternative, ',').size()) return channels;
+    if (channels.size() == components.size()) return channels;
   }
   return {};
 }
 
 /// How well a spelling fits a layer, as a rank; nothing where it does not.
 std::optional<int> fit(const Spelling& spelling, const Layer& layer) {
-  const std::string wanted = spelling.layer;
+  const std::string_view wanted = spelling.layer;
   const int shared = layer.shared ? 100 : 0;  // a view's own channels come before what all views share
   if (wanted == "*") {
     if (layer.path.empty()) return spelling.rank + shared;

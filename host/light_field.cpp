@@ -79,6 +79,19 @@ Turned turned(const dmat3& linear) {
   return {world_to_view, to_physical};
 }
 
+bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Sizes and places are numbers of any kind, and what comes of them need not be one.
+void check_numbers(const LightFieldDisplay& display, const std::string& name, const Camera& camera) {
+  const dmat3& axes = camera.slits->to_physical;
+  const bool projects = std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0 &&
+                        std::isfinite(camera.cx) && std::isfinite(camera.cy);
+  if (projects && is_finite(axes[0]) && is_finite(axes[1]) && is_finite(axes[2]) && is_finite(camera.pose->position))
+    return;
+  throw Error("display '{}': {}, the screen and the world are too far apart in size to be computed with", display.name,
+              name);
+}
+
 }  // namespace
 
 std::vector<std::string> module_names(const LightFieldDisplay& display) {
@@ -114,6 +127,7 @@ std::vector<std::pair<std::string, Camera>> module_cameras(const LightFieldDispl
     camera.slits = std::make_shared<const TwoSlits>(slits);
     camera.far = depth_of_slit(camera);
     camera.source = "display '" + display.name + "'";
+    check_numbers(display, names[i], camera);
     cameras.emplace_back(names[i], camera);
   }
   return cameras;

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,6 +38,26 @@ inline std::string slurp(const fs::path& path) {
   return text.str();
 }
 
+/// What a run may take. It is refused memory beyond, and ended after so many seconds.
+struct Limits {
+  rlim_t address_space = RLIM_INFINITY;  ///< bytes
+  rlim_t data = RLIM_INFINITY;           ///< bytes of memory of its own, without what is mapped from files
+  unsigned seconds = 500;                ///< before ctest's own limit, so that what it said is still shown
+};
+
+/// In the process to be limited. The address sanitizer and its like map terabytes for themselves, and take their time.
+inline void limit_this_process(const Limits& limits) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  alarm(500);
+#else
+  for (const auto& [resource, most] : {std::pair(RLIMIT_AS, limits.address_space), {RLIMIT_DATA, limits.data}}) {
+    const rlimit limit{most, most};
+    if (most != RLIM_INFINITY) setrlimit(resource, &limit);
+  }
+  alarm(limits.seconds);
+#endif
+}
+
 /// A folder of its own for each test, removed at its end.
 class Cli : public ::testing::Test {
  protected:
@@ -49,7 +70,8 @@ class Cli : public ::testing::Test {
   fs::path path(const std::string& name) const { return folder / name; }
 
   /// Starts gloam; `environment` is added to this process's own.
-  pid_t start(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
+  pid_t start(const Arguments& arguments, const std::map<std::string, std::string>& environment = {},
+              const Limits& limits = {}) const {
     const pid_t child = fork();
     if (child != 0) return child;
     signal(SIGINT, SIG_DFL);  // a shell has its background jobs ignore it, and what they start inherits that
@@ -59,7 +81,7 @@ class Cli : public ::testing::Test {
     std::vector<char*> argv = {const_cast<char*>(GLOAM_BINARY)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    alarm(500);  // before ctest's own limit, so that what it said is still shown
+    limit_this_process(limits);
     execv(GLOAM_BINARY, argv.data());
     _exit(127);
   }
@@ -73,6 +95,9 @@ class Cli : public ::testing::Test {
 
   Result gloam(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
     return finish(start(arguments, environment));
+  }
+  Result gloam_within(const Limits& limits, const Arguments& arguments) const {
+    return finish(start(arguments, {}, limits));
   }
 
   /// Everything in the folder but the captured output.

@@ -97,9 +97,12 @@ extern "C" void keep_input(int signal) {
 
 void keep_input_on_signals(const std::string& name) {
   std::snprintf(kept_name, sizeof kept_name, "%s", name.c_str());
+  static char stack[1 << 16];  // of its own: the program's may be used up
+  const stack_t apart{stack, 0, sizeof stack};
+  ::sigaltstack(&apart, nullptr);
   struct sigaction action {};
   action.sa_handler = keep_input;
-  action.sa_flags = SA_NODEFER;
+  action.sa_flags = SA_NODEFER | SA_ONSTACK;
   for (int signal : {SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGILL, SIGSEGV}) ::sigaction(signal, &action, nullptr);
 }
 
