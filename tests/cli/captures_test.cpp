@@ -147,11 +147,10 @@ TEST_F(CaptureCli, EveryFileIsReadRightOrRefusedInOneLineWithinAGibibyte) {
   EXPECT_EQ(refused, 56);
 }
 
-/// Of memory of its own: the device's compiler maps half a gibibyte of itself.
 TEST_F(CaptureCli, EveryFileIsRunOrRefusedInOneLineWithinAGibibyte) {
   int done = 0, refused = 0;
   for (const fs::path& file : exr_files()) {
-    const Result run = gloam_within({.data = gibibyte, .seconds = 120},
+    const Result run = gloam_within({.address_space = gibibyte, .seconds = 120},
                                     {"run", "hbao+", file, "-o", path("ao.exr"), "--radius", "0.4"});
     if (run.status == 0 && !is_damaged(file)) {
       EXPECT_EQ(FrameFile(path("ao.exr"), {}).common_planes().front(), "depth") << file;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -41,20 +42,30 @@ inline std::string slurp(const fs::path& path) {
 /// What a run may take. It is refused memory beyond, and ended after so many seconds.
 struct Limits {
   rlim_t address_space = RLIM_INFINITY;  ///< bytes
-  rlim_t data = RLIM_INFINITY;           ///< bytes of memory of its own, without what is mapped from files
   unsigned seconds = 500;                ///< before ctest's own limit, so that what it said is still shown
 };
+
+/// Two at most: each thread takes room for its stack and its allocations, on a machine of many cores most of a gibibyte.
+inline void leave_two_cores() {
+  cpu_set_t allowed, two;
+  CPU_ZERO(&two);
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  for (int core = 0; core < CPU_SETSIZE && CPU_COUNT(&two) < 2; ++core)
+    if (CPU_ISSET(core, &allowed)) CPU_SET(core, &two);
+  sched_setaffinity(0, sizeof two, &two);
+  setenv("POCL_MAX_PTHREAD_COUNT", "2", 1);
+}
 
 /// In the process to be limited. The address sanitizer and its like map terabytes for themselves, and take their time.
 inline void limit_this_process(const Limits& limits) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   alarm(500);
 #else
-  for (const auto& [resource, most] : {std::pair(RLIMIT_AS, limits.address_space), {RLIMIT_DATA, limits.data}}) {
-    const rlimit limit{most, most};
-    if (most != RLIM_INFINITY) setrlimit(resource, &limit);
-  }
   alarm(limits.seconds);
+  if (limits.address_space == RLIM_INFINITY) return;
+  leave_two_cores();
+  const rlimit limit{limits.address_space, limits.address_space};
+  setrlimit(RLIMIT_AS, &limit);
 #endif
 }
 
