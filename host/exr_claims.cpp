@@ -39,6 +39,11 @@ int64_t lines_per_chunk(const Imf::Header& header) {
   }
 }
 
+/// Sizes are 32 bits without a sign: their product may not fit into 64 with one.
+int64_t pixels_per_tile(const Imf::TileDescription& tile) {
+  return int64_t(std::min<uint32_t>(tile.xSize, INT32_MAX)) * std::min<uint32_t>(tile.ySize, INT32_MAX);
+}
+
 }  // namespace
 
 Box box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, int64_t(box.max.x) + 1, int64_t(box.max.y) + 1}; }
@@ -81,7 +86,7 @@ void check_plausible(const fs::path& path, const Imf::Header& header, uint64_t f
   const Box data = box_of(header.dataWindow());
   const int64_t width = data.x1 - data.x0, height = data.y1 - data.y0, per_pixel = bytes_per_pixel(header);
   int64_t chunk = width * std::min(height, lines_per_chunk(header));
-  if (header.hasTileDescription()) chunk = int64_t(header.tileDescription().xSize) * header.tileDescription().ySize;
+  if (header.hasTileDescription()) chunk = pixels_per_tile(header.tileDescription());
   const bool honest = chunk <= INT32_MAX / std::max<int64_t>(per_pixel, 1) &&
                       uint64_t(width * height) / (1 << 20) * uint64_t(per_pixel) <= file_size;
   if (!honest)

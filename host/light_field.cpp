@@ -68,7 +68,9 @@ struct Turned {
 
 Turned turned(const dmat3& linear) {
   const dmat3 rows = glm::transpose(linear);
-  const dvec3 z = glm::normalize(rows[2]), y = glm::normalize(rows[1] - glm::dot(rows[1], z) * z), x = glm::cross(y, z);
+  const auto at_right_angles = [](const dvec3& v, const dvec3& z) { return glm::normalize(v - glm::dot(v, z) * z); };
+  // Twice: where the rows lie close together the first leaves what rounding makes of their difference.
+  const dvec3 z = glm::normalize(rows[2]), y = at_right_angles(at_right_angles(rows[1], z), z), x = glm::cross(y, z);
   const dmat3 world_to_view = glm::transpose(dmat3(x, y, z));
   dmat3 to_physical = linear * glm::transpose(world_to_view);
   // What is none but for rounding would make a straight image a skewed one.

@@ -637,21 +637,29 @@ TEST(RefuseExr, AttributesOfAnotherSizeThanTheyHave) {
   refused_for("multiView", "stringvector", 9);
 }
 
+void claim_tiles(const fs::path& path, uint32_t width, uint32_t height) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const uint32_t size[2] = {width, height};
+  file.seekp(std::streamoff(bytes.find("tiledesc") + 9 + 4));
+  file.write(reinterpret_cast<const char*>(size), sizeof size);
+}
+
 /// OpenEXR makes a buffer of a tile's size; ours is no larger than the image.
 TEST(RefuseExr, TilesFarLargerThanTheImage) {
   Folder folder;
   const fs::path path = folder / "f.exr";
   write_exr(path, Imf::Header(8, 8), {{"other", Imf::HALF, ramp}}, true);
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  const uint32_t size[2] = {1, 1 << 28};
-  file.seekp(std::streamoff(bytes.find("tiledesc") + 9 + 4));
-  file.write(reinterpret_cast<const char*>(size), sizeof size);
-  file.close();
+  claim_tiles(path, 1, 1 << 28);
   error_of([&] { FrameFile(path, {}).verify(); });
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
   EXPECT_LT(used.ru_maxrss, 4 << 20) << "KiB";
+  for (const uint32_t size : {1u << 16, 0x7fffffffu, 0xb504f334u, 0xfffffff0u}) {
+    claim_tiles(path, size, size);
+    const std::string message = error_of([&] { FrameFile(path, {}).verify(); });
+    expect_one_line(message, path, "corrupted");
+  }
 }
 
 TEST(RefuseExr, MorePixelsThanAskedFor) {

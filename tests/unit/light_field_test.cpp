@@ -537,6 +537,14 @@ double distance_between(const dvec3& a, const dvec3& along_a, const dvec3& b, co
   return std::abs(glm::dot(b - a, across)) / glm::length(across);
 }
 
+TEST(TwoSlitRays, PosesOfAShearedWorldTurnAndDoNothingElse) {
+  json document = flat_display();
+  document["world_to_physical"]["linear"] = {{2, 0, 0.1}, {0, 2, 0}, {0, -1e7, 1}};
+  const dmat3 turn = module_cameras(read(document), {0, 0, 160, 120}).front().second.pose->world_to_view;
+  const dmat3 product = glm::transpose(turn) * turn;
+  for (int i = 0; i < 3; ++i) expect_near(product[i], dmat3(1.0)[i], 1e-14);
+}
+
 TEST(TwoSlitRays, MeetBothSlits) {
   for_each_module([](const Camera& camera) {
     const TwoSlits& s = *camera.slits;
