@@ -26,7 +26,7 @@ Settings settings_for(const Technique& technique, const PlanRequest& asked) {
   const std::string& refined = technique.effect.refines;
   const std::vector<const Technique*> others = refinements_of(refined.empty() ? technique : find_technique(refined));
   for (const auto& [name, value] : asked.settings) {
-    const bool is_of_another = std::any_of(others.begin(), others.end(), [&](const Technique* other) {
+    const bool is_of_another = std::any_of(others.begin(), others.end(), [&, &name = name](const Technique* other) {
       return other != &technique && is_of(name, other->name);
     });
     if (is_of_another) continue;

@@ -221,6 +221,18 @@ const std::vector<Spelling>& spellings() {
   return table;
 }
 
+/// Those of a plane, in the order of the table.
+const std::vector<Spelling>& spellings_of(const std::string& plane) {
+  static const std::map<std::string, std::vector<Spelling>> by_plane = [] {
+    std::map<std::string, std::vector<Spelling>> sorted;
+    for (const Spelling& spelling : spellings()) sorted[spelling.plane].push_back(spelling);
+    return sorted;
+  }();
+  static const std::vector<Spelling> none;
+  const auto found = by_plane.find(plane);
+  return found == by_plane.end() ? none : found->second;
+}
+
 /// Layers whose channels are never taken for something else by their component alone, as when the part is named so.
 bool is_other_data(const std::string& layer) {
   static const std::set<std::string> known = {"mist",      "uv",          "indexob",    "indexma",
@@ -344,19 +356,20 @@ struct Candidate {
 
 std::vector<const FileChannel*> pick(const Layer& layer, const std::string& alternatives) {
   for (const std::string& alternative : split(alternatives, '|')) {
+    const std::vector<std::string> components = split(alternative, ',');
     std::vector<const FileChannel*> channels;
-    for (const std::string& component : split(alternative, ',')) {
+    for (const std::string& component : components) {
       const auto found = layer.components.find(component);
       if (found != layer.components.end()) channels.push_back(found->second);
     }
-    if (channels.size() == split(alternative, ',').size()) return channels;
+    if (channels.size() == components.size()) return channels;
   }
   return {};
 }
 
 /// How well a spelling fits a layer, as a rank; nothing where it does not.
 std::optional<int> fit(const Spelling& spelling, const Layer& layer) {
-  const std::string wanted = spelling.layer;
+  const std::string_view wanted = spelling.layer;
   const int shared = layer.shared ? 100 : 0;  // a view's own channels come before what all views share
   if (wanted == "*") {
     if (layer.path.empty()) return spelling.rank + shared;
@@ -394,8 +407,7 @@ std::vector<Candidate> candidates_of(const std::string& plane, const std::vector
   std::vector<Candidate> candidates;
   for (const Layer& layer : layers) {
     const auto claimed = claimed_by_part_name(layer);
-    for (const Spelling& spelling : spellings()) {
-      if (plane != spelling.plane) continue;
+    for (const Spelling& spelling : spellings_of(plane)) {
       const std::optional<int> rank = fit(spelling, layer);
       if (!rank) continue;
       const std::string_view wanted = spelling.layer;

@@ -108,7 +108,10 @@ void clean_depth(Channel& depth, float sign, const Background& background) {
 }
 
 void ray_row(float* row, const double* squares_x, int width, double square_y) {
-  for (int x = 0; x < width; ++x) row[x] = float(row[x] / std::sqrt(1 + square_y + squares_x[x]));
+  for (int x = 0; x < width; ++x) {
+    const float z = float(row[x] / std::sqrt(1 + square_y + squares_x[x]));
+    row[x] = z >= nearest ? z : infinity;
+  }
 }
 
 /// Distance from the eye to planar depth, at pixel centres. +inf stays.
@@ -156,7 +159,7 @@ void mark_missing(Channel& depth, const Channel& alpha) {
   for_each_row(depth.layout(), [&](int y) {
     float* row = depth.row(y);
     const float* cover = alpha.row(y);
-    for (int x = 0; x < width; ++x) row[x] = (row[x] == 0) & (cover[x] == 0) ? infinity : row[x];
+    for (int x = 0; x < width; ++x) row[x] = ((row[x] == 0) & (cover[x] == 0)) ? infinity : row[x];
   });
 }
 

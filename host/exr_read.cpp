@@ -359,7 +359,7 @@ void FrameFile::Impl::open() {
   if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) != 0) throw Error("{}: is not an EXR file", path.string());
   use_all_threads();
   guarded(path, [&] {
-    check_claims(path, *stream);
+    check_claims(path, *stream, options.most_pixels);
     file = std::make_unique<Imf::MultiPartInputFile>(*stream);
   });
   check_parts();
@@ -370,8 +370,8 @@ void FrameFile::Impl::check_parts() const {
     const Imf::Header& header = file->header(part);
     if (header.hasType() && Imf::isDeepData(header.type()))
       throw Error("{}: is a deep EXR, with many samples per pixel; flatten it first", path.string());
-    check_size(path, box_of(header.displayWindow()), "display");
-    check_size(path, box_of(header.dataWindow()), "data");
+    check_size(path, box_of(header.displayWindow()), "display", options.most_pixels);
+    check_size(path, box_of(header.dataWindow()), "data", options.most_pixels);
   }
 }
 
@@ -413,7 +413,7 @@ void FrameFile::Impl::find_window() {
 }
 
 void FrameFile::Impl::set_window(const Box& box) {
-  check_size(path, box, "display and data");
+  check_size(path, box, "display and data", options.most_pixels);
   // Rows are padded: a frame of one column takes sixteen.
   const Layout layout(int(box.x1 - box.x0), int(box.y1 - box.y0));
   if (layout.count() > size_t(std::numeric_limits<int>::max()))
@@ -611,7 +611,9 @@ void FrameFile::Impl::decode(Frame& frame) {
         if (decoding.targets.size() == 1) decoding.outside = plane_kind(name).outside;
       }
     }
-  for (auto& [part, decoding] : parts) {
+  for (auto& [number, decodings] : parts) {
+    const int part = number;
+    PartDecoding& decoding = decodings;
     named(path, [&] { check_sampling(file->header(part), decoding); });
     check_plausible(path, file->header(part), stream->size());
     guarded(path, [&] { decode_part(*file, part, decoding, window); });

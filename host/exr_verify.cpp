@@ -66,7 +66,10 @@ void decode_scanlines(Imf::MultiPartInputFile& file, int part, const std::set<st
 
 void decode_tiles(Imf::MultiPartInputFile& file, int part, const std::set<std::pair<int, std::string>>& decoded) {
   Imf::TiledInputPart input(file, part);
-  Band band(file.header(part), part, decoded, int(input.tileYSize()));
+  const Imath::Box2i window = file.header(part).dataWindow();
+  // A tile may be far larger than the image.
+  const int64_t rows = std::min(int64_t(input.tileYSize()), int64_t(window.max.y) - window.min.y + 1);
+  Band band(file.header(part), part, decoded, int(rows));
   if (band.empty()) return;
   for (int tile_y = 0; tile_y < input.numYTiles(0); ++tile_y) {
     input.setFrameBuffer(band.slices(input.dataWindowForTile(0, tile_y, 0).min.y));

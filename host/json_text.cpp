@@ -30,9 +30,18 @@ std::string with_quoted_literals(const std::string& text) {
 
 }  // namespace
 
+nlohmann::json parse_shallow(const std::string& text, const std::string& name) {
+  const auto is_shallow = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+    if (depth > deepest_json)
+      throw Error("{}: its JSON is nested more than {} levels deep, which is not read", name, deepest_json);
+    return true;
+  };
+  return nlohmann::json::parse(text, is_shallow);
+}
+
 nlohmann::json json_of_text(const std::string& text, const std::string& name) {
   try {
-    return nlohmann::json::parse(with_quoted_literals(text));
+    return parse_shallow(with_quoted_literals(text), name);
   } catch (const nlohmann::json::exception& e) {
     const std::string_view what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
     throw Error("{}: not readable as JSON: {}", name, what.substr(what.find("] ") + 2));

@@ -6,7 +6,14 @@
 
 namespace gloam {
 
-/// Parses a text. NaN and Infinity, which Python writes and JSON does not know, become texts of these names. Throws Error
+/// Deeper texts are refused: what goes through them calls itself for each level.
+inline constexpr int deepest_json = 200;
+
+/// Parses a text of JSON proper. Throws Error that begins with `name` for one that is nested too deep, and what the parser
+/// throws.
+nlohmann::json parse_shallow(const std::string& text, const std::string& name);
+
+/// Parses a text that people and scripts write. NaN and Infinity, which Python writes and JSON does not know, become texts of these names. Throws Error
 /// that begins with `name`.
 nlohmann::json json_of_text(const std::string& text, const std::string& name);
 

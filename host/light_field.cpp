@@ -68,7 +68,9 @@ struct Turned {
 
 Turned turned(const dmat3& linear) {
   const dmat3 rows = glm::transpose(linear);
-  const dvec3 z = glm::normalize(rows[2]), y = glm::normalize(rows[1] - glm::dot(rows[1], z) * z), x = glm::cross(y, z);
+  const auto at_right_angles = [](const dvec3& v, const dvec3& z) { return glm::normalize(v - glm::dot(v, z) * z); };
+  // Twice: where the rows lie close together the first leaves what rounding makes of their difference.
+  const dvec3 z = glm::normalize(rows[2]), y = at_right_angles(at_right_angles(rows[1], z), z), x = glm::cross(y, z);
   const dmat3 world_to_view = glm::transpose(dmat3(x, y, z));
   dmat3 to_physical = linear * glm::transpose(world_to_view);
   // What is none but for rounding would make a straight image a skewed one.
@@ -77,6 +79,19 @@ Turned turned(const dmat3& linear) {
       if (column < row || std::abs(to_physical[column][row]) < 1e-12 * std::abs(to_physical[row][row]))
         to_physical[column][row] = 0;
   return {world_to_view, to_physical};
+}
+
+bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Sizes and places are numbers of any kind, and what comes of them need not be one.
+void check_numbers(const LightFieldDisplay& display, const std::string& name, const Camera& camera) {
+  const dmat3& axes = camera.slits->to_physical;
+  const bool projects = std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0 &&
+                        std::isfinite(camera.cx) && std::isfinite(camera.cy);
+  if (projects && is_finite(axes[0]) && is_finite(axes[1]) && is_finite(axes[2]) && is_finite(camera.pose->position))
+    return;
+  throw Error("display '{}': {}, the screen and the world are too far apart in size to be computed with", display.name,
+              name);
 }
 
 }  // namespace
@@ -114,6 +129,7 @@ std::vector<std::pair<std::string, Camera>> module_cameras(const LightFieldDispl
     camera.slits = std::make_shared<const TwoSlits>(slits);
     camera.far = depth_of_slit(camera);
     camera.source = "display '" + display.name + "'";
+    check_numbers(display, names[i], camera);
     cameras.emplace_back(names[i], camera);
   }
   return cameras;

@@ -19,6 +19,7 @@ using nlohmann::json;
 /// A display is a few kilobytes; a larger JSON is something else.
 constexpr std::uintmax_t largest_file = 16 << 20;
 constexpr int most_modules = 4096, most_pixels = 16384;
+constexpr double largest = 1e12;  // of any number
 
 // --- Fields
 
@@ -72,7 +73,7 @@ double finite(const Object& object, const std::string& field, const json& value)
   if (is_nonfinite_literal(value)) refuse(object, field, "is not finite", "a number");
   if (!value.is_number()) refuse(object, field, type_of(value), "a number");
   const double number = value.get<double>();
-  if (!std::isfinite(number) || std::abs(number) > 1e12)
+  if (!std::isfinite(number) || std::abs(number) > largest)
     refuse(object, field, fmt::format("is {:g}", number), "a number of at most 1e12");
   return number;
 }
@@ -279,6 +280,23 @@ std::optional<WorldToPhysical> from_matrix(const Object& document) {
 
 // --- The whole
 
+bool is_within_range(const dvec3& v) {
+  return std::abs(v.x) <= largest && std::abs(v.y) <= largest && std::abs(v.z) <= largest;
+}
+
+/// What comes of numbers in range may be out of it, and could be written and not be read again.
+void check_range(const std::string& file, const LightFieldDisplay& display) {
+  for (size_t i = 0; i < display.modules.size(); ++i)
+    if (!is_within_range(display.modules[i].position))
+      throw Error("{}: module {} stands over 1e12 from the screen's middle; expected at most 1e12", file, i);
+  if (!display.world) return;
+  const dmat3& linear = display.world->linear;
+  if (is_within_range(linear[0]) && is_within_range(linear[1]) && is_within_range(linear[2]) &&
+      is_within_range(display.world->origin))
+    return;
+  throw Error("{}: region_of_interest: its boxes differ too much: the transform has numbers over 1e12", file);
+}
+
 void check_places(const std::string& file, const LightFieldDisplay& display) {
   if (display.screen_radius && !(*display.screen_radius > 0.5 * display.screen_width))
     throw Error(
@@ -320,6 +338,7 @@ LightFieldDisplay display_of(const Object& document) {
   if (find(document, "world_to_physical") && find(document, "region_of_interest"))
     refuse(document, "world_to_physical", "is given beside region_of_interest", "one of the two");
   display.world = find(document, "world_to_physical") ? from_matrix(document) : from_boxes(document);
+  check_range(document.file, display);
   return display;
 }
 

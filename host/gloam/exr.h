@@ -30,6 +30,8 @@ struct ReadOptions {
   /// Values as they stand in the file: only depth is converted, and the space of normals; nothing is clamped, replaced
   /// or made unit. For measuring, which must see what a technique wrote.
   bool as_stored = false;
+  /// Frames of more are refused; a power of two. Who reads many files that may lie about their size sets less.
+  long long most_pixels = max_pixels;
   /// --plane depth=Layer.Z: plane -> channel, channels (a,b,c), layer, or "none": as if the file did not have the plane.
   std::map<std::string, std::string> channels;
 };
@@ -55,7 +57,7 @@ struct PlaneSource {
 
 /// An open EXR file: what it holds, as far as headers and the camera file beside it tell.
 ///
-/// Throws UsageError for --near that is not less than --far, and Error (one line, naming the file) for: missing, not an EXR, truncated, deep, more than `max_pixels`, unknown
+/// Throws UsageError for --near that is not less than --far, and Error (one line, naming the file) for: missing, not an EXR, truncated, deep, more than `most_pixels`, unknown
 /// view, planes or views of different size that cannot be brought together, unreadable or ambiguous camera file, a `camera_file`
 /// that has no camera for the file's views, near that is not less than far.
 class FrameFile {

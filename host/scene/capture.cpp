@@ -1,6 +1,8 @@
 #include "gloam/capture.h"
 
+#ifdef _OPENMP
 #include <omp.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -322,6 +324,14 @@ void check_options(const CaptureOptions& options) {
   }
 }
 
+int thread_count() {
+#ifdef _OPENMP
+  return omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
 /// All rows of a view, on all threads. Returns the seconds of its parts as a mean over the threads.
 PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
   const int rows = options.height * int(options.views.size() + (options.second_view ? 1 : 0));
@@ -347,7 +357,7 @@ PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options
     }
   }
   if (failure) std::rethrow_exception(failure);
-  return {sum.stochastic / omp_get_max_threads(), sum.outlines / omp_get_max_threads()};
+  return {sum.stochastic / thread_count(), sum.outlines / thread_count()};
 }
 
 /// Adds a view to the frame.

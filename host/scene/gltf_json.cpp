@@ -15,6 +15,7 @@
 
 #include "gloam/error.h"
 #include "gloam/files.h"
+#include "json_text.h"
 
 namespace gloam {
 namespace {
@@ -22,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// assimp's parser and its walk over nodes call themselves; some ten thousand levels end the program.
-constexpr int deepest_json = 200;
+/// assimp's parser and its walk over nodes call themselves; some ten thousand levels end the program. Its JSON is shallow
+/// as every JSON is that is read (json_text.h).
 constexpr int deepest_node = 1000;
 
 // --- The JSON text
@@ -57,13 +58,8 @@ json parsed(const fs::path& path) {
   const std::string ending = path.extension().string();
   const bool binary = ending.size() == 4;
   const std::string text = binary ? json_of_glb(path) : read_text(path);
-  const auto shallow = [&](int depth, json::parse_event_t, json&) {
-    if (depth > deepest_json)
-      throw Error("{}: its JSON is nested more than {} levels deep, which is not read", path.string(), deepest_json);
-    return true;
-  };
   try {
-    return json::parse(text, shallow);
+    return parse_shallow(text, path.string());
   } catch (const json::exception& e) {
     const std::string reason = e.what();  // "[json.exception.parse_error.101] parse error at line ..."
     throw Error("{}: is not glTF: {}", path.string(), reason.substr(std::min(reason.find("] ") + 2, reason.size())));

@@ -110,23 +110,62 @@ TEST_F(CaptureCli, TheOneEyeOfAOneElementMultiViewKeepsItsName) {
   EXPECT_EQ(info["views"], Json({"right"}));
 }
 
-TEST_F(CaptureCli, SamplesOfTheFormatAreReadRightOrRefusedInOneLine) {
+/// All EXR files of the captures, whatever their names end in.
+std::vector<fs::path> exr_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(captures)) {
+    const std::string extension = entry.path().extension().string();
+    const bool is_text = entry.path().filename() == "LICENSE" || extension == ".rst" || extension == ".md";
+    if (entry.is_regular_file() && !is_text && extension != ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_damaged(const fs::path& file) { return file.parent_path().filename() == "Damaged"; }
+
+void expect_refused_in_one_line(const Result& result, const fs::path& file) {
+  EXPECT_EQ(result.status, 1) << file << ": " << result.err;
+  EXPECT_EQ(result.lines_of_error(), 1) << file << ": " << result.err;
+  EXPECT_NE(result.err.find(file.filename().string()), std::string::npos) << result.err;
+}
+
+constexpr rlim_t gibibyte = rlim_t(1) << 30;
+
+TEST_F(CaptureCli, EveryFileIsReadRightOrRefusedInOneLineWithinAGibibyte) {
   int refused = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(captures / "openexr-images")) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || name == "LICENSE" || entry.path().extension() == ".rst") continue;
-    const Result info = gloam({"info", entry.path(), "--json", "-"});
-    if (entry.path().parent_path().filename() != "Damaged") {
-      EXPECT_EQ(info.status, 0) << name << ": " << info.err;
-      EXPECT_TRUE(info.json().contains("size")) << name;
-    } else {
-      EXPECT_EQ(info.status, 1) << name << ": " << info.err;
-      EXPECT_EQ(info.lines_of_error(), 1) << name << ": " << info.err;
-      EXPECT_NE(info.err.find(name), std::string::npos) << info.err;
+  for (const fs::path& file : exr_files()) {
+    const Result info = gloam_within({.address_space = gibibyte, .seconds = 60}, {"info", file, "--json", "-"});
+    if (is_damaged(file)) {
+      expect_refused_in_one_line(info, file);
       ++refused;
+    } else {
+      EXPECT_EQ(info.status, 0) << file << ": " << info.err;
+      EXPECT_TRUE(info.json().contains("size")) << file;
     }
   }
   EXPECT_EQ(refused, 56);
+}
+
+TEST_F(CaptureCli, EveryFileIsRunOrRefusedInOneLineWithinAGibibyte) {
+  int done = 0, refused = 0;
+  for (const fs::path& file : exr_files()) {
+    const Result run = gloam_within({.address_space = gibibyte, .seconds = 120},
+                                    {"run", "hbao+", file, "-o", path("ao.exr"), "--radius", "0.4"});
+    if (run.status == 0 && !is_damaged(file)) {
+      EXPECT_EQ(FrameFile(path("ao.exr"), {}).common_planes().front(), "depth") << file;
+      ++done;
+    } else {
+      expect_refused_in_one_line(run, file);
+      EXPECT_FALSE(fs::exists(path("ao.exr"))) << file;
+      ++refused;
+    }
+    fs::remove(path("ao.exr"));
+  }
+  RecordProperty("done", done);
+  RecordProperty("refused", refused);
+  EXPECT_GE(done, 10);
+  EXPECT_GE(refused, 56);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,6 +39,36 @@ inline std::string slurp(const fs::path& path) {
   return text.str();
 }
 
+/// What a run may take. It is refused memory beyond, and ended after so many seconds.
+struct Limits {
+  rlim_t address_space = RLIM_INFINITY;  ///< bytes
+  unsigned seconds = 500;                ///< before ctest's own limit, so that what it said is still shown
+};
+
+/// Two at most: each thread takes room for its stack and its allocations, on a machine of many cores most of a gibibyte.
+inline void leave_two_cores() {
+  cpu_set_t allowed, two;
+  CPU_ZERO(&two);
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  for (int core = 0; core < CPU_SETSIZE && CPU_COUNT(&two) < 2; ++core)
+    if (CPU_ISSET(core, &allowed)) CPU_SET(core, &two);
+  sched_setaffinity(0, sizeof two, &two);
+  setenv("POCL_MAX_PTHREAD_COUNT", "2", 1);
+}
+
+/// In the process to be limited. The address sanitizer and its like map terabytes for themselves, and take their time.
+inline void limit_this_process(const Limits& limits) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  alarm(500);
+#else
+  alarm(limits.seconds);
+  if (limits.address_space == RLIM_INFINITY) return;
+  leave_two_cores();
+  const rlimit limit{limits.address_space, limits.address_space};
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
 /// A folder of its own for each test, removed at its end.
 class Cli : public ::testing::Test {
  protected:
@@ -49,7 +81,8 @@ class Cli : public ::testing::Test {
   fs::path path(const std::string& name) const { return folder / name; }
 
   /// Starts gloam; `environment` is added to this process's own.
-  pid_t start(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
+  pid_t start(const Arguments& arguments, const std::map<std::string, std::string>& environment = {},
+              const Limits& limits = {}) const {
     const pid_t child = fork();
     if (child != 0) return child;
     signal(SIGINT, SIG_DFL);  // a shell has its background jobs ignore it, and what they start inherits that
@@ -59,7 +92,7 @@ class Cli : public ::testing::Test {
     std::vector<char*> argv = {const_cast<char*>(program)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    alarm(500);  // before ctest's own limit, so that what it said is still shown
+    limit_this_process(limits);
     execv(program, argv.data());
     _exit(127);
   }
@@ -73,6 +106,9 @@ class Cli : public ::testing::Test {
 
   Result gloam(const Arguments& arguments, const std::map<std::string, std::string>& environment = {}) const {
     return finish(start(arguments, environment));
+  }
+  Result gloam_within(const Limits& limits, const Arguments& arguments) const {
+    return finish(start(arguments, {}, limits));
   }
 
   /// Everything in the folder but the captured output.

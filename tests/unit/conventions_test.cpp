@@ -174,6 +174,14 @@ TEST(Depth, RayLength) {
   EXPECT_EQ(convert({10, 0, 3}, with(DepthConvention::ray), camera).depth, (std::vector<float>{10, inf, 3}));
 }
 
+TEST(Depth, RayLengthsThatLeaveNoDepthAreBackground) {
+  Camera camera = plain_camera();
+  camera.fx = 1e-6;  // the pixel's ray lies all but in the plane of the image
+  camera.cx = -1e6;
+  EXPECT_EQ(convert({1e-25f, 1e-29f, 1e10f}, with(DepthConvention::ray), camera).depth,
+            (std::vector<float>{inf, inf, inf}));
+}
+
 TEST(Depth, RayLengthOfAWallOverAllFieldsOfView) {
   double worst = 0;
   for (double degrees : {1.0, 60.0, 120.0, 179.0}) {

@@ -604,6 +604,74 @@ TEST(RefuseExr, ClaimsOfTooManyPixels) {
   expect_one_line(read_error(path), path, "corrupted");
 }
 
+/// Puts a size in place of that of an attribute with this name and type.
+void claim_size(const fs::path& path, const std::string& name, const std::string& type, uint32_t size) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}}, start = name + '\0' + type + '\0';
+  ASSERT_NE(bytes.find(start), std::string::npos);
+  file.seekp(std::streamoff(bytes.find(start) + start.size()));
+  file.write(reinterpret_cast<const char*>(&size), sizeof size);
+}
+
+/// OpenEXR makes room for what is claimed, and reads on behind what the type takes.
+TEST(RefuseExr, AttributesOfAnotherSizeThanTheyHave) {
+  Folder folder;
+  const fs::path path = folder / "f.exr";
+  const auto refused_for = [&](const std::string& name, const std::string& type, uint32_t size) {
+    Imf::Header header(8, 8);
+    Imf::addComments(header, "none");
+    Imf::addMultiView(header, {"left", "right"});
+    header.insert("near", Imf::FloatAttribute(1));
+    write_exr(path, header, {{"Z", Imf::FLOAT, ramp}});
+    claim_size(path, name, type, size);
+    expect_one_line(read_error(path), path, "attribute " + name);
+  };
+  for (const uint32_t size : {2000000000u, 0xffffffffu}) {
+    refused_for("comments", "string", size);
+    refused_for("near", "float", size);
+    refused_for("channels", "chlist", size);
+    refused_for("multiView", "stringvector", size);
+  }
+  for (const uint32_t size : {0u, 3u, 5u}) refused_for("near", "float", size);
+  refused_for("channels", "chlist", 10);
+  refused_for("multiView", "stringvector", 9);
+}
+
+void claim_tiles(const fs::path& path, uint32_t width, uint32_t height) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const uint32_t size[2] = {width, height};
+  file.seekp(std::streamoff(bytes.find("tiledesc") + 9 + 4));
+  file.write(reinterpret_cast<const char*>(size), sizeof size);
+}
+
+/// OpenEXR makes a buffer of a tile's size; ours is no larger than the image.
+TEST(RefuseExr, TilesFarLargerThanTheImage) {
+  Folder folder;
+  const fs::path path = folder / "f.exr";
+  write_exr(path, Imf::Header(8, 8), {{"other", Imf::HALF, ramp}}, true);
+  claim_tiles(path, 1, 1 << 28);
+  error_of([&] { FrameFile(path, {}).verify(); });
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  EXPECT_LT(used.ru_maxrss, 4 << 20) << "KiB";
+  for (const uint32_t size : {1u << 16, 0x7fffffffu, 0xb504f334u, 0xfffffff0u}) {
+    claim_tiles(path, size, size);
+    const std::string message = error_of([&] { FrameFile(path, {}).verify(); });
+    expect_one_line(message, path, "corrupted");
+  }
+}
+
+TEST(RefuseExr, MorePixelsThanAskedFor) {
+  Folder folder;
+  write_exr(folder / "f.exr", Imf::Header(32, 32), {{"Z", Imf::FLOAT, ramp}});
+  ReadOptions options;
+  options.most_pixels = 1 << 10;
+  EXPECT_EQ(read_error(folder / "f.exr", {"depth"}, options), "");
+  options.most_pixels = 1 << 9;
+  expect_one_line(read_error(folder / "f.exr", {"depth"}, options), "f.exr", "2^9");
+}
+
 TEST(RefuseExr, WindowsThatAreFarApart) {
   Folder folder;
   write_exr(folder / "f.exr", Imf::Header(box(0, 0, 9, 9), box(100000000, 100000000, 100000009, 100000009)),

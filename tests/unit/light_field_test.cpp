@@ -325,6 +325,39 @@ TEST(DisplayFault, NumbersThatAreNotFinite) {
   expect_fault(fault("/screen/width", "1e999"), {"JSON"});
 }
 
+TEST(DisplayFault, BoxesThatDifferTooMuch) {
+  json display = flat_display();
+  display.erase("world_to_physical");
+  display["region_of_interest"] = {{"physical", {{"size", {1, 1, 1}}}}, {"world", {{"size", {1, 1, 1e-11}}}}};
+  EXPECT_EQ(fault_of(display), "no error");
+  display["region_of_interest"]["world"]["size"][2] = 1e-13;
+  expect_fault(fault_of(display), {"region_of_interest", "differ too much", "1e12"});
+}
+
+TEST(DisplayFault, TextsNestedSoDeepThatReadersWouldEnd) {
+  const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+  std::string text = flat_display().dump();
+  text.replace(text.find("\"line\""), 0, "\"facing\": " + deep + ", ");
+  expect_fault(message_of([&] { display_from_text(text, "d.json"); }), {"200 levels"});
+}
+
+TEST(DisplayFault, ModulesPlacedBeyondTheRangeOfNumbers) {
+  json display = flat_display();
+  display["modules"]["line"]["to"][2] = -1e12;
+  EXPECT_EQ(fault_of(display), "no error");
+  display["modules"].erase("line");
+  display["modules"]["arc"] = {{"centre", {0, 0, -1e12}}, {"radius", 1e12}, {"angle", 1}};
+  expect_fault(fault_of(display), {"module 0", "1e12"});
+}
+
+TEST(DisplayFault, ScreensTooNarrowForNumbers) {
+  json display = flat_display();
+  display["screen"]["width"] = 1e-300;
+  const LightFieldDisplay narrow = read(display);
+  const std::string message = message_of([&] { module_cameras(narrow, {0, 0, 16, 12}); });
+  EXPECT_NE(message.find("'wall': module00, the screen and the world"), std::string::npos) << message;
+}
+
 TEST(DisplayFault, MisspeltFields) {
   const auto fault = [](const char* pointer) {
     json document = flat_display();
@@ -502,6 +535,14 @@ TEST(TwoSlitRays, PosesAreThoseOfTheDisplay) {
 double distance_between(const dvec3& a, const dvec3& along_a, const dvec3& b, const dvec3& along_b) {
   const dvec3 across = glm::cross(along_a, along_b);
   return std::abs(glm::dot(b - a, across)) / glm::length(across);
+}
+
+TEST(TwoSlitRays, PosesOfAShearedWorldTurnAndDoNothingElse) {
+  json document = flat_display();
+  document["world_to_physical"]["linear"] = {{2, 0, 0.1}, {0, 2, 0}, {0, -1e7, 1}};
+  const dmat3 turn = module_cameras(read(document), {0, 0, 160, 120}).front().second.pose->world_to_view;
+  const dmat3 product = glm::transpose(turn) * turn;
+  for (int i = 0; i < 3; ++i) expect_near(product[i], dmat3(1.0)[i], 1e-14);
 }
 
 TEST(TwoSlitRays, MeetBothSlits) {

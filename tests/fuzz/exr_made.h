@@ -1,0 +1,13 @@
+// Small EXR files of every kind that OpenEXR writes, but for deep ones.
+#pragma once
+
+#include <string>
+
+#include "fuzz/random.h"
+
+namespace gloam::fuzz {
+
+/// A whole file: parts, views, windows, channels, compressions, cameras and values at random.
+std::string made_exr(Random& random);
+
+}  // namespace gloam::fuzz

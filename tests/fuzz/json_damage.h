@@ -1,0 +1,15 @@
+// Damages a JSON text: in its values and names, or as text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fuzz/random.h"
+
+namespace gloam::fuzz {
+
+/// One change. `starts`: texts that may take the place of this one, or lend it a part; `words`: names of fields.
+std::string damaged_json(const std::string& text, const std::vector<std::string>& starts,
+                         const std::vector<std::string>& words, Random& random);
+
+}  // namespace gloam::fuzz

@@ -1,0 +1,22 @@
+// Names and numbers that files may hold and that some reader may trip over.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fuzz/random.h"
+
+namespace gloam::fuzz {
+
+/// Names of channels without layer and view, of attributes, views and parts: what gloam looks for, and others.
+const std::vector<std::string>& channel_words();
+const std::vector<std::string>& layer_words();
+const std::vector<std::string>& view_words();
+
+/// Numbers at the limits of what types and formulas take.
+double odd_number(Random& random);
+int odd_whole_number(Random& random);
+/// A word of another list, an empty one, a long one, or one that no terminal may show.
+std::string odd_word(Random& random);
+
+}  // namespace gloam::fuzz
