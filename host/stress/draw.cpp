@@ -9,10 +9,10 @@
 
 #include "gloam/exr.h"
 #include "gloam/planes.h"
+#include "random.h"
 #include "stress/frames.h"
 #include "stress/modules.h"
 #include "stress/probe.h"
-#include "stress/random.h"
 
 namespace gloam::stress {
 namespace {
@@ -23,37 +23,37 @@ constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric
 float any_value(Random& random) {
   static const std::vector<float> specials = {nan,    inf,    -inf,  0,     -0.0f,  -1,    -1e38f, 1e-45f, 1e-39f,
                                               1e-30f, 1e-20f, 1e-6f, 65504, 9.9e9f, 1e38f, 1,      0.5f,   3.4e38f};
-  const int kind = random.below(4);
-  if (kind == 0) return random.of(specials);
-  if (kind == 1) return std::bit_cast<float>(random.bits());
+  const size_t kind = random.below(4);
+  if (kind == 0) return random.pick(specials);
+  if (kind == 1) return std::bit_cast<float>(uint32_t(random.next()));
   if (kind == 2) return float(random.of_any_size(1e-30, 1e10));
-  return float(random.between(1, 2));  // a surface, so that neighbours are near each other somewhere
+  return float(random.uniform(1, 2));  // a surface, so that neighbours are near each other somewhere
 }
 
 Shot any_shot(Random& random) {
   // Few sizes: a CPU compiles for each.
   static const std::vector<std::pair<int, int>> sizes = {{1, 1}, {1, 33}, {33, 1}, {17, 13}, {80, 60}, {93, 61}};
-  const auto [width, height] = random.of(sizes);
-  Shot shot = random.one_in(3)
-                  ? orthographic(width, height, random.of_any_size(1e-6, 1e8))
-                  : perspective(width, height,
-                                random.one_in(2) ? random.between(20, 120) : random.of(std::vector{1.0, 150.0, 179.0}));
+  const auto [width, height] = random.pick(sizes);
+  Shot shot =
+      random.one_in(3)
+          ? orthographic(width, height, random.of_any_size(1e-6, 1e8))
+          : perspective(width, height, random.one_in(2) ? random.uniform(20, 120) : random.pick({1.0, 150.0, 179.0}));
   if (random.one_in(3)) {  // off its axis, and with pixels that are not square
-    shot.camera.cx += random.between(-2, 2) * width;
-    shot.camera.cy += random.between(-2, 2) * height;
-    shot.camera.fy *= random.between(0.5, 2);
+    shot.camera.cx += random.uniform(-2, 2) * width;
+    shot.camera.cy += random.uniform(-2, 2) * height;
+    shot.camera.fy *= random.uniform(0.5, 2);
   }
   return shot;
 }
 
 glm::dvec3 any_position(Random& random, double size) {
-  return size * glm::dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  return size * glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
 }
 
 Pose any_pose(Random& random) {
   Pose pose;
   pose.position = any_position(random, random.one_in(2) ? 1 : random.of_any_size(1e-3, 1e7));
-  const double angle = random.one_in(2) ? 0 : random.between(-3, 3);
+  const double angle = random.one_in(2) ? 0 : random.uniform(-3, 3);
   pose.world_to_view = glm::dmat3(glm::rotate(glm::dmat4(1), angle, glm::normalize(glm::dvec3(0.2, 1, 0.1))));
   return pose;
 }
@@ -64,7 +64,7 @@ Camera beside(const Camera& camera, Random& random) {
   if (!other.pose) other.pose.emplace();
   other.pose->position += any_position(random, random.of_any_size(1e-9, 1e3));
   if (random.one_in(4)) other.pose = any_pose(random);
-  if (random.one_in(4)) other.fx *= random.between(0.5, 2), other.cx += random.between(-20, 20);
+  if (random.one_in(4)) other.fx *= random.uniform(0.5, 2), other.cx += random.uniform(-20, 20);
   return other;
 }
 
@@ -92,7 +92,7 @@ void sprinkle(Plane& plane, int one_of, Random& random) {
 /// Planes with all that may stand in them: noise everywhere, or here and there in what the room shows.
 void spoil(Frame& frame, Random& random) {
   const bool everywhere = random.one_in(2);
-  const int one_of = random.of(std::vector{3, 30, 300});
+  const int one_of = random.pick({3, 30, 300});
   for (View& view : frame.views) {
     for (auto& [name, plane] : view.planes) {
       if (everywhere)
@@ -112,10 +112,10 @@ Settings any_floats(const Plan& plan, Random& random) {
       const std::string name = planned.technique->name + "." + p.name;
       if (p.type != Parameter::Type::floating || !seen.insert(name).second || !random.one_in(4)) continue;
       const double most = std::isinf(p.max) ? 1e9 : p.max, least = std::max(p.min, most * 1e-12);
-      const int kind = random.below(4);
+      const size_t kind = random.below(4);
       const double value = kind == 0   ? p.min
                            : kind == 1 ? p.max
-                           : kind == 2 ? random.between(p.min, most)
+                           : kind == 2 ? random.uniform(p.min, most)
                                        : random.of_any_size(least, std::max(most, least));
       settings.emplace_back(name, exact(std::clamp(double(float(value)), p.min, p.max)));
     }
@@ -136,8 +136,8 @@ std::string Draw::text() const {
 Frame any_view(const Technique& technique, Random& random) {
   if (technique.any_projection && random.one_in(3)) {
     static const std::vector<std::pair<int, int>> sizes = {{17, 13}, {33, 1}, {80, 60}};
-    const auto [width, height] = random.of(sizes);
-    return shoot_modules(random.of(display_cases()).display, width, height, room());
+    const auto [width, height] = random.pick(sizes);
+    return shoot_modules(random.pick(display_cases()).display, width, height, room());
   }
   return shoot(any_shot(random), room(), !random.one_in(3));
 }
@@ -155,7 +155,7 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
   if (!is_module && (random.one_in(2) || first.find("position"))) first.camera->pose = any_pose(random);
   const std::vector<Settings> choices = variants(technique, drawn.frame);
   const bool is_choice = random.one_in(extent == Extent::quick ? 6 : 3);
-  if (is_choice) drawn.settings = random.of(choices);
+  if (is_choice) drawn.settings = random.pick(choices);
   const Plan plan = plan_for(technique, drawn.frame, drawn.settings);
   drawn.settings = drawn.settings + any_floats(plan, random);
   for (size_t i = 1; i < drawn.frame.views.size() && !is_module; ++i)
@@ -168,7 +168,7 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
   const bool is_fast = random.one_in(2) || (is_choice && extent == Extent::quick);
   drawn.options = {.math = is_fast ? Math::fast : Math::precise,
                    .lanes = is_fast ? usual_lanes(device).back() : 1,
-                   .seed = random.below(1000)};
+                   .seed = random.between(0, 999)};
   return drawn;
 }
 

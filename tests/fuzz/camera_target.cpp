@@ -93,6 +93,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
   using namespace gloam::fuzz;
   static const std::vector<std::string> starts = seeds();
-  Random random(seed);
+  gloam::Random random(seed);
   return put(damaged_json({reinterpret_cast<const char*>(data), size}, starts, words(), random), data, most);
 }

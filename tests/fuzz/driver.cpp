@@ -20,6 +20,7 @@
 
 namespace {
 
+using gloam::Random;
 using namespace gloam::fuzz;
 namespace fs = std::filesystem;
 
@@ -48,18 +49,21 @@ void set_number(std::string& bytes, Random& random) {
 }
 
 void remove_bytes(std::string& bytes, Random& random) {
-  if (!bytes.empty()) bytes.erase(random.below(bytes.size()), 1 + random.below(random.one_in(4) ? 64 : 4));
+  if (bytes.empty()) return;
+  const size_t at = random.below(bytes.size()), most = random.one_in(4) ? 64 : 4;
+  bytes.erase(at, 1 + random.below(most));
 }
 
 void insert_bytes(std::string& bytes, Random& random) {
-  const std::string more(1 + random.below(8), char(random.next()));
+  const size_t size = 1 + random.below(8);
+  const std::string more(size, char(random.next()));
   bytes.insert(random.below(bytes.size() + 1), more);
 }
 
 void copy_bytes(std::string& bytes, Random& random) {
   if (bytes.empty()) return;
-  const std::string piece = bytes.substr(random.below(bytes.size()), 1 + random.below(16));
-  const size_t at = random.below(bytes.size());
+  const size_t from = random.below(bytes.size()), size = 1 + random.below(16), at = random.below(bytes.size());
+  const std::string piece = bytes.substr(from, size);
   bytes.replace(at, random.one_in(2) ? piece.size() : 0, piece);
 }
 
@@ -142,7 +146,7 @@ size_t feed_files(const std::vector<std::string>& paths) {
 
 /// Every input depends on the seed and its own number alone.
 std::string input_of(const std::vector<std::string>& starts, uint64_t seed, uint64_t number) {
-  Random random(seed * 0x100000001b3u + number);
+  Random random(seed, number);
   byte_source = Random(random.next());
   std::string input = starts[size_t(number) % starts.size()];
   for (int changes = random.between(0, 4); changes > 0; --changes) {

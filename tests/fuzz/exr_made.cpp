@@ -50,7 +50,7 @@ class Memory : public Imf::OStream {
 // --- Headers
 
 Imath::Box2i window_near(const Imath::V2i& corner, Random& random) {
-  const Imath::V2i from = corner + Imath::V2i(random.between(-3, 3), random.between(-3, 3));
+  const Imath::V2i from = corner + Imath::V2i{random.between(-3, 3), random.between(-3, 3)};
   int size[2] = {random.between(1, 16), random.between(1, 16)};
   if (random.one_in(8)) size[random.below(2)] = random.between(1, 300);  // further chunks, further bands
   return {from, from + Imath::V2i(size[0] - 1, size[1] - 1)};
@@ -71,9 +71,9 @@ void set_storage(Imf::Header& header, Random& random) {
   header.setType(random.one_in(3) ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
   if (header.type() == Imf::SCANLINEIMAGE) return;
   header.setTileDescription(
-      Imf::TileDescription(unsigned(random.between(4, 20)), unsigned(random.between(4, 20)),
+      Imf::TileDescription{unsigned(random.between(4, 20)), unsigned(random.between(4, 20)),
                            random.pick({Imf::ONE_LEVEL, Imf::ONE_LEVEL, Imf::MIPMAP_LEVELS, Imf::RIPMAP_LEVELS}),
-                           random.pick({Imf::ROUND_DOWN, Imf::ROUND_UP})));
+                           random.pick({Imf::ROUND_DOWN, Imf::ROUND_UP})});
   if (random.one_in(4)) header.lineOrder() = Imf::RANDOM_Y;
 }
 
@@ -120,8 +120,9 @@ Camera made_camera(const Imath::Box2i& display, Random& random) {
   camera.cx = (display.min.x + display.max.x + 1) / 2.0 + random.between(-4, 4);
   camera.cy = (display.min.y + display.max.y + 1) / 2.0;
   Pose pose;
-  const glm::dquat turn(random.between(1, 5), random.between(-5, 5), random.between(-5, 5), random.between(-5, 5));
-  pose.world_to_view = glm::mat3_cast(glm::normalize(turn));
+  const double turn[] = {double(random.between(1, 5)), double(random.between(-5, 5)), double(random.between(-5, 5)),
+                         double(random.between(-5, 5))};
+  pose.world_to_view = glm::mat3_cast(glm::normalize(glm::dquat(turn[0], turn[1], turn[2], turn[3])));
   pose.position = {random.between(-9, 9), random.between(-9, 9), random.one_in(4) ? 1e7 : 2};
   camera.pose = pose;
   return camera;

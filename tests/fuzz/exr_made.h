@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fuzz/random.h"
+#include "random.h"
 
 namespace gloam::fuzz {
 

@@ -151,7 +151,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string& path = file.hold(data, size);
   if (!reads(path, [&] { read_everything(path, plain_options()); })) return 0;
   // Some of what is read as it stands is read again with flags, which the bytes choose.
-  Random random(std::hash<std::string_view>()({reinterpret_cast<const char*>(data), size}));
+  gloam::Random random(std::hash<std::string_view>()({reinterpret_cast<const char*>(data), size}));
   if (!random.one_in(4)) return 0;
   reads("", [&] { read_everything(path, other_options(random)); });
   return 0;
@@ -159,6 +159,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
   using namespace gloam::fuzz;
-  Random random(seed);
+  gloam::Random random(seed);
   return put(damaged_exr({reinterpret_cast<const char*>(data), size}, random), data, most);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/random.h"
+#include "random.h"
 
 namespace gloam::fuzz {
 

@@ -180,6 +180,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
   using namespace gloam::fuzz;
-  Random random(seed);
+  gloam::Random random(seed);
   return put(damaged({reinterpret_cast<const char*>(data), size}, random), data, most);
 }

@@ -85,8 +85,10 @@ std::string odd_word(Random& random) {
   switch (random.below(8)) {
     case 0:
       return "";
-    case 1:
-      return std::string(1 + random.below(300), char('a' + random.below(26)));
+    case 1: {
+      const char letter = char('a' + random.below(26));
+      return std::string(1 + random.below(300), letter);
+    }
     case 2:
       return random.pick(
           {"\n", "\x1b[31m", "a\nb", "\xff\xfe", "\xc2\x85", "\xe2\x80\xae", "{}", "%s%n", "..", ".", "a b"});
