@@ -35,8 +35,17 @@ Frame with_layers(const Technique& technique, int count) {
   return frame;
 }
 
-Settings settings_of(const Technique& technique, const std::string& samples, const std::string& alpha) {
-  return few_samples(technique) + Settings{{"stochastic-depth.samples", samples}, {"stochastic-depth.alpha", alpha}};
+/// So many depths are drawn, and as many asked for by what reads them.
+Settings settings_of(const Technique& technique, Frame& frame, const std::string& samples, const std::string& alpha) {
+  Settings settings = few_samples(technique);
+  for (const PlannedPass& planned : plan_for(technique, frame).passes) {
+    const Technique& t = *planned.technique;
+    const bool draws = planned.values.has("alpha");
+    const bool reads = std::find(t.reads.begin(), t.reads.end(), "stochastic") != t.reads.end();
+    if (draws || reads) settings.emplace_back(t.name + ".samples", samples);
+    if (draws) settings.emplace_back(t.name + ".alpha", alpha);
+  }
+  return settings;
 }
 
 /// Whether the technique is one of these; notes why not.
@@ -61,7 +70,7 @@ void all_samples_take_the_nearest(Probe& probe) {
               fmt::format("alpha 1, {} samples, 64 layers against the depth alone, {}", samples, text_of(way))))
         continue;
       Frame deep = with_layers(probe.technique(), 64), flat = with_layers(probe.technique(), 1);
-      const Settings settings = settings_of(probe.technique(), samples, "1");
+      const Settings settings = settings_of(probe.technique(), deep, samples, "1");
       probe.measure_bits("alpha 1: difference to the ordinary depth", probe.outputs(deep, settings, way),
                          probe.outputs(flat, settings, way));
     }
@@ -78,7 +87,7 @@ void any_layers_and_samples(Probe& probe) {
             continue;
           Frame frame = with_layers(probe.technique(), layers);
           probe.measure_violation("value out of its range",
-                                  probe.outputs(frame, settings_of(probe.technique(), samples, alpha), way));
+                                  probe.outputs(frame, settings_of(probe.technique(), frame, samples, alpha), way));
         }
       }
     }
@@ -99,7 +108,8 @@ void shares_of_layers(Probe& probe) {
       std::vector<double> shares(layers);
       double count = 0;
       for (int seed = 0; seed < seeds; ++seed) {
-        const Frame out = probe.outputs(frame, settings_of(probe.technique(), samples, exact(alpha)), {.seed = seed});
+        const Frame out =
+            probe.outputs(frame, settings_of(probe.technique(), frame, samples, exact(alpha)), {.seed = seed});
         for (const auto& [name, plane] : out.views[0].planes) {
           if (!stack_layer(name)) continue;
           for (int y = 0; y < frame.height(); ++y) {
