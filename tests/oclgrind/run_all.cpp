@@ -1,13 +1,15 @@
 // Runs every technique once on small frames, one pixel per work-item: to be watched by oclgrind, which finds accesses
-// out of bounds. All choices, switches and counts in the long run; the few samples of the defaults each time.
+// out of bounds. All choices, switches and counts in the long run; the few samples of the defaults each time. Of precise
+// mathematics the bits are told, which are to be the same as another device's.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
+#include "fingerprint.h"
 #include "gloam/error.h"
-#include "support/stress.h"
 #include "support/light_field.h"
 #include "support/long.h"
+#include "support/stress.h"
 #include "support/techniques.h"
 
 namespace gloam::test {
@@ -64,11 +66,33 @@ int run_variants(const Technique& technique) {
   return passes;
 }
 
+std::string bits_of(const Frame& frame) {
+  Fingerprint fingerprint;
+  for (const View& view : frame.views) {
+    for (const auto& [name, plane] : view.planes) {
+      for (const Channel& channel : plane.channels) {
+        for (int y = 0; y < frame.height(); ++y)
+          fingerprint.add_bytes(channel.row(y), size_t(frame.width()) * sizeof(float));
+      }
+    }
+  }
+  return fingerprint.text();
+}
+
 /// With its defaults, and with normals or without.
 int run_defaults(const Technique& technique, const Shot& shot, bool with_normals) {
   Frame frame = shoot(shot, room(), with_normals);
   const Plan plan = plan_for(technique, frame, is_long_run() ? Settings{} : few_samples(technique));
   run(plan, frame, device(), {.math = with_normals ? Math::precise : Math::fast, .lanes = 1});
+  return int(plan.passes.size());
+}
+
+/// As few pixels as show everything near something: in a lower image nearly all samples would lie outside.
+int tell_bits(const Technique& technique) {
+  Frame frame = shoot(perspective(20, 15), room());
+  const Plan plan = plan_for(technique, frame, few_samples(technique));
+  const Frame out = std::move(run(plan, frame, device(), {.math = Math::precise, .lanes = 1}).frame);
+  std::printf("bits of %s: %s\n", technique.name.c_str(), bits_of(out).c_str());
   return int(plan.passes.size());
 }
 
@@ -132,16 +156,20 @@ int run_second_estimates() {
   return passes;
 }
 
-/// Every `parts`-th technique, from `part` on.
-int run_all(size_t part, size_t parts) {
-  int passes = part == 0 ? run_second_estimates() : 0;
+/// What a technique does on any frame.
+int run_all_of(const Technique& technique) {
+  int passes = run_defaults(technique, perspective(width, height), true);
+  passes += run_defaults(technique, orthographic(width, height, 4), false);
+  for (const bool with_normals : {true, false}) passes += run_defaults(technique, perspective(1, 1), with_normals);
+  return passes + run_variants(technique) + run_masked(technique) + run_modules(technique);
+}
+
+/// Every `parts`-th technique, from `part` on; `bits_only`: only what tells bits.
+int run_all(size_t part, size_t parts, bool bits_only) {
+  int passes = part == 0 && !bits_only ? run_second_estimates() : 0;
   for (size_t i = part; i < registry().size(); i += parts) {
-    const Technique& technique = registry()[i];
-    passes += run_defaults(technique, perspective(width, height), true);
-    passes += run_defaults(technique, orthographic(width, height, 4), false);
-    for (const bool with_normals : {true, false}) passes += run_defaults(technique, perspective(1, 1), with_normals);
-    passes += run_variants(technique) + run_masked(technique) + run_modules(technique);
-    std::printf("%s\n", technique.name.c_str());
+    passes += tell_bits(registry()[i]);
+    if (!bits_only) passes += run_all_of(registry()[i]);
   }
   std::printf("ran %d passes on %s\n", passes, device().info().platform.c_str());
   return passes > 0 ? 0 : 1;
@@ -150,11 +178,12 @@ int run_all(size_t part, size_t parts) {
 }  // namespace
 }  // namespace gloam::test
 
-/// Two numbers: which part of the techniques, and of how many parts.
+/// Two numbers: which part of the techniques, and of how many parts. And "bits", to tell the bits and do nothing else.
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  const bool bits_only = argc == 4 && std::string(argv[3]) == "bits";
+  if (argc != 3 && !bits_only) return 2;
   try {
-    return gloam::test::run_all(size_t(std::atoi(argv[1])), size_t(std::atoi(argv[2])));
+    return gloam::test::run_all(size_t(std::atoi(argv[1])), size_t(std::atoi(argv[2])), bits_only);
   } catch (const gloam::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
