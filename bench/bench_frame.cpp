@@ -99,7 +99,7 @@ float radius_reaching(const Frame& frame, double pixels) { return float(pixels /
 
 std::string size_name(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
 
-std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv) {
+std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv, std::pair<int, int> usual) {
   std::vector<std::pair<int, int>> sizes;
   const std::string prefix = "--size=";
   const auto taken = [&](const char* argument) {
@@ -114,7 +114,7 @@ std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv) {
     return true;
   };
   argc = int(std::remove_if(argv + 1, argv + argc, taken) - argv);
-  if (sizes.empty()) sizes.emplace_back(1920, 1080);
+  if (sizes.empty()) sizes.push_back(usual);
   return sizes;
 }
 

@@ -28,8 +28,8 @@ float radius_reaching(const Frame& frame, double pixels);
 /// "1920x1080"
 std::string size_name(const Frame& frame);
 
-/// Takes --size=WIDTHxHEIGHT (repeatable) out of the command line. Throws UsageError.
-std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv);
+/// Takes --size=WIDTHxHEIGHT (repeatable) out of the command line; `usual` where there is none. Throws UsageError.
+std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv, std::pair<int, int> usual = {1920, 1080});
 
 /// Takes --NAME out of the command line; whether it was there.
 bool take_flag(int& argc, char** argv, const std::string& name);

@@ -195,6 +195,29 @@ Frame clone(const Frame& frame) {
   return copy;
 }
 
+Frame in_other_unit(const Frame& frame, int k) {
+  Frame copy = clone(frame);
+  for (View& view : copy.views) {
+    view.origin *= std::ldexp(1.0, k);
+    for (std::optional<Camera>* camera : {&view.camera, &view.camera_before}) {
+      if (!*camera) continue;
+      Camera& c = **camera;
+      if (c.pose) c.pose->position *= std::ldexp(1.0, k);
+      if (c.orthographic) c.fx = std::ldexp(c.fx, -k), c.fy = std::ldexp(c.fy, -k);
+    }
+    for (auto& [name, plane] : view.planes) {
+      const PlaneKind::Meaning meaning = plane_kind(name).meaning;
+      if (meaning != PlaneKind::view_depth && meaning != PlaneKind::length && name != "position") continue;
+      for (Channel& channel : plane.channels) {
+        for (int y = 0; y < copy.height(); ++y) {
+          for (int x = 0; x < copy.width(); ++x) channel.at(x, y) = std::ldexp(channel.at(x, y), k);
+        }
+      }
+    }
+  }
+  return copy;
+}
+
 void invent_plane(Frame& frame, const std::string& name) {
   if (is_stack(name)) {
     for (int number = 0; number < invented_layers; ++number) invent_plane(frame, layer_name(name, number));

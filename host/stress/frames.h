@@ -72,6 +72,8 @@ Plane& plane_of(Frame& frame, const std::string& name);
 std::vector<std::string> plane_names(const Frame& frame);
 /// Planes are move-only: a copy has to be asked for.
 Frame clone(const Frame& frame);
+/// The same views of the same scene with another unit: every length times 2^k. Light-field modules are left as they are.
+Frame in_other_unit(const Frame& frame, int k);
 
 /// Gives every view a plane of that name with values that its kind allows and that show some variety: further depth
 /// layers lie behind the visible surface, positions fit the depth, colours are a pattern. A stack is three layers, the

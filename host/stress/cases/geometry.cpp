@@ -86,31 +86,8 @@ void tilted_plane_reads_open(Probe& probe) {
 
 // --- Row 3
 
-/// The same view of the same scene with another unit of length.
-Frame scaled(const Frame& frame, int k) {
-  Frame copy = clone(frame);
-  for (View& view : copy.views) {
-    view.origin *= std::ldexp(1.0, k);
-    if (view.camera->pose) view.camera->pose->position *= std::ldexp(1.0, k);
-    if (view.camera->orthographic) {
-      view.camera->fx = std::ldexp(view.camera->fx, -k);
-      view.camera->fy = std::ldexp(view.camera->fy, -k);
-    }
-    for (auto& [name, plane] : view.planes) {
-      const PlaneKind::Meaning meaning = plane_kind(name).meaning;
-      if (meaning != PlaneKind::view_depth && meaning != PlaneKind::length && name != "position") continue;
-      for (Channel& channel : plane.channels) {
-        for (int y = 0; y < copy.height(); ++y) {
-          for (int x = 0; x < copy.width(); ++x) channel.at(x, y) = std::ldexp(channel.at(x, y), k);
-        }
-      }
-    }
-  }
-  return copy;
-}
-
 /// Depths and positions among the outputs grow with the scene; everything else stays.
-Frame unscaled(const Frame& frame, int k) { return scaled(frame, -k); }
+Frame unscaled(const Frame& frame, int k) { return in_other_unit(frame, -k); }
 
 void unit_of_the_scene(Probe& probe) {
   const Technique& technique = probe.technique();
@@ -124,7 +101,7 @@ void unit_of_the_scene(Probe& probe) {
           if (!probe.tries(
                   fmt::format("2^{}, {}, {}, {}", k, text_of(shot.camera), normals_text(with_normals), text_of(way))))
             continue;
-          Frame bigger = scaled(frame, k);
+          Frame bigger = in_other_unit(frame, k);
           const Settings lengths = set_lengths(technique, bigger, [&](double length) { return std::ldexp(length, k); });
           probe.measure_bits("difference to the scene with another unit",
                              unscaled(probe.outputs(bigger, probe.usual_samples() + lengths, way), k), expected.get());

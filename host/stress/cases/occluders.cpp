@@ -351,7 +351,8 @@ std::vector<Case> occluders() {
       {16,
        "surfaces whose truth is known",
        "Over a sphere on a plane, walls at right angles and a canyon the distance from ray-traced AO without falloff "
-       "is stated, and is less than that of an image all white.",
+       "is stated, and is less than that of an image all white. (The rays themselves against closed forms, and each "
+       "estimator against its own integral: tests/analytic.)",
        {surfaces_that_are_known}},
       {17,
        "thinner than a pixel",

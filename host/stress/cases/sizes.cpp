@@ -157,8 +157,9 @@ std::vector<Case> sizes() {
   return {{11,
            "images of every shape",
            "Images of 1x1, one row, one column, odd sizes and 16384 pixels in a row have the right size, and the same "
-           "bits whatever lies beside them in memory and however many lanes compute them; 8192x8192 takes the memory "
-           "predicted.",
+           "bits whatever lies beside them in memory and however many lanes compute them; in 8192x8192 places that are "
+           "alike "
+           "read alike, and the memory taken is what was predicted.",
            {sizes_and_padding, largest_image}}};
 }
 
