@@ -58,7 +58,8 @@ bool chooses(Probe& probe) {
 }
 
 std::vector<std::string> sample_counts(const Probe& probe) {
-  return probe.is_quick() ? std::vector<std::string>{"4"} : std::vector<std::string>{"1", "2", "4", "8", "16"};
+  // Not the default, which all other cases have.
+  return probe.is_quick() ? std::vector<std::string>{"1"} : std::vector<std::string>{"1", "2", "4", "8", "16"};
 }
 
 /// With alpha 1 every sample is offered every surface, and keeps the nearest: hidden layers change nothing.
