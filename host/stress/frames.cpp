@@ -73,6 +73,8 @@ Shot orthographic(int width, int height, double units_across) {
 
 std::vector<Shot> usual_shots() { return {perspective(80, 60), orthographic(80, 60, 4)}; }
 
+Shot fine_shot() { return perspective(144, 108); }
+
 std::vector<Shot> odd_shots() { return {perspective(93, 61), orthographic(93, 61, 4)}; }
 
 EyeRay ray_through(const Shot& shot, double x, double y) {

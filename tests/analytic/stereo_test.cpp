@@ -9,6 +9,7 @@
 #include "gloam/capture.h"
 #include "gloam/planes.h"
 #include "support/estimate.h"
+#include "support/long.h"
 #include "support/stress.h"
 
 namespace gloam::test {
@@ -134,7 +135,9 @@ TEST_P(StereoAo, WithoutAnythingStereoItIsTheMonoTechnique) {
 }
 
 /// What rounding leaves of a point that is projected to where it is.
+/// Of every variant; of the default hard case 18 asks the same.
 TEST_P(StereoAo, EyesInOnePlaceSeeWhatOneDoes) {
+  ONLY_IN_LONG_RUN();
   const Frame frame = captured("courtyard", 0), of_one = run_on(mono, frame);
   for (const Variant& v : variants()) {
     const Frame of_two = run_on(stereo, frame, v.settings);
@@ -428,7 +431,9 @@ TEST_P(StereoAo, APlaneIsOpenToEyesOfEveryPose) {
 }
 
 /// The list's order and what lies beside a pixel in its row of lanes are of no matter.
+/// Of every variant; of the default hard case 13 asks the same.
 TEST_P(StereoAo, TheSameWithAnyNumberOfLanesAndEveryTime) {
+  ONLY_IN_LONG_RUN();
   const Frame frame = captured("courtyard", 0.2);
   for (const Variant& v : variants()) {
     const Plan plan = make_plan({.outputs = {stereo}, .settings = v.settings}, plane_names(frame), "the frame");

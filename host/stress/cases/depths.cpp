@@ -144,7 +144,7 @@ Frame encoded(const Shot& shot, const Scene& scene, const Encoding& encoding, bo
 // (1/139 of the depth here), 0.007 for half, 0.02 for 16 bits of 20 units at depth 2; a mean lies well below. Planes of
 // 0..1, AO and its filters, are held to a fifth of that.
 void depth_encodings(Probe& probe) {
-  const Shot shot = perspective(160, 120);
+  const Shot shot = fine_shot();
   const RunOptions way{.math = Math::precise};
   for (const bool with_normals : {true, false}) {
     if (!with_normals && !probe.opt_out("normals from depth").empty()) continue;

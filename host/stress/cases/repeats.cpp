@@ -112,7 +112,7 @@ void float_against_double(Probe& probe) {
   for (const bool with_normals : {true, false}) {
     if (!with_normals && !probe.opt_out("normals from depth").empty()) continue;
     const std::string normals = normals_text(with_normals);
-    Frame frame = shoot(perspective(160, 120), room(), with_normals);
+    Frame frame = shoot(fine_shot(), room(), with_normals);
     Lazy<Frame> exact([&] { return probe.outputs(frame, samples, {.math = Math::precise, .real = Real::float64}); });
     Lazy<Frame> precise([&] { return probe.outputs(frame, samples, {.math = Math::precise}); });
     if (probe.tries("precise against double, " + normals)) {
