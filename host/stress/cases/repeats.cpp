@@ -105,7 +105,7 @@ void other_devices(Probe& probe) {
 }
 
 /// Stated rather than bounded by an argument: a sample that falls on the border of a pixel may be another pixel's in
-/// double, and one sample of many is then another one; two pixels of 19200 by one of 31 sectors are 3.4e-6.
+/// double, and one sample of many is then another one; a pixel of 15552 by one of 31 sectors is 2.1e-6.
 void float_against_double(Probe& probe) {
   if (!probe.device().info().has_double) return probe.passes_over(probe.device().info().name + " has no double");
   const Settings samples = probe.usual_samples();
