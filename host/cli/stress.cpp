@@ -49,8 +49,10 @@ std::vector<int> cases_of(const StressCommand& flags) {
   for (const Case& one : stress::cases()) numbers.push_back(one.number);
   if (flags.cases.empty()) return numbers;
   std::vector<int> wanted;
-  for (const std::string& text : split_list(flags.cases, "--case"))
-    wanted.push_back(stress::find_case(parse_whole_number(text, "--case", 1, 999)).number);
+  for (const std::string& text : split_list(flags.cases, "--case")) {
+    const int number = stress::find_case(parse_whole_number(text, "--case", 1, 999)).number;
+    if (std::find(wanted.begin(), wanted.end(), number) == wanted.end()) wanted.push_back(number);
+  }
   return wanted;
 }
 
@@ -62,7 +64,12 @@ Request request_of(const StressCommand& flags) {
     request.techniques = {find_technique(flags.technique).name};
   request.cases = cases_of(flags);
   request.extent = flags.quick ? stress::Extent::quick : stress::Extent::full;
-  if (!flags.frames.empty()) request.frames = parse_whole_number(flags.frames, "--frames", 1, 1000000000);
+  if (!flags.frames.empty()) {
+    request.frames = parse_whole_number(flags.frames, "--frames", 1, 1000000000);
+    if (std::find(request.cases.begin(), request.cases.end(), 1) == request.cases.end())
+      throw UsageError("--frames {} is how many random frames case 1 draws, and --case {} leaves it out", flags.frames,
+                       flags.cases);
+  }
   if (!flags.seed.empty()) request.seed = unsigned(parse_whole_number(flags.seed, "--seed", 0, 2147483647));
   if (!flags.trial.empty()) {
     request.trial = parse_whole_number(flags.trial, "--trial", 1, 2147483647);
@@ -78,16 +85,30 @@ Request request_of(const StressCommand& flags) {
 
 // --- In a process of its own
 
-/// Every device but the one at hand; those whose name holds `text`.
-std::vector<std::unique_ptr<Device>> other_devices(const DeviceInfo& own, const std::string& text) {
-  std::vector<std::unique_ptr<Device>> others;
+struct OtherDevices {
+  std::vector<std::unique_ptr<Device>> opened;
+  std::vector<std::string> names;  ///< also of those that could not be opened, and why
+};
+
+/// Every device but the one at hand; those whose name holds `text`. Throws UsageError where one is asked for and there is none.
+OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
+  OtherDevices others;
   if (text == "none") return others;
   for (const DeviceInfo& info : list_devices()) {
     if (info.name == own.name && info.platform == own.platform) continue;
     if (text != "all" && (info.name + " " + info.platform).find(text) == std::string::npos) continue;
-    // By platform: one device has the same name on several.
-    others.push_back(std::make_unique<Device>(info.platform));
+    others.names.push_back(info.name + ", " + info.platform);
+    try {
+      // By both: a platform has several devices, and one device has the same name on several platforms.
+      others.opened.push_back(std::make_unique<Device>(info.platform + ": " + info.name));
+    } catch (const Error& error) {
+      others.names.back() += fmt::format(" (not compared: {})", error.what());
+    }
   }
+  if (others.names.empty() && text != "all")
+    throw UsageError(
+        "--against {}: no device but {} has this in its name (gloam list devices); all and none are allowed", text,
+        own.name);
   return others;
 }
 
@@ -111,14 +132,10 @@ void examine_here(const StressCommand& flags) {
                           .seed = request.seed,
                           .trial = request.trial,
                           .folder = flags.out};
-  stress::Json names = stress::Json::array();
-  for (const auto& other : others) {
-    subject.others.push_back(other.get());
-    names.push_back(other->info().name + ", " + other->info().platform);
-  }
+  for (const auto& other : others.opened) subject.others.push_back(other.get());
   say({{"device", device.info().name},
        {"driver", device.info().platform + " " + device.info().driver},
-       {"against", names}});
+       {"against", others.names}});
   for (const int number : request.cases) {
     subject.begins = [&](int trial, const std::string& conditions) {
       say({{"case", number}, {"trial", trial}, {"conditions", conditions}});
@@ -143,8 +160,11 @@ class Examination {
       case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
       const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
       if (left_.empty()) return;  // all has been told, however it ended
-      if (end.ended_by.empty() && trial_ == 0) throw Error("{}", why(end.said));
-      CaseResult broken{.technique = technique_, .number = case_, .trials = trial_};
+      if (end.ended_by.empty() && trial_ == 0) {
+        if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end.said));
+        throw Error("{}", why(end.said));
+      }
+      CaseResult broken{.technique = technique_, .number = case_, .trials = trial_, .broken_on = conditions_};
       broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
                                   end.ended_by.empty() ? why(end.said) : "ended by " + end.ended_by);
       results.push_back(broken);
@@ -208,6 +228,8 @@ void print_findings(const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results) {
     const std::string number = fmt::format("{}", result.number);
     if (!result.opted_out.empty()) rows.push_back({number, "-", "", "", "opted out: " + result.opted_out});
+    for (const std::string& reason : result.opted_out_parts)
+      rows.push_back({number, "-", "", "", "opted out of " + reason});
     for (const std::string& reason : result.passed_over) rows.push_back({number, "-", "", "", "not asked: " + reason});
     for (const Finding& f : result.findings)
       rows.push_back({number, f.held() ? "held" : "FAILED", shown(f.worst),
@@ -295,8 +317,11 @@ void write_page(const std::string& path, const std::vector<stress::Json>& docume
 
 stress::Json read_document(const std::string& path) {
   const stress::Json document = json_of_text(read_text(path), path);
-  if (!document.is_object() || !document.contains("cases") || !document.contains("device"))
-    throw Error("{}: holds no results of gloam stress; gloam stress all --json FILE writes some", path);
+  try {
+    stress::stability_page({document});
+  } catch (const Error&) {
+    throw Error("{}: holds no results of this gloam's stress command; gloam stress all --json FILE writes some", path);
+  }
   return document;
 }
 
@@ -317,6 +342,23 @@ void page_from_files(const StressCommand& flags) {
   fmt::print("wrote {}\n", printable(flags.markdown));
 }
 
+/// Throws UsageError where a trial was asked for that there is not.
+void check_trial(const StressCommand& flags, const Request& request, const StressRun& run) {
+  if (!request.trial || run.results.empty()) return;
+  const CaseResult& result = run.results[0];
+  if (!result.broken.empty() || result.trials >= *request.trial) return;
+  std::string why = result.opted_out.empty() ? "" : "; opted out: " + result.opted_out;
+  for (const std::string& reason : result.passed_over) why += "; not asked: " + reason;
+  throw UsageError("--trial {}: case {} of {} has {} trials{}{}", *request.trial, request.cases[0], flags.technique,
+                   result.trials, flags.quick ? " in a quick look" : "", why);
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw Error("-o {}: this folder cannot be made ({}); name another", folder, failed.message());
+}
+
 void stress_command(const StressCommand& flags) {
   if (flags.is_child) return examine_here(flags);
   if (!flags.from.empty()) return page_from_files(flags);
@@ -324,13 +366,12 @@ void stress_command(const StressCommand& flags) {
   const Request request = request_of(flags);
   parse_number(flags.patience, "--patience", 1, 1e6);
   check_paths({}, {{"--json", flags.json.file()}, {"--markdown", flags.markdown}});
-  if (!flags.out.empty()) std::filesystem::create_directories(flags.out);
+  if (!flags.out.empty()) make_folder(flags.out);
   StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
   examine_all(flags, request, run);
-  if (request.trial && !run.results.empty() && run.results[0].broken.empty() && run.results[0].trials < *request.trial)
-    throw UsageError("--trial {}: case {} of {} has {} trials{}", *request.trial, request.cases[0], flags.technique,
-                     run.results[0].trials, flags.quick ? " in a quick look" : "");
-  const std::string device_flag = flags.device.empty() ? "" : " --device " + quoted(flags.device);
+  check_trial(flags, request, run);
+  std::string device_flag = flags.device.empty() ? "" : " --device " + quoted(flags.device);
+  if (flags.against != "all") device_flag += " --against " + quoted(flags.against);
   const stress::Json document = document_of(run, device_flag);
   write_page(flags.markdown, {document});
   flags.json.write(document);
@@ -338,7 +379,8 @@ void stress_command(const StressCommand& flags) {
   if (!flags.json.only_json()) {
     if (request.techniques.size() == 1) print_findings(run.results);
     print_failures(run, device_flag);
-    fmt::print("{}, {}\n", printable(run.device), printable(run.driver));
+    fmt::print("{}, {}; compared with {}\n", printable(run.device), printable(run.driver),
+               run.others.empty() ? "no other device" : printable(fmt::format("{}", fmt::join(run.others, "; "))));
   }
   if (failed > 0)
     throw Error("stress: {} of the figures {} beyond {} bound", failed, failed == 1 ? "is" : "are",

@@ -84,8 +84,10 @@ CaseResult examine(const Case& hard_case, const Subject& subject) {
     for (const auto part : hard_case.parts) part(probe);
   } catch (const std::exception& error) {
     result.broken = fmt::format("trial {} ({}): {}", probe.trials(), probe.conditions(), printable(error.what()));
+    result.broken_on = probe.conditions();
   }
   result.findings = probe.findings();
+  result.opted_out_parts = probe.opted_out_parts();
   result.passed_over = probe.passed_over();
   result.trials = probe.trials();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

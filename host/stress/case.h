@@ -33,12 +33,14 @@ std::vector<OptOut> opt_outs(const Technique& technique);
 struct CaseResult {
   std::string technique;
   int number = 0;
-  std::string opted_out;                 ///< the reason; empty: it was not
-  std::vector<std::string> passed_over;  ///< why some or all of it was not asked
+  std::string opted_out;                          ///< the reason; empty: it was not
+  std::vector<std::string> opted_out_parts = {};  ///< "open: reason"
+  std::vector<std::string> passed_over;           ///< why some or all of it was not asked
   std::vector<Finding> findings;
   int trials = 0;
   double seconds = 0;
-  std::string broken;  ///< what ended it before its time: an error of the driver; empty: nothing did
+  std::string broken;     ///< what ended it before its time: an error of the driver; empty: nothing did
+  std::string broken_on;  ///< the conditions of the trial that it ended
   bool held() const;
 };
 

@@ -45,27 +45,32 @@ std::string text_of(Extent extent) { return extent == Extent::quick ? "quick" : 
 Json document_of(const CaseResult& result) {
   Json findings = Json::array();
   for (const Finding& finding : result.findings) findings.push_back(document_of(finding));
-  return {{"technique", result.technique},     {"case", result.number},  {"opted_out", result.opted_out},
-          {"passed_over", result.passed_over}, {"findings", findings},   {"trials", result.trials},
-          {"seconds", result.seconds},         {"broken", result.broken}};
+  return {{"technique", result.technique},     {"case", result.number},
+          {"opted_out", result.opted_out},     {"opted_out_parts", result.opted_out_parts},
+          {"passed_over", result.passed_over}, {"findings", findings},
+          {"trials", result.trials},           {"seconds", result.seconds},
+          {"broken", result.broken},           {"broken_on", result.broken_on}};
 }
 
 CaseResult case_result_of(const Json& document) {
   CaseResult result{.technique = document.at("technique"),
                     .number = document.at("case"),
                     .opted_out = document.at("opted_out"),
+                    .opted_out_parts = document.at("opted_out_parts"),
                     .passed_over = document.at("passed_over"),
                     .findings = {},
                     .trials = document.at("trials"),
                     .seconds = document.at("seconds"),
-                    .broken = document.at("broken")};
+                    .broken = document.at("broken"),
+                    .broken_on = document.at("broken_on")};
   for (const Json& finding : document.at("findings")) result.findings.push_back(finding_of(finding));
   return result;
 }
 
 std::string replay_command(const StressRun& run, const std::string& technique, int number, int trial,
                            const std::string& device_flag) {
-  std::string command = fmt::format("gloam stress {} --case {} --trial {}", technique, number, trial);
+  std::string command = fmt::format("gloam stress {} --case {}", technique, number);
+  if (trial > 0) command += fmt::format(" --trial {}", trial);  // 0: it ended before its first
   if (run.extent == Extent::quick) command += " --quick";
   if (run.seed != 1) command += fmt::format(" --seed {}", run.seed);
   if (run.frames != 0) command += fmt::format(" --frames {}", run.frames);
@@ -82,7 +87,7 @@ int failures(const StressRun& run) {
 }
 
 Json document_of(const StressRun& run, const std::string& device_flag) {
-  Json all = Json::array(), opted_out = Json::array(), passed_over = Json::array();
+  Json all = Json::array(), opted_out = Json::array(), in_part = Json::array(), passed_over = Json::array();
   for (const CaseResult& result : run.results) {
     const Json head = {{"technique", result.technique}, {"case", result.number}};
     const auto add = [&](Json& list, const Json& more) {
@@ -101,17 +106,25 @@ Json document_of(const StressRun& run, const std::string& device_flag) {
                 {"bound", 0},
                 {"held", false},
                 {"trial", result.trials},
-                {"conditions", ""},
+                {"conditions", result.broken_on},
                 {"place", nullptr},
                 {"replay", replay_command(run, result.technique, result.number, result.trials, device_flag)}});
     }
     if (!result.opted_out.empty()) add(opted_out, {{"why", result.opted_out}});
+    for (const std::string& reason : result.opted_out_parts) add(in_part, {{"why", reason}});
     for (const std::string& reason : result.passed_over) add(passed_over, {{"why", reason}});
   }
-  return {
-      {"device", run.device},       {"driver", run.driver},   {"against", run.others}, {"extent", text_of(run.extent)},
-      {"seed", run.seed},           {"frames", run.frames},   {"cases", all},          {"opted_out", opted_out},
-      {"passed_over", passed_over}, {"failed", failures(run)}};
+  return {{"device", run.device},
+          {"driver", run.driver},
+          {"against", run.others},
+          {"extent", text_of(run.extent)},
+          {"seed", run.seed},
+          {"frames", run.frames},
+          {"cases", all},
+          {"opted_out", opted_out},
+          {"opted_out_in_part", in_part},
+          {"passed_over", passed_over},
+          {"failed", failures(run)}};
 }
 
 }  // namespace gloam::stress

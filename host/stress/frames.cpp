@@ -148,7 +148,7 @@ Frame blank(const Shot& shot) {
   return frame;
 }
 
-Frame shoot(const Shot& shot, const Scene& scene, bool with_normals) {
+Frame shoot(const Shot& shot, const Scene& scene, bool with_normals, std::optional<float> background) {
   Frame frame = blank(shot);
   plane_of(frame, "depth");
   if (with_normals) plane_of(frame, "normal");
@@ -162,7 +162,7 @@ Frame shoot(const Shot& shot, const Scene& scene, bool with_normals) {
         plane_of(frame, "normal").channels[size_t(i)].at(x, y) = seen ? float(seen->normal[i]) : 0;
     }
   }
-  normalise(frame);
+  normalise(frame, background);
   return frame;
 }
 

@@ -65,8 +65,9 @@ Scene room();
 
 /// An image without planes.
 Frame blank(const Shot& shot);
-/// Depth and, if wanted, exact normals; has passed the door.
-Frame shoot(const Shot& shot, const Scene& scene, bool with_normals = true);
+/// Depth and, if wanted, exact normals; has passed the door. `background`: the value that stands for it, as --background has it;
+/// without, depths of 1e10 and more do.
+Frame shoot(const Shot& shot, const Scene& scene, bool with_normals = true, std::optional<float> background = {});
 /// A view's plane of that name, added (zero, or what lies outside for one of the known kinds) if it is not there.
 Plane& plane_of(View& view, const Layout& layout, const std::string& name);
 /// The named plane of the first view, added (zero, or what lies outside for one of the known kinds) if it is not there.

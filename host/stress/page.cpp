@@ -6,6 +6,7 @@
 #include <set>
 
 #include "gloam/error.h"
+#include "lists.h"
 
 namespace gloam::stress {
 namespace {
@@ -47,9 +48,8 @@ std::vector<Row> rows_of(const Json& document) {
 std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.2g}", value) : "inf"; }
 std::string bound_of(const Row& row) { return std::isfinite(row.bound) ? shown(row.bound) : "stated"; }
 
-/// How much of its bound a figure takes; more than 1 fails. Stated figures come last.
+/// How much of its bound a figure takes; more than 1 fails.
 double taken(const Row& row) {
-  if (!std::isfinite(row.bound)) return -1;
   if (row.bound == 0) return row.worst == 0 ? 0 : INFINITY;
   return row.worst / row.bound;
 }
@@ -160,32 +160,69 @@ std::string table_of_comparisons(const std::vector<Row>& rows) {
   return text + "\n";
 }
 
-/// Of each technique the figure that is nearest to its bound, and those that are only stated and above 0.
-std::string section_of_case(const Case& one, const Json& document) {
-  std::string text = fmt::format("### Case {}\n\n{}: {}\n\n", one.number, one.name, one.property);
-  const std::vector<Row> all = rows_of(document);
+std::string table_head(const char* columns) {
+  std::string text = fmt::format("| {} |\n|", columns);
+  for (const char* c = columns; *c; ++c) text += *c == '|' ? "---|" : "";
+  return text + "---|\n";
+}
+
+std::string table_row(const Row& row) {
+  return fmt::format("| `{}` | {}{} | {} | {} | {} | {} | {} |\n", row.technique, shown(row.worst),
+                     row.held ? "" : " **beyond**", bound_of(row), cell(row.what), cell(row.conditions),
+                     cell(row.place), row.trial);
+}
+
+/// Of each technique the figure that is nearest to its bound.
+std::string nearest_to_bounds(const std::vector<Row>& rows) {
   std::map<std::string, const Row*> nearest;
-  for (const Row& row : all) {
-    if (row.number != one.number) continue;
+  for (const Row& row : rows) {
+    if (!std::isfinite(row.bound)) continue;
     const Row*& known = nearest[row.technique];
     if (!known || taken(row) > taken(*known)) known = &row;
   }
   std::set<std::string> zero;
   std::string table;
   for (const auto& [technique, row] : nearest) {
-    if (row->worst == 0) {
+    if (row->worst == 0)
       zero.insert(technique);
-      continue;
-    }
-    table += fmt::format("| `{}` | {}{} | {} | {} | {} | {} | {} |\n", technique, shown(row->worst),
-                         row->held ? "" : " **beyond**", bound_of(*row), cell(row->what), cell(row->conditions),
-                         cell(row->place), row->trial);
+    else
+      table += table_row(*row);
   }
-  if (!table.empty())
-    text +=
-        "| technique | worst | bound | of | on | worst pixel | trial |\n|---|---|---|---|---|---|---|\n" + table + "\n";
-  if (!zero.empty()) text += fmt::format("Nothing found, 0 in every trial: {}.\n\n", listed(zero));
-  return text;
+  if (!table.empty()) table = table_head("technique | worst | bound | of | on | worst pixel | trial") + table + "\n";
+  if (!zero.empty()) table += fmt::format("All that has a bound is 0 in every trial: {}.\n\n", listed(zero));
+  return table;
+}
+
+/// What has no bound, a column each. Where each is worst, `gloam stress --json` has.
+std::string stated_figures(const std::vector<Row>& rows) {
+  std::vector<std::string> columns;
+  std::map<std::string, std::map<std::string, double>> figures;
+  for (const Row& row : rows) {
+    if (std::isfinite(row.bound)) continue;
+    add_new(columns, row.what);
+    figures[row.technique][row.what] = row.worst;
+  }
+  if (columns.empty()) return "";
+  std::vector<std::string> names;
+  for (const std::string& column : columns) names.push_back(cell(column));
+  std::string table =
+      "Stated, without a bound:\n\n" + table_head(fmt::format("technique | {}", fmt::join(names, " | ")).c_str());
+  for (const auto& [technique, of_technique] : figures) {
+    table += fmt::format("| `{}` |", technique);
+    for (const std::string& column : columns) {
+      const auto found = of_technique.find(column);
+      table += found == of_technique.end() ? " - |" : fmt::format(" {} |", shown(found->second));
+    }
+    table += "\n";
+  }
+  return table + "\n";
+}
+
+std::string section_of_case(const Case& one, const Json& document) {
+  std::vector<Row> rows = rows_of(document);
+  std::erase_if(rows, [&](const Row& row) { return row.number != one.number; });
+  return fmt::format("### Case {}\n\n{}: {}\n\n", one.number, one.name, one.property) + nearest_to_bounds(rows) +
+         stated_figures(rows);
 }
 
 std::string table_of_reasons(const std::string& title, const std::string& explanation, const Json& entries) {
@@ -199,18 +236,6 @@ std::string table_of_reasons(const std::string& title, const std::string& explan
   for (const auto& [reason, techniques] : reasons)
     text += fmt::format("| {} | {} | {} |\n", reason.first, cell(reason.second), listed(techniques));
   return text + "\n";
-}
-
-/// Parts of cases that a technique is not held to have no entry in a run: they stand in the techniques' pages alone.
-Json partial_opt_outs() {
-  Json entries = Json::array();
-  for (const Technique& technique : registry()) {
-    for (const OptOut& out : opt_outs(technique)) {
-      if (!out.part.empty())
-        entries.push_back({{"technique", technique.name}, {"case", out.number}, {"why", out.part + ": " + out.reason}});
-    }
-  }
-  return entries;
 }
 
 std::string section_of_device(const Json& document) {
@@ -236,11 +261,12 @@ std::string stability_page(const std::vector<Json>& documents) {
   try {
     const Json& first = documents.at(0);
     std::string page = introduction(first) + table_of_cases(first) + table_of_comparisons(rows_of(first));
-    page += "## Worst values\n\nOf each technique the figure that takes most of its bound.\n\n";
+    page += "## Worst values\n\nOf each technique the figure that takes most of its bound, and all that have none.\n\n";
     for (const Case& one : cases()) page += section_of_case(one, first);
     page += table_of_reasons("Opted out", "Cases that a technique is not held to, and why its page says so.",
                              first.at("opted_out"));
-    page += table_of_reasons("Opted out in part", "Held to the case, but for this part of it.", partial_opt_outs());
+    page += table_of_reasons("Opted out in part", "Held to the case, but for this part of it.",
+                             first.at("opted_out_in_part"));
     page += table_of_reasons("Not asked", "What a case has nothing to ask of.", first.at("passed_over"));
     for (size_t i = 1; i < documents.size(); ++i) page += section_of_device(documents[i]);
     while (page.ends_with("\n\n")) page.pop_back();

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "gloam/exr.h"
+#include "gloam/files.h"
+#include "lists.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 
@@ -17,6 +19,14 @@ bool Probe::tries(const std::string& conditions) {
   conditions_ = conditions;
   if (subject_.begins) subject_.begins(trial_, conditions);
   return true;
+}
+
+void Probe::goes_on() const {
+  if (subject_.begins) subject_.begins(trial_, conditions_);
+}
+
+bool Probe::has_failed(const std::string& what) const {
+  return std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.what == what && !f.held(); });
 }
 
 void Probe::measure(const std::string& what, const Measured& measured, double bound) {
@@ -44,9 +54,7 @@ void Probe::measure_bits(const std::string& what, const Frame& outputs, const Fr
   measure(what, d, 0);
 }
 
-void Probe::passes_over(const std::string& reason) {
-  if (std::find(passed_over_.begin(), passed_over_.end(), reason) == passed_over_.end()) passed_over_.push_back(reason);
-}
+void Probe::passes_over(const std::string& reason) { add_new(passed_over_, reason); }
 
 Frame Probe::outputs(Frame& frame, const Settings& settings, const RunOptions& options) const {
   return outputs(frame, settings, options, device());
@@ -65,12 +73,30 @@ Frame Probe::outputs(const Plan& plan, const Frame& frame, const RunOptions& opt
   return out;
 }
 
-void Probe::keep(const Frame& frame, const Frame& outputs, const Plan&, const RunOptions&) const {
+namespace {
+
+/// What a trial was run with, for people: every parameter of every technique of the plan.
+std::string settings_text(const std::string& conditions, const Plan& plan, const RunOptions& options) {
+  std::string text = fmt::format("{}\n{}, seed {}\n", conditions, text_of(options), options.seed);
+  std::vector<std::string> lines;
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Parameter& p : planned.technique->parameters)
+      add_new(lines, fmt::format("{}.{}={}\n", planned.technique->name, p.name, planned.values.text(p.name)));
+  }
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+}  // namespace
+
+void Probe::keep(const Frame& frame, const Frame& outputs, const Plan& plan, const RunOptions& options) const {
   if (subject_.folder.empty() || !subject_.trial || *subject_.trial != trial_) return;
   ++kept_;
   const std::filesystem::path folder = subject_.folder;
-  write_frame(folder / fmt::format("case{}_trial{}_{}_frame.exr", number_, trial_, kept_), frame);
-  write_frame(folder / fmt::format("case{}_trial{}_{}_made.exr", number_, trial_, kept_), outputs);
+  const std::string name = fmt::format("{}_case{}_trial{}_{}", technique().name, number_, trial_, kept_);
+  write_frame(folder / (name + "_frame.exr"), frame);
+  write_frame(folder / (name + "_made.exr"), outputs);
+  write_text(folder / (name + "_settings.txt"), settings_text(conditions_, plan, options));
 }
 
 std::vector<RunOptions> Probe::all_ways() const {
@@ -90,7 +116,9 @@ Settings Probe::usual_samples() const { return is_quick() ? few_samples(techniqu
 
 std::string Probe::opt_out(const std::string& part) const {
   for (const OptOut& out : opt_outs(technique())) {
-    if (out.number == number_ && out.part == part) return out.reason;
+    if (out.number != number_ || out.part != part) continue;
+    if (!part.empty()) add_new(opted_out_parts_, part + ": " + out.reason);
+    return out.reason;
   }
   return "";
 }

@@ -76,6 +76,10 @@ class Probe {
   void measure_violation(const std::string& what, const Frame& outputs);
   /// The largest difference of images that should have the same bits.
   void measure_bits(const std::string& what, const Frame& outputs, const Frame& expected);
+  /// Tells that a trial that takes long goes on.
+  void goes_on() const;
+  /// Whether something measured under this name is beyond its bound.
+  bool has_failed(const std::string& what) const;
   /// Why some of what the case asks is not asked of this technique: "makes no reflection".
   void passes_over(const std::string& reason);
 
@@ -97,6 +101,8 @@ class Probe {
   std::string opt_out(const std::string& part) const;
 
   const std::vector<Finding>& findings() const { return findings_; }
+  /// Parts that were asked for and that the technique opts out of: "open: reason".
+  const std::vector<std::string>& opted_out_parts() const { return opted_out_parts_; }
   const std::vector<std::string>& passed_over() const { return passed_over_; }
   int trials() const { return trial_; }
   /// Of the trial that began last.
@@ -111,6 +117,7 @@ class Probe {
   std::string conditions_;
   std::vector<Finding> findings_;
   std::vector<std::string> passed_over_;
+  mutable std::vector<std::string> opted_out_parts_;
   mutable int kept_ = 0;
 };
 

@@ -1,6 +1,10 @@
 // gloam stress: what it finds, how it says so, and what it takes.
+#include <fstream>
 #include <numeric>
+#include <regex>
+#include <sstream>
 
+#include "gloam/technique.h"
 #include "gloam_process.h"
 
 namespace gloam::test {
@@ -33,6 +37,7 @@ class StressOfFaults : public Cli {
 
 struct Fault {
   std::string technique, number, what;
+  bool has_place = true;  ///< whether it is a pixel's
 };
 
 TEST_F(StressOfFaults, EachIsFoundByTheCaseThatIsThereForIt) {
@@ -41,7 +46,11 @@ TEST_F(StressOfFaults, EachIsFoundByTheCaseThatIsThereForIt) {
                              {"by-lanes", "13", "one lane"},
                              {"beside-the-image", "11", "beside the image"},
                              {"shadows-itself", "2", "distance from open"},
-                             {"one-sided", "4", "mirrored"}}) {
+                             {"one-sided", "4", "mirrored"},
+                             {"squares-depth", "9", "out of its range"},
+                             {"one-camera", "10", "tilted wall"},
+                             {"brightens", "15", "more open"},
+                             {"faultless", "16", "all white", false}}) {  // it computes nothing
     const Result result = look(fault.technique, fault.number);
     EXPECT_EQ(result.status, 1) << fault.technique;
     EXPECT_EQ(result.lines_of_error(), 1) << result.err;
@@ -50,7 +59,7 @@ TEST_F(StressOfFaults, EachIsFoundByTheCaseThatIsThereForIt) {
     EXPECT_EQ(found["technique"], fault.technique);
     EXPECT_EQ(found["case"], std::stoi(fault.number));
     EXPECT_NE(std::string(found["what"]).find(fault.what), std::string::npos) << found["what"];
-    EXPECT_NE(found["place"], nullptr) << fault.technique;
+    EXPECT_EQ(found["place"] != nullptr, fault.has_place) << fault.technique;
   }
 }
 
@@ -162,6 +171,49 @@ TEST_F(Stress, RefusesWhatItCannotDo) {
   refused({"hbao+", "--from", path("x.json")}, 2, {"--from", "hbao+"});
   refused({"--from", path("x.json"), "--markdown", path("y.md")}, 1, {"x.json"});
   refused({"hbao+", "--case", "3", "--json", "/nonexistent/x.json"}, 1, {"/nonexistent"});
+  refused({"hbao+", "--case", "3", "--against", "nonesuch"}, 2, {"--against nonesuch", "gloam list devices"});
+  refused({"hbao+", "--case", "3", "--frames", "5"}, 2, {"--frames 5", "case 1"});
+  refused({"hbao+", "--case", "3", "--trial", "1", "-o", "/proc/x"}, 1, {"-o /proc/x", "cannot be made"});
+  refused({"hidden-mask", "--case", "4", "--trial", "1"}, 2, {"--trial 1", "0 trials", "opted out"});
+  std::ofstream(path("half.json")) << R"({"device": "a", "cases": []})";
+  refused({"--from", path("half.json"), "--markdown", path("y.md")}, 1, {"half.json", "no results"});
+}
+
+TEST_F(Stress, AnOptOutOfAPartIsSaid) {
+  const Arguments look = {"stress", "corner-mask", "--case", "6", "--quick", "--against", "none"};
+  Arguments with_json = look;
+  with_json.insert(with_json.end(), {"--json", "-"});
+  const Json document = gloam(with_json).json();
+  ASSERT_EQ(document["opted_out_in_part"].size(), 1u) << document;
+  const std::string why = document["opted_out_in_part"][0]["why"];
+  EXPECT_EQ(why.substr(0, 20), "normals from depth: ");
+  EXPECT_NE(gloam(look).out.find("opted out of " + why), std::string::npos) << why;
+}
+
+/// A line with a wrong number, part or name would opt nothing out, and nobody would know.
+TEST(OptOuts, NameACaseAPartAndATechnique) {
+  std::string asked;  // what any case asks for
+  for (const auto& entry : fs::directory_iterator(std::string(GLOAM_SOURCE_DIR) + "/host/stress/cases"))
+    asked += slurp(entry.path());
+  int lines = 0;
+  for (const Technique& technique : registry()) {
+    const fs::path folder = fs::path(technique.source).parent_path();
+    std::istringstream page(slurp(fs::path(GLOAM_SOURCE_DIR) / "kernels" / folder / "README.md"));
+    for (std::string line; std::getline(page, line);) {
+      if (line.rfind("hard case", 0) != 0) continue;
+      std::smatch found;
+      ASSERT_TRUE(
+          std::regex_match(line, found, std::regex(R"(hard case (\d+)(?:, ([^(:]+?))?(?: \(([^)]+)\))?: (.+))")))
+          << line;
+      const int number = std::stoi(found[1]);
+      EXPECT_TRUE(number >= 1 && number <= 20) << line;
+      const bool is_part = found[2].matched, is_of_one = found[3].matched;
+      EXPECT_TRUE(!is_part || asked.find("opt_out(\"" + found[2].str() + "\")") != std::string::npos) << line;
+      EXPECT_TRUE(!is_of_one || fs::path(find_technique(found[3]).source).parent_path() == folder) << line;
+      ++lines;
+    }
+  }
+  EXPECT_GT(lines, 0);
 }
 
 }  // namespace

@@ -20,14 +20,15 @@ const Technique* chooser(const Plan& plan) {
   return nullptr;
 }
 
-/// So many surfaces under each pixel, the first of them the one seen.
+/// So many surfaces under each pixel, the first of them the one seen; 0: none at all, although there is a depth.
 Frame with_layers(const Technique& technique, int count) {
   Frame frame = shoot(perspective(80, 60), room());
   const Channel& depth = frame.views[0].find("depth")->channels[0];
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k < std::max(count, 1); ++k) {
     Channel& layer = plane_of(frame, layer_name("peel", k)).channels[0];
     for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) layer.at(x, y) = depth.at(x, y) * (1 + 0.02f * float(k));
+      for (int x = 0; x < frame.width(); ++x)
+        layer.at(x, y) = count == 0 ? INFINITY : depth.at(x, y) * (1 + 0.02f * float(k));
     }
   }
   normalise(frame);
@@ -62,6 +63,31 @@ std::vector<std::string> sample_counts(const Probe& probe) {
   return probe.is_quick() ? std::vector<std::string>{"1"} : std::vector<std::string>{"1", "2", "4", "8", "16"};
 }
 
+/// The stochastic depths that alpha 1 should draw: the depth itself, in all of them.
+Frame with_depth_for_stochastic_ones(const Technique& technique, const std::string& samples) {
+  Frame frame = with_layers(technique, 1);
+  const Channel& depth = frame.views[0].find("depth")->channels[0];
+  for (View& view : frame.views) {
+    for (int k = 0; k < std::stoi(samples); ++k) {
+      Channel& layer = plane_of(view, depth.layout(), layer_name("stochastic", k)).channels[0];
+      for (int y = 0; y < frame.height(); ++y)
+        std::copy_n(view.find("depth")->channels[0].row(y), frame.width(), layer.row(y));
+    }
+  }
+  normalise(frame);
+  return frame;
+}
+
+Frame only_stochastic(const Frame& frame) {
+  Frame copy = clone(frame);
+  for (View& view : copy.views)
+    std::erase_if(view.planes, [](const auto& plane) {
+      const auto layer = stack_layer(plane.first);
+      return !layer || layer->stack != "stochastic";
+    });
+  return copy;
+}
+
 /// With alpha 1 every sample is offered every surface, and keeps the nearest: hidden layers change nothing.
 void all_samples_take_the_nearest(Probe& probe) {
   if (!chooses(probe)) return;
@@ -70,10 +96,15 @@ void all_samples_take_the_nearest(Probe& probe) {
       if (!probe.tries(
               fmt::format("alpha 1, {} samples, 64 layers against the depth alone, {}", samples, text_of(way))))
         continue;
-      Frame deep = with_layers(probe.technique(), 64), flat = with_layers(probe.technique(), 1);
+      Frame deep = with_layers(probe.technique(), 64);
+      Frame flat = with_depth_for_stochastic_ones(probe.technique(), samples);
       const Settings settings = settings_of(probe.technique(), deep, samples, "1");
-      probe.measure_bits("alpha 1: difference to the ordinary depth", probe.outputs(deep, settings, way),
-                         probe.outputs(flat, settings, way));
+      const Frame out = probe.outputs(deep, settings, way);
+      if (chooser(plan_for(probe.technique(), deep)) == &probe.technique())
+        probe.measure_bits("alpha 1: difference to the ordinary depth", out, only_stochastic(flat));
+      else
+        probe.measure_bits("alpha 1: difference to the ordinary depth", out,
+                           probe.outputs(flat, settings_of(probe.technique(), flat, samples, "1"), way));
     }
   }
 }
@@ -82,7 +113,7 @@ void any_layers_and_samples(Probe& probe) {
   if (!chooses(probe)) return;
   for (const std::string& samples : sample_counts(probe)) {
     for (const char* alpha : {"0", "0.2", "1"}) {
-      for (const int layers : {1, 3, 64}) {
+      for (const int layers : {0, 1, 3, 64}) {
         for (const RunOptions& way : probe.two_ways()) {
           if (!probe.tries(fmt::format("alpha {}, {} samples, {} layers, {}", alpha, samples, layers, text_of(way))))
             continue;
@@ -103,7 +134,7 @@ void shares_of_layers(Probe& probe) {
   if (chooser(plan) != &probe.technique()) return;
   constexpr int layers = 8, seeds = 16;
   for (const std::string& samples : sample_counts(probe)) {
-    for (const double alpha : {0.1, 0.2, 0.5}) {
+    for (const double alpha : {0.0, 0.1, 0.2, 0.5, 1.0}) {
       if (!probe.tries(fmt::format("alpha {}, {} samples, shares of {} layers", alpha, samples, layers))) continue;
       Frame frame = with_layers(probe.technique(), layers);
       std::vector<double> shares(layers);

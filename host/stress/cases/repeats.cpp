@@ -74,6 +74,7 @@ void lane_widths(Probe& probe) {
 void other_devices(Probe& probe) {
   const Settings few = few_samples(probe.technique());
   const auto is_cpu = [](const Device& device) { return device.info().type == "cpu"; };
+  if (probe.others().empty()) probe.passes_over("no other device to compare with");
   for (Device* other : probe.others()) {
     const std::string name = other->info().name;
     const bool cpus = is_cpu(*other) && is_cpu(probe.device());
@@ -107,7 +108,8 @@ void other_devices(Probe& probe) {
 /// Stated rather than bounded by an argument: a sample that falls on the border of a pixel may be another pixel's in
 /// double, and one sample of many is then another one; a pixel of 15552 by one of 31 sectors is 2.1e-6.
 void float_against_double(Probe& probe) {
-  if (!probe.device().info().has_double) return probe.passes_over(probe.device().info().name + " has no double");
+  const bool has_double = probe.device().info().has_double;
+  if (!has_double) probe.passes_over(probe.device().info().name + " has no double");
   const Settings samples = probe.usual_samples();
   for (const bool with_normals : {true, false}) {
     if (!with_normals && !probe.opt_out("normals from depth").empty()) continue;
@@ -115,16 +117,19 @@ void float_against_double(Probe& probe) {
     Frame frame = shoot(fine_shot(), room(), with_normals);
     Lazy<Frame> exact([&] { return probe.outputs(frame, samples, {.math = Math::precise, .real = Real::float64}); });
     Lazy<Frame> precise([&] { return probe.outputs(frame, samples, {.math = Math::precise}); });
-    if (probe.tries("precise against double, " + normals)) {
+    if (has_double && probe.tries("precise against double, " + normals)) {
       const Difference d = difference(precise.get(), exact.get());
       probe.measure("float against double, " + normals + ": mean difference", {d.mean, d.place}, 4e-6);
       probe.measure("float against double, " + normals + ": largest difference", d, INFINITY);
     }
     if (probe.tries("fast against precise and double, " + normals)) {
       const Frame fast = probe.outputs(frame, samples, {.math = Math::fast});
-      const Difference to_double = difference(fast, exact.get()), to_precise = difference(fast, precise.get());
-      probe.measure("fast float against double, " + normals + ": mean difference", {to_double.mean, to_double.place},
-                    4e-6);
+      const Difference to_precise = difference(fast, precise.get());
+      if (has_double) {
+        const Difference to_double = difference(fast, exact.get());
+        probe.measure("fast float against double, " + normals + ": mean difference", {to_double.mean, to_double.place},
+                      4e-6);
+      }
       probe.measure("fast against precise, " + normals + ": mean difference", {to_precise.mean, to_precise.place},
                     4e-6);
       probe.measure("fast against precise, " + normals + ": largest difference", to_precise, INFINITY);

@@ -29,6 +29,15 @@ kernel void faults(Frame frame, PLANE depth, PLANE normal_x, PLANE normal_y, PLA
 #elif FAULT == 8  // does not end
   volatile int more = 1;
   while (more) open += (real)(1);
+#elif FAULT == 9  // takes every camera for the one of 80 columns over 60 degrees
+  const real next = load(depth, here + 1), x = to_real(FIRST_X + IOTA) - (real)(39.5f);
+  const real aside = ((x + 1) * next - x * z) / (real)(69.282f);
+  const real height = load(normal_x, here) * aside - load(normal_z, here) * (next - z);
+  open = choose(background | is_background(next) | (height < (real)(0.01f) * z), open, (real)(0));
+#elif FAULT == 10  // squares what may be large
+  open = choose(background, open, z * z / ((real)(1) + z * z));
+#elif FAULT == 11  // takes what is nearer for light
+  open = choose(load(depth, here + 1) < z * (real)(0.9f), open, (real)(0.5f));
 #endif
   store(open, ao, here);
 }

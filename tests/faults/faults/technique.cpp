@@ -3,9 +3,9 @@
 namespace gloam::techniques {
 namespace {
 
-const char* const names[] = {"faultless", "absolute-epsilon", "background-unknown",
-                             "by-lanes",  "beside-the-image", "shadows-itself",
-                             "one-sided", "crashes",          "does-not-end"};
+const char* const names[] = {"faultless",        "absolute-epsilon", "background-unknown", "by-lanes",
+                             "beside-the-image", "shadows-itself",   "one-sided",          "crashes",
+                             "does-not-end",     "one-camera",       "squares-depth",      "brightens"};
 
 std::vector<Pass> passes(int fault) {
   return {{"estimate", "faults", {"depth", "normal"}, {"ao"}, {{"FAULT", fault}}}};
