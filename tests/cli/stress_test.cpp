@@ -49,7 +49,7 @@ TEST_F(StressOfFaults, EachIsFoundByTheCaseThatIsThereForIt) {
                              {"one-sided", "4", "mirrored"},
                              {"squares-depth", "9", "out of its range"},
                              {"one-camera", "10", "tilted wall"},
-                             {"brightens", "15", "more open"},
+                             {"brightens", "15", "brighter", false},
                              {"faultless", "16", "all white", false}}) {  // it computes nothing
     const Result result = look(fault.technique, fault.number);
     EXPECT_EQ(result.status, 1) << fault.technique;
