@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "gloam/planes.h"
 #include "stress/case.h"
@@ -72,9 +73,16 @@ Measured beyond_bounds(const Frame& outputs) {
   return worst;
 }
 
-void at_their_limits(Probe& probe) {
+/// Whether the technique makes reflections; notes why not.
+bool reflects(Probe& probe) {
   const std::vector<std::string>& made = gloam::outputs_of(probe.technique());
-  if (std::find(made.begin(), made.end(), "reflection") == made.end()) return probe.passes_over("makes no reflection");
+  if (std::find(made.begin(), made.end(), "reflection") != made.end()) return true;
+  probe.passes_over("makes no reflection");
+  return false;
+}
+
+void at_their_limits(Probe& probe) {
+  if (!reflects(probe)) return;
   for (const Shot& shot : usual_shots()) {
     Lazy<Frame> frame([&] { return frame_of(probe.technique(), shot); });
     for (const Settings& setting : {Settings{}, Settings{{"max_roughness", "1"}}, Settings{{"environment_r", "100"}},
@@ -91,6 +99,98 @@ void at_their_limits(Probe& probe) {
   }
 }
 
+// --- A mirror
+
+/// A mirror for a floor, one unit below the eye, that ends at a wall four units away; the eye looks down.
+constexpr double down = 0.35, floor_height = -1, wall_distance = 4, square = 0.5;
+
+glm::dvec3 turned(const glm::dvec3& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {v.x, c * v.y - s * v.z, c * v.z + s * v.y};
+}
+
+/// In the room's own space, where the floor is level.
+EyeRay in_room(const EyeRay& ray) { return {turned(ray.origin, -down), turned(ray.direction, -down)}; }
+
+std::optional<Surface> mirror_room(const EyeRay& eye) {
+  const EyeRay ray = in_room(eye);
+  const double to_wall = (-wall_distance - ray.origin.z) / ray.direction.z;
+  const double to_floor =
+      ray.direction.y < 0 ? (floor_height - ray.origin.y) / ray.direction.y : std::numeric_limits<double>::infinity();
+  if (to_floor < to_wall) return Surface{to_floor, turned({0, 1, 0}, down)};
+  return Surface{to_wall, turned({0, 0, 1}, down)};
+}
+
+double checker(const glm::dvec3& p) {
+  return (long(std::floor(p.x / square)) + long(std::floor(p.y / square))) & 1 ? 1 : 0.25;
+}
+
+double from_edge(const glm::dvec3& p) {
+  const auto off = [](double v) { return std::abs(v / square - std::round(v / square)) * square; };
+  return std::min(off(p.x), off(p.y));
+}
+
+/// Whether the image shows a point of the wall, two pixels from its border at least.
+bool shows(const Shot& shot, const glm::dvec3& room) {
+  const glm::dvec3 p = turned(room, down);
+  const double lateral = shot.camera.orthographic ? 1 : -p.z;
+  const double x = shot.camera.cx + shot.camera.fx * p.x / lateral, y = shot.camera.cy - shot.camera.fy * p.y / lateral;
+  return x > 2 && y > 2 && x < shot.width - 2 && y < shot.height - 2;
+}
+
+Frame mirror_frame(const Technique& technique, const Shot& shot) {
+  Frame frame = shoot(shot, mirror_room);
+  for (const char* plane : {"color", "roughness", "reflectance"}) plane_of(frame, plane);
+  for (int y = 0; y < shot.height; ++y) {
+    for (int x = 0; x < shot.width; ++x) {
+      const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5), there = in_room(ray);
+      const glm::dvec3 point = there.origin + mirror_room(ray)->depth * there.direction;
+      const bool is_mirror = point.y < floor_height + 1e-6;
+      for (size_t i = 0; i < 3; ++i) {
+        plane_of(frame, "color").channels[i].at(x, y) = is_mirror ? 0 : float(checker(point));
+        plane_of(frame, "reflectance").channels[i].at(x, y) = is_mirror ? 1 : 0;
+      }
+      plane_of(frame, "roughness").channels[0].at(x, y) = 0;
+    }
+  }
+  plan_for(technique, frame);  // invents what is lacking, and the second view
+  return frame;
+}
+
+/// Where a floor mirrors the inside of a square of the wall, it has the square's colour.
+void mirror_is_exact(Probe& probe) {
+  if (!reflects(probe)) return;
+  for (const Shot& shot : {perspective(80, 60, 70), orthographic(80, 60, 5)}) {
+    const double pixel = (shot.camera.orthographic ? 1 : wall_distance) / shot.camera.fx;
+    for (const RunOptions& way : probe.two_ways()) {
+      if (!probe.tries(fmt::format("a mirror under a checker wall, {}, {}", text_of(shot.camera), text_of(way))))
+        continue;
+      Frame frame = mirror_frame(probe.technique(), shot);
+      const Frame out = probe.outputs(frame, {{"fade_border", "0"}}, way);
+      const std::vector<Channel>& reflection = out.views[0].find("reflection")->channels;
+      Measured worst(0.0);
+      int compared = 0;
+      for (int y = 0; y < shot.height; ++y) {
+        for (int x = 0; x < shot.width; ++x) {
+          const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5), there = in_room(ray);
+          glm::dvec3 point = there.origin + mirror_room(ray)->depth * there.direction, on = there.direction;
+          if (point.y > floor_height + 1e-6) continue;
+          on.y = -on.y;
+          point += on * ((-wall_distance - point.z) / on.z);
+          if (!shows(shot, point) || from_edge(point) < 1.5 * pixel) continue;
+          ++compared;
+          const double error = std::abs(double(reflection[0].at(x, y)) - checker(point));
+          if (error > worst.value)
+            worst = {error, Place{out.views[0].name, "reflection", x, y,
+                                  fmt::format("{} against {}", reflection[0].at(x, y), checker(point))}};
+        }
+      }
+      probe.measure("mirror: difference to the colour that a ray meets", worst, 1e-5);
+      probe.measure("mirror: too few pixels to compare", compared < 200 ? 1.0 : 0.0, 0);
+    }
+  }
+}
+
 }  // namespace
 
 namespace case_files {
@@ -99,8 +199,10 @@ std::vector<Case> reflections() {
   return {{19,
            "reflections at their limits",
            "Rays towards the camera, along the screen and out of its border, surfaces seen edge-on, roughness 0 and 1, "
-           "and lamps of 1e4 give finite reflections, none brighter than the brightest that could be reflected.",
-           {at_their_limits}}};
+           "and lamps of 1e4 give finite reflections, none brighter than the brightest that could be reflected; a "
+           "mirror shows "
+           "what its rays meet.",
+           {at_their_limits, mirror_is_exact}}};
 }
 
 }  // namespace case_files
