@@ -268,19 +268,58 @@ void print_done(const std::string& technique, const std::vector<CaseResult>& res
   std::fflush(stdout);
 }
 
+using ResultsByTechnique = std::map<std::string, std::vector<CaseResult>>;
+
+/// Puts what is known into the run, by technique and case.
+void gather(const Request& request, const ResultsByTechnique& known, StressRun& run) {
+  run.results.clear();
+  run.left.clear();
+  for (const std::string& technique : request.techniques) {
+    const auto found = known.find(technique);
+    if (found == known.end()) {
+      run.left.push_back(technique);
+      continue;
+    }
+    std::vector<CaseResult> results = found->second;
+    std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    std::move(results.begin(), results.end(), std::back_inserter(run.results));
+  }
+}
+
+/// What is said with the results: a device that was asked for by name, and what it was compared with.
+std::string device_flags(const StressCommand& flags) {
+  return (flags.device.empty() ? "" : " --device " + quoted(flags.device)) +
+         (flags.against == "all" ? "" : " --against " + quoted(flags.against));
+}
+
 /// All techniques, several at a time. What ends one of them by an ordinary error, such as a device that is not there, ends all.
+/// The file of --json holds all that is known after each: a run of an hour that is interrupted has not been in vain.
 void examine_all(const StressCommand& flags, const Request& request, StressRun& run) {
   const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
   const int jobs = flags.jobs.empty() ? cores : parse_whole_number(flags.jobs, "--jobs", 1, 1024);
-  std::map<std::string, std::vector<CaseResult>> all;
+  ResultsByTechnique known;
   std::atomic<size_t> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
-  int done = 0;
   const auto progress = progress_bar();
+  const auto take = [&](const std::string& technique, const Examination& examination) {
+    known[technique] = examination.results;
+    if (!examination.device.is_null()) {
+      run.device = examination.device.at("device");
+      run.driver = examination.device.at("driver");
+      run.others = examination.device.at("against");
+    }
+    gather(request, known, run);
+    if (run.left.empty()) return;  // the last words are said with the exit status
+    if (!flags.json.file().empty()) {
+      flags.json.write(document_of(run, device_flags(flags)));
+      say_on_interruption("the file of --json holds the techniques that were done");
+    }
+  };
   const auto work = [&] {
     for (size_t i = next++; i < request.techniques.size(); i = next++) {
-      Examination examination(flags, request, request.techniques[i]);
+      const std::string& technique = request.techniques[i];
+      Examination examination(flags, request, technique);
       std::exception_ptr thrown;
       try {
         examination.run();
@@ -288,27 +327,21 @@ void examine_all(const StressCommand& flags, const Request& request, StressRun& 
         thrown = std::current_exception();
       }
       const std::lock_guard<std::mutex> lock(mutex);
-      if (thrown) failure = thrown, next = request.techniques.size();
-      all[request.techniques[i]] = std::move(examination.results);
-      if (!examination.device.is_null()) {
-        run.device = examination.device.at("device");
-        run.driver = examination.device.at("driver");
-        run.others = examination.device.at("against");
+      try {
+        if (!thrown) take(technique, examination);
+      } catch (...) {
+        thrown = std::current_exception();
       }
+      if (thrown) failure = thrown, next = request.techniques.size();
       if (request.techniques.size() > 1 && !thrown && !flags.json.only_json())
-        print_done(request.techniques[i], all[request.techniques[i]]);
-      if (progress) progress(++done, int(request.techniques.size()));
+        print_done(technique, examination.results);
+      if (progress) progress(int(known.size()), int(request.techniques.size()));
     }
   };
   std::vector<std::thread> workers;
   for (int i = 0; i < std::min(jobs, int(request.techniques.size())); ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (failure) std::rethrow_exception(failure);
-  for (const std::string& technique : request.techniques) {
-    std::vector<CaseResult>& results = all[technique];
-    std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
-    std::move(results.begin(), results.end(), std::back_inserter(run.results));
-  }
 }
 
 void write_page(const std::string& path, const std::vector<stress::Json>& documents) {
@@ -370,8 +403,7 @@ void stress_command(const StressCommand& flags) {
   StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
   examine_all(flags, request, run);
   check_trial(flags, request, run);
-  std::string device_flag = flags.device.empty() ? "" : " --device " + quoted(flags.device);
-  if (flags.against != "all") device_flag += " --against " + quoted(flags.against);
+  const std::string device_flag = device_flags(flags);
   const stress::Json document = document_of(run, device_flag);
   write_page(flags.markdown, {document});
   flags.json.write(document);

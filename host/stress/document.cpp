@@ -124,7 +124,8 @@ Json document_of(const StressRun& run, const std::string& device_flag) {
           {"opted_out", opted_out},
           {"opted_out_in_part", in_part},
           {"passed_over", passed_over},
-          {"failed", failures(run)}};
+          {"failed", failures(run)},
+          {"left", run.left}};
 }
 
 }  // namespace gloam::stress

@@ -23,10 +23,12 @@ struct StressRun {
   unsigned seed = 1;
   int frames = 0;  ///< random ones asked for; 0: as many as the extent has
   std::vector<CaseResult> results;
+  std::vector<std::string> left;  ///< techniques that are still to come
 };
 
 /// `{"device", ..., "cases": [{"technique", "case", "worst", "bound", "held", "replay", ...}], "failed"}`: one entry of `cases`
-/// for each finding. `replay` is the command that makes its trial again.
+/// for each finding. `replay` is the command that makes its trial again. `left` are the techniques that had not had their turn
+/// when it was written: none, but for a run that was interrupted.
 Json document_of(const StressRun& run, const std::string& device_flag);
 
 /// Findings beyond their bounds, and cases that broke off.

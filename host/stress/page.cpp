@@ -70,6 +70,7 @@ std::string introduction(const Json& document) {
   const std::vector<Row> rows = rows_of(document);
   const auto failed = document.at("failed").get<int>();
   std::string against;
+  const auto left = document.at("left").get<std::set<std::string>>();
   for (const Json& other : document.at("against")) against += (against.empty() ? "" : "; ") + other.get<std::string>();
   return fmt::format(
       "# Stability\n\n"
@@ -80,14 +81,15 @@ std::string introduction(const Json& document) {
       "writes its frames: those are the numbers in the tables.\n\n"
       "- {} techniques, {} cases, {} figures; {} beyond {} bound.\n"
       "- Device: {} ({}). Compared with: {}.\n"
-      "- Extent {}, {}seed {}.\n\n",
+      "- Extent {}, {}seed {}.\n{}\n",
       techniques_of(rows).size(), cases().size(), rows.size(), failed, failed == 1 ? "its" : "their",
       document.at("device").get<std::string>(), document.at("driver").get<std::string>(),
       against.empty() ? "nothing" : against, document.at("extent").get<std::string>(),
       document.at("frames").get<int>()
           ? fmt::format("{} random frames for each technique, ", document.at("frames").get<int>())
           : "",
-      document.at("seed").get<unsigned>());
+      document.at("seed").get<unsigned>(),
+      left.empty() ? "" : fmt::format("- The run was broken off. Not examined: {}.\n", listed(left)));
 }
 
 std::string table_of_cases(const Json& document) {

@@ -1,8 +1,12 @@
 // gloam stress: what it finds, how it says so, and what it takes.
+#include <signal.h>
+
+#include <chrono>
 #include <fstream>
 #include <numeric>
 #include <regex>
 #include <sstream>
+#include <thread>
 
 #include "gloam/technique.h"
 #include "gloam_process.h"
@@ -119,6 +123,29 @@ TEST_F(StressOfFaults, APageHasTheFiguresOfARun) {
   EXPECT_NE(page.find("### Case 13"), std::string::npos);
   EXPECT_NE(page.find("| `by-lanes` | 0.015 **beyond** | 0 | precise: difference to one lane |"), std::string::npos)
       << page;
+}
+
+/// A run of an hour: what was done before somebody or something ended it is kept.
+TEST_F(StressOfFaults, AnInterruptedRunKeepsWhatWasDone) {
+  const pid_t child = start(
+      {"stress", "all", "--case", "11", "--quick", "--against", "none", "--jobs", "1", "--json", path("run.json")});
+  for (int i = 0; i < 600 && !fs::exists(path("run.json")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(child, SIGINT);
+  const Result result = finish(child);
+  EXPECT_EQ(result.status, 130);
+  EXPECT_NE(result.err.find("interrupted; the file of --json holds the techniques that were done"), std::string::npos)
+      << result.err;
+  const Json document = Json::parse(slurp(path("run.json")));
+  const Arguments left = document["left"];
+  EXPECT_NE(std::find(left.begin(), left.end(), "does-not-end"), left.end()) << document["left"];
+  ASSERT_FALSE(document["cases"].empty());
+  for (const Json& entry : document["cases"])
+    EXPECT_EQ(std::find(left.begin(), left.end(), entry["technique"]), left.end()) << entry["technique"];
+
+  ASSERT_EQ(gloam({"stress", "--from", path("run.json"), "--markdown", path("page.md")}).status, 0);
+  const std::string page = slurp(path("page.md"));
+  EXPECT_NE(page.find("- The run was broken off. Not examined: "), std::string::npos) << page.substr(0, 1000);
 }
 
 class Stress : public Cli {};
