@@ -154,7 +154,7 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
   // Positions are the world's.
   if (!is_module && (random.one_in(2) || first.find("position"))) first.camera->pose = any_pose(random);
   const std::vector<Settings> choices = variants(technique, drawn.frame);
-  const bool is_choice = random.one_in(extent == Extent::quick ? 12 : 3);
+  const bool is_choice = random.one_in(extent == Extent::quick ? 24 : 3);
   if (is_choice) drawn.settings = random.pick(choices);
   const Plan plan = plan_for(technique, drawn.frame, drawn.settings);
   drawn.settings = drawn.settings + any_floats(plan, random);

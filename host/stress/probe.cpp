@@ -112,6 +112,10 @@ std::vector<RunOptions> Probe::two_ways() const {
   return {{.math = Math::fast, .lanes = usual_lanes(device()).back()}, {.math = Math::precise, .lanes = 1}};
 }
 
+std::vector<RunOptions> Probe::ways_of_rare_settings() const {
+  return is_quick() ? std::vector<RunOptions>{two_ways().front()} : two_ways();
+}
+
 Settings Probe::usual_samples() const { return is_quick() ? few_samples(technique()) : Settings{}; }
 
 std::string Probe::opt_out(const std::string& part) const {

@@ -93,6 +93,8 @@ class Probe {
   /// many settings or sizes are tried.
   std::vector<RunOptions> all_ways() const;
   std::vector<RunOptions> two_ways() const;
+  /// The same for settings that no other case has, each of which is compiled anew: one of the two in a quick look.
+  std::vector<RunOptions> ways_of_rare_settings() const;
   /// The defaults; in a quick look the cheapest preset, for properties that hold for any number of samples.
   Settings usual_samples() const;
 

@@ -11,6 +11,7 @@
 #include "gloam/planes.h"
 #include "gloam/run.h"
 #include "message_of.h"
+#include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 
@@ -183,6 +184,8 @@ TEST_P(Masked, InsideNothingChangesAndOutsideIsOpen) {
   Frame frame = shoot(perspective(151, 45), room());
   add_mask(frame);
   for (const std::string filter : {"", "none", "gaussian"}) {
+    // The filters do the same after each technique.
+    if (filter == "gaussian" && GetParam().technique->name != "hbao+" && !is_long_run()) continue;
     SCOPED_TRACE("filter " + filter);
     const RunResult whole = result_of(frame, "", filter), masked = result_of(frame, "mask", filter);
     EXPECT_EQ(whole.skipped_share, 0);

@@ -92,7 +92,7 @@ Frame only_stochastic(const Frame& frame) {
 void all_samples_take_the_nearest(Probe& probe) {
   if (!chooses(probe)) return;
   for (const std::string& samples : sample_counts(probe)) {
-    for (const RunOptions& way : probe.two_ways()) {
+    for (const RunOptions& way : probe.ways_of_rare_settings()) {
       if (!probe.tries(
               fmt::format("alpha 1, {} samples, 64 layers against the depth alone, {}", samples, text_of(way))))
         continue;
@@ -114,7 +114,7 @@ void any_layers_and_samples(Probe& probe) {
   for (const std::string& samples : sample_counts(probe)) {
     for (const char* alpha : {"0", "0.2", "1"}) {
       for (const int layers : {0, 1, 3, 64}) {
-        for (const RunOptions& way : probe.two_ways()) {
+        for (const RunOptions& way : probe.ways_of_rare_settings()) {
           if (!probe.tries(fmt::format("alpha {}, {} samples, {} layers, {}", alpha, samples, layers, text_of(way))))
             continue;
           Frame frame = with_layers(probe.technique(), layers);

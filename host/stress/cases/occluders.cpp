@@ -136,7 +136,7 @@ void occluder_more(Probe& probe) {
   for (const Shot& shot : usual_shots()) {
     const Shot here = shot.camera.orthographic ? orthographic(80, 60, 4.5) : shot;
     const std::vector<char> all = shows_the_same(here), some = keeps_its_occluders(here);
-    for (const RunOptions& way : probe.two_ways()) {
+    for (const RunOptions& way : probe.ways_of_rare_settings()) {
       if (!probe.tries(fmt::format("a ball before two walls, {}, {}", text_of(shot.camera), text_of(way)))) continue;
       Frame without = with_all_layers(here, {floor_and_wall(), nowhere()}),
             with = with_all_layers(here, {floor_and_wall(), ball(ball_centre, ball_radius)});
