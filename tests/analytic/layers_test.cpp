@@ -51,6 +51,8 @@ TEST_P(DepthLayers, ThatSayWhatTheDepthSays) {
       {"the depth at last", {nothing, nothing, same_depth}},
       {"every other pixel", {odd, even, nothing}}};
   for (const Shot& shot : {perspective(93, 61), orthographic(93, 61, 4)}) {
+    // Cameras and layers are read by what all techniques share.
+    if (shot.camera.orthographic && GetParam() != "hbao" && !is_long_run()) continue;
     const Frame frame = shoot(shot, room());
     for (const auto& [what, layers] : all) {
       for (const Settings& settings : variants())

@@ -214,12 +214,13 @@ void depth_encodings(Probe& probe) {
     if (!with_normals && !probe.opt_out("normals from depth").empty()) continue;
     Frame exact = shoot(shot, room(), with_normals);
     const bool is_share = !unit_interval_outputs(plan_for(probe.technique(), exact)).empty();
-    Lazy<Frame> expected([&] { return probe.outputs(exact, {}, way); });
+    const Settings samples = probe.usual_samples();
+    Lazy<Frame> expected([&] { return probe.outputs(exact, samples, way); });
     for (const Encoding& encoding : encodings) {
       const std::string what = fmt::format("{}, {}", encoding.name, normals_text(with_normals));
       if (!probe.tries(what)) continue;
       Frame frame = encoded(shot, room(), encoding, with_normals);
-      const Frame out = probe.outputs(frame, {}, way);
+      const Frame out = probe.outputs(frame, samples, way);
       probe.measure_violation("value out of its range", out);
       if (!probe.opt_out("difference").empty()) continue;
       const Difference d = difference(out, expected.get());
