@@ -66,6 +66,9 @@ std::string listed(const std::set<std::string>& names) {
   return quoted.empty() ? "none" : fmt::format("{}", fmt::join(quoted, ", "));
 }
 
+/// What a command needs beside the case and the trial: a quick look has other trials.
+std::string quick_flag(const Json& document) { return document.at("extent") == "quick" ? "--quick " : ""; }
+
 std::string introduction(const Json& document) {
   const std::vector<Row> rows = rows_of(document);
   const auto failed = document.at("failed").get<int>();
@@ -76,14 +79,13 @@ std::string introduction(const Json& document) {
       "# Stability\n\n"
       "What hard cases do to each technique. Written by `gloam stress`; do not edit. `script/stability` makes it "
       "anew.\n\n"
-      "`gloam stress TECHNIQUE` examines one on any device, and `--case N --trial N -o FOLDER` makes one trial again "
-      "and "
-      "writes its frames: those are the numbers in the tables.\n\n"
+      "`gloam stress TECHNIQUE` examines one on any device, and `{}--case N --trial N -o FOLDER` makes one trial "
+      "again and writes its frames: those are the numbers in the tables.\n\n"
       "- {} techniques, {} cases, {} figures; {} beyond {} bound.\n"
       "- Device: {} ({}). Compared with: {}.\n"
       "- Extent {}, {}seed {}.\n{}\n",
-      techniques_of(rows).size(), cases().size(), rows.size(), failed, failed == 1 ? "its" : "their",
-      document.at("device").get<std::string>(), document.at("driver").get<std::string>(),
+      quick_flag(document), techniques_of(rows).size(), cases().size(), rows.size(), failed,
+      failed == 1 ? "its" : "their", document.at("device").get<std::string>(), document.at("driver").get<std::string>(),
       against.empty() ? "nothing" : against, document.at("extent").get<std::string>(),
       document.at("frames").get<int>()
           ? fmt::format("{} random frames for each technique, ", document.at("frames").get<int>())
@@ -109,26 +111,29 @@ std::string table_of_cases(const Json& document) {
   return text + "\n";
 }
 
-/// A column of the table of comparisons: figures whose names hold these words.
+/// A column of the table of comparisons: figures whose names hold these words. `where` heads the column that says where
+/// the largest is; no such column where it is empty.
 struct Comparison {
   const char* name;
   std::vector<std::string> words;
+  const char* where;
 };
 
 const std::vector<Comparison>& comparisons() {
-  static const std::vector<Comparison> all = {{"float / double, mean", {"float against double", "mean"}},
-                                              {"largest", {"float against double", "largest"}},
-                                              {"fast / precise, mean", {"fast against precise", "mean"}},
-                                              {"largest", {"fast against precise", "largest"}},
-                                              {"lanes / one, precise", {"precise: difference to one lane"}},
-                                              {"lanes / one, fast", {"fast: ", "difference to one lane"}},
-                                              {"other CPU, precise", {"precise: difference to another device"}},
-                                              {"other CPU, fast", {"fast: ", "difference to another device"}},
-                                              {"half depth, mean", {"half, ", "mean"}},
-                                              {"largest", {"half, ", "largest"}},
-                                              {"16 bit depth, mean", {"linear 16 bit", "mean"}},
-                                              {"largest", {"linear 16 bit", "largest"}},
-                                              {"reversed Z, largest", {"reversed-Z", "largest"}}};
+  static const std::vector<Comparison> all = {
+      {"float / double, mean", {"float against double", "mean"}, ""},
+      {"largest", {"float against double", "largest"}, "float / double"},
+      {"fast / precise, mean", {"fast against precise", "mean"}, ""},
+      {"largest", {"fast against precise", "largest"}, "fast / precise"},
+      {"lanes / one, precise", {"precise: difference to one lane"}, ""},
+      {"lanes / one, fast", {"fast: ", "difference to one lane"}, "lanes / one"},
+      {"other CPU, precise", {"precise: difference to another device"}, ""},
+      {"other CPU, fast", {"fast: ", "difference to another device"}, "other CPU"},
+      {"half depth, mean", {"half, ", "mean"}, ""},
+      {"largest", {"half, ", "largest"}, "half depth"},
+      {"16 bit depth, mean", {"linear 16 bit", "mean"}, ""},
+      {"largest", {"linear 16 bit", "largest"}, "16 bit depth"},
+      {"reversed Z, largest", {"reversed-Z", "largest"}, "reversed Z"}};
   return all;
 }
 
@@ -137,35 +142,65 @@ bool holds_all(const std::string& text, const std::vector<std::string>& words) {
                      [&](const std::string& word) { return text.find(word) != std::string::npos; });
 }
 
+std::string table_head(const char* columns) {
+  std::string text = fmt::format("| {} |\n|", columns);
+  for (const char* c = columns; *c; ++c) text += *c == '|' ? "---|" : "";
+  return text + "---|\n";
+}
+
+/// Null where the technique has no such figure.
+const Row* largest(const std::vector<Row>& rows, const std::string& technique, const Comparison& comparison) {
+  const Row* worst = nullptr;
+  for (const Row& row : rows) {
+    const bool is_fast_double = row.what.starts_with("fast float against double");  // the sum of both
+    if (row.technique != technique || is_fast_double || !holds_all(row.what, comparison.words)) continue;
+    if (!worst || row.worst > worst->worst) worst = &row;
+  }
+  return worst;
+}
+
 std::string table_of_comparisons(const std::vector<Row>& rows) {
+  std::string columns = "technique";
+  for (const Comparison& c : comparisons()) columns += fmt::format(" | {}", c.name);
   std::string text =
       "## What precision costs\n\nThe larger of the figures with exact normals and with normals made from depth, over "
-      "all "
-      "planes that the technique makes. 0: the same bits. -: not asked, or opted out.\n\n| technique |";
-  for (const Comparison& c : comparisons()) text += fmt::format(" {} |", c.name);
-  text += "\n|---|";
-  for (size_t i = 0; i < comparisons().size(); ++i) text += "---|";
-  text += "\n";
+      "all planes that the technique makes. 0: the same bits. -: not asked, or opted out.\n\n" +
+      table_head(columns.c_str());
   for (const std::string& technique : techniques_of(rows)) {
     text += fmt::format("| `{}` |", technique);
     for (const Comparison& c : comparisons()) {
-      double worst = -1;
-      for (const Row& row : rows) {
-        const bool is_fast_double = row.what.starts_with("fast float against double");  // the sum of both
-        if (row.technique == technique && !is_fast_double && holds_all(row.what, c.words))
-          worst = std::max(worst, row.worst);
-      }
-      text += worst < 0 ? " - |" : fmt::format(" {} |", shown(worst));
+      const Row* row = largest(rows, technique, c);
+      text += row ? fmt::format(" {} |", shown(row->worst)) : " - |";
     }
     text += "\n";
   }
   return text + "\n";
 }
 
-std::string table_head(const char* columns) {
-  std::string text = fmt::format("| {} |\n|", columns);
-  for (const char* c = columns; *c; ++c) text += *c == '|' ? "---|" : "";
-  return text + "---|\n";
+/// "14/3: ao_raw (77, 46)"
+std::string where(const Row* row) {
+  if (!row) return "-";
+  if (row->worst == 0) return "0";
+  return fmt::format("{}/{}: {}", row->number, row->trial, cell(row->place.substr(0, row->place.find(": "))));
+}
+
+std::string table_of_places(const Json& document) {
+  const std::vector<Row> rows = rows_of(document);
+  std::string columns = "technique";
+  for (const Comparison& c : comparisons()) columns += *c.where ? fmt::format(" | {}", c.where) : "";
+  std::string text =
+      fmt::format(
+          "### Where\n\nCase and trial of the largest figure above, and its pixel. 14/3 stands for `gloam stress "
+          "TECHNIQUE {}--case 14 --trial 3 -o FOLDER`.\n\n",
+          quick_flag(document)) +
+      table_head(columns.c_str());
+  for (const std::string& technique : techniques_of(rows)) {
+    text += fmt::format("| `{}` |", technique);
+    for (const Comparison& c : comparisons())
+      text += *c.where ? fmt::format(" {} |", where(largest(rows, technique, c))) : "";
+    text += "\n";
+  }
+  return text + "\n";
 }
 
 std::string table_row(const Row& row) {
@@ -195,25 +230,25 @@ std::string nearest_to_bounds(const std::vector<Row>& rows) {
   return table;
 }
 
-/// What has no bound, a column each. Where each is worst, `gloam stress --json` has.
+/// What has no bound, a column each, with the trial. The pixel where each is worst, `gloam stress --json` has.
 std::string stated_figures(const std::vector<Row>& rows) {
   std::vector<std::string> columns;
-  std::map<std::string, std::map<std::string, double>> figures;
+  std::map<std::string, std::map<std::string, std::string>> figures;
   for (const Row& row : rows) {
     if (std::isfinite(row.bound)) continue;
     add_new(columns, row.what);
-    figures[row.technique][row.what] = row.worst;
+    figures[row.technique][row.what] = row.worst == 0 ? "0" : fmt::format("{} ({})", shown(row.worst), row.trial);
   }
   if (columns.empty()) return "";
   std::vector<std::string> names;
   for (const std::string& column : columns) names.push_back(cell(column));
-  std::string table =
-      "Stated, without a bound:\n\n" + table_head(fmt::format("technique | {}", fmt::join(names, " | ")).c_str());
+  std::string table = "Stated, without a bound, and in brackets the trial:\n\n" +
+                      table_head(fmt::format("technique | {}", fmt::join(names, " | ")).c_str());
   for (const auto& [technique, of_technique] : figures) {
     table += fmt::format("| `{}` |", technique);
     for (const std::string& column : columns) {
       const auto found = of_technique.find(column);
-      table += found == of_technique.end() ? " - |" : fmt::format(" {} |", shown(found->second));
+      table += found == of_technique.end() ? " - |" : fmt::format(" {} |", found->second);
     }
     table += "\n";
   }
@@ -262,7 +297,8 @@ std::string section_of_device(const Json& document) {
 std::string stability_page(const std::vector<Json>& documents) {
   try {
     const Json& first = documents.at(0);
-    std::string page = introduction(first) + table_of_cases(first) + table_of_comparisons(rows_of(first));
+    std::string page =
+        introduction(first) + table_of_cases(first) + table_of_comparisons(rows_of(first)) + table_of_places(first);
     page += "## Worst values\n\nOf each technique the figure that takes most of its bound, and all that have none.\n\n";
     for (const Case& one : cases()) page += section_of_case(one, first);
     page += table_of_reasons("Opted out", "Cases that a technique is not held to, and why its page says so.",

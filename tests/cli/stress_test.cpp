@@ -123,6 +123,15 @@ TEST_F(StressOfFaults, APageHasTheFiguresOfARun) {
   EXPECT_NE(page.find("### Case 13"), std::string::npos);
   EXPECT_NE(page.find("| `by-lanes` | 0.015 **beyond** | 0 | precise: difference to one lane |"), std::string::npos)
       << page;
+  // The trial that the page names makes the figure again.
+  const size_t where = page.find("13/", page.find("### Where"));
+  ASSERT_NE(where, std::string::npos) << page;
+  const std::string trial = page.substr(where + 3, page.find(':', where) - where - 3);
+  EXPECT_NE(page.find("--quick --case N --trial N -o FOLDER"), std::string::npos);
+  const Json again = look("by-lanes", "13", {"--trial", trial}).json()["cases"];
+  EXPECT_TRUE(std::any_of(again.begin(), again.end(), [](const Json& entry) {
+    return entry["what"] == "fast: largest difference to one lane" && entry["worst"] > 0.01;
+  })) << again;
 }
 
 /// A run of an hour: what was done before somebody or something ended it is kept.
