@@ -270,7 +270,7 @@ void print_done(const std::string& technique, const std::vector<CaseResult>& res
 
 using ResultsByTechnique = std::map<std::string, std::vector<CaseResult>>;
 
-/// Puts what is known into the run, by technique and case.
+/// Puts what is known into the run, by technique.
 void gather(const Request& request, const ResultsByTechnique& known, StressRun& run) {
   run.results.clear();
   run.left.clear();
@@ -280,9 +280,7 @@ void gather(const Request& request, const ResultsByTechnique& known, StressRun& 
       run.left.push_back(technique);
       continue;
     }
-    std::vector<CaseResult> results = found->second;
-    std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
-    std::move(results.begin(), results.end(), std::back_inserter(run.results));
+    std::copy(found->second.begin(), found->second.end(), std::back_inserter(run.results));
   }
 }
 
@@ -303,7 +301,8 @@ void examine_all(const StressCommand& flags, const Request& request, StressRun& 
   std::exception_ptr failure;
   const auto progress = progress_bar();
   const auto take = [&](const std::string& technique, const Examination& examination) {
-    known[technique] = examination.results;
+    std::vector<CaseResult>& results = known[technique] = examination.results;
+    std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
     if (!examination.device.is_null()) {
       run.device = examination.device.at("device");
       run.driver = examination.device.at("driver");

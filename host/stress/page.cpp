@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -142,10 +143,22 @@ bool holds_all(const std::string& text, const std::vector<std::string>& words) {
                      [&](const std::string& word) { return text.find(word) != std::string::npos; });
 }
 
-std::string table_head(const char* columns) {
+std::string table_head(const std::string& columns) {
   std::string text = fmt::format("| {} |\n|", columns);
-  for (const char* c = columns; *c; ++c) text += *c == '|' ? "---|" : "";
+  for (const char c : columns) text += c == '|' ? "---|" : "";
   return text + "---|\n";
+}
+
+/// A row for each technique; `cell_of` tells what is in which column of it.
+std::string table_by_technique(const std::vector<std::string>& techniques, const std::vector<std::string>& columns,
+                               const std::function<std::string(const std::string& technique, size_t column)>& cell_of) {
+  std::string text = table_head(fmt::format("technique | {}", fmt::join(columns, " | ")));
+  for (const std::string& technique : techniques) {
+    text += fmt::format("| `{}` |", technique);
+    for (size_t i = 0; i < columns.size(); ++i) text += fmt::format(" {} |", cell_of(technique, i));
+    text += "\n";
+  }
+  return text + "\n";
 }
 
 /// Null where the technique has no such figure.
@@ -160,21 +173,14 @@ const Row* largest(const std::vector<Row>& rows, const std::string& technique, c
 }
 
 std::string table_of_comparisons(const std::vector<Row>& rows) {
-  std::string columns = "technique";
-  for (const Comparison& c : comparisons()) columns += fmt::format(" | {}", c.name);
-  std::string text =
-      "## What precision costs\n\nThe larger of the figures with exact normals and with normals made from depth, over "
-      "all planes that the technique makes. 0: the same bits. -: not asked, or opted out.\n\n" +
-      table_head(columns.c_str());
-  for (const std::string& technique : techniques_of(rows)) {
-    text += fmt::format("| `{}` |", technique);
-    for (const Comparison& c : comparisons()) {
-      const Row* row = largest(rows, technique, c);
-      text += row ? fmt::format(" {} |", shown(row->worst)) : " - |";
-    }
-    text += "\n";
-  }
-  return text + "\n";
+  std::vector<std::string> columns;
+  for (const Comparison& c : comparisons()) columns.push_back(c.name);
+  return "## What precision costs\n\nThe larger of the figures with exact normals and with normals made from depth, "
+         "over all planes that the technique makes. 0: the same bits. -: not asked, or opted out.\n\n" +
+         table_by_technique(techniques_of(rows), columns, [&](const std::string& technique, size_t i) {
+           const Row* row = largest(rows, technique, comparisons()[i]);
+           return row ? shown(row->worst) : "-";
+         });
 }
 
 /// "14/3: ao_raw (77, 46)"
@@ -186,21 +192,18 @@ std::string where(const Row* row) {
 
 std::string table_of_places(const Json& document) {
   const std::vector<Row> rows = rows_of(document);
-  std::string columns = "technique";
-  for (const Comparison& c : comparisons()) columns += *c.where ? fmt::format(" | {}", c.where) : "";
-  std::string text =
-      fmt::format(
-          "### Where\n\nCase and trial of the largest figure above, and its pixel. 14/3 stands for `gloam stress "
-          "TECHNIQUE {}--case 14 --trial 3 -o FOLDER`.\n\n",
-          quick_flag(document)) +
-      table_head(columns.c_str());
-  for (const std::string& technique : techniques_of(rows)) {
-    text += fmt::format("| `{}` |", technique);
-    for (const Comparison& c : comparisons())
-      text += *c.where ? fmt::format(" {} |", where(largest(rows, technique, c))) : "";
-    text += "\n";
+  std::vector<Comparison> placed;
+  std::vector<std::string> columns;
+  for (const Comparison& c : comparisons()) {
+    if (*c.where) placed.push_back(c), columns.push_back(c.where);
   }
-  return text + "\n";
+  return fmt::format(
+             "### Where\n\nCase and trial of the largest figure above, and its pixel. 14/3 stands for `gloam stress "
+             "TECHNIQUE {}--case 14 --trial 3 -o FOLDER`.\n\n",
+             quick_flag(document)) +
+         table_by_technique(techniques_of(rows), columns, [&](const std::string& technique, size_t i) {
+           return where(largest(rows, technique, placed[i]));
+         });
 }
 
 std::string table_row(const Row& row) {
@@ -231,28 +234,20 @@ std::string nearest_to_bounds(const std::vector<Row>& rows) {
 }
 
 /// What has no bound, a column each, with the trial. The pixel where each is worst, `gloam stress --json` has.
-std::string stated_figures(const std::vector<Row>& rows) {
-  std::vector<std::string> columns;
-  std::map<std::string, std::map<std::string, std::string>> figures;
-  for (const Row& row : rows) {
-    if (std::isfinite(row.bound)) continue;
-    add_new(columns, row.what);
-    figures[row.technique][row.what] = row.worst == 0 ? "0" : fmt::format("{} ({})", shown(row.worst), row.trial);
-  }
-  if (columns.empty()) return "";
-  std::vector<std::string> names;
+std::string stated_figures(std::vector<Row> rows) {
+  std::erase_if(rows, [](const Row& row) { return std::isfinite(row.bound); });
+  if (rows.empty()) return "";
+  std::vector<std::string> columns, names;
+  for (const Row& row : rows) add_new(columns, row.what);
   for (const std::string& column : columns) names.push_back(cell(column));
-  std::string table = "Stated, without a bound, and in brackets the trial:\n\n" +
-                      table_head(fmt::format("technique | {}", fmt::join(names, " | ")).c_str());
-  for (const auto& [technique, of_technique] : figures) {
-    table += fmt::format("| `{}` |", technique);
-    for (const std::string& column : columns) {
-      const auto found = of_technique.find(column);
-      table += found == of_technique.end() ? " - |" : fmt::format(" {} |", found->second);
-    }
-    table += "\n";
-  }
-  return table + "\n";
+  return "Stated, without a bound, and in brackets the trial:\n\n" +
+         table_by_technique(techniques_of(rows), names, [&](const std::string& technique, size_t i) -> std::string {
+           const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) {
+             return r.technique == technique && r.what == columns[i];
+           });
+           if (row == rows.end()) return "-";
+           return row->worst == 0 ? "0" : fmt::format("{} ({})", shown(row->worst), row->trial);
+         });
 }
 
 std::string section_of_case(const Case& one, const Json& document) {
