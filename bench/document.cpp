@@ -109,7 +109,8 @@ Json document_of(const SceneFacts& scene) {
   Json document = {{"name", scene.name},
                    {"class", scene.scene_class},
                    {"size", {scene.width, scene.height}},
-                   {"radius", scene.radius},
+                   {"radius", scene.radius.value},
+                   {"radius_from", name_of(scene.radius.from)},
                    {"radius_pixels", scene.radius_pixels},
                    {"truth_noise", number(scene.truth_noise)},
                    {"truth_image", text_or_null(scene.truth_image)}};

@@ -20,7 +20,7 @@ class Session {
         options_(options),
         device_(device),
         result_(result),
-        race_(subject.frame, subject.holds, subject.radius, device),
+        race_(subject.frame, subject.holds, subject.radius.value, device),
         steps_(subject.frame, subject.holds, device, subject.truth, subject.truths.get(),
                foreground(subject.frame, any_makes_first_view_only(options.techniques))) {}
 
@@ -39,7 +39,7 @@ class Session {
       tell("growth of " + technique.name, int(i), int(options_.growth.size()));
       try {
         for (Growth& growth :
-             bench::measure_growth(technique, subject_.frame, device_, {subject_.radius, growth_rounds}))
+             bench::measure_growth(technique, subject_.frame, device_, {subject_.radius.value, growth_rounds}))
           result_.growth.push_back({technique.name, subject_.name, std::move(growth)});
       } catch (const Error& error) {
         skip_part(technique, "growth", error);
@@ -55,7 +55,7 @@ class Session {
     const bool is_known =
         subject_.truths && subject_.scene_class != "own" && std::max(width, height) <= most_pixels_across;
     const auto measured = [&](const Frame& largest) {
-      return bench::measure_scales(techniques, largest, subject_.name, subject_.radius, device_,
+      return bench::measure_scales(techniques, largest, subject_.name, subject_.radius.value, device_,
                                    [&](const Technique& t, const Error& e) { skip_part(t, "other resolutions", e); });
     };
     const std::vector<ScaleFacts> found =
@@ -72,7 +72,7 @@ class Session {
   void add_scene() {
     SceneFacts facts{subject_.name, subject_.scene_class, subject_.frame.width(), subject_.frame.height(),
                      subject_.radius};
-    facts.radius_pixels = median_reach(subject_.frame, subject_.radius);
+    facts.radius_pixels = median_reach(subject_.frame, subject_.radius.value);
     if (subject_.truth) {
       facts.truth_noise = subject_.truth->noise;
       try {
@@ -115,7 +115,7 @@ class Session {
 
   /// Enters what of a technique the frame and the device allow.
   void enter(const Technique& technique) {
-    const std::vector<Variation> variations = variations_of(technique, subject_.radius, options_);
+    const std::vector<Variation> variations = variations_of(technique, subject_.radius.value, options_);
     if (variations.empty()) skip(technique, "", "has none of these presets");
     std::vector<Skipped> failed;
     for (size_t i = 0; i < variations.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "gloam/radius.h"
 #include "growth.h"
 #include "ladder.h"
 #include "race.h"
@@ -40,7 +41,7 @@ struct Subject {
   std::string name, scene_class;  ///< "own" for the user's frame
   Frame frame;
   std::string holds;  ///< "beauty.exr has only R, G, B"
-  double radius = 0.5;
+  Radius radius;
   std::optional<Truth> given;      ///< --truth
   const Truth* truth = nullptr;    ///< that, or traced; null: none
   std::unique_ptr<Truths> truths;  ///< where the scene is at hand
@@ -62,7 +63,8 @@ struct Skipped {
 struct SceneFacts {
   std::string name, scene_class;
   int width = 0, height = 0;
-  double radius = 0, radius_pixels = 0;
+  Radius radius;
+  double radius_pixels = 0;
   std::optional<double> truth_noise;
   std::string truth_image;  ///< below the folder; empty: none
   bool traced = false;      ///< the scene was at hand

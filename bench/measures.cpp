@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gloam/projection.h"
+#include "gloam/radius.h"
 #include "timing.h"
 
 namespace gloam::bench {
@@ -93,12 +93,6 @@ double median_depth(const View& view) {
   return median(std::move(depths));
 }
 
-double median_reach(const Frame& frame, double radius) {
-  const View& view = frame.views.front();
-  if (!view.camera || !view.find("depth")) return 0;
-  const double depth = median_depth(view);
-  if (depth == 0) return 0;
-  return radius * pixels_per_unit(*view.camera, depth);
-}
+double median_reach(const Frame& frame, double radius) { return radius * pixels_at_median_depth(frame).value_or(0); }
 
 }  // namespace gloam::bench

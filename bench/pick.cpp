@@ -67,7 +67,7 @@ class Search {
     const Technique* technique = &find_technique(stand_in);
     if (const Technique* layers = over_all_layers(*technique); layers && has_layers()) technique = layers;
     tell("converged " + technique->name, 0, 1);
-    Variation converged{.technique = technique, .radius = subject_.radius};
+    Variation converged{.technique = technique, .radius = subject_.radius.value};
     converged.settings = technique->converged;
     truth_ = image_of(whole_plan(converged, available_, subject_.holds), {});
     picked_.truth = "converged " + technique->name + ", as no truth is at hand";
@@ -85,7 +85,7 @@ class Search {
       for (const Preset& preset : technique->presets) presets.push_back(preset.name);
       if (presets.empty()) presets.push_back("");
       for (const std::string& preset : presets) {
-        Variation v{.technique = technique, .preset = preset, .radius = subject_.radius};
+        Variation v{.technique = technique, .preset = preset, .radius = subject_.radius.value};
         all.push_back(v);
         all.push_back(with_variant(v, "half"));
       }

@@ -95,6 +95,7 @@ std::filesystem::path Truths::frame_file() {
   capturing.progress = [&](int done, int of) { tell("frame", double(done) / of); };
   CaptureResult result = capture(tracer(), capturing);
   result.frame.attributes[recipe_attribute] = recipe;
+  result.frame.numbers["aoRadius"] = scene_.ao_radius;
   write_frame(path, result.frame);
   return path;
 }

@@ -7,6 +7,7 @@
 
 #include "adaptive.h"
 #include "gloam/planes.h"
+#include "gloam/radius.h"
 #include "lists.h"
 #include "mask.h"
 #include "resample.h"
@@ -445,6 +446,14 @@ void apply(const PlanRequest& request, const Techniques& order, const std::strin
   }
 }
 
+void set_default_radius(double radius, const Techniques& order, std::vector<ParameterValues>& values) {
+  for (size_t i = 0; i < order.size(); ++i) {
+    for (const Parameter& p : order[i]->parameters) {
+      if (is_radius(p)) values[i].set(p.name, fmt::format("{}", float(radius)), order[i]->name);
+    }
+  }
+}
+
 /// What a technique says of its follower.
 void set_followers(const Techniques& order, std::vector<ParameterValues>& values) {
   for (const Technique* technique : order) {
@@ -590,6 +599,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   if (is_reduced) walk.order.push_back(&resampling());
   std::vector<ParameterValues> values;
   for (const Technique* t : walk.order) values.emplace_back(t->parameters);
+  if (request.radius) set_default_radius(*request.radius, walk.order, values);
   set_followers(walk.order, values);
   // Twice: what a follower inherits is already set, and what is said of the follower itself wins.
   apply(request, walk.order, plan.technique, values);

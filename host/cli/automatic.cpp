@@ -9,6 +9,7 @@
 #include "gloam/planes.h"
 #include "gloam/visualise.h"
 #include "options.h"
+#include "radius.h"
 #include "statistics.h"
 
 namespace gloam::cli {
@@ -261,6 +262,8 @@ void auto_command(const AutoCommand& flags) {
   Device device(flags.run_flags.device);
   Frame frame = files.read(planes);
   note(frame.assumed);
+  const Radius made = default_radius(frame, stated_radius(files));
+  for (Candidate& candidate : candidates.possible) candidate.asked.radius = made.value;
   const std::vector<std::string> available = planes_of_every_view(frame, planes);
   const std::string holds = holdings(files);
   options.progress = progress_bar();
@@ -271,9 +274,15 @@ void auto_command(const AutoCommand& flags) {
   for (const View& view : frame.views)
     out.views.push_back({.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}});
   std::vector<Outcome> outcomes;
+  std::optional<RadiusReport> radius;
   for (const Candidate& candidate : candidates.possible) {
     const Look look{candidate.asked, frame, available, holds, device, options};
     outcomes.push_back(outcome_of(*candidate.technique, flags, look, out));
+    if (radius) continue;
+    const PlanRequest& request = outcomes.back().decision.request;
+    const Plan plan = make_plan(request, available, holds);
+    if (const std::optional<Radius> used = radius_of(plan, request, made.from))
+      radius.emplace(*used, frame, cap_of(plan));
   }
   for (Outcome& outcome : candidates.impossible) outcomes.push_back(std::move(outcome));
   std::vector<std::string> written = {flags.out};
@@ -285,9 +294,12 @@ void auto_command(const AutoCommand& flags) {
   }
   for (View& view : out.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
   write_frame(flags.out, out, writing);
-  flags.json.write(document_of(outcomes, device.info()), written);
+  Json document = document_of(outcomes, device.info());
+  if (radius) radius->add_to(document);
+  flags.json.write(document, written);
   if (flags.json.only_json()) return;
   print(outcomes);
+  if (radius) radius->print();
   for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }
 

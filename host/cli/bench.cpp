@@ -265,12 +265,15 @@ void bench_command(const BenchCommand& flags) {
               {{"-o", (folder / "bench.json").string()},
                {"-o", (options.scene.folder / "scene.exr").string()},
                {"--json", flags.json.file()}});
+  std::vector<std::pair<std::string, RadiusReport>> radii;
   if (!flags.frame.empty()) {
     Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, options.scene);
+    radii.emplace_back(subject.name, report_of(subject, options.techniques));
     measure(subject, options, true, device, result);
   }
   for (size_t i = 0; i < options.scenes.size(); ++i) {
     Subject subject = builtin_subject(*options.scenes[i], options.techniques, options.scene);
+    radii.emplace_back(subject.name, report_of(subject, options.techniques));
     measure(subject, options, i == 0, device, result);
   }
   erase_status();
@@ -282,6 +285,7 @@ void bench_command(const BenchCommand& flags) {
   flags.json.write(document);
   if (flags.json.only_json()) return;
   print(result, options, device.info());
+  for (const auto& [name, radius] : radii) fmt::print("{}: {}\n", printable(name), radius.words());
   fmt::print("wrote {}\n", printable((folder / "bench.json").string()));
 }
 
@@ -320,7 +324,7 @@ void add_bench(CLI::App& app) {
       ->type_name("N");
   command
       ->add_option("--radius", flags->radius,
-                   "scene units; default: the truth's, else a built-in scene's own, else 0.5")
+                   "scene units; default: the truth's, else the scene's own, else made from the frame")
       ->type_name("R");
   command
       ->add_option("--variants", flags->variants,

@@ -13,6 +13,7 @@
 #include "elapsed.h"
 #include "gloam/error.h"
 #include "gloam/light_field_capture.h"
+#include "gloam/radius.h"
 #include "gloam/visualise.h"
 #include "scene_flags.h"
 
@@ -259,6 +260,7 @@ struct Figures {
   std::optional<VisibleDepths> visible;  ///< what the second view holds
   std::optional<Camera> second;          ///< its camera
   double shift = 0;                      ///< of each eye's principal point, pixels
+  std::optional<double> ao_radius;  ///< that suits the scene, else the first frame; none: nothing is in the picture
   std::vector<std::string> files;
 };
 
@@ -270,9 +272,16 @@ void write_colour(const Shot& shot, const Frame& frame) {
   }
 }
 
+/// The radius is the same in all frames of a sequence.
+void state_radius(Frame& frame, Figures& figures) {
+  if (!figures.ao_radius) figures.ao_radius = radius_made_from(frame);
+  if (figures.ao_radius) frame.numbers["aoRadius"] = *figures.ao_radius;
+}
+
 void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const WriteOptions& write, Figures& figures) {
   options.views = shot.views;
-  const CaptureResult result = capture(tracer, options);
+  CaptureResult result = capture(tracer, options);
+  state_radius(result.frame, figures);
   figures.trace += result.seconds;
   figures.stochastic += result.stochastic_seconds;
   figures.outlines += result.outline_seconds;
@@ -353,7 +362,7 @@ Json document(const Scene& scene, const CaptureOptions& options, const Figures& 
       {"outlines", outlines_document(options, f)},
       {"view2", second_view_document(options, f)},
       {"stereo", stereo_document(options, f)},
-      {"ao_radius", scene.ao_radius},
+      {"ao_radius", f.ao_radius ? Json(*f.ao_radius) : Json()},
       {"rays", f.rays},
       {"rays_per_second", f.trace > 0 ? double(f.rays) / f.trace : 0},
       {"seconds",
@@ -363,7 +372,8 @@ Json document(const Scene& scene, const CaptureOptions& options, const Figures& 
 void print(const Scene& scene, const CaptureOptions& options, const Figures& f) {
   fmt::print("{}: {} faces in {} meshes, {}x{}\n", printable(scene.name), f.faces, f.meshes, options.width,
              options.height);
-  fmt::print("{}; AO radius that suits: {:g} scene units\n", f.camera, scene.ao_radius);
+  fmt::print("{}{}\n", f.camera,
+             f.ao_radius ? fmt::format("; AO radius that suits: {:g} scene units", *f.ao_radius) : "");
   if (options.peel > 0)
     fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
   if (options.stochastic.samples > 0)
@@ -445,6 +455,7 @@ void capture_command(const CaptureCommand& flags) {
   std::optional<Outlines> outlines;
   if (outline_options) options.outlines = &outlines.emplace(tracer, *outline_options);
   figures.faces = scene.faces();
+  if (scene.ao_radius > 0) figures.ao_radius = scene.ao_radius;
   figures.meshes = scene.meshes.size();
   const auto bar = progress_bar();
   int taken = 0;

@@ -11,6 +11,7 @@
 #include "gloam/visualise.h"
 #include "info_views.h"
 #include "options.h"
+#include "radius.h"
 
 namespace gloam::cli {
 namespace {
@@ -287,24 +288,28 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   std::vector<std::string> views = file.views();
   if (views == std::vector<std::string>{""}) views.clear();
   const Window display = file.display(), window = file.window();
-  const Json document = {{"size", {display.width(), display.height()}},
-                         {"window", {window.x0, window.y0, window.x1, window.y1}},
-                         {"views", views},
-                         {"planes", planes_document(facts)},
-                         {"camera", first},
-                         {"cameras", cameras},
-                         {"depth_convention", text(file.depth_convention())},
-                         {"normal_space", text(file.normal_space())},
-                         {"background_share", share ? Json(*share) : Json()},
-                         {"assumed", frame.assumed},
-                         {"runs", abilities.runs},
-                         {"lacks", abilities.lacks},
-                         {"unread", unread_channels(file)}};
+  Json document = {{"size", {display.width(), display.height()}},
+                   {"window", {window.x0, window.y0, window.x1, window.y1}},
+                   {"views", views},
+                   {"planes", planes_document(facts)},
+                   {"camera", first},
+                   {"cameras", cameras},
+                   {"depth_convention", text(file.depth_convention())},
+                   {"normal_space", text(file.normal_space())},
+                   {"background_share", share ? Json(*share) : Json()},
+                   {"assumed", frame.assumed},
+                   {"runs", abilities.runs},
+                   {"lacks", abilities.lacks},
+                   {"unread", unread_channels(file)}};
+  const Radius suggested = default_radius(frame, stated_radius(file));
+  const RadiusReport radius(suggested, frame, {});
+  if (pixels_at_median_depth(frame)) radius.add_to(document);
   write_planes_picture(picture, path, frame);
   if (!picture.empty()) pictures.push_back(picture);
   flags.json.write(document, pictures);
   if (flags.json.only_json()) return;
   print_info(file, facts, document, frame.assumed, abilities);
+  if (pixels_at_median_depth(frame)) radius.print();
   print_written(pictures);
 }
 

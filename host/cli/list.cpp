@@ -4,6 +4,7 @@
 #include "gloam/device.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/radius.h"
 #include "gloam/scene.h"
 #include "options.h"
 #include "stress/case.h"
@@ -22,7 +23,8 @@ Json parameter_document(const Parameter& p) {
     document["max"] = int(p.max);
   } else if (numeric) {
     // Through float, as the kernel sees it, then in its shortest decimal form.
-    document["default"] = std::stod(initial.text(p.name));
+    document["default"] = is_radius(p) ? Json() : Json(std::stod(initial.text(p.name)));
+    if (is_radius(p)) document["default_from"] = "frame";
     document["min"] = bound(p.min);
     document["max"] = bound(p.max);
   } else {
@@ -34,6 +36,11 @@ Json parameter_document(const Parameter& p) {
   document["unit"] = p.unit;
   document["help"] = p.help;
   return document;
+}
+
+/// The default of a parameter for people.
+std::string default_in_words(const Parameter& p) {
+  return is_radius(p) ? "from the frame" : ParameterValues({p}).text(p.name);
 }
 
 Json techniques_document() {
@@ -66,9 +73,8 @@ void print_techniques() {
     fmt::print("  reads   {}\n  writes  {}\n", fmt::join(t.reads, ", "), fmt::join(t.writes, ", "));
     if (!t.then.empty()) fmt::print("  then    {}\n", t.then);
     for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
-    const ParameterValues initial(t.parameters);
     for (const Parameter& p : t.parameters) {
-      fmt::print("  {} = {}  ({}) {}\n", p.name, initial.text(p.name), allowed_values(p), p.help);
+      fmt::print("  {} = {}  ({}) {}\n", p.name, default_in_words(p), allowed_values(p), p.help);
     }
     for (const Preset& preset : t.presets) {
       std::vector<std::string> settings;
@@ -130,9 +136,8 @@ void print_techniques_markdown() {
       fmt::print("Needs a frame of two views{}.\n", makes_first_view_only(t) ? "; it works on the first" : "");
     print_extras_markdown(t);
     if (!t.parameters.empty()) fmt::print("\n| parameter | default | allowed | meaning |\n|---|---|---|---|\n");
-    const ParameterValues initial(t.parameters);
     for (const Parameter& p : t.parameters) {
-      fmt::print("| `{}` | {} | {} | {} |\n", p.name, initial.text(p.name), allowed_values(p), p.help);
+      fmt::print("| `{}` | {} | {} | {} |\n", p.name, default_in_words(p), allowed_values(p), p.help);
     }
     for (const Preset& preset : t.presets) {
       std::vector<std::string> settings;
@@ -184,8 +189,7 @@ void list_scenes(const JsonFlag& json) {
     rows.push_back({recipe.name, recipe.kind, recipe.summary});
     const ParameterValues initial(recipe.parameters);
     for (const Parameter& p : recipe.parameters) {
-      rows.push_back(
-          {"", "", fmt::format("--{} {}  ({}) {}", p.name, initial.text(p.name), allowed_values(p), p.help)});
+      rows.push_back({"", "", fmt::format("--{} {}  ({}) {}", p.name, default_in_words(p), allowed_values(p), p.help)});
     }
   }
   print_table(rows, 3);

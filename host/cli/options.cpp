@@ -51,6 +51,15 @@ Value one_of(const std::string& text, const std::string& flag,
   throw UsageError("{} {} is not allowed{}; {} are", flag, text, suggestion(text, names), enumerate(names));
 }
 
+std::vector<std::string> kept_notes;
+
+/// Without repetitions.
+std::vector<std::string> notes_so_far() {
+  std::vector<std::string> notes;
+  for (const std::string& note : kept_notes) add_new(notes, note);
+  return notes;
+}
+
 /// To a file, or to standard output as "-".
 void write_document(const std::string& path, const std::string& text) {
   if (path != "-") return write_text(path, text);
@@ -328,8 +337,10 @@ void JsonFlag::add_to(CLI::App& app) {
 
 void JsonFlag::write(const Json& document, const std::vector<std::string>& complete) const {
   if (path.empty()) return;
+  Json with_notes = document;
+  if (document.is_object() && !document.contains("notes")) with_notes["notes"] = notes_so_far();
   try {
-    write_document(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_document(path, with_notes.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } catch (const Error& error) {
     if (complete.empty()) throw;
     throw Error("{}; {} {} complete", error.what(), enumerate(complete), complete.size() == 1 ? "is" : "are");
@@ -470,17 +481,10 @@ void print_table(const std::vector<std::vector<std::string>>& rows, size_t first
   }
 }
 
-namespace {
-std::vector<std::string> kept_notes;
-}
-
 void note(const std::vector<std::string>& notes) { kept_notes.insert(kept_notes.end(), notes.begin(), notes.end()); }
 
 void print_notes() {
-  std::vector<std::string> seen;
-  for (const std::string& note : kept_notes) {
-    if (contains(seen, note)) continue;
-    seen.push_back(note);
+  for (const std::string& note : notes_so_far()) {
     std::fputs(("note: " + printable(note) + "\n").c_str(), stderr);  // a closed standard error is no failure
   }
 }

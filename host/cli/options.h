@@ -66,7 +66,7 @@ struct JsonFlag {
   bool only_json() const { return path == "-"; }
   /// The file, if any.
   std::string file() const { return only_json() ? "" : path; }
-  /// Written last: `complete` are the files that stay where this fails, which the message names.
+  /// An object gets the notes as "notes". Written last: `complete` are the files that stay where this fails, which the message names.
   void write(const Json& document, const std::vector<std::string>& complete = {}) const;
 };
 

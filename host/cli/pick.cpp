@@ -144,13 +144,17 @@ void pick_command(const PickCommand& flags) {
   scene.progress = show_status;
   Device device(flags.device);
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, scene);
+  const RadiusReport radius = report_of(subject, options.techniques);
   Picked picked = pick(subject, options, device);
   picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
   erase_status();
   const std::string command = run_line(flags, picked.finalists[picked.best].variation);
-  flags.json.write(document_of(picked, command, device.info()));
+  Json document = document_of(picked, command, device.info());
+  radius.add_to(document);
+  flags.json.write(document);
   if (flags.json.only_json()) return;
   print(picked, device.info());
+  radius.print();
   fmt::print("{}\n", printable(command));
 }
 
@@ -173,7 +177,7 @@ void add_pick(CLI::App& app) {
       ->type_name("A,B");
   command
       ->add_option("--radius", flags->radius,
-                   "scene units; default: the truth's, else a built-in scene's own, else 0.5")
+                   "scene units; default: the truth's, else the scene's own, else made from the frame")
       ->type_name("R");
   command->add_option("--rays", flags->rays, "per pixel, for a truth that is traced; default 256")->type_name("N");
   command->add_option("--rounds", flags->rounds, "each times every finalist once, in turn; default 9")->type_name("N");

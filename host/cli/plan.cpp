@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "options.h"
+#include "radius.h"
 
 namespace gloam::cli {
 namespace {
@@ -17,6 +18,14 @@ void print_plan(const Plan& plan, const std::vector<std::string>& decoded) {
   }
   for (const auto& [what, why] : plan.skipped) fmt::print("skipped   {}: {}\n", what, why);
   for (const std::string& what : plan.depends_on_pixels) fmt::print("by pixels {}\n", what);
+}
+
+/// The depth alone tells the radius; nothing else is decoded.
+std::optional<RadiusReport> radius_of_depth(PlanRequest& request, Plan& plan, FrameFiles& files) {
+  const std::vector<std::string> available = files.common_planes();
+  if (!radius_of(plan, request, RadiusSource::frame) || !contains(available, "depth")) return {};
+  const Frame frame = files.read({"depth"});
+  return settle_radius(request, plan, frame, stated_radius(files), available, holdings(files));
 }
 
 }  // namespace
@@ -43,12 +52,17 @@ void add_plan(CLI::App& app) {
       "  gloam plan multiview pair_L.exr pair_R.exr");
   command->callback([flags] {
     check_paths(flags->frame.inputs(), {{"--json", flags->json.file()}});
-    const PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
-    const FrameFiles files = flags->frame.open(flags->frame_flags.read_options());
-    const Plan plan = plan_for(files, request);
+    PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
+    FrameFiles files = flags->frame.open(flags->frame_flags.read_options());
+    Plan plan = plan_for(files, request);
     const std::vector<std::string> decoded = decoded_channels(plan.inputs, files);
-    flags->json.write(plan_document(plan, decoded));
-    if (!flags->json.only_json()) print_plan(plan, decoded);
+    const std::optional<RadiusReport> radius = radius_of_depth(request, plan, files);
+    Json document = plan_document(plan, decoded);
+    if (radius) radius->add_to(document);
+    flags->json.write(document);
+    if (flags->json.only_json()) return;
+    print_plan(plan, decoded);
+    if (radius) radius->print();
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "gloam/visualise.h"
+#include "radius.h"
 #include "scene_flags.h"
 
 namespace gloam::cli {
@@ -73,19 +74,25 @@ void note_other_scene(const FrameFile& file, const Scene& scene) {
   note({fmt::format("the frame says that it shows '{}', and the scene is '{}'", named, scene.name)});
 }
 
-double radius_of(const ReferenceCommand& flags, const Scene& scene) {
-  if (flags.radius.empty()) return scene.ao_radius;
-  if (flags.radius == "inf") return std::numeric_limits<double>::infinity();
-  return parse_number(flags.radius, "--radius", 1e-30, 1e30, "inf");
+/// The radius that the flag gives; else the one that the frame's header states, or the scene has; else none, and it is made
+/// from the frame.
+std::optional<Radius> known_radius(const ReferenceCommand& flags, const FrameFile& file, const Scene& scene) {
+  if (flags.radius == "inf") return Radius{std::numeric_limits<double>::infinity(), RadiusSource::flag};
+  if (!flags.radius.empty())
+    return Radius{parse_number(flags.radius, "--radius", 1e-30, 1e30, "inf"), RadiusSource::flag};
+  if (const std::optional<double> stated = stated_radius(file)) return Radius{*stated, RadiusSource::scene};
+  if (scene.ao_radius > 0) return Radius{scene.ao_radius, RadiusSource::scene};
+  return {};
 }
 
 /// What is traced, from the command line.
 struct Job {
   std::string plane;
   std::vector<std::string> reads;
-  Json settings;        ///< for --json
-  std::string heading;  ///< "radius 0.5, falloff none"
-  std::function<Reference(const Tracer&, const Frame&)> trace;
+  Json settings;                               ///< for --json
+  std::string heading;                         ///< "falloff none"
+  std::function<Radius(const Frame&)> radius;  ///< empty: nothing of it has a radius
+  std::function<Reference(const Tracer&, const Frame&, double radius)> trace;
 };
 
 template <typename Options>
@@ -98,17 +105,21 @@ void set_common(Options& options, const ReferenceCommand& flags, const std::stri
   options.progress = progress;
 }
 
-Job ao_job(AoReferenceOptions options, const ReferenceCommand& flags, const Scene& scene) {
-  options.radius = radius_of(flags, scene);
-  if (options.contribution && !std::isfinite(options.radius))
+Job ao_job(AoReferenceOptions options, const ReferenceCommand& flags, const FrameFile& file, const Scene& scene) {
+  const std::optional<Radius> known = known_radius(flags, file, scene);
+  if (options.contribution && known && !std::isfinite(known->value))
     throw UsageError("--radius inf: the falloff of {} is in relation to the radius; give a finite one", flags.falloff);
   Job job;
   job.plane = "ao";
   job.reads = {"depth", "normal"};
-  job.settings = {{"radius", std::isfinite(options.radius) ? Json(options.radius) : Json("inf")},
-                  {"falloff", options.falloff}};
-  job.heading = fmt::format("radius {:g}, falloff {}", options.radius, options.falloff);
-  job.trace = [options](const Tracer& tracer, const Frame& frame) { return ao_reference(tracer, frame, options); };
+  job.settings = {{"falloff", options.falloff}};
+  job.heading = fmt::format("falloff {}", options.falloff);
+  job.radius = [known](const Frame& frame) { return known.value_or(default_radius(frame, {})); };
+  job.trace = [options](const Tracer& tracer, const Frame& frame, double radius) {
+    AoReferenceOptions with_radius = options;
+    with_radius.radius = radius;
+    return ao_reference(tracer, frame, with_radius);
+  };
   return job;
 }
 
@@ -118,7 +129,7 @@ Job reflection_job(const ReflectionReferenceOptions& options) {
   job.reads = {"depth", "normal", "roughness", "reflectance"};
   job.settings = Json::object();
   job.heading = "two bounces";
-  job.trace = [options](const Tracer& tracer, const Frame& frame) {
+  job.trace = [options](const Tracer& tracer, const Frame& frame, double) {
     return reflection_reference(tracer, frame, options);
   };
   return job;
@@ -195,12 +206,15 @@ void reference_command(ReferenceCommand flags) {
   FrameFile file(flags.frame, flags.frame_flags.read_options());
   if (!contains(file.common_planes(), "depth")) throw Error("{}: has no depth; {}", flags.frame, holdings(file));
   const Scene scene = load_scene_of(flags, file);
-  const Job job = is_ao ? ao_job(ao, flags, scene) : reflection_job(reflection);
+  const Job job = is_ao ? ao_job(ao, flags, file, scene) : reflection_job(reflection);
   const Frame frame = file.read(job.reads);
   note(frame.assumed);
   note_other_scene(file, scene);
+  const Radius radius = job.radius ? job.radius(frame) : Radius();
+  std::optional<RadiusReport> report;
+  if (job.radius) report.emplace(radius, frame, std::nullopt);
   const Tracer tracer(scene);
-  const Reference result = job.trace(tracer, frame);
+  const Reference result = job.trace(tracer, frame, radius.value);
   note(result.notes);
   if (result.unlike_share > 0.005)
     note({fmt::format("in {:.1f} % of the pixels looked at the scene is over 1 % nearer or farther than the frame",
@@ -212,8 +226,12 @@ void reference_command(ReferenceCommand flags) {
     if (flags.picture.empty()) break;
     write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at(job.plane));
   }
-  flags.json.write(document(result, job, scene), {flags.out});
-  if (!flags.json.only_json()) print(result, job, scene, flags);
+  Json figures = document(result, job, scene);
+  if (report) report->add_to(figures);
+  flags.json.write(figures, {flags.out});
+  if (flags.json.only_json()) return;
+  if (report) report->print();
+  print(result, job, scene, flags);
 }
 
 }  // namespace
@@ -236,7 +254,9 @@ void add_reference(CLI::App& app) {
       ->add_option("--samples", flags->samples,
                    "rays per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
       ->type_name("N");
-  command->add_option("--radius", flags->radius, "reach of an occluder, scene units, or inf; default: the scene's own")
+  command
+      ->add_option("--radius", flags->radius,
+                   "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame")
       ->type_name("R");
   command
       ->add_option("--falloff", flags->falloff,

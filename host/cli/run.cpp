@@ -6,10 +6,10 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
-#include "gloam/projection.h"
 #include "gloam/stereo_consistency.h"
 #include "gloam/visualise.h"
 #include "options.h"
+#include "radius.h"
 #include "statistics.h"
 
 namespace gloam::cli {
@@ -43,38 +43,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// How far the radius reaches on the screen, median over some foreground pixels; 0 where there is none.
-double median_radius_pixels(const Frame& frame, double radius) {
-  std::vector<double> pixels;
-  for (const View& view : frame.views) {
-    const Plane* depth = view.find("depth");
-    if (!depth || !view.camera) continue;
-    const Channel& z = depth->channels.front();
-    for (int y = 0; y < frame.height(); y += 1 + frame.height() / 64) {
-      for (int x = 0; x < frame.width(); x += 1 + frame.width() / 64) {
-        if (!is_background(z.at(x, y))) pixels.push_back(radius * pixels_per_unit(*view.camera, z.at(x, y)));
-      }
-    }
-  }
-  return median(pixels);
-}
-
-/// A radius that reaches less than two pixels or more than the image most likely has the wrong unit.
-void check_radius(const Plan& plan, const Frame& frame) {
-  for (const PlannedPass& planned : plan.passes) {
-    if (!planned.values.has("radius")) continue;
-    const double radius = planned.values.number("radius"), pixels = median_radius_pixels(frame, radius);
-    if (pixels == 0 || radius == 0 || std::isinf(radius)) return;
-    if (pixels < 2 || pixels > frame.width()) {
-      note(
-          {fmt::format("radius {:g} scene units reaches {:.3g} pixels (median) in this frame; is it in the frame's "
-                       "unit? --radius sets it",
-                       radius, pixels)});
-    }
-    return;
-  }
-}
 
 /// Eyes of a technique for two that share nothing most likely are of two scenes, or have each other's cameras.
 void check_views(const Plan& plan, const Frame& frame) {
@@ -284,8 +252,10 @@ void run_command(const RunCommand& flags) {
   note(frame.assumed);
   const std::vector<std::string> left = planes_left(frame, plan.inputs);
   // A plane turned out to be of no use (normals in the space of an unknown camera): make it instead.
-  if (left.size() < plan.inputs.size()) plan = make_plan(request, left, holdings(files));
-  check_radius(plan, frame);
+  const bool is_all_left = left.size() == plan.inputs.size();
+  if (!is_all_left) plan = make_plan(request, left, holdings(files));
+  const std::optional<RadiusReport> radius =
+      settle_radius(request, plan, frame, stated_radius(files), is_all_left ? available : left, holdings(files));
   check_views(plan, frame);
   Device device = starting.get();
   watch.lap("device");
@@ -299,8 +269,11 @@ void run_command(const RunCommand& flags) {
   watch.lap("write");
   std::vector<std::string> written = {flags.out};
   written.insert(written.end(), pictures.begin(), pictures.end());
-  flags.json.write(document(flags, plan, result, device.info(), decoded_channels(planes, files), watch), written);
+  Json figures = document(flags, plan, result, device.info(), decoded_channels(planes, files), watch);
+  if (radius) radius->add_to(figures);
+  flags.json.write(figures, written);
   if (flags.json.only_json()) return;
+  if (radius) radius->print();
   print_times(result, device.info(), watch);
   if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
   if (!plan.rest.empty())

@@ -91,7 +91,20 @@ void trace_truth(Subject& subject) {
   }
 }
 
+/// The cap on the radius that the techniques have by default; none where none has one.
+std::optional<double> default_cap(const std::vector<const Technique*>& techniques) {
+  for (const Technique* technique : techniques) {
+    const ParameterValues initial(technique->parameters);
+    if (initial.has("max_reach")) return initial.number("max_reach");
+  }
+  return {};
+}
+
 }  // namespace
+
+RadiusReport report_of(const Subject& subject, const std::vector<const Technique*>& techniques) {
+  return RadiusReport(subject.radius, subject.frame, default_cap(techniques));
+}
 
 int parse_rays(const std::string& text) { return parse_whole_number(text, "--rays", 1, 1 << 24); }
 
@@ -102,7 +115,7 @@ Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Techn
   subject.scene_class = recipe.kind;
   show_status(recipe.name + ": scene", 0);
   subject.truths = std::make_unique<Truths>(recipe.name, load_scene(recipe.name, {}), options);
-  subject.radius = subject.truths->radius();
+  subject.radius = {subject.truths->radius(), options.radius ? RadiusSource::flag : RadiusSource::scene};
   FrameFile file(subject.truths->frame_file(), {});
   read_frame(subject, file, techniques);
   subject.truth = &subject.truths->truth(subject.frame);
@@ -117,27 +130,32 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   subject.name = file.path().stem().string();
   subject.scene_class = "own";
   read_frame(subject, file, techniques);
-  std::optional<double> radius = options.radius;
+  if (options.radius) subject.radius = {*options.radius, RadiusSource::flag};
+  bool is_known = options.radius.has_value();
   if (!truth.empty()) {
     subject.given = read_truth(truth, subject.frame);
     subject.truth = &*subject.given;
     const std::optional<double> traced = subject.given->radius;
-    if (radius && traced && std::abs(*traced - *radius) > 1e-6 * *traced)
-      throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth", *radius,
-                       *traced);
-    if (!radius) radius = traced;
+    if (is_known && traced && std::abs(*traced - subject.radius.value) > 1e-6 * *traced)
+      throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth",
+                       subject.radius.value, *traced);
+    if (!is_known && traced) {
+      subject.radius = {*traced, RadiusSource::truth};
+      is_known = true;
+    }
   }
   const SceneFlags scene = scene_named_by(file.text_attribute("gloamScene"));
   if (find_builtin_scene(scene.scene)) {
     SceneOptions with_radius = options;
-    with_radius.radius = radius;
+    if (is_known) with_radius.radius = subject.radius.value;
     subject.truths = std::make_unique<Truths>(subject.name, scene.load(), with_radius);
-    radius = subject.truths->radius();
+    if (!is_known) subject.radius = {subject.truths->radius(), RadiusSource::scene};
+    is_known = true;
     if (!subject.truth) trace_truth(subject);
   }
-  subject.radius = radius.value_or(subject.radius);
-  if (!std::isfinite(subject.radius) || !(subject.radius > 0))
-    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", truth, subject.radius);
+  if (!is_known) subject.radius = default_radius(subject.frame, stated_radius(file));
+  if (!std::isfinite(subject.radius.value) || !(subject.radius.value > 0))
+    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", truth, subject.radius.value);
   return subject;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "measurement.h"
+#include "radius.h"
 #include "scene_flags.h"
 
 namespace gloam::cli {
@@ -21,6 +22,9 @@ std::string no_ao(const Technique& technique);
 /// Why a technique is left out where nobody names it; empty for most.
 std::string needs_naming(const Technique& technique);
 
+/// The radius that techniques are measured with on a frame.
+RadiusReport report_of(const bench::Subject& subject, const std::vector<const Technique*>& techniques);
+
 /// --rays of the commands that measure. Throws UsageError.
 int parse_rays(const std::string& text);
 
@@ -29,7 +33,7 @@ bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<cons
                                const bench::SceneOptions& options);
 
 /// The user's frame, with what the techniques read of it. Its scene is at hand where the header names a built-in one. The
-/// radius is that of the options, else the truth's, else the scene's own, else 0.5. `truth`: a file, or empty.
+/// radius is that of the options, else the truth's, else the scene's own, else made from the frame. `truth`: a file, or empty.
 bench::Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::string& truth,
                            const std::vector<const Technique*>& techniques, const bench::SceneOptions& options);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ struct PlanRequest {
   std::string preset;
   /// name = value, or technique.name = value. A bare name reaches every planned technique that has it.
   std::vector<std::pair<std::string, std::string>> settings;
+  /// Radius in scene units of every technique that has one and gets none by `settings`; none: the parameter's own default, which
+  /// knows nothing of the frame's unit (radius.h makes one from the frame).
+  std::optional<double> radius;
   /// Restricts the techniques asked for and their filters to where it is above 0: a plane, or a technique that makes one.
   /// Filters cover the mask, estimates what these read of them. What is left out is open. Empty: everywhere.
   std::string mask;

@@ -83,7 +83,7 @@ struct Scene {
   std::vector<SceneCamera> cameras;  ///< at least one; the first is the default
   glm::dvec3 up{0, 1, 0};
   Light light;
-  double ao_radius = 0.5;          ///< a sensible reach of ambient occlusion, scene units
+  double ao_radius = 0;            ///< the radius of ambient occlusion that suits it, scene units; 0: not known
   std::vector<std::string> notes;  ///< what was mended or left out, one sentence each
   size_t faces() const;
 };

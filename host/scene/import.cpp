@@ -199,11 +199,6 @@ glm::dvec3 up_of(const aiScene& from) {
   return up;
 }
 
-double to_one_digit(double value) {
-  const double unit = std::pow(10, std::floor(std::log10(value)));
-  return std::round(value / unit) * unit;
-}
-
 void add_notes(const Mended& mended, const Bounds& bounds, const aiScene& from, Scene& scene) {
   const auto note = [&](size_t n, const char* one, const char* many) {
     if (n > 0) scene.notes.push_back(n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many));
@@ -280,7 +275,6 @@ Scene imported(const fs::path& path) {
     add_cameras(from, scene);
   }
   scene.cameras.push_back(overview(bounds, scene));
-  scene.ao_radius = to_one_digit(0.02 * bounds.diagonal());
   return scene;
 }
 

@@ -1,0 +1,48 @@
+#include "radius.h"
+
+#include <cmath>
+
+#include "gloam/error.h"
+
+namespace gloam::cli {
+namespace {
+
+constexpr double least_radius = 1e-30, most_radius = 1e30;
+
+Json number_or_inf(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
+
+}  // namespace
+
+std::optional<double> stated_radius(const FrameFile& file) {
+  const std::optional<double> stated = file.number_attribute("aoRadius");
+  if (!stated || (*stated >= least_radius && *stated <= most_radius)) return stated;
+  note({fmt::format("{}: aoRadius {:g} in the header is no radius, and is passed over", file.path().filename().string(),
+                    *stated)});
+  return {};
+}
+
+std::optional<double> stated_radius(const FrameFiles& files) { return stated_radius(files.files().front()); }
+
+RadiusReport::RadiusReport(const Radius& radius, const Frame& frame, std::optional<double> cap)
+    : radius_(radius), words_(in_words(radius, frame)) {
+  if (const std::optional<double> per_unit = pixels_at_median_depth(frame)) pixels_ = radius.value * *per_unit;
+  if (const std::string warning = warning_about(radius, frame, cap); !warning.empty()) note({warning});
+}
+
+void RadiusReport::add_to(Json& document) const {
+  document["radius"] = number_or_inf(radius_.value);
+  document["radius_from"] = name_of(radius_.from);
+  document["radius_pixels"] = pixels_ ? number_or_inf(*pixels_) : Json();
+}
+
+std::optional<RadiusReport> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame,
+                                          std::optional<double> stated, const std::vector<std::string>& available,
+                                          const std::string& holds) {
+  const Radius made = default_radius(frame, stated);
+  if (!radius_of(plan, request, made.from)) return {};
+  request.radius = made.value;
+  plan = make_plan(request, available, holds);
+  return RadiusReport(*radius_of(plan, request, made.from), frame, cap_of(plan));
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,137 @@
+#include "gloam/radius.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gloam/error.h"
+#include "gloam/projection.h"
+
+namespace gloam {
+namespace {
+
+/// Depths of all views that the median is taken of, at most about: enough for three digits.
+constexpr double samples = 65536;
+
+/// Fewer pixels find hardly any occluder.
+constexpr double least_pixels = 2;
+/// A radius that covers so much less than the default was most likely meant in another unit.
+constexpr double far_below_default = 1.0 / 8;
+
+double rounded_to_two_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  // Through text, so that 0.38 is the double next to 0.38.
+  return std::stod(fmt::format("{:.1e}", std::round(value / unit) * unit));
+}
+
+double longer_side(const Frame& frame) { return std::max(frame.width(), frame.height()); }
+
+const PlannedPass* first_with_radius(const Plan& plan) {
+  const auto has_radius = [](const PlannedPass& planned) {
+    const auto& parameters = planned.technique->parameters;
+    return std::any_of(parameters.begin(), parameters.end(), is_radius);
+  };
+  const auto found = std::find_if(plan.passes.begin(), plan.passes.end(), has_radius);
+  return found == plan.passes.end() ? nullptr : &*found;
+}
+
+std::string suggested(double radius, double pixels) {
+  return fmt::format("--radius {:g} reaches {:.3g}", radius, pixels);
+}
+
+}  // namespace
+
+bool is_radius(const Parameter& parameter) { return parameter.name == "radius" && parameter.unit == "scene units"; }
+
+const char* name_of(RadiusSource source) {
+  switch (source) {
+    case RadiusSource::flag:
+      return "flag";
+    case RadiusSource::truth:
+      return "truth";
+    case RadiusSource::scene:
+      return "scene";
+    default:
+      return "frame";
+  }
+}
+
+std::optional<double> pixels_at_median_depth(const Frame& frame) {
+  const double all = double(frame.width()) * frame.height() * double(frame.views.size());
+  const int step = std::max(1, int(std::ceil(std::sqrt(all / samples))));
+  std::vector<double> pixels;
+  for (const View& view : frame.views) {
+    const Plane* depth = view.find("depth");
+    if (!depth || !view.camera) continue;
+    const Channel& z = depth->channels.front();
+    for (int y = 0; y < frame.height(); y += step) {
+      for (int x = 0; x < frame.width(); x += step) {
+        if (!is_background(z.at(x, y))) pixels.push_back(pixels_per_unit(*view.camera, z.at(x, y)));
+      }
+    }
+  }
+  if (pixels.empty()) return {};
+  const auto middle = pixels.begin() + std::ptrdiff_t(pixels.size() / 2);
+  std::nth_element(pixels.begin(), middle, pixels.end());
+  return *middle > 0 && std::isfinite(*middle) ? std::optional(*middle) : std::nullopt;
+}
+
+std::optional<double> radius_made_from(const Frame& frame) {
+  const std::optional<double> pixels = pixels_at_median_depth(frame);
+  if (!pixels) return {};
+  const double radius = rounded_to_two_digits(default_radius_share * longer_side(frame) / *pixels);
+  // Kernels hold it as float.
+  return std::clamp(radius, 1e-30, 1e30);
+}
+
+Radius default_radius(const Frame& frame, std::optional<double> stated) {
+  if (stated) return {*stated, RadiusSource::scene};
+  return {radius_made_from(frame).value_or(1), RadiusSource::frame};
+}
+
+std::optional<Radius> radius_of(const Plan& plan, const PlanRequest& request, RadiusSource from) {
+  const PlannedPass* planned = first_with_radius(plan);
+  if (!planned) return {};
+  const bool is_given = std::any_of(request.settings.begin(), request.settings.end(), [&](const auto& setting) {
+    return setting.first == "radius" || setting.first == planned->technique->name + ".radius";
+  });
+  return Radius{planned->values.number("radius"), is_given ? RadiusSource::flag : from};
+}
+
+std::optional<double> cap_of(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.values.has("max_reach")) return planned.values.number("max_reach");
+  }
+  return {};
+}
+
+std::string warning_about(const Radius& radius, const Frame& frame, std::optional<double> cap) {
+  const std::optional<double> per_unit = pixels_at_median_depth(frame);
+  const std::optional<double> made = radius_made_from(frame);
+  if (radius.from == RadiusSource::frame || !per_unit) return "";
+  const std::string instead = suggested(*made, *made * *per_unit);
+  const double most = cap.value_or(1) * frame.width();
+  if (radius.value == 0)
+    return fmt::format("radius 0: nothing is within reach, so AO is 1 everywhere; {} pixels", instead);
+  if (std::isinf(radius.value))
+    return fmt::format("radius inf: every occluder counts that lies within {:.3g} pixels{}", most,
+                       cap ? fmt::format(", which is max_reach {:g}", *cap) : "");
+  const double pixels = radius.value * *per_unit;
+  const std::string reaches =
+      fmt::format("radius {:g} scene units reaches {:.3g} pixels at the median depth", radius.value, pixels);
+  if (pixels < std::max(least_pixels, far_below_default * default_radius_share * longer_side(frame)))
+    return fmt::format("{}: few occluders are that near; {}", reaches, instead);
+  if (pixels > most)
+    return fmt::format("{}, and most pixels are searched up to {:.3g} alone{}; {}", reaches, most,
+                       cap ? fmt::format(" (max_reach {:g})", *cap) : ", the image's width", instead);
+  return "";
+}
+
+std::string in_words(const Radius& radius, const Frame& frame) {
+  const char* const from[] = {"given", "the truth's", "the scene's", "made from the frame"};
+  const std::optional<double> pixels = pixels_at_median_depth(frame);
+  return fmt::format("radius {:g} scene units ({}){}", radius.value, from[int(radius.from)],
+                     pixels ? fmt::format(": {:.3g} pixels at the median depth", radius.value * *pixels)
+                            : ": the frame shows no surface");
+}
+
+}  // namespace gloam
