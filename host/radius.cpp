@@ -34,8 +34,13 @@ const PlannedPass* first_with_radius(const Plan& plan) {
   return found == plan.passes.end() ? nullptr : &*found;
 }
 
+/// Three digits, and no exponent below a million.
+std::string in_pixels(double pixels) {
+  return pixels >= 100 && pixels < 1e6 ? fmt::format("{:.0f}", pixels) : fmt::format("{:.3g}", pixels);
+}
+
 std::string suggested(double radius, double pixels) {
-  return fmt::format("--radius {:g} reaches {:.3g}", radius, pixels);
+  return fmt::format("--radius {:g} reaches {}", radius, in_pixels(pixels));
 }
 
 }  // namespace
@@ -113,15 +118,15 @@ std::string warning_about(const Radius& radius, const Frame& frame, std::optiona
   if (radius.value == 0)
     return fmt::format("radius 0: nothing is within reach, so AO is 1 everywhere; {} pixels", instead);
   if (std::isinf(radius.value))
-    return fmt::format("radius inf: every occluder counts that lies within {:.3g} pixels{}", most,
+    return fmt::format("radius inf: every occluder counts that lies within {} pixels{}", in_pixels(most),
                        cap ? fmt::format(", which is max_reach {:g}", *cap) : "");
   const double pixels = radius.value * *per_unit;
   const std::string reaches =
-      fmt::format("radius {:g} scene units reaches {:.3g} pixels at the median depth", radius.value, pixels);
+      fmt::format("radius {:g} scene units reaches {} pixels at the median depth", radius.value, in_pixels(pixels));
   if (pixels < std::max(least_pixels, far_below_default * default_radius_share * longer_side(frame)))
     return fmt::format("{}: few occluders are that near; {}", reaches, instead);
   if (pixels > most)
-    return fmt::format("{}, and most pixels are searched up to {:.3g} alone{}; {}", reaches, most,
+    return fmt::format("{}, and most pixels are searched up to {} alone{}; {}", reaches, in_pixels(most),
                        cap ? fmt::format(" (max_reach {:g})", *cap) : ", the image's width", instead);
   return "";
 }
@@ -130,7 +135,7 @@ std::string in_words(const Radius& radius, const Frame& frame) {
   const char* const from[] = {"given", "the truth's", "the scene's", "made from the frame"};
   const std::optional<double> pixels = pixels_at_median_depth(frame);
   return fmt::format("radius {:g} scene units ({}){}", radius.value, from[int(radius.from)],
-                     pixels ? fmt::format(": {:.3g} pixels at the median depth", radius.value * *pixels)
+                     pixels ? fmt::format(": {} pixels at the median depth", in_pixels(radius.value * *pixels))
                             : ": the frame shows no surface");
 }
 

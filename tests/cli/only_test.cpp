@@ -45,13 +45,13 @@ TEST_F(CliOnly, AMaskTechniqueIsRunFirstAndTheShareLeftOutIsTold) {
 }
 
 TEST_F(CliOnly, WhatAnOutlineMaskDoesNotWantIsOpen) {
-  ASSERT_EQ(run({"--only", "outline-mask"}).status, 0);
+  ASSERT_EQ(run({"--only", "outline-mask", "--radius", "0.5"}).status, 0);
   EXPECT_GT(occluded(30, 20, 50, 40), 200);
   EXPECT_EQ(occluded(0, 0, 97, 65), occluded(30, 20, 50, 40));
 }
 
 TEST_F(CliOnly, APlaneOfTheFileIsAMask) {
-  ASSERT_EQ(run({"--only", "mask", "--plane", "mask=important"}).status, 0);
+  ASSERT_EQ(run({"--only", "mask", "--plane", "mask=important", "--radius", "0.5"}).status, 0);
   EXPECT_GT(occluded(0, 0, 97, 10), 100);
   EXPECT_EQ(occluded(0, 10, 97, 65), 0);
 }
@@ -95,7 +95,7 @@ TEST_F(CliOnly, WhatTheFrameLacksIsSaidInOneLine) {
   EXPECT_EQ(misspelt.lines_of_error(), 1);
   EXPECT_NE(misspelt.err.find("did you mean 'outline-mask'?"), std::string::npos) << misspelt.err;
   write_frame(path("frame.exr"), shoot(perspective(97, 65), room()));
-  const Result without = run({"--only", "outline-mask"});
+  const Result without = run({"--only", "outline-mask", "--radius", "0.5"});
   EXPECT_EQ(without.lines_of_error(), 1);
   EXPECT_NE(without.err.find("'outline_count'"), std::string::npos) << without.err;
   EXPECT_NE(without.err.find("--outlines"), std::string::npos) << without.err;

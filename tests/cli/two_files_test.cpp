@@ -45,7 +45,8 @@ class TwoFiles : public Cli {
   Result run(const std::string& technique, const Arguments& frame, const std::string& out) const {
     Arguments all = {"run", technique};
     all.insert(all.end(), frame.begin(), frame.end());
-    all.insert(all.end(), {"-o", file(out), "--json", "-"});
+    // Given, as one of the files may state another than the frame would get.
+    all.insert(all.end(), {"-o", file(out), "--radius", "0.5", "--json", "-"});
     return gloam(all);
   }
 
