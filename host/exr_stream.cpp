@@ -11,7 +11,6 @@
 #include <cstring>
 #include <mutex>
 #include <thread>
-#include <utility>
 
 #include "gloam/error.h"
 
@@ -68,16 +67,6 @@ bool ExrInput::read(char* bytes, int count) {
   return position_ < size_;
 }
 
-ExrOutput::ExrOutput(const std::filesystem::path& path) : Imf::OStream(path.c_str()) {
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error("{}", std::strerror(errno));
-  buffer_.reserve(1 << 20);
-}
-
-ExrOutput::~ExrOutput() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 void ExrOutput::fail() {
   error_ = errno;
   throw IEX_NAMESPACE::IoExc(std::strerror(error_));
@@ -110,9 +99,8 @@ void ExrOutput::seekp(uint64_t position) {
   position_ = buffered_from_ = position;
 }
 
-void ExrOutput::close() {
+void ExrOutput::finish() {
   if (error_ == 0) flush();
-  if (error_ == 0 && ::close(std::exchange(descriptor_, -1)) != 0) fail();
   if (error_ != 0) throw Error("{}", std::strerror(error_));
 }
 

@@ -32,20 +32,23 @@ class ExrInput : public Imf::IStream {
   std::vector<char> buffer_;
 };
 
-/// Writes a file. OpenEXR writes its last bytes in a destructor that swallows errors: `close` throws what was missed.
+/// Writes to a file that somebody else opened and closes. OpenEXR writes its last bytes in a destructor that swallows errors:
+/// `finish` throws what was missed.
 class ExrOutput : public Imf::OStream {
  public:
-  explicit ExrOutput(const std::filesystem::path& path);
-  ~ExrOutput() override;
+  /// `name` is for messages.
+  ExrOutput(int descriptor, const std::string& name) : Imf::OStream(name.c_str()), descriptor_(descriptor) {
+    buffer_.reserve(1 << 20);
+  }
   void write(const char* bytes, int count) override;
   uint64_t tellp() override { return position_; }
   void seekp(uint64_t position) override;
-  void close();
+  void finish();
 
  private:
   void flush();
   [[noreturn]] void fail();
-  int descriptor_ = -1;
+  int descriptor_;
   int error_ = 0;
   uint64_t position_ = 0, buffered_from_ = 0;
   std::vector<char> buffer_;

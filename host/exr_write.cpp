@@ -185,19 +185,19 @@ void check_frame(const Frame& frame) {
   }
 }
 
-void write_to(const std::filesystem::path& temporary, const Frame& frame, const WriteOptions& options) {
+void write_to(NewFile& new_file, const std::string& name, const Frame& frame, const WriteOptions& options) {
   const std::vector<Output> outputs = outputs_of(frame, options);
   if (outputs.empty()) throw Error("the frame has no plane");
   std::list<std::vector<uint32_t>> copies;
   Imf::FrameBuffer buffer;
   for (const Output& output : outputs) buffer.insert(output.name, slice_for(copies, output, frame.window));
-  ExrOutput stream(temporary);
+  ExrOutput stream(new_file.descriptor(), name);
   {
     Imf::OutputFile file(stream, header_of(frame, outputs, options));
     file.setFrameBuffer(buffer);
     file.writePixels(frame.height());
   }
-  stream.close();
+  stream.finish();
 }
 
 }  // namespace
@@ -207,9 +207,9 @@ void check(const WriteOptions& options) { compression_of(options.compression); }
 void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options) {
   check(options);
   use_all_threads();
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
+  write_atomically(path, [&](NewFile& file) {
     check_frame(frame);
-    write_to(temporary, frame, options);
+    write_to(file, path.string(), frame, options);
   });
 }
 

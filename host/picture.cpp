@@ -145,14 +145,6 @@ cv::Mat coloured(const Plane& plane) {
   return image;
 }
 
-void write_png(const std::filesystem::path& path, const cv::Mat& image) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    png_image png = header_of(image);
-    if (!png_image_write_to_file(&png, temporary.c_str(), 0, image.data, png_int_32(image.step[0]), nullptr))
-      throw Error("{}: cannot be written as PNG: {}", path.string(), png.message);
-  });
-}
-
 std::string encode_png(const cv::Mat& image) {
   png_image png = header_of(image);
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
@@ -161,6 +153,11 @@ std::string encode_png(const cv::Mat& image) {
     throw Error("a picture of {}x{} cannot be written as PNG: {}", image.cols, image.rows, png.message);
   bytes.resize(size);
   return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat& image) {
+  // Encoded first, as the codec keeps the cause of a failed write to itself.
+  write_text(path, encode_png(image));
 }
 
 cv::Mat read_png(const std::filesystem::path& path) {

@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -117,8 +120,10 @@ void print(const Picked& picked, const DeviceInfo& device) {
 /// A folder of its own for a truth that is traced; gone with it.
 class ScratchFolder {
  public:
-  ScratchFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("gloam-pick-{}", getpid())) {
-    std::filesystem::create_directories(path_);
+  ScratchFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "gloam-pick-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw Error("{}: no folder can be made: {}", pattern, std::strerror(errno));
+    path_ = pattern;
   }
   ~ScratchFolder() {
     std::error_code unknown;

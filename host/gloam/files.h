@@ -4,13 +4,28 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace gloam {
 
-/// Calls `write(temporary)` with a path in the folder of `path`, then renames it to `path`. On any error, and on
-/// SIGHUP, SIGINT or SIGTERM, the temporary file is removed and `path` is left as it was. Throws Error naming `path`.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write);
+/// A file that is being written and is not seen under its own name yet.
+class NewFile {
+ public:
+  explicit NewFile(int descriptor) : descriptor_(descriptor) {}
+  /// Throws Error with the cause alone, which `write_atomically` completes.
+  void append(std::string_view bytes);
+  /// Open for writing; stays the file's.
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// Has `write` fill a new file in the folder of `path`, brings it to the disk, and then renames it to `path`. The new file has a
+/// random name, made exclusively, so that no other process has it, on no machine that shares the folder. It gets the
+/// permissions of the file that it replaces. A symbolic link is written through, also one whose target is missing. On any error,
+/// and on SIGHUP, SIGINT or SIGTERM, the new file is removed and `path` is left as it was. Throws Error naming `path`.
+void write_atomically(const std::filesystem::path& path, const std::function<void(NewFile&)>& write);
 
 /// Why no file can be written under a name, whatever its contents: it is a folder, a device or a pipe; else empty. For
 /// telling before anything is computed.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -166,7 +168,7 @@ TEST(Messages, ExitStatus) {
 TEST(WriteAtomically, ReplacesTheFile) {
   Folder folder;
   put(folder.path / "out.txt", "old");
-  write_atomically(folder.path / "out.txt", [](const fs::path& temporary) { put(temporary, "new"); });
+  write_atomically(folder.path / "out.txt", [](NewFile& file) { file.append("new"); });
   EXPECT_EQ(read_text(folder.path / "out.txt"), "new");
   EXPECT_EQ(folder.count(), 1u);
 }
@@ -176,9 +178,9 @@ TEST(WriteAtomically, FailureLeavesTheOldFileAndNothingElse) {
   const fs::path path = folder.path / "out.txt";
   put(path, "old");
   try {
-    write_atomically(path, [](const fs::path& temporary) {
-      put(temporary, "half");
-      throw std::runtime_error("no space\nleft in " + temporary.string());
+    write_atomically(path, [](NewFile& file) {
+      file.append("half");
+      throw std::runtime_error("no space\nleft");
     });
     FAIL();
   } catch (const Error& error) {
@@ -194,7 +196,7 @@ TEST(WriteAtomically, FailureLeavesTheOldFileAndNothingElse) {
 TEST(WriteAtomically, RefusesWhatCannotBeWritten) {
   Folder folder;
   put(folder.path / "file", "x");
-  auto never = [](const fs::path&) { FAIL() << "called"; };
+  auto never = [](NewFile&) { FAIL() << "called"; };
   EXPECT_THROW(write_atomically(folder.path / "file" / "out.txt", never), Error);  // a file in place of a folder
   EXPECT_THROW(write_atomically(folder.path / "missing" / "out.txt", never), Error);
   EXPECT_THROW(write_atomically(folder.path, never), Error);
@@ -204,10 +206,7 @@ TEST(WriteAtomically, RefusesWhatCannotBeWritten) {
 
 TEST(WriteAtomically, LongNamesAndEmptyOnes) {
   Folder folder;
-  const auto write = [](const fs::path& temporary) {
-    EXPECT_EQ(temporary.extension(), ".png") << "codecs choose by it";
-    put(temporary, "new");
-  };
+  const auto write = [](NewFile& file) { file.append("new"); };
   const fs::path longest = folder.path / (std::string(251, 'n') + ".png");
   write_atomically(longest, write);
   EXPECT_EQ(read_text(longest), "new");
@@ -224,8 +223,8 @@ TEST(WriteAtomically, LongNamesAndEmptyOnes) {
 TEST(WriteAtomically, StrangeNamesStayOutOfMessages) {
   Folder folder;
   try {
-    write_atomically(folder.path / "a\x1b\n.txt",
-                     [](const fs::path& temporary) { throw Error("{}: no space", temporary.string()); });
+    const fs::path path = folder.path / "a\x1b\n.txt";
+    write_atomically(path, [&](NewFile&) { throw Error("{}: no space", path.string()); });
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.what(), (folder.path / "a\\x1b\\x0a.txt").string() + ": no space");
@@ -236,9 +235,90 @@ TEST(WriteAtomically, SymbolicLinkStaysOne) {
   Folder folder;
   put(folder.path / "real", "old");
   fs::create_symlink("real", folder.path / "link");
-  write_atomically(folder.path / "link", [](const fs::path& temporary) { put(temporary, "new"); });
+  write_atomically(folder.path / "link", [](NewFile& file) { file.append("new"); });
   EXPECT_TRUE(fs::is_symlink(folder.path / "link"));
   EXPECT_EQ(read_text(folder.path / "real"), "new");
+}
+
+TEST(WriteAtomically, ALinkToNothingIsWrittenThrough) {
+  Folder folder;
+  fs::create_directory(folder.path / "elsewhere");
+  fs::create_symlink("link2", folder.path / "link");
+  fs::create_symlink("elsewhere/real", folder.path / "link2");
+  write_atomically(folder.path / "link", [](NewFile& file) { file.append("new"); });
+  EXPECT_TRUE(fs::is_symlink(folder.path / "link"));
+  EXPECT_TRUE(fs::is_symlink(folder.path / "link2"));
+  EXPECT_EQ(read_text(folder.path / "elsewhere" / "real"), "new");
+  fs::create_symlink("round", folder.path / "round");
+  EXPECT_THROW(write_atomically(folder.path / "round", [](NewFile& file) { file.append("new"); }), Error);
+  fs::create_symlink("missing/real", folder.path / "lost");
+  EXPECT_THROW(write_atomically(folder.path / "lost", [](NewFile& file) { file.append("new"); }), Error);
+}
+
+mode_t permissions_of(const fs::path& path) {
+  struct stat about {};
+  EXPECT_EQ(::stat(path.c_str(), &about), 0);
+  return about.st_mode & 07777;
+}
+
+TEST(WriteAtomically, AReplacedFileKeepsItsPermissionsAndANewOneObeysTheMask) {
+  Folder folder;
+  const mode_t before = ::umask(027);
+  for (const mode_t mode : {0600, 0640, 0666, 0755}) {
+    put(folder.path / "out.txt", "old");
+    fs::permissions(folder.path / "out.txt", fs::perms(mode));
+    write_atomically(folder.path / "out.txt", [&](NewFile& file) {
+      for (const auto& entry : fs::directory_iterator(folder.path))
+        EXPECT_EQ(permissions_of(entry.path()) & ~mode, 0u) << "open to others while it is written";
+      file.append("new");
+    });
+    EXPECT_EQ(permissions_of(folder.path / "out.txt"), mode);
+  }
+  write_atomically(folder.path / "new.txt", [](NewFile& file) { file.append("new"); });
+  EXPECT_EQ(permissions_of(folder.path / "new.txt"), mode_t(0640));
+  ::umask(before);
+}
+
+/// What another process with this one's number leaves behind, or has open.
+TEST(WriteAtomically, FilesThatOthersLeftAreNotTouched) {
+  Folder folder;
+  std::vector<fs::path> others;
+  for (int number = 0; number < 64; ++number) {
+    for (const std::string& extension : {std::string(), std::string(".txt")}) {
+      others.push_back(folder.path / fmt::format(".gloam-{}-{}{}", ::getpid(), number, extension));
+      put(others.back(), "another's");
+    }
+  }
+  write_atomically(folder.path / "out.txt", [](NewFile& file) { file.append("new"); });
+  EXPECT_THROW(write_atomically(folder.path / "out.txt", [](NewFile&) { throw std::runtime_error("no"); }), Error);
+  EXPECT_EQ(read_text(folder.path / "out.txt"), "new");
+  for (const fs::path& other : others) EXPECT_EQ(read_text(other), "another's") << other;
+  EXPECT_EQ(folder.count(), others.size() + 1);
+}
+
+TEST(WriteAtomically, TheCauseOfAFailedWriteIsNamed) {
+  Folder folder;
+  try {
+    write_atomically(folder.path / "out.png", [](NewFile& file) {
+      ::rlimit limit{};
+      ::getrlimit(RLIMIT_FSIZE, &limit);
+      const ::rlimit little{16, limit.rlim_max};
+      ::signal(SIGXFSZ, SIG_IGN);
+      ::setrlimit(RLIMIT_FSIZE, &little);
+      const std::string bytes(1000, 'x');
+      try {
+        file.append(bytes);
+      } catch (...) {
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        throw;
+      }
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+    });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), (folder.path / "out.png").string() + ": cannot write: File too large");
+  }
+  EXPECT_EQ(folder.count(), 0u);
 }
 
 TEST(WriteAtomically, SignalRemovesTheTemporary) {
@@ -249,8 +329,8 @@ TEST(WriteAtomically, SignalRemovesTheTemporary) {
     if (child == 0) {
       ::close(STDERR_FILENO);
       remove_temporaries_on_signal();
-      write_atomically(folder.path / "out.txt", [&](const fs::path& temporary) {
-        put(temporary, "half");
+      write_atomically(folder.path / "out.txt", [&](NewFile& file) {
+        file.append("half");
         ::raise(signal);
       });
       ::_exit(0);
@@ -275,9 +355,9 @@ std::string said_on_signal(int signal, int before) {
     ::signal(signal, SIG_DFL);
     remove_temporaries_on_signal();
     for (int i = 0; i < before; ++i)
-      write_atomically(folder.path / std::to_string(i), [](const fs::path& temporary) { put(temporary, "whole"); });
-    write_atomically(folder.path / "out.txt", [&](const fs::path& temporary) {
-      put(temporary, "half");
+      write_atomically(folder.path / std::to_string(i), [](NewFile& file) { file.append("whole"); });
+    write_atomically(folder.path / "out.txt", [&](NewFile& file) {
+      file.append("half");
       ::raise(signal);
     });
     ::_exit(0);
