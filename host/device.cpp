@@ -1,10 +1,14 @@
+#include <dlfcn.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "device_impl.h"
 #include "gloam/error.h"
@@ -65,8 +69,9 @@ bool usable(const std::filesystem::path& folder) {
 
 /// A folder that nobody else can have put kernels into.
 std::filesystem::path own_temporary_folder() {
-  std::error_code unknown;
-  const std::filesystem::path base = std::filesystem::temp_directory_path(unknown);
+  std::error_code unset;  // TMPDIR may name a folder that is not there
+  std::filesystem::path base = std::filesystem::temp_directory_path(unset);
+  if (unset || !usable(base)) base = "/tmp";
   const std::filesystem::path folder = base / fmt::format("gloam-kernels-{}", getuid());
   mkdir(folder.c_str(), 0700);
   struct stat facts;
@@ -74,7 +79,31 @@ std::filesystem::path own_temporary_folder() {
                     (facts.st_mode & 077) == 0;
   if (ours) return folder;
   std::string pattern = (base / "gloam-kernels-XXXXXX").string();
-  return mkdtemp(pattern.data()) ? pattern : base.string();
+  if (!mkdtemp(pattern.data()))
+    throw Error(
+        "no folder to keep compiled kernels in: {}: {}; set POCL_CACHE_DIR or HOME to a folder that can be written",
+        base.string(), std::strerror(errno));
+  return pattern;
+}
+
+/// Why a driver that is installed gives no platform; empty where none is installed. The loader keeps the cause to itself.
+std::string why_no_platform() {
+  const char* given = std::getenv("OCL_ICD_VENDORS");
+  const std::filesystem::path vendors = given && *given ? given : "/etc/OpenCL/vendors";
+  std::error_code failed;
+  std::filesystem::directory_iterator files(vendors, failed);
+  if (failed == std::errc::no_such_file_or_directory || failed == std::errc::not_a_directory) return "";
+  if (failed) return fmt::format("{}: {}", vendors.string(), failed.message());
+  for (const auto& file : files) {
+    std::string library;
+    if (file.path().extension() != ".icd") continue;
+    if (!std::getline(std::ifstream(file.path()), library))
+      return fmt::format("{}: {}", file.path().string(), std::strerror(errno));
+    void* const handle = dlopen(trimmed(library).c_str(), RTLD_LAZY | RTLD_LOCAL);
+    if (!handle) return fmt::format("{}: {}", file.path().string(), dlerror());
+    dlclose(handle);
+  }
+  return "";
 }
 
 /// Platforms are enumerated one by one: one without devices (a driver without its hardware) is passed over.
@@ -86,6 +115,8 @@ std::vector<Found> find_devices() {
     platforms.clear();
   }
   if (platforms.empty()) {
+    if (const std::string why = why_no_platform(); !why.empty())
+      throw Error("no OpenCL platform could be loaded: {}", why);
     throw Error("no OpenCL platform found; on Debian or Ubuntu, 'apt install pocl-opencl-icd' runs gloam on the CPU");
   }
   std::vector<Found> found;

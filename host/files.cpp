@@ -247,9 +247,16 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   write_atomically(path, [&](NewFile& file) { file.append(text); });
 }
 
-std::string read_text(const fs::path& path) {
+void check_regular(const fs::path& path) {
   std::error_code code;
-  if (fs::is_directory(path, code)) throw Error("{}: is a directory, not a text file", path.string());
+  const fs::file_status status = fs::status(path, code);
+  if (fs::is_directory(status)) throw Error("{}: is a folder; name a file in it", path.string());
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw Error("{}: is a device or a pipe; name a regular file", path.string());
+}
+
+std::string read_text(const fs::path& path) {
+  check_regular(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -161,6 +161,7 @@ void write_png(const std::filesystem::path& path, const cv::Mat& image) {
 }
 
 cv::Mat read_png(const std::filesystem::path& path) {
+  check_regular(path);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_file(&png, path.c_str()))

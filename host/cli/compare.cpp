@@ -305,6 +305,16 @@ std::optional<Mask> mask_of(const CompareFlags& flags, const Frame& extra, const
   return foreground(reference.frame, views.second, window, layout);
 }
 
+/// What cannot be compared, with the names of the files.
+Metrics compare_files(const CompareFlags& flags, const Plane& test, const Plane& truth, const Mask& mask,
+                      double exposure) {
+  try {
+    return compare(test, truth, mask, exposure);
+  } catch (const Error& error) {
+    throw Error("{} against {}: {}", flags.test, flags.reference, error.what());
+  }
+}
+
 void compare_command(const CompareFlags& flags) {
   check_picture_name(flags.picture, "-o");
   check_paths({{"the test", flags.test}, {"the reference", flags.reference}, {"--frame", flags.frame}},
@@ -333,10 +343,10 @@ void compare_command(const CompareFlags& flags) {
     const Mask mask = known ? *known : Mask(size_t(layout.width) * size_t(layout.height), 1);
     const std::optional<Mask> where_shown = shown_pixels(truth, mask);
     const Plane right = without_confidence(std::move(truth));
-    all.push_back(compare(left, right, mask, exposure));
+    all.push_back(compare_files(flags, left, right, mask, exposure));
     views[pair.first] = metrics_document(all.back());
     if (where_shown) {
-      shown.push_back(compare(left, right, *where_shown, exposure));
+      shown.push_back(compare_files(flags, left, right, *where_shown, exposure));
       views[pair.first]["shown"] = metrics_document(shown.back());
     }
     if (flags.picture.empty()) continue;

@@ -365,6 +365,16 @@ void StereoFlags::add_to(CLI::App& app) {
       ->needs(on);
 }
 
+/// What cannot be compared, with the names of the files.
+StereoInconsistency inconsistency_of(const CompareFlags& flags, const Frame& pair, const std::string& plane,
+                                     const StereoOptions& check) {
+  try {
+    return stereo_inconsistency(pair, plane, check);
+  } catch (const Error& error) {
+    throw Error("{}{}: {}", flags.test, flags.reference.empty() ? "" : " and " + flags.reference, error.what());
+  }
+}
+
 void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   check_names(flags, stereo);
   const StereoOptions check = options_of(stereo);
@@ -380,7 +390,7 @@ void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
 
   const std::vector<Sources> sources = sources_of(frames, results);
   Frame pair = pair_of(sources_of(results), sources, plane);
-  const StereoInconsistency result = stereo_inconsistency(pair, plane, check);
+  const StereoInconsistency result = inconsistency_of(flags, pair, plane, check);
   note_assumptions(sources, check.normal_check && !result.normal_check);
   const std::vector<std::string> written = write_pictures(flags, stereo, magnify, pair, plane, result);
   flags.json.write(document_of(result, pair, plane), written);

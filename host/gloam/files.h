@@ -42,6 +42,10 @@ void say_on_interruption(const char* text);
 /// A whole file, by `write_atomically`.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
+/// Throws Error naming what can be opened and is no file that ends: a folder, a device, or a pipe, which would wait for its
+/// other end. Nothing where there is nothing.
+void check_regular(const std::filesystem::path& path);
+
 /// A whole text file. Throws Error naming it.
 std::string read_text(const std::filesystem::path& path);
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "gloam/error.h"
+#include "gloam/files.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -41,6 +42,7 @@ Texture decode_image(const std::string& name, const uint8_t* bytes, size_t size)
 }
 
 Texture read_image(const std::filesystem::path& path) {
+  check_regular(path);
   std::error_code failed;
   const auto size = std::filesystem::file_size(path, failed);
   std::ifstream file(path, std::ios::binary);

@@ -16,6 +16,7 @@
 #include <set>
 
 #include "gloam/error.h"
+#include "gloam/files.h"
 #include "gloam/scene.h"
 #include "gltf_json.h"
 #include "import_materials.h"
@@ -66,6 +67,7 @@ class Files : public Assimp::DefaultIOSystem {
  public:
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const fs::path path(file);
+    if (!fs::is_directory(path)) check_regular(path);
     const bool is_mtl = path.extension() == ".mtl";
     Assimp::IOStream* stream = is_mtl && !begins_with_material(path) ? nullptr : DefaultIOSystem::Open(file, mode);
     if (is_mtl) (stream ? found : missing).push_back(path.filename().string());
@@ -79,6 +81,7 @@ void check_file(const fs::path& path) {
   const fs::file_status status = fs::status(path, failed);
   if (!fs::exists(status)) throw Error("{}: no such file", path.string());
   if (fs::is_directory(status)) throw Error("{}: is a folder; a scene is a file (OBJ, glTF, GLB)", path.string());
+  check_regular(path);
   if (!std::ifstream(path)) throw Error("{}: cannot be opened for reading", path.string());
   if (fs::is_regular_file(status) && fs::file_size(path) == 0) throw Error("{}: is empty (0 bytes)", path.string());
 }
