@@ -76,6 +76,26 @@ kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams param
   store(direction.z * sign, result_z, s.here);
 }
 
+static inline void upsample_plane(Weights w, Site s, mask known, PLANE source, PLANE_OUT result) {
+  const real total = choose(known, w.total, (real)(1));
+  store(choose(known, weighted(w, s, source) / total, (real)(0)), result, s.here);
+}
+
+kernel void joint_upsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
+                                 PLANE source_b, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
+                                 PLANE low_normal_z, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                                 WANTED_ARGUMENT PLANE_OUT result_r, PLANE_OUT result_g, PLANE_OUT result_b) {
+  SKIP_UNWANTED(frame, store((real)(0), result_r, here); store((real)(0), result_g, here);
+                store((real)(0), result_b, here))
+  const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
+                         normal_y, normal_z);
+  const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
+  const mask known = !is_background(s.plane.depth) & (w.total > 0) & is_wanted;
+  upsample_plane(w, s, known, source_r, result_r);
+  upsample_plane(w, s, known, source_g, result_g);
+  upsample_plane(w, s, known, source_b, result_b);
+}
+
 kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
                                        PLANE source_b, PLANE source_a, PLANE low_depth, PLANE low_normal_x,
                                        PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
@@ -87,9 +107,8 @@ kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams 
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
   const mask known = !is_background(s.plane.depth) & (w.total > 0) & is_wanted;
-  const real total = choose(known, w.total, (real)(1));
-  store(choose(known, weighted(w, s, source_r) / total, (real)(0)), result_r, s.here);
-  store(choose(known, weighted(w, s, source_g) / total, (real)(0)), result_g, s.here);
-  store(choose(known, weighted(w, s, source_b) / total, (real)(0)), result_b, s.here);
-  store(choose(known, weighted(w, s, source_a) / total, (real)(0)), result_a, s.here);
+  upsample_plane(w, s, known, source_r, result_r);
+  upsample_plane(w, s, known, source_g, result_g);
+  upsample_plane(w, s, known, source_b, result_b);
+  upsample_plane(w, s, known, source_a, result_a);
 }

@@ -75,6 +75,51 @@ TEST_F(CliResolution, BackgroundReadsTheSameAtEveryResolution) {
   }
 }
 
+/// What cannot be had at a lower resolution is wrong usage, told in one line; no kernel is missing.
+TEST_F(CliResolution, EveryTechniqueRunsAtEveryResolutionOrSaysWhyNot) {
+  const std::map<std::string, std::string> refused = {{"normals", "'normal' is what guides upsampling"},
+                                                      {"stochastic-depth", "'stochastic' holds layers"},
+                                                      {"temporal-sssr", "motion is in its pixels"}};
+  ASSERT_EQ(gloam({"capture", "gallery", "--size", "48x27", "--planes",
+                   "depth,normal,albedo,color,roughness,reflectance,position,back_depth,instance", "--stereo", "0.065",
+                   "--peel", "2", "--stochastic", "4", "--outlines", "0.5", "-o", path("all.exr")})
+                .status,
+            0);
+  const Json techniques = gloam({"list", "techniques", "--json", "-"}).json();
+  ASSERT_GT(techniques.size(), 40u);
+  for (const Json& technique : techniques) {
+    const std::string name = technique.at("name");
+    const auto why = refused.find(name);
+    for (const char* resolution : {"half", "quarter"}) {
+      // Which kernels there are does not hang on how they are optimised, and that takes most of the time.
+      const Result result = gloam({"run", name, path("all.exr"), "-o", path("out.exr"), "--resolution", resolution},
+                                  {{"POCL_EXTRA_BUILD_FLAGS", "-cl-opt-disable"}});
+      EXPECT_EQ(result.status, why == refused.end() ? 0 : 2) << name << " " << resolution << ": " << result.err;
+      if (why == refused.end()) continue;
+      EXPECT_NE(result.err.find(why->second), std::string::npos) << result.err;
+    }
+  }
+}
+
+TEST_F(CliResolution, ColoursComeBackAsTheyWere) {
+  ASSERT_EQ(gloam({"run", "dielectric", path("frame.exr"), "-o", path("full.exr")}).status, 0);
+  const Frame full = FrameFile(path("full.exr"), {}).read({"reflectance"});
+  for (const char* resolution : {"half", "quarter"}) {
+    const Result result =
+        gloam({"run", "dielectric", path("frame.exr"), "-o", path("low.exr"), "--resolution", resolution});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Frame low = FrameFile(path("low.exr"), {}).read({"reflectance"});
+    for (size_t c = 0; c < 3; ++c) {
+      for (int y = 0; y < 33; ++y) {
+        for (int x = 0; x < 49; ++x)
+          EXPECT_NEAR(low.views[0].find("reflectance")->channels[c].at(x, y),
+                      full.views[0].find("reflectance")->channels[c].at(x, y), 1e-6)
+              << resolution << " " << x << " " << y;
+      }
+    }
+  }
+}
+
 TEST_F(CliResolution, OtherNamesAreWrongUsage) {
   for (const char* resolution : {"third", "2", "1/2"}) {
     const Result result = run({"--resolution", resolution});
