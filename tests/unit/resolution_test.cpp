@@ -6,13 +6,16 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
+#include "kernel_sources.h"
 #include "message_of.h"
+#include "resample.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
@@ -49,6 +52,32 @@ TEST(Resolution, APlanEstimatesAndFiltersBetweenTwoResamplings) {
       EXPECT_EQ(planes.at(fmt::format("{}@{}", plane, resolution)), resolution) << plane;
     }
   }
+}
+
+/// Planes of every kind: of one component, directions, colours.
+TEST(Resolution, WhatComesBackHasAKernel) {
+  const std::string source = flatten(resampling().source);
+  Names available;
+  for (const PlaneKind& kind : plane_kinds()) available.push_back(kind.name);
+  for (const char* layer : {"peel.00", "peel.01", "stochastic.00", "stochastic.01", "stochastic.02", "stochastic.03"})
+    available.push_back(layer);
+  std::set<std::string> kernels;
+  for (const Technique& technique : registry()) {
+    for (const int resolution : {2, 4}) {
+      Plan plan;
+      try {
+        plan = plan_of({.outputs = {technique.name}, .with = technique.extras, .resolution = resolution}, available);
+      } catch (const UsageError&) {
+        continue;  // says why it works at full resolution alone
+      }
+      for (const PlannedPass& planned : plan.passes) {
+        if (planned.technique == &resampling()) kernels.insert(planned.pass.kernel);
+      }
+    }
+  }
+  EXPECT_TRUE(kernels.count("joint_upsample_color")) << "dielectric's";
+  for (const std::string& kernel : kernels)
+    EXPECT_NE(source.find("kernel void " + kernel + "("), std::string::npos) << kernel;
 }
 
 TEST(Resolution, OnlyWhatIsReadIsSubsampledAndOnlyWhatIsPutOutComesBack) {
