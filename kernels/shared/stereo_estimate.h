@@ -25,8 +25,24 @@ static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_
 // HALF_OCCLUDED_ARGUMENT after the other eye's planes.
 #if WITH_HALF_OCCLUSION
 #define HALF_OCCLUDED_ARGUMENT PLANE other_half_occluded,
-#define MAY_DIFFER(frame, neighbour, radius, receiver) \
-  is_near_marked(other_half_occluded, (neighbour).frame, into_other(neighbour, position_of(frame, receiver)), radius)
+#define MAY_DIFFER(frame, neighbour, radius, receiver)                                                         \
+  (is_near_marked(other_half_occluded, (neighbour).frame, into_other(neighbour, position_of(frame, receiver)), \
+                  radius) |                                                                                    \
+   reaches_out_of_either(frame, neighbour, receiver))
+
+static inline mask reaches_out(Frame f, real x, real y, Reach reach) {
+  const real right = (scalar)(f.width - 1) - x, bottom = (scalar)(f.height - 1) - y;
+  // Asked so that what cannot be compared reaches out.
+  return !((smaller(x, right) >= reach.pixels_x) & (smaller(y, bottom) >= reach.pixels_y));
+}
+
+// Whether what lies around a point is cut off by the border of one image, which is not that of the other: what the two eyes find
+// there differs though nothing is half-occluded.
+static inline mask reaches_out_of_either(Frame frame, Neighbour neighbour, Receiver r) {
+  const Projection there = project_into(neighbour, position_of(frame, r), !r.point.background);
+  return !r.point.background & (reaches_out(frame, r.point.x, r.point.y, r.reach) |
+                                (there.is_seen & reaches_out(neighbour.frame, there.x, there.y, r.reach)));
+}
 #else
 #define HALF_OCCLUDED_ARGUMENT
 #define MAY_DIFFER(frame, neighbour, radius, receiver) EVERY_LANE

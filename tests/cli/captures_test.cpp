@@ -58,6 +58,22 @@ TEST_F(CaptureCli, BothEyesOfTheApartment) {
   }
 }
 
+/// Straight-edged patches stood there, as wide as the radius, along the borders of the images.
+TEST_F(CaptureCli, EyesLookTwiceWhereTheRadiusReachesOverTheBorder) {
+  const fs::path frame = captures / "apartment_stereo/apartment_stereo_exact.exr";
+  for (const char* primary : {"left", "right"}) {
+    for (const char* where : {"near", "everywhere"}) {
+      ASSERT_EQ(gloam({"run", "stereo-ao", frame, "-o", path(std::string(where) + ".exr"), "--radius", "0.4", "--set",
+                       std::string("primary=") + primary, "--set", std::string("other_eye=") + where})
+                    .status,
+                0);
+    }
+    const Json figures = gloam({"compare", path("near.exr"), path("everywhere.exr"), "--json", "-"}).json();
+    EXPECT_LT(figures["max"], 0.05) << primary;
+    EXPECT_EQ(figures["over_0_05"], 0) << primary;
+  }
+}
+
 TEST_F(CaptureCli, AnEyeThatIsOnlyAssumedIsSaid) {
   const fs::path folder = captures / "apartment_stereo";
   fs::copy_file(folder / "apartment_stereo_ao_ref_right.exr", path("truth.exr"));
