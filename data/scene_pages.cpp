@@ -150,15 +150,6 @@ std::string page(const std::vector<Figures>& all) {
   return text;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  write_atomically(path, [&](const fs::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw Error("{}: cannot be written", path.string());
-  });
-}
-
 /// Puts the table between the markers of a page that people write.
 void renew_table(const fs::path& path, const std::string& table) {
   const std::string begin = "<!-- scenes -->\n", end = "<!-- /scenes -->";

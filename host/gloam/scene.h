@@ -114,6 +114,10 @@ const SceneRecipe* find_builtin_scene(const std::string& name);
 /// out of range; Error as `import_scene` does.
 Scene load_scene(const std::string& name_or_path, const std::vector<std::pair<std::string, std::string>>& settings);
 
+/// How far from a scene's origin, along each axis, vertices and the starts of rays may lie: Embree computes in float, and ends the
+/// program beyond.
+inline constexpr double farthest_traced = 1e18;
+
 /// Throws Error for a scene that no ray can be traced in: no triangle, an index out of range, a position or normal that is not
 /// finite, no camera, 2^24 meshes or more.
 void check(const Scene& scene);

@@ -1,11 +1,13 @@
 // Scenes from files, by assimp: meshes in place, cameras, and what was mended or left out.
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -13,6 +15,7 @@
 #include <glm/mat4x4.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "gloam/error.h"
@@ -21,6 +24,7 @@
 #include "gltf_json.h"
 #include "import_materials.h"
 #include "import_meshes.h"
+#include "obj_text.h"
 
 namespace gloam {
 namespace {
@@ -62,18 +66,64 @@ bool begins_with_material(const fs::path& mtl) {
   return !file || first == "newmtl";
 }
 
-/// Opens files for assimp, and remembers which .mtl files were of use: assimp goes on without, and says nothing.
+std::string ending_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return ending;
+}
+
+/// Text that assimp reads in place of a file's.
+class TextStream : public Assimp::MemoryIOStream {
+ public:
+  static TextStream* of(const std::string& text) {
+    auto* bytes = new uint8_t[text.size()];
+    std::copy(text.begin(), text.end(), bytes);
+    return new TextStream(bytes, text.size());
+  }
+
+ private:
+  TextStream(uint8_t* bytes, size_t size) : MemoryIOStream(bytes, size, true) {}
+};
+
+/// Opens files for assimp: OBJ and MTL in a form that it reads right, and buffers whose names have escapes. Remembers which .mtl
+/// files were of use, as assimp goes on without and says nothing, and what an OBJ holds.
 class Files : public Assimp::DefaultIOSystem {
  public:
+  bool Exists(const char* file) const override {
+    return fs::exists(file) || fs::exists(percent_decoded(file));  // assimp's own opens it, and waits for a pipe
+  }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    const fs::path path(file);
+    const fs::path path = fs::exists(file) ? std::string(file) : percent_decoded(file);
     if (!fs::is_directory(path)) check_regular(path);
-    const bool is_mtl = path.extension() == ".mtl";
-    Assimp::IOStream* stream = is_mtl && !begins_with_material(path) ? nullptr : DefaultIOSystem::Open(file, mode);
-    if (is_mtl) (stream ? found : missing).push_back(path.filename().string());
+    const std::string ending = ending_of(path);
+    if (ending == ".mtl") return open_mtl(path);
+    Assimp::IOStream* stream = ending == ".obj" ? open_obj(path) : DefaultIOSystem::Open(path.c_str(), mode);
     return stream ? new EndingStream(stream) : nullptr;
   }
-  std::vector<std::string> found, missing;
+  std::vector<std::string> found, missing, left_out;
+  std::optional<size_t> faces;  ///< of an OBJ file
+  std::string why_not;          ///< an OBJ file cannot be read
+
+ private:
+  Assimp::IOStream* open_obj(const fs::path& path) {
+    if (!fs::exists(path)) return nullptr;
+    try {
+      const ObjText obj = readable_obj(read_text(path), path.string());
+      faces = obj.faces;
+      return obj.text.empty() ? nullptr : TextStream::of(obj.text);
+    } catch (const Error& error) {  // assimp would keep it to itself
+      why_not = error.what();
+      return nullptr;
+    }
+  }
+  Assimp::IOStream* open_mtl(const fs::path& path) {
+    const bool is_usable = begins_with_material(path) && fs::exists(path);
+    (is_usable ? found : missing).push_back(path.filename().string());
+    if (!is_usable) return nullptr;
+    const MtlText mtl = readable_mtl(read_text(path));
+    left_out.insert(left_out.end(), mtl.left_out.begin(), mtl.left_out.end());
+    return mtl.text.empty() ? nullptr : new EndingStream(TextStream::of(mtl.text));
+  }
 };
 
 void check_file(const fs::path& path) {
@@ -119,11 +169,26 @@ void check_faces(const aiScene& scene, const fs::path& path) {
   }
 }
 
+/// What assimp does not understand of an OBJ file it passes over without a word.
+void check_understood(const aiScene& scene, size_t expected, const fs::path& path) {
+  size_t found = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    found += size_t(std::count_if(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
+                                  [](const aiFace& face) { return face.mNumIndices > 2; }));
+  }
+  if (found != expected)
+    throw Error("{}: has {} faces, and {} were understood; write it again as glTF or GLB", path.string(), expected,
+                found);
+}
+
 /// No smooth normals are made (missing ones mean flat faces) and no vertices joined.
-const aiScene& read(Assimp::Importer& importer, const fs::path& path, bool is_gltf) {
+const aiScene& read(Assimp::Importer& importer, const fs::path& path, bool is_gltf, const Files& files) {
   const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (!files.why_not.empty()) throw Error("{}", files.why_not);
   if (!scene || !scene->mRootNode) refuse(path, one_line(importer.GetErrorString()));
   check_faces(*scene, path);
+  if (files.faces) check_understood(*scene, *files.faces, path);
   // Of glTF it gets texture transforms with a rotation wrong: import_materials takes care of those.
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | (is_gltf ? 0u : aiProcess_TransformUVCoords));
   if (!scene) refuse(path, one_line(importer.GetErrorString()));
@@ -248,7 +313,7 @@ Scene imported(const fs::path& path) {
   Assimp::Importer importer;
   Files* files = new Files;
   importer.SetIOHandler(files);  // which owns it
-  const aiScene& from = read(importer, path, is_gltf);
+  const aiScene& from = read(importer, path, is_gltf, *files);
 
   Scene scene;
   scene.name = path.filename().string();
@@ -262,6 +327,11 @@ Scene imported(const fs::path& path) {
       scene.notes.push_back(
           fmt::format("material file '{}' is not there or does not begin with newmtl; its materials are plain", name));
   }
+  if (!files->left_out.empty())
+    scene.notes.push_back(
+        fmt::format("{} of the material files {} left out, as {} no number: {}",
+                    counted(files->left_out.size(), "statement"), files->left_out.size() == 1 ? "was" : "were",
+                    files->left_out.size() == 1 ? "its value is" : "their values are", enumerate(files->left_out)));
   const std::vector<UvUse> uv_uses = import_materials(from, path.parent_path(), gltf.emissive_strength, scene);
   Mended mended;
   add_meshes(instances, uv_uses, scene, mended);

@@ -45,17 +45,6 @@ float roughness_of_exponent(float exponent) { return std::pow(2 / (std::max(expo
 
 // --- Finding textures
 
-std::string percent_decoded(const std::string& uri) {
-  const auto hex = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
-  std::string result;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && hex(uri[i + 1]) && hex(uri[i + 2]);
-    result += escaped ? char(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-    if (escaped) i += 2;
-  }
-  return result;
-}
-
 /// The path as written, with its escapes decoded, and, for files that came from another machine, the name alone.
 fs::path find_file(const fs::path& folder, std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
@@ -295,6 +284,17 @@ void Importer::add_notes() {
 }
 
 }  // namespace
+
+std::string percent_decoded(const std::string& uri) {
+  const auto hex = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
+  std::string result;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && hex(uri[i + 1]) && hex(uri[i + 2]);
+    result += escaped ? char(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
+    if (escaped) i += 2;
+  }
+  return result;
+}
 
 glm::vec2 UvUse::operator()(const glm::dvec2& uv) const {
   const double c = std::cos(rotation), s = std::sin(rotation), u = scale.x * uv.x, v = scale.y * uv.y;

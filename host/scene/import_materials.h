@@ -23,6 +23,9 @@ struct UvUse {
   glm::vec2 operator()(const glm::dvec2& uv) const;
 };
 
+/// "my%20buffer.bin" as "my buffer.bin".
+std::string percent_decoded(const std::string& uri);
+
 /// Adds the materials (one for each of assimp's, in order, and a plain one after them), their textures and notes to
 /// `scene`. `emissive_strength` is a factor by the material's name. Returns the use of texture coordinates by material.
 std::vector<UvUse> import_materials(const aiScene& from, const std::filesystem::path& folder,

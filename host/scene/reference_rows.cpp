@@ -97,6 +97,7 @@ class RowsTracing {
       : tracer_(tracer), frame_(frame), options_(options) {
     result_.frame.display = frame.display;
     result_.frame.window = frame.window;
+    result_.frame.pixel_aspect = frame.pixel_aspect;
     result_.frame.assumed = frame.assumed;
     const Layout layout(frame.width(), frame.height());
     for (const View& view : frame.views) {

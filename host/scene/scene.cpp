@@ -26,6 +26,12 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
                 scene.materials.size());
   for (const glm::vec3& p : mesh.positions) {
     if (!finite(p)) throw Error("{}: mesh '{}' has a vertex that is not finite", scene.name, mesh.name);
+    const float most = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (double(most) > farthest_traced)
+      throw Error(
+          "{}: mesh '{}' has a vertex {:g} from the middle of the scene; up to {:g} is traced: scale the scene, or "
+          "leave the mesh out",
+          scene.name, mesh.name, most, farthest_traced);
   }
   for (const glm::vec3& n : mesh.normals) {
     if (!finite(n)) throw Error("{}: mesh '{}' has a normal that is not finite", scene.name, mesh.name);

@@ -203,6 +203,12 @@ std::optional<double> Tracer::Impl::start_of(const TracerRay& ray) const {
   const double length = glm::length(ray.direction), far_away = glm::length(ray.origin);
   if (!(length > 0 && std::isfinite(length) && std::isfinite(far_away)) || std::isnan(ray.near) || std::isnan(ray.far))
     throw Error("{}: a ray that is not finite cannot be traced; check the camera", scene.name);
+  if (far_away > farthest_traced || length > farthest_traced)
+    throw Error(
+        "{}: a ray starts {:g} from the middle of the scene; up to {:g} is traced: check the camera, and gloamOrigin "
+        "in "
+        "the frame's header",
+        scene.name, far_away, farthest_traced);
   const double middle = glm::dot(centre - ray.origin, ray.direction) / (length * length);
   const double entry = middle - 1.01 * extent / length;
   // From inside, and from near by, rays start where they start.

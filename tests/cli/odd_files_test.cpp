@@ -25,7 +25,7 @@ TEST_F(OddFiles, PipesAreRefusedAtOnce) {
       {"scene.obj", {"capture", path("scene.obj"), "-o", path("a.exr")}},
       {"scene.gltf", {"capture", path("scene.gltf"), "-o", path("a.exr")}},
       {"scene.glb", {"capture", path("scene.glb"), "-o", path("a.exr")}},
-      {"camera.json", {"info", loggia, "--camera", path("camera.json")}},
+      {"camera.json", {"run", "normals", loggia, "-o", path("a.exr"), "--camera", path("camera.json")}},
       {"display.json", {"capture", "plane", "-o", path("a.exr"), "--display", path("display.json")}},
       {"frame.exr", {"info", path("frame.exr")}}};
   for (const auto& [name, command] : commands) {
