@@ -1,7 +1,10 @@
 #include "gloam/stereo_pictures.h"
 
+#include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "gloam/error.h"
 #include "inconsistency_image.h"
@@ -29,6 +32,59 @@ std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& l
   return images;
 }
 
+// --- The legend
+
+constexpr int least_width = 320, margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
+const Style words{8, ink};
+
+/// A field of colours and what they mean.
+struct Key {
+  std::string text;
+  cv::Mat swatch;
+};
+
+cv::Mat plain_swatch(const cv::Scalar& colour) { return {swatch_height, swatch_width / 2, CV_8UC3, colour}; }
+
+std::vector<Key> keys_of(double magnify) {
+  cv::Mat scale(swatch_height, swatch_width, CV_8UC3);
+  for (int x = 0; x < scale.cols; ++x) scale.col(x).setTo(cv::Scalar::all(to_byte(double(x) / (scale.cols - 1))));
+  cv::Mat hidden = plain_swatch(toned(cv::Vec3b::all(255))), background = plain_swatch(background_tone);
+  hidden.colRange(0, hidden.cols / 2).setTo(cv::Scalar(toned(cv::Vec3b::all(0))));
+  hatch(background, cv::Mat(background.size(), CV_8UC1, cv::Scalar(255)), 1);
+  return {{fmt::format("difference between the eyes, 0 to {:.3g} (x {:g})", 1 / magnify, magnify), scale},
+          {"does not count: one eye alone sees it, or an edge", hidden},
+          {"no surface", background}};
+}
+
+/// Where each key stands: from left to right, in as many rows as that takes.
+std::vector<cv::Point> places_of(const std::vector<Key>& keys, int width) {
+  std::vector<cv::Point> places;
+  cv::Point at(margin, margin);
+  for (const Key& key : keys) {
+    const int needed = key.swatch.cols + 6 + int(text_width(key.text, words)) + 18;
+    if (at.x > margin && at.x + needed > width) at = {margin, at.y + row_height};
+    places.push_back(at);
+    at.x += needed;
+  }
+  return places;
+}
+
+cv::Mat with_legend(const cv::Mat& image, double magnify) {
+  const std::vector<Key> keys = keys_of(magnify);
+  const int width = std::max(image.cols, least_width);
+  const std::vector<cv::Point> places = places_of(keys, width);
+  cv::Mat sheet(image.rows + places.back().y + row_height, width, CV_8UC3, paper);
+  image.copyTo(sheet(cv::Rect({}, image.size())));
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const cv::Rect field(places[i] + cv::Point(0, image.rows), keys[i].swatch.size());
+    keys[i].swatch.copyTo(sheet(field));
+    cv::rectangle(sheet, field, rule, 1);
+    const double room = width - field.br().x - 6;
+    put_text(sheet, shortened(keys[i].text, room, words), {field.br().x + 6, field.br().y - 2}, words);
+  }
+  return sheet;
+}
+
 }  // namespace
 
 cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, double magnify) {
@@ -49,7 +105,7 @@ cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, doub
 
 void write_inconsistency_picture(const std::filesystem::path& path, const Plane& shown, const StereoErrors& errors,
                                  double magnify) {
-  write_png(path, inconsistency_image(shown, errors, magnify));
+  write_png(path, with_legend(inconsistency_image(shown, errors, magnify), magnify));
 }
 
 void write_anaglyph(const std::filesystem::path& path, const Plane& left, const Plane& right) {

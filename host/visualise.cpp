@@ -392,10 +392,22 @@ void write_difference_picture(const std::filesystem::path& path, const Plane& te
   write_png(path, sheet.canvas);
 }
 
-void write_picture(const std::filesystem::path& path, const Plane& plane) {
+void write_picture(const std::filesystem::path& path, const Plane& plane, const Plane* depth) {
   if (plane.channels.empty() || plane.channels[0].layout().count() <= 2 * size_t(Layout::guard))
     throw Error("{}: '{}' has no pixels to write", path.string(), plane.name);
-  write_png(path, image_of(plane));
+  cv::Mat image = image_of(plane);
+  if (depth && depth->channels[0].layout() == plane.channels[0].layout()) {
+    cv::Mat background(image.rows, image.cols, CV_8UC1);
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x)
+        background.at<unsigned char>(y, x) = is_background(depth->channels[0].at(x, y)) ? 255 : 0;
+    if (cv::countNonZero(background) > 0) {
+      image = coloured(plane);
+      image.setTo(background_tone, background);
+      hatch(image, background, 1);
+    }
+  }
+  write_png(path, image);
 }
 
 }  // namespace gloam

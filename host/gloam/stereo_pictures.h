@@ -9,8 +9,8 @@
 namespace gloam {
 
 /// The errors of one view as grey, black for none and white for 1 / `magnify` and more; pixels that do not count purple
-/// over `shown`, the plane compared (Shi, Billeter, Eisemann 2022, figure 9); background hatched. PNG of the image's
-/// size, written atomically.
+/// over `shown`, the plane compared (Shi, Billeter, Eisemann 2022, figure 9); background hatched. Under the image,
+/// which keeps its pixels, a legend on white; at least 320 pixels wide. PNG, written atomically.
 void write_inconsistency_picture(const std::filesystem::path& path, const Plane& shown, const StereoErrors& errors,
                                  double magnify);
 

@@ -34,8 +34,8 @@ void write_explanation(const std::filesystem::path& path, const View& view,
                        const std::vector<Explanation>& explanations);
 
 /// One plane as an 8-bit PNG: grey for one component (0..1), normals as 0.5 + 0.5 n, others clamped to 0..1 through
-/// sRGB.
-void write_picture(const std::filesystem::path& path, const Plane& plane);
+/// sRGB. `depth`, where given, tells where no surface is: hatched there, as nothing that is open is.
+void write_picture(const std::filesystem::path& path, const Plane& plane, const Plane* depth = nullptr);
 
 /// All planes of a frame as small pictures on one sheet, each under its name and the range of its values.
 struct ContactSheet {

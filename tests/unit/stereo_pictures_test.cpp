@@ -33,8 +33,19 @@ TEST_F(StereoPictures, ErrorsAreMagnifiedGreyAndWhatDoesNotCountIsPurpleOverTheP
   const Plane ao = plane_of("ao", 7, 1, {[](int x, int) { return x == 4 ? 0.0f : 1.0f; }});
   write_inconsistency_picture(path, ao, errors, 20);
   const Picture picture = read_png(path);
-  ASSERT_EQ(picture.width, 7);
-  ASSERT_EQ(picture.height, 1);
+  // The image, and a legend under it: the scale from black to white, purple, and hatching.
+  ASSERT_EQ(picture.width, 320);
+  ASSERT_GT(picture.height, 1 + 3 * 12);
+  int purple_pixels = 0, dark_pixels = 0;
+  for (int y = 1; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const Pixel p = picture.at(x, y);
+      purple_pixels += p.r > p.g + 20 && p.b > p.g + 20;
+      dark_pixels += p.r < 100 && p.r == p.g && p.g == p.b;
+    }
+  }
+  EXPECT_GT(purple_pixels, 200);
+  EXPECT_GT(dark_pixels, 200);
   EXPECT_EQ(picture.at(0, 0), (Pixel{0, 0, 0}));
   EXPECT_EQ(picture.at(1, 0), (Pixel{100, 100, 100}));
   EXPECT_EQ(picture.at(2, 0), (Pixel{255, 255, 255}));
