@@ -408,8 +408,17 @@ glm::dmat4 camera_to_ndc(const Imath::M44d& world_to_ndc, const Pose& pose) {
 
 [[noreturn]] void refuse_ndc(const char* fault) { throw Error("worldToNDC: {}", fault); }
 
+/// What a writer's normalised device coordinates are: OpenEXR's 0 to 1 and y down, or with y up, from 0 or from -1.
+enum class NdcRange { y_down, y_up, symmetric_y_up };
+
+/// By where the principal point lies: `x`, `y` in NDC. Of a camera that is not shifted it is the middle of the range.
+NdcRange range_of(bool y_grows_up, double x, double y) {
+  if (!y_grows_up) return NdcRange::y_down;
+  return std::hypot(x, y) / 2 < std::hypot(x - 0.5, y - 0.5) ? NdcRange::symmetric_y_up : NdcRange::y_up;
+}
+
 /// Intrinsics from `p` = camera to NDC, where p[i][j] is what camera axis i (3: the constant) adds to x, y, z, w.
-Camera intrinsics_from_ndc(const glm::dmat4& p, const Window& display, double camera_distance) {
+Camera intrinsics_from_ndc(const glm::dmat4& p, const Window& display, double camera_distance, NdcRange& range) {
   const double slope_x = std::hypot(p[0][0], p[1][0]), slope_y = std::hypot(p[0][1], p[1][1]);
   if (!(slope_x > 0 && slope_y > 0)) refuse_ndc("is singular: it flattens the image");
   // How fast w grows along an axis, against x: 2 tan(fov / 2) for a perspective, 0 for an orthographic camera. No
@@ -430,15 +439,36 @@ Camera intrinsics_from_ndc(const glm::dmat4& p, const Window& display, double ca
     refuse_ndc("has its centre of projection away from the origin of worldToCamera");
   Camera camera;
   camera.orthographic = orthographic;
-  camera.fx = display.width() * p[0][0] / w;
-  camera.fy = -display.height() * p[1][1] / w;
-  camera.cx = display.x0 + display.width() * p[source][0] / w;
-  camera.cy = display.y0 + display.height() * p[source][1] / w;
-  if (camera.fx < 0 && camera.fy < 0)
-    refuse_ndc("looks along -z of worldToCamera, and OpenEXR's camera space looks along +z");
-  if (!(camera.fx > 0 && camera.fy > 0)) refuse_ndc("mirrors the image: x has to grow to the right and y downwards");
+  const double x = p[source][0] / w, y = p[source][1] / w;
+  range = range_of(p[1][1] / w > 0, x, y);
+  const bool is_symmetric = range == NdcRange::symmetric_y_up;
+  const double scale = is_symmetric ? 0.5 : 1, zero = is_symmetric ? 0.5 : 0;
+  const double down = range == NdcRange::y_down ? 1 : -1;
+  camera.fx = display.width() * scale * p[0][0] / w;
+  camera.fy = -down * display.height() * scale * p[1][1] / w;
+  camera.cx = display.x0 + display.width() * (zero + scale * x);
+  camera.cy = display.y0 + display.height() * (down > 0 ? y : 1 - zero - scale * y);
+  if (!(camera.fx > 0 && camera.fy > 0)) refuse_ndc("mirrors the image: x has to grow to the right");
   if (!std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy)) refuse_ndc("has a w too small for its image");
   return camera;
+}
+
+/// Whatever a matrix is scaled by, x has to grow to the right of what is seen: where it does so along -z alone, that is where the
+/// camera looks. Of an orthographic camera z tells, and only where y grows up, which OpenEXR's own form does not.
+bool looks_along_minus_z(const glm::dmat4& p) {
+  const double slope_x = std::hypot(p[0][0], p[1][0]);
+  if (std::abs(p[2][3]) >= 1e-5 * slope_x) return p[0][0] / p[2][3] < 0;
+  return p[1][1] / p[3][3] > 0 && p[2][2] / p[3][3] < 0;
+}
+
+void note_form(NdcRange range, bool looks_back, std::vector<std::string>& assumed) {
+  if (range == NdcRange::y_down && !looks_back) return;
+  std::string form;
+  if (range == NdcRange::symmetric_y_up) form = "worldToNDC as -1 to 1, y up";
+  if (range == NdcRange::y_up) form = "worldToNDC as 0 to 1, y up";
+  if (looks_back) form += std::string(form.empty() ? "" : ", and ") + "worldToCamera as looking along -z";
+  const std::string sentence = fmt::format("camera: the header's matrices tell their form: {}", form);
+  if (std::find(assumed.begin(), assumed.end(), sentence) == assumed.end()) assumed.push_back(sentence);
 }
 
 /// NDC z is 0 at near and 1 at far. Where they are not known any invertible choice will do: nothing reads it back.
@@ -572,12 +602,22 @@ Pose pose_from_matrix(const Imath::M44d& world_to_camera, const glm::dvec3& orig
 }
 
 Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44d& world_to_ndc, const Window& display,
-                            const glm::dvec3& origin) {
+                            const glm::dvec3& origin, std::vector<std::string>* assumed) {
   require_finite(world_to_camera, "worldToCamera");
   require_finite(world_to_ndc, "worldToNDC");
   Pose pose = pose_from_header(world_to_camera);
-  const glm::dmat4 projection = camera_to_ndc(world_to_ndc, pose);
-  Camera camera = intrinsics_from_ndc(projection, display, glm::length(pose.position));
+  glm::dmat4 projection = camera_to_ndc(world_to_ndc, pose);
+  const bool looks_back = looks_along_minus_z(projection);
+  if (looks_back) {
+    pose.world_to_view = flip_z * pose.world_to_view;
+    projection = camera_to_ndc(world_to_ndc, pose);
+  }
+  NdcRange range;
+  Camera camera = intrinsics_from_ndc(projection, display, glm::length(pose.position), range);
+  // OpenEXR's own form, mirrored, looks the same.
+  if (looks_back && !camera.orthographic && range == NdcRange::y_up)
+    refuse_ndc("mirrors the image: x has to grow to the right");
+  if (assumed) note_form(range, looks_back, *assumed);
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(origin[i])) throw Error("gloamOrigin: component {} is not finite", i);
   pose.position += origin;
@@ -607,11 +647,12 @@ CameraMatrices matrices_of(const Camera& camera, const Window& display) {
   return {rows_of(world_to_camera), rows_of(projection * world_to_camera), pose.position};
 }
 
-Camera camera_from_fov(double degrees, const Window& display, const std::string& source) {
+Camera camera_from_fov(double degrees, const Window& display, double pixel_aspect, const std::string& source) {
   if (!(degrees >= 1 && degrees <= 179))
     throw UsageError("field of view of {:g} degrees ({}): must be 1 to 179", degrees, source);
   Camera camera;
-  camera.fx = camera.fy = display.width() / 2.0 / std::tan(degrees * std::numbers::pi / 360);
+  camera.fx = display.width() / 2.0 / std::tan(degrees * std::numbers::pi / 360);
+  camera.fy = camera.fx * pixel_aspect;  // lower pixels: more of them on the same length
   camera.cx = (display.x0 + display.x1) / 2.0;
   camera.cy = (display.y0 + display.y1) / 2.0;
   camera.source = source;

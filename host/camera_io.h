@@ -40,16 +40,18 @@ std::vector<Camera> read_camera_path(const std::filesystem::path& file, const Wi
 
 /// The camera that OpenEXR's standard attributes describe: `world_to_camera` left-handed looking along +z,
 /// `world_to_ndc` to [0,1] over the display window, y down, both for row vectors (Imath); `origin` (gloamOrigin) is
-/// what they are relative to.
+/// what they are relative to. Two other forms are told by the matrices themselves and read as well, with a sentence to `assumed`:
+/// `world_to_ndc` with y up, to [-1,1] as Arnold writes it or to [0,1], whichever has the principal point nearer to the middle
+/// of the image; and `world_to_camera` that looks along -z.
 ///
 /// A right-handed world makes `world_to_camera` a mirror (determinant -1) and the pose a rotation. A left-handed world
 /// (determinant +1) is kept as it is: the pose then mirrors, and world-space positions and normals still come out right
 /// in gloam's right-handed view space. Near and far are not read: OpenEXR gives z no meaning in NDC.
 ///
 /// Throws Error naming the matrix that is singular, not finite, scaled or sheared, or that mirrors, turns or tilts the
-/// image, looks along -z, or is an oblique projection.
+/// image, or is an oblique projection.
 Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44d& world_to_ndc, const Window& display,
-                            const glm::dvec3& origin);
+                            const glm::dvec3& origin, std::vector<std::string>* assumed = nullptr);
 
 /// The pose alone, for a header without `world_to_ndc`. Throws Error as `camera_from_matrices` does.
 Pose pose_from_matrix(const Imath::M44d& world_to_camera, const glm::dvec3& origin);
@@ -62,8 +64,8 @@ struct CameraMatrices {
 };
 CameraMatrices matrices_of(const Camera& camera, const Window& display);
 
-/// A camera with the given horizontal field of view over the display window, square pixels, centred, without a pose.
-/// Throws UsageError unless 1 to 179 degrees.
-Camera camera_from_fov(double degrees, const Window& display, const std::string& source);
+/// A camera with the given horizontal field of view over the display window, centred, without a pose. `pixel_aspect`: width of
+/// a pixel over its height. Throws UsageError unless 1 to 179 degrees.
+Camera camera_from_fov(double degrees, const Window& display, double pixel_aspect, const std::string& source);
 
 }  // namespace gloam

@@ -263,18 +263,21 @@ Entry entry_of(const FileChannel& channel, const std::vector<std::string>& multi
   Entry entry{&channel, channel.part_view, !channel.part_view.empty(), "", component};
   if (entry.named && !pieces.empty() && pieces.back() == entry.view) pieces.pop_back();
   if (!entry.named && !multi_view.empty()) {
-    auto is_view = [&](const std::string& piece) {
-      return std::find(multi_view.begin(), multi_view.end(), piece) != multi_view.end();
-    };
     entry.view = multi_view.front();
-    if (!pieces.empty() && is_view(pieces.back())) {
-      entry.view = pieces.back();
-      entry.named = true;
-      pieces.pop_back();
-    } else if (!pieces.empty() && is_view(pieces.front())) {
-      entry.view = pieces.front();
-      entry.named = true;
-      pieces.erase(pieces.begin());
+    // The longest first, as a view's name may have dots, and end as another's does.
+    std::vector<std::string> views = multi_view;
+    std::stable_sort(views.begin(), views.end(),
+                     [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+    for (const bool at_end : {true, false}) {
+      for (const std::string& view : views) {
+        const std::vector<std::string> words = split(view, '.');
+        if (entry.named || words.size() > pieces.size()) continue;
+        const auto from = at_end ? pieces.end() - std::ptrdiff_t(words.size()) : pieces.begin();
+        if (!std::equal(words.begin(), words.end(), from)) continue;
+        entry.view = view;
+        entry.named = true;
+        pieces.erase(from, from + std::ptrdiff_t(words.size()));
+      }
     }
   }
   entry.layer = join(pieces);
@@ -429,6 +432,13 @@ std::string shown(const Candidate& candidate) {
   return dot == std::string::npos ? name : name.substr(0, dot);
 }
 
+/// "Z" or "R,G,B"
+std::string names_of(const Candidate& candidate) {
+  std::string names;
+  for (const FileChannel* channel : candidate.channels) names += (names.empty() ? "" : ",") + channel->name;
+  return names;
+}
+
 std::string part_of(const Candidate& candidate) {
   const FileChannel& channel = *candidate.channels.front();
   return channel.part_name.empty() ? fmt::format("part {}", channel.part) : fmt::format("part '{}'", channel.part_name);
@@ -463,7 +473,10 @@ void note_tie(NamedPlanes& named, const std::string& plane, const std::vector<Ca
       std::string taken = fmt::format("'{}'", shown(best)), left = fmt::format("'{}'", shown(other));
       std::string name = shown(other);  // what --plane knows the other by
       if (taken == left) {
-        name = other.channels.front()->part_name;
+        const FileChannel& channel = *other.channels.front();
+        const std::string part = channel.part_name.empty() ? std::to_string(channel.part) : channel.part_name;
+        const bool is_whole = other.layer->path.empty();
+        name = is_whole && !channel.part_name.empty() ? part : part + ":" + (is_whole ? names_of(other) : name);
         taken += " of " + part_of(best);
         left += " of " + part_of(other);
       }
@@ -556,9 +569,30 @@ std::vector<const FileChannel*> find_layer(const std::vector<Layer>& layers, con
   return {};
 }
 
+/// The part that "PART:CHANNEL" names, by its name or its number, and the rest; none where it names no part. Channels have colons
+/// in their names too.
+std::optional<std::pair<int, std::string>> part_in(const std::vector<Entry>& entries, const std::string& text) {
+  for (const Entry& entry : entries) {
+    for (const std::string& part : {entry.file->part_name, std::to_string(entry.file->part)}) {
+      if (!part.empty() && text.starts_with(part + ":"))
+        return std::pair(entry.file->part, text.substr(part.size() + 1));
+    }
+  }
+  return {};
+}
+
 /// What the user named for a plane, in one view; empty where this view has no such channel.
 std::vector<const FileChannel*> chosen(const std::vector<Layer>& layers, const std::vector<Entry>& entries,
                                        const PlaneKind& kind, const std::string& view, const std::string& text) {
+  if (const auto part = part_in(entries, text)) {
+    std::vector<Entry> its_entries;
+    std::vector<Layer> its_layers;
+    for (const Entry& entry : entries)
+      if (entry.file->part == part->first) its_entries.push_back(entry);
+    for (const Layer& layer : layers)
+      if (layer.part == part->first) its_layers.push_back(layer);
+    return chosen(its_layers, its_entries, kind, view, part->second);
+  }
   const std::vector<std::string> names = split(text, ',');
   std::vector<const FileChannel*> channels;
   for (const std::string& name : names)
@@ -663,6 +697,18 @@ void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std:
 }
 
 }  // namespace
+
+std::string eye_in_name(const std::string& part_name) {
+  std::string words = lower(part_name);
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return c == '_' || c == '-' || c == ' '; }, '.');
+  const std::vector<std::string> pieces = split(words, '.');
+  for (const auto& [eye, letter] : {std::pair("left", "l"), std::pair("right", "r")}) {
+    for (const std::string& piece : {pieces.front(), pieces.back()})
+      if (piece == eye || (pieces.size() > 1 && piece == letter)) return eye;
+  }
+  return "";
+}
 
 NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vector<std::string>& multi_view,
                         const NameOptions& options) {

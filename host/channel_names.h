@@ -18,6 +18,9 @@ struct FileChannel {
   std::string type;       ///< "half", "float" or "uint"
 };
 
+/// "left" or "right" where a part is called so, alone or beside other words: "right", "beauty.left", "depth_R"; else empty.
+std::string eye_in_name(const std::string& part_name);
+
 /// What the channel names of a file mean.
 struct NamedPlanes {
   std::vector<std::string> views;   ///< that hold channels or are asked for; one empty name where the file names none

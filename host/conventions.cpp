@@ -17,6 +17,8 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 /// What renderers write for "nothing here" starts at 1e10 (Blender), and no scene reaches it.
 constexpr float farthest = 1e10f;
+/// From here on positions leave the range of float, whatever the camera: never a surface.
+constexpr float beyond_reach = 1e20f;
 /// Depths that would turn denormal in any product are no depths; the bound is far below every scene's unit.
 constexpr float nearest = 1e-30f;
 
@@ -41,7 +43,7 @@ Background background_of(std::optional<float> value, std::optional<double> far) 
   Background background;
   if (value) {
     background.value = *value;
-    background.from = infinity;
+    background.from = beyond_reach;
   }
   if (far && std::isfinite(*far)) {
     background.far_low = float(*far * (1 - 2e-7));  // two roundings of float

@@ -41,6 +41,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double assumed_fov = 60;
+/// Width over height: beyond, a header's pixelAspectRatio is no statement about pixels.
+constexpr float narrowest_pixel = 0.01f;
 
 // --- Errors
 // -----------------------------------------------------------------------------------------------------------
@@ -149,7 +151,7 @@ std::optional<Camera> camera_in(const Imf::Header& header, const std::string& pr
                                 std::vector<std::string>& notes) {
   const auto to_camera = matrix(header, prefix + "worldToCamera"), to_ndc = matrix(header, prefix + "worldToNDC");
   if (!to_camera || !to_ndc) return {};
-  Camera camera = camera_from_matrices(*to_camera, *to_ndc, display, origin_in(header, prefix));
+  Camera camera = camera_from_matrices(*to_camera, *to_ndc, display, origin_in(header, prefix), &notes);
   camera.source = printable(text(header, prefix + "gloamCamera"));
   if (camera.source.empty()) camera.source = "header";
   // gloam writes matrices for a camera whose place is unknown too; they must not come back as knowledge.
@@ -306,8 +308,11 @@ struct FrameFile::Impl {
   std::unique_ptr<Imf::MultiPartInputFile> file;
   Window display, window;
   NamedPlanes names;
+  std::vector<std::string> part_views;  // by the attribute `view`, else by the parts' names; "" where nothing tells
   std::vector<std::string> channel_names;
-  std::map<std::string, Camera> cameras, modules;
+  double pixel_aspect = 1;
+  std::map<std::string, Camera> cameras, modules, from_json;
+  bool json_read = false;
   std::map<std::string, Pose> poses;  // of views whose header tells the pose and nothing else
   std::string json_name;              // of the camera JSON that was read
   bool json_is_shared = false;        // it is that of the other eye's file too
@@ -325,6 +330,8 @@ struct FrameFile::Impl {
   void set_window(const Box& box);
   void become(const Eye& as);
   void find_cameras();
+  void name_parts();
+  std::string view_of_part(int part) const { return part_views[size_t(part)]; }
   std::vector<FileChannel> list_channels() const;
   std::vector<std::string> multi_view() const;
   const Imf::Header& header_of(const std::string& view) const;
@@ -335,6 +342,9 @@ struct FrameFile::Impl {
   std::optional<Pose> header_pose(const std::string& view);
   std::map<std::string, Camera> json_cameras();
   std::optional<Camera> json_camera(const std::map<std::string, Camera>& from_json, const std::string& view);
+  std::optional<Camera> known_camera(const std::string& view, std::optional<Pose>& pose);
+  template <typename Find>
+  void passing_over(bool is_allowed, const Find& find);
   const PlaneSource* source(const std::string& plane, const std::string& view) const;
   bool has(const std::string& plane, const std::string& view) const;
   std::string any_text(const std::string& name) const;
@@ -375,13 +385,28 @@ void FrameFile::Impl::check_parts() const {
   }
 }
 
+/// Which view a part belongs to. Names tell where no part has the attribute, and both eyes have parts: "left", "beauty_right".
+void FrameFile::Impl::name_parts() {
+  std::vector<std::string> eyes;
+  bool is_said = !multi_view().empty();
+  for (int part = 0; part < file->parts(); ++part) {
+    const Imf::Header& header = file->header(part);
+    is_said = is_said || header.hasView();
+    part_views.push_back(header.hasView() ? header.view() : "");
+    eyes.push_back(header.hasName() ? eye_in_name(header.name()) : "");
+  }
+  if (is_said || !contains(eyes, "left") || !contains(eyes, "right")) return;
+  part_views = eyes;
+  camera_notes.push_back("views: left and right are taken from the names of the parts");
+}
+
 std::vector<FileChannel> FrameFile::Impl::list_channels() const {
   std::vector<FileChannel> channels;
   for (int part = 0; part < file->parts(); ++part) {
     const Imf::Header& header = file->header(part);
-    const std::string view = header.hasView() ? header.view() : "", name = header.hasName() ? header.name() : "";
+    const std::string name = header.hasName() ? header.name() : "";
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
-      channels.push_back({part, view, name, c.name(), type_name(c.channel().type)});
+      channels.push_back({part, view_of_part(part), name, c.name(), type_name(c.channel().type)});
   }
   return channels;
 }
@@ -393,6 +418,7 @@ std::vector<std::string> FrameFile::Impl::multi_view() const {
 }
 
 void FrameFile::Impl::find_planes() {
+  name_parts();
   const std::vector<FileChannel> channels = list_channels();
   channel_names.clear();
   for (const FileChannel& channel : channels) channel_names.push_back(channel.name);
@@ -406,6 +432,11 @@ void FrameFile::Impl::find_planes() {
 void FrameFile::Impl::find_window() {
   Box box = box_of(file->header(0).displayWindow());
   display = window_of(box);
+  const float aspect = file->header(0).pixelAspectRatio();
+  if (aspect >= narrowest_pixel && aspect <= 1 / narrowest_pixel)
+    pixel_aspect = double(aspect);
+  else
+    camera_notes.push_back(fmt::format("camera: pixelAspectRatio {:g} in the header cannot be; 1 is taken", aspect));
   for (const PlaneSource& plane : names.planes)
     for (const ChannelSource& channel : plane.channels)
       box = united(box, box_of(file->header(channel.part).dataWindow()));
@@ -425,7 +456,7 @@ void FrameFile::Impl::set_window(const Box& box) {
 /// The header that speaks for a view: that of the first part of this view, else the first.
 const Imf::Header& FrameFile::Impl::header_of(const std::string& view) const {
   for (int part = 0; part < file->parts(); ++part)
-    if (const Imf::Header& header = file->header(part); header.hasView() && header.view() == view) return header;
+    if (!view.empty() && view_of_part(part) == view) return file->header(part);
   return file->header(0);
 }
 
@@ -437,10 +468,11 @@ auto FrameFile::Impl::in_headers(const std::string& view, const Found& found) co
     const Imf::Header& header = file->header(part);
     if (!view.empty())
       if (Result result = found(header, view + ".")) return result;
-    if (header.hasView() && header.view() != view) continue;
+    const std::string own = view_of_part(part);
+    if (!own.empty() && own != view) continue;
     // Matrices without a view's name are those of the part's view, or of the default view.
     const std::vector<std::string> views = multi_view();
-    if (!header.hasView() && !views.empty() && views.front() != view) continue;
+    if (own.empty() && !views.empty() && views.front() != view) continue;
     if (Result result = found(header, "")) return result;
   }
   return Result{};
@@ -512,26 +544,53 @@ std::optional<Camera> FrameFile::Impl::json_camera(const std::map<std::string, C
   return {};
 }
 
-void FrameFile::Impl::find_cameras() {
-  std::map<std::string, Camera> from_json;
-  bool json_read = false;
-  for (const std::string& view : names.views) {
-    std::optional<Camera> camera;
-    std::optional<Pose> pose;
-    if (options.camera_file.empty())
+/// By header, else by JSON.
+std::optional<Camera> FrameFile::Impl::known_camera(const std::string& view, std::optional<Pose>& pose) {
+  std::optional<Camera> camera;
+  if (options.camera_file.empty()) {
+    // A flag is there to overrule what the file says, also where that is no camera.
+    passing_over(options.fov_degrees || options.only_looks, [&] {
       named(path, [&] {
         guarded(path, [&] {
           camera = header_camera(view);
           if (!camera) pose = header_pose(view);
         });
       });
-    if (!camera) {
+    });
+  }
+  if (!camera) {
+    const bool is_asked_for = !options.camera_file.empty();
+    passing_over(options.only_looks || (options.fov_degrees && !is_asked_for), [&] {
       if (!std::exchange(json_read, true)) from_json = json_cameras();
       camera = json_camera(from_json, view);
-    }
-    if (camera && pose) camera->pose = pose;
+    });
+  }
+  if (camera && pose) camera->pose = pose;
+  return camera;
+}
+
+/// Where it is allowed to, an Error of `find` becomes a note.
+template <typename Find>
+void FrameFile::Impl::passing_over(bool is_allowed, const Find& find) {
+  try {
+    find();
+  } catch (const Error& error) {
+    if (!is_allowed && options.camera_file.empty()) throw Error("{}; --fov or --camera tells another", error.what());
+    if (!is_allowed) throw;
+    const char* instead =
+        options.fov_degrees ? "--fov takes its place" : "gloam run refuses it; --fov or --camera tell another";
+    append_new(camera_notes, {fmt::format("camera: {}: not used; {}", error.what(), instead)});
+  }
+}
+
+void FrameFile::Impl::find_cameras() {
+  from_json.clear();
+  json_read = false;
+  for (const std::string& view : names.views) {
+    std::optional<Pose> pose;
+    std::optional<Camera> camera = known_camera(view, pose);
     if (options.fov_degrees) {
-      Camera flagged = camera_from_fov(*options.fov_degrees, display, "--fov");
+      Camera flagged = camera_from_fov(*options.fov_degrees, display, pixel_aspect, "--fov");
       flagged.pose = pose;
       if (camera) flagged.pose = camera->pose, flagged.near = camera->near, flagged.far = camera->far;
       camera = flagged;
@@ -577,6 +636,7 @@ Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes) const {
   Frame frame;
   frame.display = display;
   frame.window = window;
+  frame.pixel_aspect = pixel_aspect;
   const Layout layout(window.width(), window.height());
   for (const std::string& name : names.views) {
     View& view = frame.views.emplace_back();
@@ -632,7 +692,7 @@ void FrameFile::Impl::decode(Frame& frame) {
 /// Gives the view a camera where none is known, and says so where it matters.
 void FrameFile::Impl::settle_camera(View& view, Frame& frame) const {
   if (view.camera) return;
-  view.camera = camera_from_fov(assumed_fov, display, "assumed 60 degrees");
+  view.camera = camera_from_fov(assumed_fov, display, pixel_aspect, "assumed 60 degrees");
   view.camera->near = options.near;
   view.camera->far = options.far;
   const auto pose = poses.find(view.name);
@@ -792,6 +852,7 @@ std::optional<double> FrameFile::number_attribute(const std::string& name) const
 }
 std::string FrameFile::text_attribute(const std::string& name) const { return impl_->any_text(name); }
 std::string FrameFile::normal_space() const { return impl_->space; }
+const std::vector<std::string>& FrameFile::camera_notes() const { return impl_->camera_notes; }
 
 void FrameFile::verify() {
   std::set<std::pair<int, std::string>> decoded;

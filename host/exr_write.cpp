@@ -162,6 +162,7 @@ Imf::Header header_of(const Frame& frame, const std::vector<Output>& outputs, co
   Imf::Header header(box_of(frame.display), box_of(frame.window));
   header.compression() = compression_of(options.compression);
   header.zipCompressionLevel() = zip_level;
+  header.pixelAspectRatio() = float(frame.pixel_aspect);
   for (const Output& output : outputs) header.channels().insert(output.name, Imf::Channel(output.type));
   insert_views(header, frame);
   if (has_directions(frame)) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));

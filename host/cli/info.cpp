@@ -182,7 +182,7 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   fmt::print("{}: {} x {}", printable(file.path().string()), display.width(), display.height());
   if (window != display)
     fmt::print(", data to {} x {} at ({}, {})", window.width(), window.height(), window.x0, window.y0);
-  if (file.views().size() > 1 || !file.views()[0].empty()) fmt::print(", views {}", fmt::join(file.views(), ", "));
+  if (file.views().size() > 1 || !file.views()[0].empty()) fmt::print(", views {}", printable(fmt::format("{}", fmt::join(file.views(), ", "))));
   fmt::print("\n\n");
   std::vector<std::vector<std::string>> rows = {
       {"plane", "view", "channels", "type", "min", "max", "mean", "not finite"}};
@@ -199,7 +199,7 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   if (!unread.empty()) fmt::print("not read: {}\n", printable(first_names(unread)));
   fmt::print("\n");
   for (const auto& [view, camera] : document["cameras"].items())
-    fmt::print("camera {}{}\n", view.empty() ? "" : "of " + view + ": ", camera_line(camera));
+    fmt::print("camera {}{}\n", view.empty() ? "" : "of " + printable(view) + ": ", camera_line(camera));
   if (!document["depth_convention"].is_null()) {
     fmt::print("depth  {}, background {:.2f} %\n", document["depth_convention"].get<std::string>(),
                100 * document["background_share"].get<double>());
@@ -263,6 +263,7 @@ void print_written(const std::vector<std::string>& pictures) {
 void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   const std::string &path = flags.frame, &picture = flags.picture;
   ReadOptions options = flags.frame_flags.read_options();
+  options.only_looks = true;
   options.count_nonfinite = true;
   options.as_stored = true;
   FrameFile file(path, options);

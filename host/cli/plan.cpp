@@ -53,7 +53,10 @@ void add_plan(CLI::App& app) {
   command->callback([flags] {
     check_paths(flags->frame.inputs(), {{"--json", flags->json.file()}});
     PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
-    FrameFiles files = flags->frame.open(flags->frame_flags.read_options());
+    ReadOptions options = flags->frame_flags.read_options();
+    options.only_looks = true;
+    FrameFiles files = flags->frame.open(options);
+    for (const FrameFile& file : files.files()) note(file.camera_notes());
     Plan plan = plan_for(files, request);
     const std::vector<std::string> decoded = decoded_channels(plan.inputs, files);
     const std::optional<RadiusReport> radius = radius_of_depth(request, plan, files);

@@ -21,6 +21,8 @@ enum class NormalSpace { automatic, view, world };
 struct ReadOptions {
   std::filesystem::path camera_file;  ///< --camera
   std::optional<double> fov_degrees;  ///< --fov: horizontal, 1 to 179
+  /// A camera that cannot be used becomes a note, and none is known: for commands that only look at a frame.
+  bool only_looks = false;
   DepthConvention depth = DepthConvention::automatic;
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: the value that means background, instead of 1e10 and more
@@ -81,6 +83,9 @@ class FrameFile {
   std::string why_missing(const std::string& plane) const;
   /// The file lists several views, names none in its channels, and is read as the first as --view does not say which.
   bool view_is_assumed() const;
+  /// What the headers and the camera file leave to be assumed or said of cameras and views, a sentence each: part of
+  /// `Frame::assumed` of what is read.
+  const std::vector<std::string>& camera_notes() const;
   /// Every channel of the file, for messages about what it does hold.
   std::vector<std::string> all_channels() const;
   /// The camera of a view; none when neither flags, header nor a JSON give one.

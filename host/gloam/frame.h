@@ -89,6 +89,7 @@ struct Frame {
   Window display;  ///< what the camera frames
   Window window;   ///< what the planes cover: the display window and whatever data lies outside it
   std::vector<View> views;
+  double pixel_aspect = 1;  ///< width of a pixel over its height, as the file says (pixelAspectRatio)
   std::map<std::string, std::string> attributes;  ///< text that goes into the header: what made the planes
   std::map<std::string, double> numbers;          ///< floats that go into the header: aoRadius ...
   std::vector<std::string> assumed;               ///< one sentence for each thing that was not said by file or flag

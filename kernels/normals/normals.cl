@@ -39,7 +39,10 @@ kernel void normals(Frame frame, PLANE depth, PLANE_OUT normal_x, PLANE_OUT norm
   const real a = slope(frame, p, z, right, left, p.across_x);
   const real b = slope(frame, p, z, above, below, p.across_y);
   const real3 r = view_ray(frame, p.x, p.y);
-  const real3 n = normalise3(make3(a, b, 1 + a * r.x + b * r.y));
+  const real3 sum = make3(a, b, 1 + a * r.x + b * r.y);
+  // Where the rays of neighbours are far apart, the squares would overflow.
+  const real largest = larger(larger(fabs(a), fabs(b)), fabs(sum.z));
+  const real3 n = normalise3(scale3(sum, choose(largest > (scalar)1e15f, 1 / largest, (real)(1))));
   const real sign = choose(p.background, (real)(0), (real)(1));
   store(n.x * sign, normal_x, here);
   store(n.y * sign, normal_y, here);

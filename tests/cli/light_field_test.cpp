@@ -292,7 +292,7 @@ TEST_F(Display, AnOldFileTakesItsDisplayFromAFlag) {
                                file("placed.json"), "--radius", "1"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NEAR(FrameFile(file("O.exr"), {}).camera("module03")->slits->module.x, 0.06, 1e-12);
-  expect_refused({"info", file("old.exr"), "--camera", file("small.json")}, 1,
+  expect_refused({"run", "normals", file("old.exr"), "-o", file("O.exr"), "--camera", file("small.json")}, 1,
                  {"small.json", "does not say which part of the world"});
 }
 
@@ -303,7 +303,7 @@ TEST_F(Display, ADamagedHeaderIsToldInOneLine) {
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, 10, "\"disdance\"");
   std::ofstream(path("F.exr"), std::ios::binary) << bytes;
-  expect_refused({"info", file("F.exr")}, 1,
+  expect_refused({"run", "normals", file("F.exr"), "-o", file("O.exr")}, 1,
                  {"F.exr: attribute gloamDisplay: observer.disdance is no field", "did you mean 'distance'"});
 }
 

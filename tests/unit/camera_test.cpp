@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -508,15 +509,59 @@ TEST(CameraFromMatrices, RefusedInOneLine) {
       {"worldToCamera", "scales by 100"});
   refused([](Imath::M44d&, Imath::M44d& n) { n = Imath::M44d(0.0); }, {"worldToNDC", "singular"});
   refused(with_projection({-1, 0, 0, 0, 0, -2, 0, 0, .5, .5, 1, 1, 0, 0, -.1, 0}), {"worldToNDC", "mirrors"});
-  refused(with_projection({1, 0, 0, 0, 0, 2, 0, 0, .5, .5, 1, 1, 0, 0, -.1, 0}), {"worldToNDC", "mirrors"});
-  refused(with_projection({1, 0, 0, 0, 0, -2, 0, 0, -.5, -.5, -1, -1, 0, 0, -.1, 0}), {"worldToNDC", "along -z"});
-  refused(with_projection({1, 0, 0, 0, 0, 2, 0, 0, -.5, -.5, -1, -1, 0, 0, -.1, 0}), {"worldToNDC", "mirrors"});
   refused(with_projection({1, .2, 0, 0, -.1, -2, 0, 0, .5, .5, 1, 1, 0, 0, -.1, 0}), {"worldToNDC", "shears or turns"});
   refused(with_projection({1, 0, 0, .1, 0, -2, 0, 0, .5, .5, 1, 1, 0, 0, -.1, 0}), {"worldToNDC", "tilts"});
   refused(with_projection({1, 0, 0, 0, 0, -2, 0, 0, .2, 0, 1, 0, .5, .5, 0, 1}), {"worldToNDC", "oblique"});
   refused(with_projection({1, 0, 0, 0, 0, -2, 0, 0, .5, .5, 1, 1, 0, 0, -.1, .2}),
           {"worldToNDC", "centre of projection"});
   expect_error([&] { camera_from_matrices(at_123, ndc_123, small, dvec3(0, nan, 0)); }, {"gloamOrigin"});
+}
+
+/// Row vectors: what is multiplied from the right comes after.
+const Imath::M44d looks_back(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
+const Imath::M44d y_up(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1);
+const Imath::M44d symmetric_y_up(2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, -1, 1, 0, 1);
+
+/// OpenEXR's own form, Arnold's, and the others that a writer may take: one camera.
+TEST(CameraFromMatrices, EveryFormTellsTheSameCamera) {
+  for (const bool orthographic : {false, true}) {
+    Camera camera;
+    camera.orthographic = orthographic;
+    camera.fx = orthographic ? 20 : 150;
+    camera.fy = orthographic ? 25 : 140;
+    camera.cx = 60;  // off the middle, (50, 25)
+    camera.cy = 20;
+    camera.near = 0.1;
+    camera.far = 100;
+    camera.pose = Pose{glm::dmat3(glm::rotate(glm::dmat4(1), 0.7, dvec3(1, 2, 3))), dvec3(4, 5, 6)};
+    const CameraMatrices own = matrices_of(camera, small);
+    const std::map<std::string, Imath::M44d> ranges = {
+        {"", Imath::M44d()}, {"worldToNDC as 0 to 1, y up", y_up}, {"worldToNDC as -1 to 1, y up", symmetric_y_up}};
+    for (const auto& [words, range] : ranges) {
+      for (const bool back : {false, true}) {
+        // Nothing but y tells where an orthographic camera of OpenEXR's own range looks; and from 0 to 1, y up and along -z, a
+        // perspective one is the same as OpenEXR's own, mirrored.
+        if (back && (orthographic ? words.empty() : words == "worldToNDC as 0 to 1, y up")) continue;
+        std::vector<std::string> assumed;
+        const Camera read = camera_from_matrices(back ? own.world_to_camera * looks_back : own.world_to_camera,
+                                                 own.world_to_ndc * range, small, own.origin, &assumed);
+        EXPECT_EQ(read.orthographic, orthographic);
+        EXPECT_NEAR(read.fx, camera.fx, 1e-9) << words << back;
+        EXPECT_NEAR(read.fy, camera.fy, 1e-9) << words << back;
+        EXPECT_NEAR(read.cx, camera.cx, 1e-9) << words << back;
+        EXPECT_NEAR(read.cy, camera.cy, 1e-9) << words << back;
+        expect_near(read.pose->position, camera.pose->position, 1e-9);
+        for (int i = 0; i < 3; ++i) expect_near(read.pose->world_to_view[i], camera.pose->world_to_view[i], 1e-9);
+        if (words.empty() && !back) {
+          EXPECT_TRUE(assumed.empty());
+          continue;
+        }
+        ASSERT_EQ(assumed.size(), 1u) << words << back;
+        EXPECT_NE(assumed[0].find(words), std::string::npos) << assumed[0];
+        EXPECT_EQ(assumed[0].find("along -z") != std::string::npos, back) << assumed[0];
+      }
+    }
+  }
 }
 
 // --- There and back
@@ -530,7 +575,7 @@ glm::dmat3 random_rotation(std::mt19937& random) {
 
 Camera random_camera(std::mt19937& random, const Window& display, const dvec3& position) {
   std::uniform_real_distribution<double> unit(0, 1);
-  Camera camera = camera_from_fov(1 + 178 * unit(random), display, "random");
+  Camera camera = camera_from_fov(1 + 178 * unit(random), display, 1, "random");
   camera.fy *= 0.5 + unit(random);
   camera.cx += (unit(random) - 0.5) * display.width();
   camera.cy += (unit(random) - 0.5) * display.height();
@@ -599,14 +644,14 @@ TEST(CameraMatrices, MatricesMapTheWorldAsOpenExrSaysItDoes) {
 }
 
 TEST(CameraFromFov, SquarePixelsCentred) {
-  const Camera camera = camera_from_fov(90, {10, 20, 210, 120}, "--fov");
+  const Camera camera = camera_from_fov(90, {10, 20, 210, 120}, 1, "--fov");
   EXPECT_NEAR(camera.fx, 100, 1e-12);
   EXPECT_EQ(camera.fx, camera.fy);
   EXPECT_EQ(camera.cx, 110);
   EXPECT_EQ(camera.cy, 70);
   EXPECT_FALSE(camera.pose);
   for (double degrees : {0.0, 0.5, 180.0, -90.0, nan})
-    EXPECT_THROW(camera_from_fov(degrees, hd, "--fov"), UsageError) << degrees;
+    EXPECT_THROW(camera_from_fov(degrees, hd, 1, "--fov"), UsageError) << degrees;
 }
 
 // --- Real frames

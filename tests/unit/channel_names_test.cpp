@@ -265,7 +265,7 @@ TEST(ChannelNames, TiesBetweenPartsNameTheParts) {
     return named.assumed.contains("depth") ? named.assumed.at("depth").front() : "";
   };
   EXPECT_EQ(sentence("a", "b"), "depth: 'Z' of part 'a' taken, not 'Z' of part 'b' (--plane depth=b chooses)");
-  EXPECT_EQ(sentence("", ""), "depth: 'Z' of part 0 taken, not 'Z' of part 1");
+  EXPECT_EQ(sentence("", ""), "depth: 'Z' of part 0 taken, not 'Z' of part 1 (--plane depth=1:Z chooses)");
   const auto chosen = name_planes({{0, "", "a", "Z", "float"}, {1, "", "b", "Z", "float"}}, {}, {{}, {{"depth", "b"}}});
   EXPECT_EQ(chosen.planes.at(0).channels.at(0).part, 1) << "as the sentence says";
 }

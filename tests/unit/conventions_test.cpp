@@ -186,7 +186,7 @@ TEST(Depth, RayLengthOfAWallOverAllFieldsOfView) {
   double worst = 0;
   for (double degrees : {1.0, 60.0, 120.0, 179.0}) {
     const Window window{0, 0, 640, 360};
-    Camera camera = camera_from_fov(degrees, window, "test");
+    Camera camera = camera_from_fov(degrees, window, 1, "test");
     camera.cx += 100;  // off-axis
     Channel depth = image(640, 360, [&](int x, int y) {
       const dvec3 direction((x + 0.5 - camera.cx) / camera.fx, (y + 0.5 - camera.cy) / camera.fy, 1);
@@ -302,7 +302,7 @@ TEST(Depth, ErrorOfEachEncodingIsStated) {
 /// A sphere of radius 3 at depth 10 before a wall that leans away, seen by a turned camera; one corner is background.
 struct Scene {
   Window window{0, 0, 320, 200};
-  Camera camera = camera_from_fov(60, window, "test");
+  Camera camera = camera_from_fov(60, window, 1, "test");
   Channel depth{Layout(320, 200), inf};
   Plane normal{"normal", {}};
 
