@@ -113,6 +113,7 @@ Json document_of(const SceneFacts& scene) {
                    {"radius_from", name_of(scene.radius.from)},
                    {"radius_pixels", scene.radius_pixels},
                    {"truth_noise", number(scene.truth_noise)},
+                   {"truth_rays", number(scene.truth_rays)},
                    {"truth_image", text_or_null(scene.truth_image)}};
   if (scene.traced) {
     document["made"] = scene.made;
@@ -203,12 +204,22 @@ Json origin_of(const DeviceInfo& device) {
           {"commit", commit}};
 }
 
-Json document_of(const Measurement& measurement, const MeasureOptions& options, int rays, const DeviceInfo& device) {
+/// Per pixel, of the truths; none where they differ, or one does not say.
+static std::optional<double> rays_of(const std::vector<SceneFacts>& scenes) {
+  std::optional<double> rays;
+  for (const SceneFacts& scene : scenes) {
+    if (!scene.truth_rays || (rays && *rays != *scene.truth_rays)) return {};
+    rays = scene.truth_rays;
+  }
+  return rays;
+}
+
+Json document_of(const Measurement& measurement, const MeasureOptions& options, const DeviceInfo& device) {
   Json results = Json::array();
   for (const auto& row : measurement.rows) results.push_back(document_of(*row));
   Json document = origin_of(device);
   document.update({{"rounds", options.rounds},
-                   {"rays", rays},
+                   {"rays", number(rays_of(measurement.scenes))},
                    {"scenes", list_of(measurement.scenes)},
                    {"results", results},
                    {"growth", list_of(measurement.growth)},

@@ -17,8 +17,7 @@ std::string cpu_model();
 /// What a document says of where it was measured: device, cpu, cores, driver, date, commit.
 Json origin_of(const DeviceInfo& device);
 
-/// `rays`: per pixel, of truths that are traced.
-Json document_of(const Measurement& measurement, const MeasureOptions& options, int rays, const DeviceInfo& device);
+Json document_of(const Measurement& measurement, const MeasureOptions& options, const DeviceInfo& device);
 
 /// Of a paper that was measured again: no results, but `paper`, `facts` and `pictures`.
 Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device);

@@ -75,6 +75,7 @@ class Session {
     facts.radius_pixels = median_reach(subject_.frame, subject_.radius.value);
     if (subject_.truth) {
       facts.truth_noise = subject_.truth->noise;
+      facts.truth_rays = subject_.truth->rays;
       try {
         facts.truth_image = picture("truth", subject_.truth->ao);
       } catch (const Error& error) {
@@ -173,7 +174,13 @@ class Session {
     std::error_code error;
     std::filesystem::create_directories(options_.folder / folder, error);
     if (error) throw Error("{}: cannot be made ({})", (options_.folder / folder).string(), error.message());
-    const View& view = subject_.frame.views.front();
+    // The first that both have, where the truth is of one view.
+    const auto is_known = [&](const View& v) {
+      return image.count(v.name) && (!subject_.truth || subject_.truth->ao.count(v.name));
+    };
+    const auto& views = subject_.frame.views;
+    const auto known = std::find_if(views.begin(), views.end(), is_known);
+    const View& view = known == views.end() ? views.front() : *known;
     write_share(options_.folder / path, image.at(view.name).channels[0], view.planes.at("depth").channels[0]);
     return path;
   }

@@ -65,7 +65,8 @@ struct SceneFacts {
   int width = 0, height = 0;
   Radius radius;
   double radius_pixels = 0;
-  std::optional<double> truth_noise;
+  std::optional<double> truth_noise,
+      truth_rays;           ///< RMS; per pixel, of a truth that was given as far as its header says
   std::string truth_image;  ///< below the folder; empty: none
   bool traced = false;      ///< the scene was at hand
   std::vector<std::string> made, reused;

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "gloam/error.h"
+#include "gloam/flip.h"
+#include "gloam/metrics.h"
 
 namespace gloam::bench {
 namespace {
@@ -20,13 +22,31 @@ std::string name_of(const Variation& v) {
   return v.technique->name + " " + v.name() + (v.variant.empty() ? "" : ", " + v.variant);
 }
 
+/// AO as a screen shows it, where the mask says so; elsewhere black in both images.
+cv::Mat grey_picture(const Channel& ao, const Mask& mask) {
+  const Layout& layout = ao.layout();
+  cv::Mat picture(layout.height, layout.width, CV_64FC3, cv::Scalar(0, 0, 0));
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x) {
+      if (mask[size_t(y) * size_t(layout.width) + size_t(x)]) picture.at<cv::Vec3d>(y, x) = cv::Vec3d::all(ao.at(x, y));
+    }
+  }
+  return picture;
+}
+
+double mean_flip(const Channel& test, const Channel& truth, const Mask& mask) {
+  const cv::Mat map = flip_map(grey_picture(test, mask), grey_picture(truth, mask));
+  const cv::Mat counted(map.rows, map.cols, CV_8U, const_cast<unsigned char*>(mask.data()));
+  return cv::mean(map, counted)[0];
+}
+
 /// Something tried: its plan and what one run of it gave.
 struct Try : Choice {
   std::unique_ptr<TimedPlan> timed;
 };
 
 bool is_within(const Choice& tried, const PickOptions& options) {
-  return options.budget ? tried.ms <= *options.budget : tried.rmse <= *options.error;
+  return options.budget ? tried.ms <= *options.budget : error_of(tried, options.by) <= *options.error;
 }
 
 class Search {
@@ -114,8 +134,25 @@ class Search {
     tried->variation = variation;
     tried->timed = std::make_unique<TimedPlan>(plan, subject_.frame, device_, variation.run_options());
     tried->ms = time_of(*tried);
-    tried->rmse = rmse(image_of(plan, variation.run_options()), truth_, foreground_);
+    measure(*tried, image_of(plan, variation.run_options()));
     tries_.push_back(std::move(tried));
+  }
+
+  void measure(Choice& choice, const Image& image) const {
+    choice.rmse = rmse(image, truth_, foreground_);
+    int views = 0;
+    double ssim = 0, flip = 0;
+    for (const auto& [view, mask] : foreground_) {
+      const auto test = image.find(view), truth = truth_.find(view);
+      if (test == image.end() || truth == truth_.end()) continue;
+      if (std::all_of(mask.begin(), mask.end(), [](unsigned char m) { return m == 0; })) continue;
+      ssim += compare(test->second, truth->second, mask).ssim;
+      if (options_.by == PickBy::flip) flip += mean_flip(test->second.channels[0], truth->second.channels[0], mask);
+      ++views;
+    }
+    if (views == 0) return;
+    choice.ssim = ssim / views;
+    if (options_.by == PickBy::flip) choice.flip = flip / views;
   }
 
   /// Milliseconds of one run, for as many views as all make.
@@ -141,7 +178,7 @@ class Search {
         interleaved(contenders, options_.rounds, [&](int done, int of) { tell("timing", size_t(done), size_t(of)); });
     for (size_t i = 0; i < tries_.size(); ++i) tries_[i]->ms = median(times[i]);
     std::sort(tries_.begin(), tries_.end(), [](const auto& a, const auto& b) { return a->ms < b->ms; });
-    for (const auto& t : tries_) picked_.finalists.push_back({t->variation, t->ms, t->rmse});
+    for (const auto& t : tries_) picked_.finalists.push_back(*t);
   }
 
   void choose() {
@@ -149,7 +186,7 @@ class Search {
     bool found = false;
     for (size_t i = 0; i < all.size(); ++i) {
       const bool fits = is_within(all[i], options_);
-      const bool is_better = options_.budget ? all[i].rmse < all[picked_.best].rmse : false;  // they are by time
+      const bool is_better = options_.budget ? off(all[i]) < off(all[picked_.best]) : false;  // they are by time
       if (!fits || (found && !is_better)) continue;
       picked_.best = i;
       found = true;
@@ -160,10 +197,12 @@ class Search {
                   *options_.budget, name_of(all.front().variation), all.front().ms);
     }
     const Choice& nearest =
-        *std::min_element(all.begin(), all.end(), [](const Choice& a, const Choice& b) { return a.rmse < b.rmse; });
+        *std::min_element(all.begin(), all.end(), [&](const Choice& a, const Choice& b) { return off(a) < off(b); });
     throw Error("--error {:g}: nothing comes that near to {}; the nearest is {} with {:.4f}", *options_.error,
-                picked_.truth, name_of(nearest.variation), nearest.rmse);
+                picked_.truth, name_of(nearest.variation), off(nearest));
   }
+
+  double off(const Choice& choice) const { return error_of(choice, options_.by); }
 
   const Subject& subject_;
   const PickOptions& options_;
@@ -178,12 +217,19 @@ class Search {
 
 }  // namespace
 
+const char* name_of(PickBy by) { return by == PickBy::ssim ? "SSIM" : by == PickBy::flip ? "FLIP" : "RMSE"; }
+
+double error_of(const Choice& choice, PickBy by) {
+  if (by == PickBy::ssim) return 1 - choice.ssim;
+  return by == PickBy::flip ? choice.flip.value_or(1) : choice.rmse;
+}
+
 std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options) {
   const auto is_better = [&](size_t a, size_t b) {
-    return options.budget ? tries[a].rmse < tries[b].rmse : tries[a].ms < tries[b].ms;
+    return options.budget ? error_of(tries[a], options.by) < error_of(tries[b], options.by) : tries[a].ms < tries[b].ms;
   };
   const auto is_nearer = [&](const Choice& a, const Choice& b) {
-    return options.budget ? a.ms < b.ms : a.rmse < b.rmse;
+    return options.budget ? a.ms < b.ms : error_of(a, options.by) < error_of(b, options.by);
   };
   std::vector<size_t> within, doubtful;
   for (size_t i = 0; i < tries.size(); ++i) {

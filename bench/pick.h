@@ -10,19 +10,30 @@
 
 namespace gloam::bench {
 
+/// What decides which image is nearer to the truth.
+enum class PickBy { rmse, ssim, flip };
+/// "RMSE", "SSIM" or "FLIP".
+const char* name_of(PickBy by);
+
 struct PickOptions {
   std::vector<const Technique*> techniques;
   std::optional<double> budget;  ///< milliseconds; the most accurate within it is picked
-  std::optional<double> error;   ///< RMSE; the cheapest within it is picked
+  std::optional<double> error;   ///< of the figure that decides; the cheapest within it is picked
+  PickBy by = PickBy::rmse;
   int rounds = 9;
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
 };
 
 struct Choice {
   Variation variation;
-  double ms = 0;    ///< median, the filter included
-  double rmse = 0;  ///< to the truth
+  double ms = 0;               ///< median, the filter included
+  double rmse = 0;             ///< to the truth
+  double ssim = 0;             ///< 1: the same
+  std::optional<double> flip;  ///< of the grey picture; where it decides
 };
+
+/// How far off an image is by the figure that decides: RMSE, 1 - SSIM, or FLIP.
+double error_of(const Choice& choice, PickBy by);
 
 struct Picked {
   std::vector<Choice> finalists;  ///< by time

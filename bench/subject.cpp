@@ -7,6 +7,7 @@
 #include "gloam/capture.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "gloam/frame_files.h"
 #include "gloam/reference.h"
 #include "lists.h"
 
@@ -126,7 +127,8 @@ const Truth& Truths::traced(const Frame& frame, const std::string& file, const C
     reference.frame.attributes[recipe_attribute] = recipe;
     write_frame(options_.folder / file, reference.frame);
   }
-  return truths_.emplace(file, read_truth(options_.folder / file, frame)).first->second;
+  std::vector<std::string> none;
+  return truths_.emplace(file, read_truth({(options_.folder / file).string()}, frame, none)).first->second;
 }
 
 const Truth& Truths::truth(const Frame& frame) {
@@ -151,31 +153,62 @@ const Truth& Truths::truth(const Frame& frame, const Technique& technique, const
   return truth;
 }
 
-Truth read_truth(const std::filesystem::path& path, const Frame& frame) {
+namespace {
+
+/// Which view of a frame each view of a truth's file is of.
+std::vector<std::pair<std::string, const View*>> views_for(const Frame& truth, const FrameFile& file,
+                                                           const Frame& frame) {
+  if (truth.views.size() == 1 && frame.views.size() == 1) return {{frame.views[0].name, &truth.views[0]}};
+  std::vector<std::string> names;
+  for (const View& view : frame.views) names.push_back(view.name);
+  if (truth.views.size() == 1) {
+    if (const auto named = view_in_name(file.path(), names)) return {{*named, &truth.views[0]}};
+  }
+  std::vector<std::pair<std::string, const View*>> found;
+  for (const View& view : truth.views) {
+    if (contains(names, view.name)) found.emplace_back(view.name, &view);
+  }
+  if (found.empty())
+    throw Error(
+        "{}: its name ends in no view of the frame ({}), and it has none of them; --view NAME takes one view of the "
+        "frame",
+        file.path().string(), enumerate(names));
+  return found;
+}
+
+void add_truth(const std::string& path, const Frame& frame, Truth& result) {
   ReadOptions options;
   options.as_stored = true;
   FrameFile file(path, options);
   if (!contains(file.common_planes(), "ao"))
-    throw Error("{}: has no plane 'ao' to measure against; it has {}", path.string(), enumerate(file.all_channels()));
+    throw Error("{}: has no plane 'ao' to measure against; it has {}", path, enumerate(file.all_channels()));
   const Frame truth = file.read({"ao"});
   if (truth.width() != frame.width() || truth.height() != frame.height())
-    throw Error("{} is {}x{} and the frame is {}x{}; only images of one size can be compared", path.string(),
-                truth.width(), truth.height(), frame.width(), frame.height());
-  Truth result;
-  if (truth.views.size() == 1 && frame.views.size() == 1) {
-    result.ao.emplace(frame.views[0].name, truth.views[0].planes.at("ao").clone());
-  } else {
-    for (const View& view : frame.views) {
-      const auto same = std::find_if(truth.views.begin(), truth.views.end(),
-                                     [&](const View& other) { return other.name == view.name; });
-      if (same == truth.views.end())
-        throw Error("{}: has no view '{}' as the frame has; --view NAME takes one view of the frame", path.string(),
-                    view.name);
-      result.ao.emplace(view.name, same->planes.at("ao").clone());
-    }
+    throw Error("{} is {}x{} and the frame is {}x{}; only images of one size can be compared", path, truth.width(),
+                truth.height(), frame.width(), frame.height());
+  for (const auto& [name, view] : views_for(truth, file, frame)) {
+    if (!result.ao.emplace(name, view->planes.at("ao").clone()).second)
+      throw Error("{}: is a truth of view '{}', as the one before it; give one for each view", path, name);
   }
-  result.noise = file.number_attribute("aoNoise");
-  result.radius = file.number_attribute("aoRadius");
+  const std::optional<double> radius = file.number_attribute("aoRadius");
+  if (radius && result.radius && std::abs(*radius - *result.radius) > 1e-6 * *radius)
+    throw Error("{}: was made with radius {:g}, and the truth before it with {:g}", path, *radius, *result.radius);
+  if (radius) result.radius = radius;
+  if (const auto noise = file.number_attribute("aoNoise")) result.noise = std::max(*noise, result.noise.value_or(0));
+  const std::optional<double> rays = file.number_attribute("aoSamples");
+  if (rays) result.rays = std::min(*rays, result.rays.value_or(*rays));
+}
+
+}  // namespace
+
+Truth read_truth(const std::vector<std::string>& paths, const Frame& frame, std::vector<std::string>& notes) {
+  Truth result;
+  for (const std::string& path : paths) add_truth(path, frame, result);
+  std::vector<std::string> known, missing;
+  for (const View& view : frame.views) (result.ao.count(view.name) ? known : missing).push_back(view.name);
+  if (!missing.empty())
+    notes.push_back(fmt::format("errors are of {} alone, as the truth has no {}; --truth once for each view gives both",
+                                enumerate(known), enumerate(missing)));
   return result;
 }
 

@@ -19,7 +19,7 @@ namespace gloam::bench {
 /// A truth, and how far it is from the limit of infinitely many rays.
 struct Truth {
   Image ao;
-  std::optional<double> noise, radius;  ///< RMS and scene units, where its file says them
+  std::optional<double> noise, radius, rays;  ///< RMS, scene units and per pixel, where its file says them
 };
 
 /// Where and how frames and truths of a scene are kept.
@@ -81,8 +81,9 @@ class Truths {
   std::vector<std::string> made_, reused_;
 };
 
-/// The plane `ao` of a file for the views of a frame: of the same name, or the only one of both. Throws Error when size
-/// or views do not fit.
-Truth read_truth(const std::filesystem::path& path, const Frame& frame);
+/// The plane `ao` of files for the views of a frame: of a file of one view for the view that the file's name ends in, else of the
+/// same name, or the only one of both. Views that no file has are left out, which `notes` says. Throws Error when size or views do
+/// not fit, two files have the same view, or say different radii.
+Truth read_truth(const std::vector<std::string>& paths, const Frame& frame, std::vector<std::string>& notes);
 
 }  // namespace gloam::bench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <regex>
 
 #include "gloam/error.h"
@@ -76,6 +77,15 @@ std::vector<std::string> merged_notes(const std::vector<std::string>& first, con
 }
 
 }  // namespace
+
+std::optional<std::string> view_in_name(const std::filesystem::path& file, const std::vector<std::string>& views) {
+  const std::string stem = file.stem().string();
+  for (const std::string& view : views) {
+    if (view.empty() || stem.size() <= view.size() || !stem.ends_with(view)) continue;
+    if (!std::isalnum((unsigned char)stem[stem.size() - view.size() - 1])) return view;
+  }
+  return {};
+}
 
 FrameFiles::FrameFiles(const std::vector<std::string>& paths, const ReadOptions& options) {
   if (paths.size() == 1) {

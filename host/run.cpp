@@ -906,6 +906,7 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   result.device_bytes = device_bytes(plan, layout, frame.views.size());
   result.frame.display = frame.display;
   result.frame.window = frame.window;
+  result.frame.pixel_aspect = frame.pixel_aspect;
   result.frame.assumed = frame.assumed;
   for (const View& view : frame.views) {
     if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);

@@ -2,11 +2,15 @@
 #include "gloam/automatic.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/provenance.h"
 #include "gloam/visualise.h"
 #include "options.h"
 #include "radius.h"
@@ -15,8 +19,11 @@
 namespace gloam::cli {
 namespace {
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 struct AutoCommand {
   std::string out, explain, compression = "zip";
+  std::string mask = "measured";
   bool half = false, measure = false;
   FrameArguments frame;
   FrameFlags frame_flags;
@@ -29,8 +36,10 @@ struct AutoCommand {
 struct Outcome {
   Decision decision;
   std::vector<std::string> outputs;
-  double ms = 0;             ///< on the device, classification and mask included
-  double ms_everywhere = 0;  ///< of everything everywhere; NaN where it has not been measured
+  std::optional<Plan> plan;  ///< that was run, or would have been
+  bool is_masked = false;
+  double ms = 0;                                ///< on the device, classification and mask included
+  double ms_masked = nan, ms_everywhere = nan;  ///< without classification; NaN where it has not been measured
 };
 
 double best(const RunResult& result) {
@@ -65,24 +74,31 @@ void look_closely_for_picture(EffectChoice& choice, const Look& look) {
   if (choice.is_wanted && !choice.is_everywhere) look_closely(choice, look);
 }
 
+MaskUse mask_use(const std::string& word) {
+  return one_of<MaskUse>(word, "--mask",
+                         {{"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}});
+}
+
 Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const Look& look, Frame& out) {
-  Outcome outcome{decide(technique, look), {}, 0, std::numeric_limits<double>::quiet_NaN()};
+  Outcome outcome{.decision = decide(technique, look)};
   EffectChoice& effect = outcome.decision.effect;
-  const Plan plan = make_plan(outcome.decision.request, look.available, look.holds);
-  outcome.outputs = plan.outputs;
-  outcome.ms = effect.classify_ms;
-  if (effect.is_wanted) {
-    RunResult result = run(plan, look.frame, look.device, look.options);
-    outcome.ms += best(result);
-    take_planes(result.frame, out);
-  } else {
-    add_idle_planes(look.frame, plan.outputs, out);
-  }
   if (!flags.explain.empty()) {
     look_closely_for_picture(effect, look);
     for (EffectChoice& refinement : outcome.decision.refinements) look_closely_for_picture(refinement, look);
   }
-  if (flags.measure) {
+  outcome.ms = effect.classify_ms;
+  if (effect.is_wanted) {
+    Computed computed = compute(outcome.decision, look, mask_use(flags.mask));
+    outcome.ms += computed.ms;
+    outcome.is_masked = computed.is_masked;
+    outcome.ms_masked = computed.ms_masked;
+    outcome.ms_everywhere = computed.ms_everywhere;
+    take_planes(computed.result.frame, out);
+  }
+  outcome.plan = make_plan(outcome.decision.request, look.available, look.holds);
+  outcome.outputs = outcome.plan->outputs;
+  if (!effect.is_wanted) add_idle_planes(look.frame, outcome.outputs, out);
+  if (flags.measure && std::isnan(outcome.ms_everywhere)) {
     const Plan everywhere = make_plan(outcome.decision.everywhere, look.available, look.holds);
     outcome.ms_everywhere = best(run(everywhere, look.frame, look.device, look.options));
   }
@@ -108,6 +124,8 @@ Json document_of(const std::vector<Outcome>& outcomes, const DeviceInfo& device)
     effect["runs"] = o.decision.effect.is_wanted ? Json(o.decision.request.outputs.front()) : Json(nullptr);
     effect["ms"] = o.ms;
     effect["ms_everywhere"] = number_or_null(o.ms_everywhere);
+    effect["ms_masked"] = number_or_null(o.ms_masked);
+    effect["masked"] = o.is_masked;
     effect["refinements"] = Json::array();
     for (const EffectChoice& refinement : o.decision.refinements)
       effect["refinements"].push_back(document_of(refinement));
@@ -126,18 +144,20 @@ std::string where(const EffectChoice& choice) {
 std::string milliseconds_or_dash(double ms) { return std::isnan(ms) ? "-" : fmt::format("{:.2f}", ms); }
 
 void print(const std::vector<Outcome>& outcomes) {
-  std::vector<std::vector<std::string>> rows = {{"effect", "wanted", "where", "technique", "ms", "everywhere", "why"}};
-  const auto add = [&](const EffectChoice& choice, const std::string& ms, const std::string& everywhere) {
+  std::vector<std::vector<std::string>> rows = {
+      {"effect", "wanted", "where", "technique", "ms", "masked", "everywhere", "why"}};
+  const auto add = [&](const EffectChoice& choice, const std::array<std::string, 3>& ms) {
     rows.push_back({choice.technique->effect.name, choice.is_wanted ? "yes" : "no", where(choice),
-                    choice.technique->name, ms, everywhere, choice.why});
+                    choice.technique->name, ms[0], ms[1], ms[2], choice.why});
   };
   for (const Outcome& o : outcomes) {
     const bool is_possible = !o.outputs.empty();
-    add(o.decision.effect, is_possible ? milliseconds_or_dash(o.ms) : "",
-        is_possible ? milliseconds_or_dash(o.ms_everywhere) : "");
-    for (const EffectChoice& refinement : o.decision.refinements) add(refinement, "", "");
+    add(o.decision.effect, is_possible ? std::array{milliseconds_or_dash(o.ms), milliseconds_or_dash(o.ms_masked),
+                                                    milliseconds_or_dash(o.ms_everywhere)}
+                                       : std::array<std::string, 3>{});
+    for (const EffectChoice& refinement : o.decision.refinements) add(refinement, {});
   }
-  print_table(rows, 7);
+  print_table(rows, 8);
 }
 
 Explanation explanation_of(const EffectChoice& choice, const std::string& view, const std::string& cost) {
@@ -190,7 +210,6 @@ Outcome impossible(const Technique& technique, std::string why) {
   Outcome outcome;
   outcome.decision.effect.technique = &technique;
   outcome.decision.effect.why = std::move(why);
-  outcome.ms_everywhere = std::numeric_limits<double>::quiet_NaN();
   return outcome;
 }
 
@@ -237,6 +256,7 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
 
 void auto_command(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
+  mask_use(flags.mask);
   // What is compared is not to hold what a device does once.
   if (flags.measure) options.repeat = std::max(options.repeat, 3);
   const WriteOptions writing{flags.half, flags.compression};
@@ -270,6 +290,7 @@ void auto_command(const AutoCommand& flags) {
   Frame out;
   out.display = frame.display;
   out.window = frame.window;
+  out.pixel_aspect = frame.pixel_aspect;
   out.assumed = frame.assumed;
   for (const View& view : frame.views)
     out.views.push_back({.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}});
@@ -279,9 +300,8 @@ void auto_command(const AutoCommand& flags) {
     const Look look{candidate.asked, frame, available, holds, device, options};
     outcomes.push_back(outcome_of(*candidate.technique, flags, look, out));
     if (radius) continue;
-    const PlanRequest& request = outcomes.back().decision.request;
-    const Plan plan = make_plan(request, available, holds);
-    if (const std::optional<Radius> used = radius_of(plan, request, made.from))
+    const Plan& plan = *outcomes.back().plan;
+    if (const std::optional<Radius> used = radius_of(plan, outcomes.back().decision.request, made.from))
       radius.emplace(*used, frame, cap_of(plan));
   }
   for (Outcome& outcome : candidates.impossible) outcomes.push_back(std::move(outcome));
@@ -293,6 +313,10 @@ void auto_command(const AutoCommand& flags) {
     }
   }
   for (View& view : out.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
+  std::vector<MadeBy> made_by;
+  for (const Outcome& o : outcomes)
+    if (o.plan) made_by.push_back({&*o.plan, o.decision.effect.is_wanted});
+  out.attributes = provenance(made_by, options);
   write_frame(flags.out, out, writing);
   Json document = document_of(outcomes, device.info());
   if (radius) radius->add_to(document);
@@ -312,6 +336,12 @@ void add_auto(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
   command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
       ->type_name("OUT.png");
+  command
+      ->add_option(
+          "--mask", flags->mask,
+          "whether an effect is computed only where the frame calls for it: measured (the default: both ways are "
+          "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more), always or never")
+      ->type_name("WHEN");
   command->add_flag("--measure", flags->measure,
                     "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
   command->add_flag("--half", flags->half, "write results as half instead of float");

@@ -23,8 +23,9 @@ constexpr int peeled_layers = 8;
 constexpr size_t most_swept = 1000;
 
 struct BenchCommand {
-  std::string paper, folder, techniques, scenes, presets, frame, truth, size, rays, radius,
-      rounds = "9", device, variants, ladder = "presets";
+  std::vector<std::string> truths;
+  std::string paper, folder, techniques, scenes, presets, frame, size, rays, radius, rounds = "9", device, variants,
+                                                                                     ladder = "presets";
   std::vector<std::string> sweeps;
   bool no_growth = false, no_checks = false, no_images = false;
   FrameFlags frame_flags;
@@ -261,13 +262,14 @@ void bench_command(const BenchCommand& flags) {
   const Options options = options_of(flags, device.info(), result);
   make_folder(options.scene.folder);
   const std::filesystem::path folder = flags.folder;
-  check_paths({{"--frame", flags.frame}, {"--truth", flags.truth}, {"--camera", flags.frame_flags.camera}},
-              {{"-o", (folder / "bench.json").string()},
-               {"-o", (options.scene.folder / "scene.exr").string()},
-               {"--json", flags.json.file()}});
+  std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
+  for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
+  check_paths(inputs, {{"-o", (folder / "bench.json").string()},
+                       {"-o", (options.scene.folder / "scene.exr").string()},
+                       {"--json", flags.json.file()}});
   std::vector<std::pair<std::string, RadiusReport>> radii;
   if (!flags.frame.empty()) {
-    Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, options.scene);
+    Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, options.scene);
     radii.emplace_back(subject.name, report_of(subject, options.techniques));
     measure(subject, options, true, device, result);
   }
@@ -280,7 +282,7 @@ void bench_command(const BenchCommand& flags) {
   note(result.notes);
   if (result.rows.empty())
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
-  const Json document = document_of(result, options, options.scene.rays, device.info());
+  const Json document = document_of(result, options, device.info());
   JsonFlag{(folder / "bench.json").string()}.write(document);
   flags.json.write(document);
   if (flags.json.only_json()) return;
@@ -309,9 +311,11 @@ void add_bench(CLI::App& app) {
   CLI::Option* frame =
       command->add_option("--frame", flags->frame, "measure on this frame instead of scenes")->type_name("FRAME.exr");
   command
-      ->add_option(
-          "--truth", flags->truth,
-          "the frame's truth, as gloam reference makes it; default: traced where the frame shows a built-in scene")
+      ->add_option("--truth", flags->truths,
+                   "the frame's truth, as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
+                   "REF_right.exr); default: traced where the frame shows a built-in scene")
+      ->expected(1)
+      ->take_all()
       ->type_name("REF.exr")
       ->needs(frame);
   CLI::Option* size =

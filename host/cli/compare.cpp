@@ -78,21 +78,7 @@ PlanePair read_sides(Side& test, Side& reference, const std::string& asked) {
               fmt::join(unusable.frame.assumed, "; "));
 }
 
-bool ends_with_word(const std::string& stem, const std::string& word) {
-  if (word.empty() || stem.size() <= word.size() || stem.compare(stem.size() - word.size(), word.size(), word) != 0)
-    return false;
-  return !std::isalnum((unsigned char)stem[stem.size() - word.size() - 1]);
-}
-
 using ViewPairs = std::vector<std::pair<std::string, std::string>>;
-
-/// The view of a file of several that another file's name ends in: "truth_left" goes with "left".
-std::optional<std::string> view_by_name(const FrameFile& several, const FrameFile& one) {
-  for (const std::string& name : several.views()) {
-    if (ends_with_word(one.path().stem().string(), name)) return name;
-  }
-  return {};
-}
 
 /// Of one view each, which is compared all the same. `is_told`: by --view.
 void note_other_view(const FrameFile& test, const FrameFile& reference, bool is_told) {
@@ -104,7 +90,7 @@ void note_other_view(const FrameFile& test, const FrameFile& reference, bool is_
   }
   const FrameFile& unsure = reference.view_is_assumed() ? reference : test;
   const std::string& view = reference.view_is_assumed() ? a : b;
-  if (is_told || view.empty() || ends_with_word(unsure.path().stem().string(), view)) return;
+  if (is_told || view.empty() || view_in_name(unsure.path(), {view})) return;
   note({fmt::format("{} lists several views and does not say which it holds; it is taken as '{}'",
                     unsure.path().filename().string(), view)});
 }
@@ -119,7 +105,8 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_
   }
   const FrameFile& one = b.size() == 1 ? reference : test;
   const std::optional<std::string> named =
-      a.size() == 1 || b.size() == 1 ? view_by_name(&one == &reference ? test : reference, one) : std::nullopt;
+      a.size() == 1 || b.size() == 1 ? view_in_name(one.path(), (&one == &reference ? test : reference).views())
+                                     : std::nullopt;
   if (named) {
     note({fmt::format("{} goes with view '{}', which its name ends in; --view chooses another",
                       one.path().filename().string(), *named)});
@@ -251,7 +238,7 @@ void print_heading(const PlanePair& planes, const CompareFlags& flags) {
 }
 
 void print_metrics(const std::string& view, const std::string& plane, const Metrics& m) {
-  if (!view.empty()) fmt::print("view {}\n", view);
+  if (!view.empty()) fmt::print("view {}\n", printable(view));
   std::vector<std::vector<std::string>> rows = {{"pixels", std::to_string(m.pixels)},
                                                 {"RMSE", fmt::format("{:.5f}", m.rmse)},
                                                 {"MAE", fmt::format("{:.5f}", m.mae)},

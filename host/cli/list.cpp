@@ -61,7 +61,9 @@ Json techniques_document() {
                         {"then", t.then},
                         {"extras", t.extras},
                         {"parameters", parameters},
-                        {"presets", presets}});
+                        {"presets", presets},
+                        {"default_for", t.default_for},
+                        {"caution", t.caution}});
   }
   return document;
 }
@@ -81,8 +83,16 @@ void print_techniques() {
       for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
       fmt::print("  preset {}: {}\n", preset.name, fmt::join(settings, " "));
     }
+    if (!t.caution.empty()) fmt::print("  caution {}\n", t.caution);
+    if (contains(t.default_for, "ao_raw")) fmt::print("  default for ao: gloam run ao, plan ao and auto take it\n");
     fmt::print("\n");
   }
+}
+
+/// "more samples ..." as a sentence.
+std::string sentence(std::string text) {
+  text[0] = char(std::toupper((unsigned char)text[0]));
+  return text + ".";
 }
 
 /// How a page that shows Markdown spells the anchor of a heading: letters, digits and hyphens.
@@ -145,6 +155,7 @@ void print_techniques_markdown() {
       fmt::print("{}Preset `{}`: {}.\n", &preset == &t.presets.front() ? "\n" : "", preset.name,
                  fmt::join(settings, ", "));
     }
+    if (!t.caution.empty()) fmt::print("{}\n", sentence(t.caution));
   }
 }
 

@@ -40,17 +40,6 @@ void check_writable(const NamedPath& output) {
     throw Error("{} {}: cannot be written, {}", output.first, output.second, why);
 }
 
-template <typename Value>
-Value one_of(const std::string& text, const std::string& flag,
-             const std::vector<std::pair<std::string, Value>>& table) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : table) {
-    if (name == text) return value;
-    names.push_back(name);
-  }
-  throw UsageError("{} {} is not allowed{}; {} are", flag, text, suggestion(text, names), enumerate(names));
-}
-
 std::vector<std::string> kept_notes;
 
 /// Without repetitions.
@@ -177,7 +166,7 @@ void FrameFlags::add_to(CLI::App& app) {
   app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")
       ->type_name("FILE")
       ->group("Reading the frame");
-  app.add_option("--fov", fov, "horizontal field of view in degrees, over every other camera")
+  app.add_option("--fov", fov, "horizontal field of view, 1 to 179 degrees, over every other camera")
       ->type_name("DEG")
       ->group("Reading the frame");
   app.add_option("--depth", depth, "what depth values mean: auto, z, ray, ndc or reversed")
@@ -455,10 +444,22 @@ void check_picture_name(const std::string& path, const std::string& flag) {
   throw UsageError("{} {}: the picture is a PNG; name it with .png", flag, path);
 }
 
+/// A view's name comes from a file: what a path would take for a folder, a terminal for a command, or a file system for nothing
+/// at all is written as its number, so that no two views share a name.
+static std::string as_file_name(const std::string& view) {
+  std::string name;
+  for (const char c : view) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    const bool is_plain = std::isalnum(byte) || byte >= 0x80 || c == '_' || c == '-' || c == '.' || c == ' ';
+    name += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return name;
+}
+
 std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several) {
   if (!several) return path;
   std::filesystem::path with_view = path;
-  return with_view.replace_extension(view + std::filesystem::path(path).extension().string());
+  return with_view.replace_extension(as_file_name(view) + std::filesystem::path(path).extension().string());
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number) {

@@ -58,6 +58,18 @@ struct RunFlags {
   RunOptions run_options() const;
 };
 
+/// The value that a word stands for; UsageError with the words that do.
+template <typename Value>
+Value one_of(const std::string& text, const std::string& flag,
+             const std::vector<std::pair<std::string, Value>>& table) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : table) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  throw UsageError("{} {} is not allowed{}; {} are", flag, text, suggestion(text, names), enumerate(names));
+}
+
 /// "--json FILE|-"
 struct JsonFlag {
   std::string path;

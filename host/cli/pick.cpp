@@ -19,7 +19,8 @@ namespace {
 using namespace gloam::bench;
 
 struct PickCommand {
-  std::string frame, truth, budget, error, techniques, radius, rays = "256", rounds = "9", device;
+  std::vector<std::string> truths;
+  std::string frame, budget, error, by = "rmse", techniques, radius, rays = "256", rounds = "9", device;
   FrameFlags frame_flags;
   JsonFlag json;
   const CLI::App* app = nullptr;
@@ -45,9 +46,11 @@ double parse_budget(const std::string& text) {
 /// `left_out`: what is tried only where it is named.
 PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out) {
   if (flags.budget.empty() == flags.error.empty())
-    throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (an RMSE, such as 0.02)");
+    throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
   PickOptions options;
   if (!flags.budget.empty()) options.budget = parse_budget(flags.budget);
+  options.by =
+      one_of<PickBy>(flags.by, "--by", {{"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}});
   if (!flags.error.empty()) options.error = parse_number(flags.error, "--error", 0, 1);
   options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
   options.progress = show_status;
@@ -84,18 +87,22 @@ std::string run_line(const PickCommand& flags, const Variation& v) {
 }
 
 Json entry_of(const Choice& choice) {
-  return {{"technique", choice.variation.technique->name},
-          {"preset", choice.variation.name()},
-          {"resolution", choice.variation.resolution == 1 ? "full" : choice.variation.variant},
-          {"ms", choice.ms},
-          {"rmse", choice.rmse}};
+  Json entry = {{"technique", choice.variation.technique->name},
+                {"preset", choice.variation.name()},
+                {"resolution", choice.variation.resolution == 1 ? "full" : choice.variation.variant},
+                {"ms", choice.ms},
+                {"rmse", choice.rmse},
+                {"ssim", choice.ssim}};
+  if (choice.flip) entry["flip"] = *choice.flip;
+  return entry;
 }
 
-Json document_of(const Picked& picked, const std::string& command, const DeviceInfo& device) {
+Json document_of(const Picked& picked, const std::string& command, const std::string& by, const DeviceInfo& device) {
   Json document = {{"command", command}};
   document.update(entry_of(picked.finalists[picked.best]));
   document["device"] = device.name;
   document["error_to"] = picked.truth;
+  document["by"] = by;
   document["finalists"] = Json::array();
   for (const Choice& choice : picked.finalists) document["finalists"].push_back(entry_of(choice));
   document["skipped"] = Json::array();
@@ -104,17 +111,20 @@ Json document_of(const Picked& picked, const std::string& command, const DeviceI
   return document;
 }
 
-void print(const Picked& picked, const DeviceInfo& device) {
-  std::vector<std::vector<std::string>> rows = {{"", "technique", "preset", "resolution", "ms", "RMSE"}};
+void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
+  const bool has_flip = by == PickBy::flip;
+  std::vector<std::vector<std::string>> rows = {{"", "technique", "preset", "resolution", "ms", "RMSE", "SSIM"}};
+  if (has_flip) rows[0].push_back("FLIP");
   for (size_t i = 0; i < picked.finalists.size(); ++i) {
     const Choice& c = picked.finalists[i];
     rows.push_back({i == picked.best ? ">" : "", c.variation.technique->name, c.variation.name(),
                     c.variation.resolution == 1 ? "full" : c.variation.variant, fmt::format("{:.2f}", c.ms),
-                    fmt::format("{:.4f}", c.rmse)});
+                    fmt::format("{:.4f}", c.rmse), fmt::format("{:.4f}", c.ssim)});
+    if (has_flip) rows.back().push_back(fmt::format("{:.4f}", *c.flip));
   }
   print_table(rows, 4);
-  fmt::print("{} of {} settings that were tried; {}; errors to {}\n", picked.finalists.size(), picked.tried,
-             printable(device.name), picked.truth);
+  fmt::print("{} of {} settings that were tried; {}; errors to {}; {} decides (--by)\n", picked.finalists.size(),
+             picked.tried, printable(device.name), picked.truth, name_of(by));
 }
 
 /// A folder of its own for a truth that is traced; gone with it.
@@ -139,8 +149,9 @@ class ScratchFolder {
 void pick_command(const PickCommand& flags) {
   std::vector<Skipped> left_out;
   const PickOptions options = options_of(flags, left_out);
-  check_paths({{"the frame", flags.frame}, {"--truth", flags.truth}, {"--camera", flags.frame_flags.camera}},
-              {{"--json", flags.json.file()}});
+  std::vector<NamedPath> inputs = {{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
+  for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
+  check_paths(inputs, {{"--json", flags.json.file()}});
   const ScratchFolder scratch;
   SceneOptions scene;
   scene.folder = scratch.path();
@@ -148,17 +159,17 @@ void pick_command(const PickCommand& flags) {
   if (!flags.radius.empty()) scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
   scene.progress = show_status;
   Device device(flags.device);
-  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truth, options.techniques, scene);
+  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, scene);
   const RadiusReport radius = report_of(subject, options.techniques);
   Picked picked = pick(subject, options, device);
   picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
   erase_status();
   const std::string command = run_line(flags, picked.finalists[picked.best].variation);
-  Json document = document_of(picked, command, device.info());
+  Json document = document_of(picked, command, flags.by, device.info());
   radius.add_to(document);
   flags.json.write(document);
   if (flags.json.only_json()) return;
-  print(picked, device.info());
+  print(picked, options.by, device.info());
   radius.print();
   fmt::print("{}\n", printable(command));
 }
@@ -172,11 +183,20 @@ void add_pick(CLI::App& app) {
   flags->app = command;
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
   command->add_option("--budget", flags->budget, "time for the whole of ao, its filter included")->type_name("20ms");
-  command->add_option("--error", flags->error, "RMSE to the truth")->type_name("RMSE");
+  command->add_option("--error", flags->error, "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
+      ->type_name("ERROR");
   command
-      ->add_option("--truth", flags->truth,
-                   "ambient occlusion as gloam reference makes it; default: traced where the frame shows a built-in "
-                   "scene, else a converged estimate")
+      ->add_option(
+          "--by", flags->by,
+          "what decides which image is nearer: rmse (the default), ssim, which minds noise and lost edges, or flip, "
+          "which minds what an eye sees")
+      ->type_name("FIGURE");
+  command
+      ->add_option("--truth", flags->truths,
+                   "ambient occlusion as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
+                   "REF_right.exr); default: traced where the frame shows a built-in scene, else a converged estimate")
+      ->expected(1)
+      ->take_all()
       ->type_name("REF.exr");
   command->add_option("--techniques", flags->techniques, "these only; default: all that make ao of every view")
       ->type_name("A,B");

@@ -224,7 +224,8 @@ void reference_command(ReferenceCommand flags) {
   std::filesystem::remove(checkpoint, gone);
   for (const View& view : result.frame.views) {
     if (flags.picture.empty()) break;
-    write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at(job.plane));
+    write_picture(picture_path(flags.picture, view.name, result.frame.views.size() > 1), view.planes.at(job.plane),
+                  frame.view(view.name).find("depth"));
   }
   Json figures = document(result, job, scene);
   if (report) report->add_to(figures);

@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/provenance.h"
 #include "gloam/stereo_consistency.h"
 #include "gloam/visualise.h"
 #include "options.h"
@@ -170,12 +171,14 @@ void carry_over(Frame& from, Frame& to, bool bare) {
 }
 
 /// One picture for each view, of the first output.
-std::vector<std::string> write_pictures(const std::string& path, const Frame& frame, const std::string& plane) {
+std::vector<std::string> write_pictures(const std::string& path, const Frame& frame, const Frame& input,
+                                        const std::string& plane) {
   std::vector<std::string> paths;
   if (path.empty()) return paths;
   for (const View& view : frame.views) {
     paths.push_back(picture_path(path, view.name, frame.views.size() > 1).string());
-    write_picture(paths.back(), *view.find(plane));
+    const Plane* depth = view.find("depth") ? view.find("depth") : input.view(view.name).find("depth");
+    write_picture(paths.back(), *view.find(plane), depth);
   }
   return paths;
 }
@@ -188,28 +191,23 @@ void tell(std::promise<void>& promise, std::exception_ptr error) {
   }
 }
 
-/// What made the planes, for the header: "hbao+", "hbao+: radius=0.5 bias=0.1 ...; bilateral: ...".
-std::map<std::string, std::string> provenance(const Plan& plan, const RunFlags& flags, int seed) {
-  std::string parameters;
-  const Technique* last = nullptr;
-  for (const PlannedPass& planned : plan.passes) {
-    if (planned.technique == last) continue;
-    last = planned.technique;
-    parameters += (parameters.empty() ? "" : "; ") + last->name + ":";
-    for (const Parameter& p : last->parameters) parameters += " " + p.name + "=" + planned.values.text(p.name);
-  }
-  return {{"gloamTechnique", plan.technique},
-          {"gloamParameters", parameters},
-          {"gloamRun", fmt::format("math={} real={} seed={}", flags.math, flags.real, seed)}};
-}
-
 /// Other random numbers than the frame before had: the same ones would have nothing to add.
 int seed_after(const History& history) {
   const int before = history.seed().value_or(0);
   return before < std::numeric_limits<int>::max() ? before + 1 : 0;
 }
 
-void run_command(const RunCommand& flags) {
+/// A plane stands for the technique that makes it by default: "ao".
+std::string technique_for(const std::string& name) {
+  for (const Technique& technique : registry()) {
+    if (contains(technique.default_for, name) || contains(technique.default_for, name + "_raw")) return technique.name;
+  }
+  return name;
+}
+
+void run_command(const RunCommand& given) {
+  RunCommand flags = given;
+  flags.technique = technique_for(given.technique);
   Stopwatch watch;
   RunOptions options = flags.run_flags.run_options();
   find_technique(flags.technique);
@@ -263,9 +261,9 @@ void run_command(const RunCommand& flags) {
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
   carry_over(frame, result.frame, flags.bare);
-  result.frame.attributes = provenance(plan, flags.run_flags, options.seed);
+  result.frame.attributes = provenance({{&plan}}, options);
   write_frame(flags.out, result.frame, writing);
-  const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, pictured(plan));
+  const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
   watch.lap("write");
   std::vector<std::string> written = {flags.out};
   written.insert(written.end(), pictures.begin(), pictures.end());
@@ -287,7 +285,7 @@ void run_command(const RunCommand& flags) {
 void add_run(CLI::App& app) {
   auto flags = std::make_shared<RunCommand>();
   CLI::App* command = app.add_subcommand("run", "run a technique on a frame");
-  command->add_option("technique", flags->technique, "gloam list techniques shows them")
+  command->add_option("technique", flags->technique, "gloam list techniques shows them; ao: the default of ambient occlusion")
       ->required()
       ->type_name("TECHNIQUE");
   flags->frame.add_to(*command);
@@ -305,6 +303,7 @@ void add_run(CLI::App& app) {
   flags->json.add_to(*command);
   command->footer(
       "Examples:\n"
+      "  gloam run ao frame.exr -o ao.exr --picture ao.png\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"

@@ -123,7 +123,7 @@ Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Techn
 }
 
 /// The user's frame. Its scene is at hand where the header names a built-in one.
-Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::string& truth,
+Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::vector<std::string>& truths,
                     const std::vector<const Technique*>& techniques, const SceneOptions& options) {
   Subject subject;
   FrameFile file(frame, flags.read_options());
@@ -132,8 +132,10 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   read_frame(subject, file, techniques);
   if (options.radius) subject.radius = {*options.radius, RadiusSource::flag};
   bool is_known = options.radius.has_value();
-  if (!truth.empty()) {
-    subject.given = read_truth(truth, subject.frame);
+  if (!truths.empty()) {
+    std::vector<std::string> notes;
+    subject.given = read_truth(truths, subject.frame, notes);
+    note(notes);
     subject.truth = &*subject.given;
     const std::optional<double> traced = subject.given->radius;
     if (is_known && traced && std::abs(*traced - subject.radius.value) > 1e-6 * *traced)
@@ -155,7 +157,8 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   }
   if (!is_known) subject.radius = default_radius(subject.frame, stated_radius(file));
   if (!std::isfinite(subject.radius.value) || !(subject.radius.value > 0))
-    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", truth, subject.radius.value);
+    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", enumerate(truths),
+                subject.radius.value);
   return subject;
 }
 

@@ -33,8 +33,9 @@ bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<cons
                                const bench::SceneOptions& options);
 
 /// The user's frame, with what the techniques read of it. Its scene is at hand where the header names a built-in one. The
-/// radius is that of the options, else the truth's, else the scene's own, else made from the frame. `truth`: a file, or empty.
-bench::Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::string& truth,
+/// radius is that of the options, else the truth's, else the scene's own, else made from the frame. `truths`: files, one for
+/// all views or one each, or none.
+bench::Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::vector<std::string>& truths,
                            const std::vector<const Technique*>& techniques, const bench::SceneOptions& options);
 
 }  // namespace gloam::cli

@@ -11,6 +11,9 @@
 
 namespace gloam {
 
+/// The view that a file's name ends in: "truth_left.exr" is of "left". None where it ends in none.
+std::optional<std::string> view_in_name(const std::filesystem::path& file, const std::vector<std::string>& views);
+
 /// One file as `FrameFile` reads it, or two files of one view each, which become one frame of two views, in the order
 /// given. Each of the two is read by itself, with the same options: what its depth means, the space of its normals. The
 /// frame's window covers the windows of both.

@@ -132,6 +132,7 @@ struct Technique {
   std::vector<std::string> extras;  ///< planes made beside `writes` where they are asked for by name
   std::vector<Parameter> parameters;
   std::vector<Preset> presets;
+  std::string caution;  ///< what to know before choosing a preset; may be empty
   /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant
   /// to be fast. Empty where there is no such thing.
   std::vector<std::pair<std::string, std::string>> converged;

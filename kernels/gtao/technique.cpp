@@ -56,6 +56,21 @@ Technique gtao_over_depth() {
       row("gtao", "ambient occlusion from horizons in slices, cosine-weighted", "Jimenez, Wu, Pesce, Jarabo 2016");
   t.parameters = GtaoParams::table();
   t.passes = passes_of(gtao_passes);
+  t.caution =
+      "more steps may be farther from the truth: they find more occluders, and none has a back, so outdoors and among "
+      "thin "
+      "things high and ultra read too dark";
+  return t;
+}
+
+/// The one that `ao` stands for, and that `gloam auto` runs: of those over one layer the nearest to the truth on most frames
+/// (docs/accuracy.md).
+Technique bitmask_over_depth() {
+  Technique t = row("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
+                    "Therrien, Levesque, Gilet 2023");
+  t.default_for = {"ao_raw", "bent_normal", "cone"};
+  t.parameters = BitmaskParams::table();
+  t.passes = passes_of(bitmask_passes);
   t.effect = {.name = "ambient occlusion",
               .mask = "corner-mask",
               .glance = {{"cell", "8"}, {"search_steps", "2"}},
@@ -65,10 +80,10 @@ Technique gtao_over_depth() {
   return t;
 }
 
-Technique gtao_over_stochastic_depth() {
-  Technique t = over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes));
+Technique bitmask_over_stochastic_depth() {
+  Technique t = over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes));
   t.effect = {.name = "hidden layers",
-              .refines = "gtao",
+              .refines = "bitmask",
               .mask = "hidden-mask",
               .glance = {{"cell", "16"}, {"search_steps", "2"}},
               .most_share = 0.5,
@@ -78,25 +93,16 @@ Technique gtao_over_stochastic_depth() {
 }
 
 /// The second eye takes over what the first finds wherever both see the same: only where they differ is there work for it.
-Technique gtao_over_two_eyes() {
-  Technique t = over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes));
+Technique bitmask_over_two_eyes() {
+  Technique t = over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes));
   t.effect = {.name = "two views alike",
-              .refines = "gtao",
+              .refines = "bitmask",
               .mask = "stereo-visibility",
               .glance_resolution = 4,
               .least_share = 0.5,
               .settings = {{"estimate", "mono"}, {"filter", "mono"}},
               .somewhere = "the second view takes over what the first finds, and both see the same",
               .nowhere = "the two views have too little in common"};
-  return t;
-}
-
-Technique bitmask_over_depth() {
-  Technique t = row("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
-                    "Therrien, Levesque, Gilet 2023");
-  t.default_for = {"ao_raw", "bent_normal", "cone"};
-  t.parameters = BitmaskParams::table();
-  t.passes = passes_of(bitmask_passes);
   return t;
 }
 
@@ -107,10 +113,10 @@ std::vector<Technique> gtao() {
           bitmask_over_depth(),
           over_peeled_layers(gtao_over_depth()),
           over_peeled_layers(bitmask_over_depth()),
-          gtao_over_stochastic_depth(),
-          over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
-          gtao_over_two_eyes(),
-          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes))};
+          over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
+          bitmask_over_stochastic_depth(),
+          over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
+          bitmask_over_two_eyes()};
 }
 
 }  // namespace gloam::techniques

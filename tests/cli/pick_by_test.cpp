@@ -1,0 +1,150 @@
+// gloam pick --by: the figure that decides, and truths of one eye and of both.
+#include "gloam_process.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class PickBy : public Cli {
+ protected:
+  Json picked(const Arguments& more, const std::string& techniques = "hbao+,gtao,alchemy") const {
+    Arguments arguments = {"pick",     loggia,     "--truth", loggia_truth, "--techniques",
+                           techniques, "--rounds", "1",       "--json",     "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.json();
+  }
+};
+
+TEST_F(PickBy, TheFigureThatDecidesIsLeastOfAllFinalists) {
+  for (const std::string by : {"rmse", "ssim", "flip"}) {
+    const Json document = picked({"--budget", "1000s", "--by", by});
+    EXPECT_EQ(document.at("by"), by);
+    const auto off = [&](const Json& choice) {
+      return by == "ssim" ? 1 - double(choice.at("ssim")) : double(choice.at(by));
+    };
+    ASSERT_GE(document.at("finalists").size(), 4u);
+    for (const Json& finalist : document.at("finalists")) {
+      EXPECT_LE(off(document), off(finalist)) << by;
+      EXPECT_GT(double(finalist.at("ssim")), 0);
+      EXPECT_LT(double(finalist.at("ssim")), 1);
+      EXPECT_EQ(finalist.contains("flip"), by == "flip");
+    }
+  }
+}
+
+TEST_F(PickBy, TheFiguresAreThoseOfCompare) {
+  const Json document = picked({"--budget", "1000s"}, "gtao");
+  const Json best = document;
+  std::string preset = best.at("preset"), resolution = best.at("resolution");
+  preset = preset.substr(0, preset.find(' '));
+  ASSERT_EQ(gloam({"run", "gtao", loggia, "-o", path("ao.exr"), "--preset", preset, "--resolution", resolution,
+                   "--radius", "0.5"})
+                .status,
+            0);
+  const Json compared = gloam({"compare", path("ao.exr"), loggia_truth, "--json", "-"}).json();
+  EXPECT_NEAR(best.at("rmse"), compared.at("rmse"), 1e-6);
+  EXPECT_NEAR(best.at("ssim"), compared.at("ssim"), 1e-4);
+}
+
+TEST_F(PickBy, TheTableSaysWhatDecided) {
+  const Result result = gloam({"pick", loggia, "--truth", loggia_truth, "--techniques", "hbao+", "--rounds", "1",
+                               "--budget", "1000s", "--by", "ssim"});
+  EXPECT_NE(result.out.find("SSIM decides (--by)"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("RMSE    SSIM"), std::string::npos) << result.out;
+}
+
+TEST_F(PickBy, OtherFiguresAreWrongUsage) {
+  const Result result = gloam({"pick", loggia, "--budget", "1s", "--by", "ssmi"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("did you mean 'ssim'?"), std::string::npos) << result.err;
+}
+
+/// Frames of two eyes, with truths that are one file for each, or one for both, or of one eye alone.
+class TruthOfEyes : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    ASSERT_EQ(gloam({"capture", "gallery", "--size", "96x54", "--stereo", "0.065", "-o", path("pair.exr")}).status, 0);
+    ASSERT_EQ(gloam({"reference", "ao", path("pair.exr"), "--samples", "32", "-o", path("both.exr")}).status, 0);
+    for (const char* eye : {"left", "right"}) {
+      Frame one = FrameFile(path("both.exr"), ReadOptions{.views = {eye}, .as_stored = true}).read({"ao"});
+      one.views[0].name = "";
+      one.numbers = {{"aoRadius", 0.5}, {"aoSamples", 32}};
+      write_frame(path(std::string("truth_") + eye + ".exr"), one);
+    }
+  }
+  std::string file(const std::string& name) const { return path(name).string(); }
+  Result pick(const Arguments& truths) const {
+    Arguments arguments = {"pick", file("pair.exr"), "--techniques", "stereo-gtao", "--rounds",
+                           "1",    "--budget",       "1000s",        "--json",      "-"};
+    for (const std::string& truth : truths) arguments.insert(arguments.end(), {"--truth", file(truth)});
+    return gloam(arguments);
+  }
+};
+
+TEST_F(TruthOfEyes, TwoFilesAreAsGoodAsOne) {
+  const Json one = pick({"both.exr"}).json(), two = pick({"truth_left.exr", "truth_right.exr"}).json();
+  std::map<std::string, double> errors;
+  for (const Json& finalist : one.at("finalists"))
+    errors[std::string(finalist.at("preset")) + std::string(finalist.at("resolution"))] = finalist.at("rmse");
+  for (const Json& finalist : two.at("finalists")) {
+    const auto same = errors.find(std::string(finalist.at("preset")) + std::string(finalist.at("resolution")));
+    if (same == errors.end()) continue;
+    EXPECT_NEAR(finalist.at("rmse"), same->second, 1e-6);
+  }
+  EXPECT_EQ(two.at("error_to"), "the truth");
+}
+
+TEST_F(TruthOfEyes, OneEyeIsEnoughAndIsSaid) {
+  for (const std::string eye : {"left", "right"}) {
+    const Result result = pick({"truth_" + eye + ".exr"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.err.find("errors are of " + eye + " alone"), std::string::npos) << result.err;
+    const std::string preset = result.json().at("preset"), resolution = result.json().at("resolution");
+    ASSERT_EQ(gloam({"run", "stereo-gtao", file("pair.exr"), "-o", file("ao.exr"), "--preset",
+                     preset.substr(0, preset.find(' ')), "--resolution", resolution, "--radius", "0.5"})
+                  .status,
+              0);
+    const Json compared = gloam({"compare", file("ao.exr"), file("truth_" + eye + ".exr"), "--json", "-"}).json();
+    EXPECT_NEAR(result.json().at("rmse"), compared.at("rmse"), 1e-5) << eye;
+  }
+  const Result bench = gloam({"bench", "--frame", file("pair.exr"), "--truth", file("truth_left.exr"), "-o",
+                              file("bench"), "--techniques", "gtao", "--presets", "low", "--variants", "none",
+                              "--rounds", "1", "--no-growth", "--no-checks", "--ladder", "none"});
+  EXPECT_EQ(bench.status, 0) << bench.err;
+  const Json document = Json::parse(slurp(path("bench/bench.json")));
+  EXPECT_GT(document.at("results").at(0).at("rmse_to_truth"), 0);
+}
+
+TEST_F(TruthOfEyes, OneEyeTwiceIsRefused) {
+  const Result result = pick({"truth_left.exr", "truth_left.exr"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("is a truth of view 'left', as the one before it"), std::string::npos) << result.err;
+}
+
+/// What a header says, or nothing.
+TEST_F(TruthOfEyes, RaysOfATruthThatWasGivenAreWhatItsHeaderSays) {
+  for (const bool says : {true, false}) {
+    Frame truth = FrameFile(path("both.exr"), ReadOptions{.as_stored = true}).read({"ao"});
+    if (says) truth.numbers["aoSamples"] = 96;
+    write_frame(path("given.exr"), truth);
+    ASSERT_EQ(gloam({"bench", "--frame", file("pair.exr"), "--truth", file("given.exr"), "-o", file("bench"),
+                     "--techniques", "gtao", "--presets", "low", "--variants", "none", "--rounds", "1", "--no-growth",
+                     "--no-checks", "--ladder", "none"})
+                  .status,
+              0);
+    const Json document = Json::parse(slurp(path("bench/bench.json")));
+    EXPECT_EQ(document.at("rays"), says ? Json(96.0) : Json());
+    EXPECT_EQ(document.at("scenes").at(0).at("truth_rays"), says ? Json(96.0) : Json());
+    ASSERT_EQ(gloam({"report", file("bench"), "--markdown", file("report.md")}).status, 0);
+    const std::string page = slurp(path("report.md"));
+    EXPECT_EQ(page.find("96 rays per pixel") != std::string::npos, says) << page.substr(0, 500);
+    EXPECT_EQ(page.find("256 rays"), std::string::npos) << page.substr(0, 500);
+  }
+}
+
+}  // namespace
+}  // namespace gloam::test
