@@ -9,8 +9,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 #include "device_impl.h"
+#include "gloam/driver.h"
 #include "gloam/error.h"
 #include "kernel_sources.h"
 
@@ -108,6 +110,7 @@ std::string why_no_platform() {
 
 /// Platforms are enumerated one by one: one without devices (a driver without its hardware) is passed over.
 std::vector<Found> find_devices() {
+  const DriverAtWork driver;
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
@@ -229,6 +232,7 @@ std::string cl_error_name(int code) {
 Device::Device(const std::string& text) : impl_(std::make_unique<Impl>()) {
   const std::vector<Found> found = find_devices();
   const Found& chosen = choose_device(found, text);
+  const DriverAtWork driver;
   try {
     impl_->info = chosen.info;
     impl_->device = chosen.device;
@@ -248,14 +252,20 @@ cl::Program& Device::Impl::program(const std::string& source, const std::string&
   const std::string key = source + " " + options;
   const auto known = programs.find(key);
   if (known != programs.end()) return known->second;
-  cl::Program built(context, flatten(source));
+  const DriverAtWork driver;
+  auto built = std::make_unique<cl::Program>(context, flatten(source));
   try {
-    built.build({device}, options.c_str());
+    built->build({device}, options.c_str());
   } catch (const cl::Error& error) {
     throw Error("kernels/{} does not build on {} with {} ({}): {}", source, label(info), options,
-                cl_error_name(error.err()), short_log(built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device)));
+                cl_error_name(error.err()), short_log(built->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device)));
+  } catch (const std::exception& error) {
+    // PoCL's compiler has thrown through PoCL, whose locks stay taken: whoever releases the program waits for ever.
+    built.release();
+    restart_without_kept_kernels();
+    throw Error("kernels/{} cannot be compiled on {}: {}{}", source, label(info), error.what(), memory_limit());
   }
-  return programs.emplace(key, std::move(built)).first->second;
+  return programs.emplace(key, std::move(*built)).first->second;
 }
 
 }  // namespace gloam

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "device_impl.h"
+#include "gloam/driver.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "kernel_projection.h"
@@ -286,6 +287,7 @@ cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Devi
   try {
     kernel = cl::Kernel(program, planned.pass.kernel.c_str());
   } catch (const cl::Error& error) {
+    restart_without_kept_kernels();  // a kept program that is damaged may have lost them
     throw Error("{}: kernels/{} has no kernel '{}' ({})", planned.label(), planned.technique->source,
                 planned.pass.kernel, cl_error_name(error.err()));
   }
@@ -891,6 +893,7 @@ void check(const Plan& plan, const Layout& layout, size_t views, const Device& d
 }
 
 void prepare(const Plan& plan, Device& device, const RunOptions& options) {
+  const DriverAtWork driver;
   Device::Impl& impl = device.impl();
   const Layouts layouts(plan, Layout(1, 1));
   for (const PlannedPass& planned : plan.passes)
@@ -915,6 +918,7 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   if (needs_two_views(plan)) check_two_views(plan, frame);
   if (needs_two_views(plan) || key_view_spacing(plan, frame.views.size()) > 1) check_poses(plan, frame);
   Counted counted;
+  const DriverAtWork driver;
   try {
     run_all_views(plan, frame, impl, options, result, counted);
   } catch (const cl::Error& error) {

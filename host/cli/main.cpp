@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <new>
 #include <set>
 
+#include "gloam/driver.h"
 #include "gloam/error.h"
 #include "gloam/files.h"
 #include "gloam/scene.h"
@@ -181,19 +183,30 @@ static int failed(const char* message, int status) {
   return status;
 }
 
-int main(int argc, char** argv) {
-  gloam::remove_temporaries_on_signal();
-  gloam::give_pocl_a_folder();
+/// Every error is one line and an exit status.
+static int status_of_command(int argc, char** argv) {
   try {
+    // `stress` tells of a driver that ends one of its children.
+    if (argc > 1 && std::strcmp(argv[1], "stress") != 0) gloam::restart_where_the_driver_dies(argv);
     const int status = gloam::cli::run_command(argc, argv);
+    if (const std::string kept = gloam::keep_kernels_made_anew(); !kept.empty()) gloam::cli::note({kept});
     gloam::cli::print_notes();
     if (std::fflush(stdout) != 0) return failed("standard output: cannot be written", 1);
     return status;
   } catch (const gloam::Error& error) {
     return failed(error.what(), error.exit_status());
   } catch (const std::bad_alloc&) {
-    return failed("out of memory; use a smaller frame", 1);
+    const std::string limit = gloam::memory_limit();
+    return failed(("out of memory" + (limit.empty() ? "; use a smaller frame" : limit)).c_str(), 1);
   } catch (const std::exception& error) {
     return failed(error.what(), 1);
   }
+}
+
+int main(int argc, char** argv) {
+  gloam::remove_temporaries_on_signal();
+  gloam::give_pocl_a_folder();
+  const int status = status_of_command(argc, argv);
+  gloam::remove_kernels_made_anew();
+  return status;
 }
