@@ -1,16 +1,16 @@
-#include "bench_frame.h"
+#include "bench/bench_frame.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <optional>
 
+#include "base/low_discrepancy.h"
+#include "bench/measures.h"
+#include "bench/native.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "loggia.h"
-#include "low_discrepancy.h"
-#include "measures.h"
-#include "native.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "checks.h"
+#include "bench/checks.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
+#include "bench/plans.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
-#include "plans.h"
 
 namespace gloam::bench {
 namespace {

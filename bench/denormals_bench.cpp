@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "bench_frame.h"
+#include "base/low_discrepancy.h"
+#include "bench/bench_frame.h"
+#include "bench/timing.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
-#include "low_discrepancy.h"
 #include "stress/frames.h"
 #include "stress/outputs.h"
-#include "timing.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "document.h"
+#include "bench/document.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-#include "commit.h"
+#include "bench/commit.h"
 
 namespace gloam::bench {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "measurement.h"
-#include "papers/paper.h"
+#include "bench/measurement.h"
+#include "bench/papers/paper.h"
 
 namespace gloam::bench {
 

@@ -1,8 +1,8 @@
-#include "floors.h"
+#include "bench/floors.h"
 
 #include <fmt/format.h>
 
-#include "kernel_sources.h"
+#include "run/kernel_sources.h"
 
 namespace gloam::bench {
 namespace {

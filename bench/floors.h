@@ -1,8 +1,8 @@
 // Floors: what no implementation of the same sampling can go below on this device.
 #pragma once
 
-#include "estimate.h"
-#include "opencl_bench.h"
+#include "bench/estimate.h"
+#include "bench/opencl_bench.h"
 
 namespace gloam::bench {
 

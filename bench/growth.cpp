@@ -1,13 +1,13 @@
-#include "growth.h"
+#include "bench/growth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "bench/measures.h"
+#include "bench/plans.h"
+#include "bench/timing.h"
 #include "gloam/planes.h"
-#include "measures.h"
-#include "plans.h"
-#include "timing.h"
 
 namespace gloam::bench {
 namespace {

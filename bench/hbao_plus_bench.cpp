@@ -7,14 +7,14 @@
 #include <cstdio>
 #include <memory>
 
-#include "bench_frame.h"
-#include "floors.h"
+#include "bench/bench_frame.h"
+#include "bench/floors.h"
+#include "bench/measures.h"
+#include "bench/naive.h"
+#include "bench/native.h"
+#include "bench/timing.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
-#include "measures.h"
-#include "naive.h"
-#include "native.h"
-#include "timing.h"
 
 namespace gloam::bench {
 namespace {

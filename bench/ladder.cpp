@@ -1,8 +1,8 @@
-#include "ladder.h"
+#include "bench/ladder.h"
 
+#include "bench/storage.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
-#include "storage.h"
 
 namespace gloam::bench {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/measures.h"
+#include "bench/plans.h"
+#include "bench/subject.h"
 #include "gloam/device.h"
-#include "measures.h"
-#include "plans.h"
-#include "subject.h"
 
 namespace gloam::bench {
 

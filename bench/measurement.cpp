@@ -1,10 +1,10 @@
-#include "measurement.h"
+#include "bench/measurement.h"
 
 #include <algorithm>
 
+#include "base/lists.h"
+#include "bench/pictures.h"
 #include "gloam/error.h"
-#include "lists.h"
-#include "pictures.h"
 
 namespace gloam::bench {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "checks.h"
+#include "bench/checks.h"
+#include "bench/growth.h"
+#include "bench/ladder.h"
+#include "bench/race.h"
+#include "bench/subject.h"
+#include "bench/variations.h"
 #include "gloam/radius.h"
-#include "growth.h"
-#include "ladder.h"
-#include "race.h"
-#include "subject.h"
-#include "variations.h"
 
 namespace gloam::bench {
 

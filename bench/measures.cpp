@@ -1,10 +1,10 @@
-#include "measures.h"
+#include "bench/measures.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "bench/timing.h"
 #include "gloam/radius.h"
-#include "timing.h"
 
 namespace gloam::bench {
 namespace {

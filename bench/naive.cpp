@@ -1,4 +1,4 @@
-#include "naive.h"
+#include "bench/naive.h"
 
 #include <fmt/format.h>
 

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "estimate.h"
+#include "bench/estimate.h"
+#include "bench/opencl_bench.h"
+#include "bench/timing.h"
 #include "gloam/plan.h"
-#include "opencl_bench.h"
-#include "timing.h"
 
 namespace gloam::bench {
 

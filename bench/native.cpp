@@ -1,4 +1,4 @@
-#include "native.h"
+#include "bench/native.h"
 
 #include <unistd.h>
 
@@ -65,7 +65,7 @@ inline F random(U h) { return F(h >> 8) * 0x1p-24f; }
 inline bool all_infinite(F x) { return x == INFINITY; }
 inline F smallest(F x) { return x; }
 inline F where_infinite(F x, F yes, F no) { return x == INFINITY ? yes : no; }
-#include "native_loop.h"
+#include "bench/native_loop.h"
 }  // namespace scalar
 
 #ifdef GLOAM_X86
@@ -109,7 +109,7 @@ inline float smallest(F x) {
   return _mm_cvtss_f32(_mm_min_ss(m, _mm_shuffle_ps(m, m, 1)));
 }
 inline F where_infinite(F x, F yes, F no) { return _mm256_blendv_ps(no, yes, infinite(x)); }
-#include "native_loop.h"
+#include "bench/native_loop.h"
 }  // namespace avx2
 #pragma GCC pop_options
 
@@ -149,7 +149,7 @@ inline __mmask16 infinite(F x) { return _mm512_cmp_ps_mask(x, all(INFINITY), _CM
 inline bool all_infinite(F x) { return infinite(x) == 0xffff; }
 inline float smallest(F x) { return _mm512_reduce_min_ps(x); }
 inline F where_infinite(F x, F yes, F no) { return _mm512_mask_blend_ps(infinite(x), no, yes); }
-#include "native_loop.h"
+#include "bench/native_loop.h"
 }  // namespace avx512
 #pragma GCC pop_options
 #endif

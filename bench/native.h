@@ -1,7 +1,7 @@
 // The native baseline: HBAO+ 8 x 4 as a C++/OpenMP loop written by hand for the CPU's vectors.
 #pragma once
 
-#include "estimate.h"
+#include "bench/estimate.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "opencl_bench.h"
+#include "bench/opencl_bench.h"
 
 #include <chrono>
 

@@ -4,8 +4,8 @@
 #include <deque>
 #include <string>
 
-#include "device_impl.h"
 #include "gloam/frame.h"
+#include "run/device_impl.h"
 
 namespace gloam::bench {
 

@@ -1,11 +1,11 @@
-#include "pick.h"
+#include "bench/pick.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "compare/flip.h"
 #include "gloam/error.h"
-#include "gloam/flip.h"
 #include "gloam/metrics.h"
 
 namespace gloam::bench {

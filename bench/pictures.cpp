@@ -1,9 +1,9 @@
-#include "pictures.h"
+#include "bench/pictures.h"
 
 #include <cctype>
 #include <opencv2/core.hpp>
 
-#include "picture.h"
+#include "picture/picture.h"
 
 namespace gloam::bench {
 

@@ -1,11 +1,11 @@
-#include "plans.h"
+#include "bench/plans.h"
 
 #include <algorithm>
 
-#include "gloam/ambient_occlusion.h"
+#include "base/lists.h"
 #include "gloam/planes.h"
-#include "lists.h"
 #include "shared/ambient_occlusion.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::bench {
 namespace {

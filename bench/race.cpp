@@ -1,12 +1,12 @@
-#include "race.h"
+#include "bench/race.h"
 
 #include <algorithm>
 
-#include "floors.h"
+#include "bench/floors.h"
+#include "bench/measures.h"
+#include "bench/naive.h"
+#include "bench/native.h"
 #include "gloam/error.h"
-#include "measures.h"
-#include "naive.h"
-#include "native.h"
 
 namespace gloam::bench {
 namespace {

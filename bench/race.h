@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "estimate.h"
-#include "plans.h"
-#include "timing.h"
+#include "bench/estimate.h"
+#include "bench/plans.h"
+#include "bench/timing.h"
 
 namespace gloam::bench {
 

@@ -1,10 +1,10 @@
-#include "storage.h"
+#include "bench/storage.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "bench/measures.h"
 #include "gloam/planes.h"
-#include "measures.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,15 +1,15 @@
-#include "subject.h"
+#include "bench/subject.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fingerprint.h"
-#include "gloam/capture.h"
+#include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
-#include "gloam/reference.h"
-#include "lists.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
+#include "scene/fingerprint.h"
 
 namespace gloam::bench {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/measures.h"
 #include "gloam/frame.h"
+#include "gloam/scene/tracer.h"
 #include "gloam/technique.h"
-#include "gloam/tracer.h"
-#include "measures.h"
 
 namespace gloam::bench {
 

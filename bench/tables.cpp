@@ -1,4 +1,4 @@
-#include "tables.h"
+#include "bench/tables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measurement.h"
+#include "bench/measurement.h"
 
 namespace gloam::bench {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.h"
 #include "gloam/device.h"
 #include "gloam/frame.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
-#include "statistics.h"
 
 namespace gloam::bench {
 

@@ -1,9 +1,9 @@
-#include "variations.h"
+#include "bench/variations.h"
 
 #include <algorithm>
 
+#include "base/lists.h"
 #include "gloam/error.h"
-#include "lists.h"
 
 namespace gloam::bench {
 

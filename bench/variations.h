@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "plans.h"
+#include "bench/plans.h"
 
 namespace gloam::bench {
 

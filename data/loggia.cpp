@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
-#include "low_discrepancy.h"
+#include "base/low_discrepancy.h"
 
 namespace gloam::analytic {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "gloam/capture.h"
+#include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "gloam/reference.h"
-#include "gloam/scene.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
+#include "gloam/scene/scene.h"
 #include "gloam/visualise.h"
 
 namespace gloam {

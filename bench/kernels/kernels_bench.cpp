@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <memory>
 
-#include "bench_frame.h"
+#include "base/lists.h"
+#include "bench/bench_frame.h"
+#include "bench/plans.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
-#include "lists.h"
-#include "plans.h"
 
 namespace gloam::bench {
 namespace {

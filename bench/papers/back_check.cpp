@@ -1,10 +1,10 @@
-#include "back_check.h"
+#include "bench/papers/back_check.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "eyes.h"
+#include "bench/papers/eyes.h"
 
 namespace gloam::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study.h"
+#include "bench/papers/study.h"
 
 namespace gloam::bench {
 

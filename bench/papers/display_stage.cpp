@@ -1,7 +1,7 @@
-#include "display_stage.h"
+#include "bench/papers/display_stage.h"
 
 #include "gloam/error.h"
-#include "gloam/light_field_capture.h"
+#include "gloam/scene/light_field_capture.h"
 
 namespace gloam::bench {
 

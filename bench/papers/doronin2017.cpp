@@ -1,14 +1,14 @@
-#include "doronin2017.h"
+#include "bench/papers/doronin2017.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "display_stage.h"
-#include "neighbouring_views.h"
-#include "timed_table.h"
-#include "timing.h"
+#include "bench/papers/display_stage.h"
+#include "bench/papers/neighbouring_views.h"
+#include "bench/papers/timed_table.h"
+#include "bench/timing.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,7 +1,7 @@
 // Doronin, Kara, Barsi, Martini 2017: screen-space ambient occlusion for light-field displays.
 #pragma once
 
-#include "paper.h"
+#include "bench/papers/paper.h"
 
 namespace gloam::bench {
 

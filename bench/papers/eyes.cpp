@@ -1,4 +1,4 @@
-#include "eyes.h"
+#include "bench/papers/eyes.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "hidden_occluders.h"
+#include "bench/papers/hidden_occluders.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
-#include "neighbouring_views.h"
+#include "bench/papers/neighbouring_views.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "display_stage.h"
-#include "eyes.h"
+#include "bench/papers/display_stage.h"
+#include "bench/papers/eyes.h"
+#include "bench/papers/timed_table.h"
 #include "gloam/run.h"
-#include "key_views.h"
-#include "timed_table.h"
+#include "plan/key_views.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,7 +1,7 @@
 // What it saves and costs where views of a light-field display take over what key views have found of the same points.
 #pragma once
 
-#include "study.h"
+#include "bench/papers/study.h"
 
 namespace gloam::bench {
 

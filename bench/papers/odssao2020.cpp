@@ -1,4 +1,4 @@
-#include "odssao2020.h"
+#include "bench/papers/odssao2020.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "gloam/capture.h"
-#include "study.h"
-#include "timed_table.h"
-#include "timing.h"
+#include "bench/papers/study.h"
+#include "bench/papers/timed_table.h"
+#include "bench/timing.h"
+#include "gloam/scene/capture.h"
 
 namespace gloam::bench {
 namespace {

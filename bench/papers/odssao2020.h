@@ -1,6 +1,6 @@
 #pragma once
 
-#include "paper.h"
+#include "bench/papers/paper.h"
 
 namespace gloam::bench {
 

@@ -1,10 +1,10 @@
-#include "panels.h"
+#include "bench/papers/panels.h"
 
 #include <algorithm>
 #include <opencv2/core.hpp>
 
-#include "inconsistency_image.h"
-#include "picture.h"
+#include "picture/inconsistency_image.h"
+#include "picture/picture.h"
 
 namespace gloam::bench {
 namespace {

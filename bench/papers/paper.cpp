@@ -1,18 +1,18 @@
-#include "paper.h"
+#include "bench/papers/paper.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "document.h"
-#include "doronin2017.h"
-#include "lists.h"
-#include "odssao2020.h"
+#include "base/lists.h"
+#include "bench/document.h"
+#include "bench/papers/doronin2017.h"
+#include "bench/papers/odssao2020.h"
+#include "bench/papers/shi2022.h"
+#include "bench/papers/vermeer2021.h"
+#include "bench/papers/wu2024.h"
 #include "report/markdown_text.h"
-#include "shi2022.h"
-#include "vermeer2021.h"
-#include "wu2024.h"
 
 namespace gloam::bench {
 namespace {

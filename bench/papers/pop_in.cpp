@@ -1,4 +1,4 @@
-#include "pop_in.h"
+#include "bench/papers/pop_in.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "gloam/capture.h"
+#include "gloam/scene/capture.h"
 
 namespace gloam::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "study.h"
+#include "bench/papers/study.h"
 
 namespace gloam::bench {
 

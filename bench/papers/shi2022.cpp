@@ -1,4 +1,4 @@
-#include "shi2022.h"
+#include "bench/papers/shi2022.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "back_check.h"
-#include "eyes.h"
-#include "study.h"
-#include "timed_table.h"
+#include "bench/papers/back_check.h"
+#include "bench/papers/eyes.h"
+#include "bench/papers/study.h"
+#include "bench/papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

@@ -2,7 +2,7 @@
 // and 10.
 #pragma once
 
-#include "paper.h"
+#include "bench/papers/paper.h"
 
 namespace gloam::bench {
 

@@ -1,8 +1,8 @@
-#include "study.h"
+#include "bench/papers/study.h"
 
 #include <algorithm>
 
-#include "gloam/capture.h"
+#include "gloam/scene/capture.h"
 
 namespace gloam::bench {
 namespace {

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "gloam/outlines.h"
-#include "gloam/reference.h"
-#include "gloam/scene.h"
-#include "gloam/tracer.h"
-#include "measures.h"
-#include "panels.h"
-#include "paper.h"
-#include "plans.h"
+#include "bench/measures.h"
+#include "bench/papers/panels.h"
+#include "bench/papers/paper.h"
+#include "bench/plans.h"
+#include "gloam/scene/outlines.h"
+#include "gloam/scene/reference.h"
+#include "gloam/scene/scene.h"
+#include "gloam/scene/tracer.h"
 
 namespace gloam::bench {
 

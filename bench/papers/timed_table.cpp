@@ -1,9 +1,9 @@
-#include "timed_table.h"
+#include "bench/papers/timed_table.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "lists.h"
+#include "base/lists.h"
 
 namespace gloam::bench {
 namespace {

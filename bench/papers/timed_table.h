@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "study.h"
-#include "timing.h"
+#include "bench/papers/study.h"
+#include "bench/timing.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "vermeer2021.h"
+#include "bench/papers/vermeer2021.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "hidden_occluders.h"
-#include "pop_in.h"
-#include "study.h"
-#include "timed_table.h"
+#include "bench/papers/hidden_occluders.h"
+#include "bench/papers/pop_in.h"
+#include "bench/papers/study.h"
+#include "bench/papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

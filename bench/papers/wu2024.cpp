@@ -1,4 +1,4 @@
-#include "wu2024.h"
+#include "bench/papers/wu2024.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <array>
 #include <functional>
 
-#include "eyes.h"
+#include "base/lists.h"
+#include "bench/papers/eyes.h"
+#include "bench/papers/study.h"
+#include "bench/papers/timed_table.h"
 #include "gloam/metrics.h"
-#include "lists.h"
-#include "study.h"
-#include "timed_table.h"
 
 namespace gloam::bench {
 namespace {

@@ -2,7 +2,7 @@
 // and the failure cases.
 #pragma once
 
-#include "paper.h"
+#include "bench/papers/paper.h"
 
 namespace gloam::bench {
 

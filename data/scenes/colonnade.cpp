@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 
 namespace gloam::scenes {
 namespace {

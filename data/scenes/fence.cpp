@@ -5,8 +5,8 @@
 #include <functional>
 #include <glm/gtc/constants.hpp>
 
-#include "mesh_builder.h"
-#include "tube.h"
+#include "scenes/mesh_builder.h"
+#include "scenes/tube.h"
 
 namespace gloam::scenes {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "mesh_builder.h"
-#include "tube.h"
+#include "scenes/mesh_builder.h"
+#include "scenes/tube.h"
 
 namespace gloam::scenes {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-#include "low_discrepancy.h"
+#include "base/low_discrepancy.h"
 
 namespace gloam::scenes {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 
 namespace gloam::scenes {
 namespace {

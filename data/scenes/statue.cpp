@@ -7,8 +7,8 @@
 #include <glm/gtc/constants.hpp>
 #include <unordered_map>
 
-#include "mesh_builder.h"
-#include "tube.h"
+#include "scenes/mesh_builder.h"
+#include "scenes/tube.h"
 
 namespace gloam::scenes {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 
 namespace gloam::scenes {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "gloam/driver.h"
+#include "run/driver.h"
 
 extern "C" [[noreturn, gnu::visibility("default")]] void abort() noexcept {
   gloam::before_abort();

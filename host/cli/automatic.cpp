@@ -8,13 +8,13 @@
 #include <memory>
 #include <numeric>
 
+#include "base/statistics.h"
+#include "cli/options.h"
+#include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
 #include "gloam/visualise.h"
-#include "options.h"
-#include "radius.h"
-#include "statistics.h"
 
 namespace gloam::cli {
 namespace {

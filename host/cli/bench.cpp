@@ -5,13 +5,13 @@
 #include <cmath>
 #include <memory>
 
-#include "bench_paper.h"
-#include "document.h"
+#include "bench/document.h"
+#include "bench/measurement.h"
+#include "bench/native.h"
+#include "bench/tables.h"
+#include "cli/bench_paper.h"
+#include "cli/subjects.h"
 #include "gloam/error.h"
-#include "measurement.h"
-#include "native.h"
-#include "subjects.h"
-#include "tables.h"
 
 namespace gloam::cli {
 namespace {

@@ -1,15 +1,15 @@
-#include "bench_paper.h"
+#include "cli/bench_paper.h"
 
 #include <algorithm>
 #include <fstream>
 
-#include "document.h"
+#include "base/files.h"
+#include "base/lists.h"
+#include "bench/document.h"
+#include "bench/papers/paper.h"
+#include "cli/options.h"
+#include "cli/subjects.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "lists.h"
-#include "options.h"
-#include "papers/paper.h"
-#include "subjects.h"
 
 namespace gloam::cli {
 namespace {

@@ -1,5 +1,5 @@
 // gloam capture SCENE -o FRAME.exr
-#include "gloam/capture.h"
+#include "gloam/scene/capture.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,13 +9,13 @@
 #include <numbers>
 #include <optional>
 
-#include "camera_io.h"
-#include "elapsed.h"
+#include "base/elapsed.h"
+#include "camera/camera_io.h"
+#include "cli/scene_flags.h"
 #include "gloam/error.h"
-#include "gloam/light_field_capture.h"
 #include "gloam/radius.h"
+#include "gloam/scene/light_field_capture.h"
 #include "gloam/visualise.h"
-#include "scene_flags.h"
 
 namespace gloam::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "children.h"
+#include "cli/children.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <memory>
 
-#include "compare_inputs.h"
-#include "compare_stereo.h"
+#include "cli/compare_inputs.h"
+#include "cli/compare_stereo.h"
+#include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
 #include "gloam/visualise.h"
-#include "options.h"
 
 namespace gloam::cli {
 namespace {

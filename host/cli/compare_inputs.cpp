@@ -1,4 +1,4 @@
-#include "compare_inputs.h"
+#include "cli/compare_inputs.h"
 
 #include <algorithm>
 

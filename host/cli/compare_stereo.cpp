@@ -1,5 +1,5 @@
 // gloam compare --stereo OUT.exr [--frame PAIR.exr], gloam compare --stereo LEFT.exr RIGHT.exr --frame PAIR.exr
-#include "compare_stereo.h"
+#include "cli/compare_stereo.h"
 
 #include <algorithm>
 #include <array>

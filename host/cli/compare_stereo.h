@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compare_inputs.h"
+#include "cli/compare_inputs.h"
 
 namespace gloam::cli {
 

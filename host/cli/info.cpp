@@ -4,14 +4,14 @@
 #include <map>
 #include <memory>
 
+#include "cli/info_views.h"
+#include "cli/options.h"
+#include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
 #include "gloam/visualise.h"
-#include "info_views.h"
-#include "options.h"
-#include "radius.h"
 
 namespace gloam::cli {
 namespace {
@@ -182,7 +182,8 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   fmt::print("{}: {} x {}", printable(file.path().string()), display.width(), display.height());
   if (window != display)
     fmt::print(", data to {} x {} at ({}, {})", window.width(), window.height(), window.x0, window.y0);
-  if (file.views().size() > 1 || !file.views()[0].empty()) fmt::print(", views {}", printable(fmt::format("{}", fmt::join(file.views(), ", "))));
+  if (file.views().size() > 1 || !file.views()[0].empty())
+    fmt::print(", views {}", printable(fmt::format("{}", fmt::join(file.views(), ", "))));
   fmt::print("\n\n");
   std::vector<std::vector<std::string>> rows = {
       {"plane", "view", "channels", "type", "min", "max", "mean", "not finite"}};

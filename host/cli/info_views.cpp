@@ -1,8 +1,8 @@
-#include "info_views.h"
+#include "cli/info_views.h"
 
 #include <algorithm>
 
-#include "compare_inputs.h"
+#include "cli/compare_inputs.h"
 #include "gloam/error.h"
 #include "gloam/visualise.h"
 

@@ -1,12 +1,12 @@
 // gloam list techniques|devices|metrics|scenes|cases
 #include <memory>
 
+#include "cli/options.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"
-#include "gloam/scene.h"
-#include "options.h"
+#include "gloam/scene/scene.h"
 #include "stress/case.h"
 
 namespace gloam::cli {

@@ -7,11 +7,11 @@
 #include <new>
 #include <set>
 
-#include "gloam/driver.h"
+#include "base/files.h"
+#include "cli/options.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "gloam/scene.h"
-#include "options.h"
+#include "gloam/scene/scene.h"
+#include "run/driver.h"
 
 namespace gloam::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "options.h"
+#include "cli/options.h"
 
 #include <unistd.h>
 
@@ -12,11 +12,11 @@
 #include <map>
 #include <sstream>
 
+#include "base/files.h"
+#include "base/lists.h"
+#include "base/statistics.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
 #include "gloam/planes.h"
-#include "lists.h"
-#include "statistics.h"
 
 namespace gloam::cli {
 namespace {

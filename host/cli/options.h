@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "base/lists.h"
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
-#include "lists.h"
 
 namespace gloam::cli {
 

@@ -1,5 +1,5 @@
 // gloam pick FRAME.exr --budget 20ms | --error 0.02: which setting to take
-#include "pick.h"
+#include "bench/pick.h"
 
 #include <unistd.h>
 
@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/subjects.h"
 #include "gloam/error.h"
-#include "subjects.h"
 
 namespace gloam::cli {
 namespace {

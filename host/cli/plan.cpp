@@ -1,8 +1,8 @@
 // gloam plan OUTPUT[,OUTPUT] FRAME.exr: what would be read, compiled and run. Needs no device.
 #include <memory>
 
-#include "options.h"
-#include "radius.h"
+#include "cli/options.h"
+#include "cli/radius.h"
 
 namespace gloam::cli {
 namespace {

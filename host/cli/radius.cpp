@@ -1,4 +1,4 @@
-#include "radius.h"
+#include "cli/radius.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // How commands choose and tell the radius of ambient occlusion.
 #pragma once
 
+#include "cli/options.h"
 #include "gloam/radius.h"
-#include "options.h"
 
 namespace gloam::cli {
 

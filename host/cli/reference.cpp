@@ -1,13 +1,13 @@
 // gloam reference ao|reflection FRAME.exr --scene SCENE -o REF.exr
-#include "gloam/reference.h"
+#include "gloam/scene/reference.h"
 
 #include <cmath>
 #include <memory>
 
+#include "cli/radius.h"
+#include "cli/scene_flags.h"
 #include "gloam/error.h"
 #include "gloam/visualise.h"
-#include "radius.h"
-#include "scene_flags.h"
 
 namespace gloam::cli {
 namespace {

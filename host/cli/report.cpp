@@ -4,9 +4,9 @@
 #include <fstream>
 #include <memory>
 
+#include "base/files.h"
+#include "cli/options.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "options.h"
 #include "report/markdown.h"
 #include "report/page.h"
 

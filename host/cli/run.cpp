@@ -4,14 +4,14 @@
 #include <future>
 #include <memory>
 
+#include "base/statistics.h"
+#include "cli/options.h"
+#include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
 #include "gloam/stereo_consistency.h"
 #include "gloam/visualise.h"
-#include "options.h"
-#include "radius.h"
-#include "statistics.h"
 
 namespace gloam::cli {
 namespace {
@@ -285,7 +285,9 @@ void run_command(const RunCommand& given) {
 void add_run(CLI::App& app) {
   auto flags = std::make_shared<RunCommand>();
   CLI::App* command = app.add_subcommand("run", "run a technique on a frame");
-  command->add_option("technique", flags->technique, "gloam list techniques shows them; ao: the default of ambient occlusion")
+  command
+      ->add_option("technique", flags->technique,
+                   "gloam list techniques shows them; ao: the default of ambient occlusion")
       ->required()
       ->type_name("TECHNIQUE");
   flags->frame.add_to(*command);

@@ -1,9 +1,9 @@
-#include "scene_flags.h"
+#include "cli/scene_flags.h"
 
 #include <filesystem>
 #include <sstream>
 
-#include "camera_io.h"
+#include "camera/camera_io.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

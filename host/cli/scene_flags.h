@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "gloam/scene.h"
-#include "options.h"
+#include "cli/options.h"
+#include "gloam/scene/scene.h"
 
 namespace gloam::cli {
 

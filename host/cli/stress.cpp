@@ -11,11 +11,11 @@
 #include <mutex>
 #include <thread>
 
-#include "children.h"
+#include "base/files.h"
+#include "base/json_text.h"
+#include "cli/children.h"
+#include "cli/options.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "json_text.h"
-#include "options.h"
 #include "stress/document.h"
 #include "stress/page.h"
 

@@ -1,4 +1,4 @@
-#include "subjects.h"
+#include "cli/subjects.h"
 
 #include <unistd.h>
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "measurement.h"
-#include "radius.h"
-#include "scene_flags.h"
+#include "bench/measurement.h"
+#include "cli/radius.h"
+#include "cli/scene_flags.h"
 
 namespace gloam::cli {
 

@@ -1,11 +1,11 @@
-#include "front.h"
+#include "report/front.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
-#include "lists.h"
+#include "base/lists.h"
 
 namespace gloam::report {
 namespace {

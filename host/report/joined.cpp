@@ -1,4 +1,4 @@
-#include "joined.h"
+#include "report/joined.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measurements.h"
+#include "report/measurements.h"
 
 namespace gloam::report {
 

@@ -1,15 +1,15 @@
-#include "markdown.h"
+#include "report/markdown.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "base/lists.h"
 #include "gloam/error.h"
-#include "lists.h"
-#include "markdown_text.h"
-#include "pictures.h"
-#include "sections.h"
+#include "report/markdown_text.h"
+#include "report/pictures.h"
+#include "report/sections.h"
 
 namespace gloam::report {
 namespace {

@@ -1,12 +1,12 @@
-#include "measurements.h"
+#include "report/measurements.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gloam/ambient_occlusion.h"
+#include "base/files.h"
+#include "base/lists.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "lists.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {

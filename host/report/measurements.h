@@ -128,7 +128,7 @@ struct Measurements {
 };
 
 /// Reads DIR/bench.json, of this version or an older one: what that did not have is empty, and what a technique reads is
-/// taken from the prefixes of names (gloam/ambient_occlusion.h). Throws Error naming the file
+/// taken from the prefixes of names (technique/ambient_occlusion.h). Throws Error naming the file
 /// and the thing in it that is missing or of another kind.
 Measurements read_measurements(const std::filesystem::path& folder);
 

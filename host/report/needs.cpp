@@ -1,11 +1,11 @@
-#include "needs.h"
+#include "report/needs.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <tuple>
 
-#include "markdown_text.h"
+#include "report/markdown_text.h"
 
 namespace gloam::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "front.h"
+#include "report/front.h"
 
 namespace gloam::report {
 

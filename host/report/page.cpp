@@ -1,4 +1,4 @@
-#include "page.h"
+#include "report/page.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "embedded.h"
+#include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "picture.h"
-#include "pictures.h"
+#include "picture/picture.h"
+#include "report/embedded.h"
+#include "report/pictures.h"
 
 namespace gloam::report {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "front.h"
-#include "measurements.h"
+#include "report/front.h"
+#include "report/measurements.h"
 
 namespace gloam::report {
 

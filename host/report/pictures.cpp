@@ -1,10 +1,10 @@
-#include "pictures.h"
+#include "report/pictures.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
-#include "picture.h"
+#include "picture/picture.h"
 
 namespace gloam::report {
 namespace {

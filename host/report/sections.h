@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "joined.h"
-#include "needs.h"
+#include "report/joined.h"
+#include "report/needs.h"
 
 namespace gloam::report {
 

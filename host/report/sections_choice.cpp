@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "base/lists.h"
 #include "gloam/error.h"
-#include "lists.h"
-#include "markdown_text.h"
-#include "sections.h"
+#include "report/markdown_text.h"
+#include "report/sections.h"
 
 namespace gloam::report {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
-#include "gloam/ambient_occlusion.h"
+#include "base/lists.h"
+#include "base/statistics.h"
 #include "gloam/error.h"
-#include "lists.h"
-#include "markdown_text.h"
-#include "sections.h"
-#include "statistics.h"
+#include "report/markdown_text.h"
+#include "report/sections.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {
@@ -34,7 +34,7 @@ struct Pair {
   bool is_over_one_layer = false;  ///< `given`: what is compared for the least
 };
 
-/// What the technique is called that the same over peeled layers is named after (gloam/ambient_occlusion.h).
+/// What the technique is called that the same over peeled layers is named after (technique/ambient_occlusion.h).
 std::string name_of_pair(const Converged& each) {
   const bool is_named_after = reads_peeled_layers(each.reads) && each.technique.starts_with(peeled_prefix);
   return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);

@@ -5,11 +5,11 @@
 #include <array>
 #include <map>
 
+#include "base/lists.h"
+#include "base/statistics.h"
 #include "gloam/error.h"
-#include "lists.h"
-#include "markdown_text.h"
-#include "sections.h"
-#include "statistics.h"
+#include "report/markdown_text.h"
+#include "report/sections.h"
 
 namespace gloam::report {
 namespace {

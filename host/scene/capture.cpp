@@ -1,4 +1,4 @@
-#include "gloam/capture.h"
+#include "gloam/scene/capture.h"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -16,12 +16,12 @@
 #include <limits>
 #include <mutex>
 
-#include "elapsed.h"
+#include "base/elapsed.h"
+#include "base/lists.h"
+#include "base/low_discrepancy.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
-#include "lists.h"
-#include "low_discrepancy.h"
 #include "shared/stochastic.h"
 
 namespace gloam {

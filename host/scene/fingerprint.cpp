@@ -1,4 +1,4 @@
-#include "fingerprint.h"
+#include "scene/fingerprint.h"
 
 #include <fmt/format.h>
 

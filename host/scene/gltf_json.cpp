@@ -1,4 +1,4 @@
-#include "gltf_json.h"
+#include "scene/gltf_json.h"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/files.h"
+#include "base/json_text.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "json_text.h"
 
 namespace gloam {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 
 namespace gloam {
 

@@ -1,11 +1,11 @@
-#include "image_decode.h"
+#include "scene/image_decode.h"
 
 #include <climits>
 #include <fstream>
 #include <memory>
 
+#include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

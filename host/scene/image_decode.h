@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 
 namespace gloam {
 

@@ -18,13 +18,13 @@
 #include <optional>
 #include <set>
 
+#include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
-#include "gloam/scene.h"
-#include "gltf_json.h"
-#include "import_materials.h"
-#include "import_meshes.h"
-#include "obj_text.h"
+#include "gloam/scene/scene.h"
+#include "scene/gltf_json.h"
+#include "scene/import_materials.h"
+#include "scene/import_meshes.h"
+#include "scene/obj_text.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-#include "import_materials.h"
+#include "scene/import_materials.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -11,7 +11,7 @@
 #include <set>
 
 #include "gloam/error.h"
-#include "image_decode.h"
+#include "scene/image_decode.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-#include "import_meshes.h"
+#include "scene/import_meshes.h"
 
 #include <algorithm>
 #include <array>

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "gloam/scene.h"
-#include "import_materials.h"
+#include "gloam/scene/scene.h"
+#include "scene/import_materials.h"
 
 namespace gloam {
 

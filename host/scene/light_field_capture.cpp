@@ -1,9 +1,9 @@
-#include "gloam/light_field_capture.h"
+#include "gloam/scene/light_field_capture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gloam/secondary_camera.h"
+#include "gloam/scene/secondary_camera.h"
 
 namespace gloam {
 

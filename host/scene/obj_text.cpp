@@ -1,4 +1,4 @@
-#include "obj_text.h"
+#include "scene/obj_text.h"
 
 #include <algorithm>
 #include <cctype>

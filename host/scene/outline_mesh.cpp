@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "gloam/error.h"
-#include "gloam/outlines.h"
+#include "gloam/scene/outlines.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-#include "gloam/outlines.h"
+#include "gloam/scene/outlines.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <exception>
 #include <glm/gtc/constants.hpp>
 
-#include "elapsed.h"
-#include "textures.h"
+#include "base/elapsed.h"
+#include "scene/textures.h"
 
 namespace gloam {
 namespace {

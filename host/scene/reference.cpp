@@ -1,12 +1,12 @@
-#include "gloam/reference.h"
+#include "gloam/scene/reference.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/low_discrepancy.h"
 #include "gloam/error.h"
-#include "low_discrepancy.h"
-#include "reference_rows.h"
+#include "scene/reference_rows.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-#include "reference_rows.h"
+#include "scene/reference_rows.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,15 +10,15 @@
 #include <limits>
 #include <mutex>
 
-#include "elapsed.h"
-#include "fingerprint.h"
-#include "gloam/capture.h"
+#include "base/elapsed.h"
+#include "base/files.h"
+#include "base/lists.h"
+#include "base/low_discrepancy.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "gloam/files.h"
 #include "gloam/planes.h"
-#include "lists.h"
-#include "low_discrepancy.h"
+#include "gloam/scene/capture.h"
+#include "scene/fingerprint.h"
 
 namespace gloam {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gloam/reference.h"
+#include "gloam/scene/reference.h"
 
 namespace gloam {
 

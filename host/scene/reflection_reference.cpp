@@ -3,13 +3,13 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "fingerprint.h"
-#include "gloam/capture.h"
+#include "base/low_discrepancy.h"
 #include "gloam/error.h"
 #include "gloam/projection.h"
-#include "gloam/reference.h"
-#include "low_discrepancy.h"
-#include "reference_rows.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
+#include "scene/fingerprint.h"
+#include "scene/reference_rows.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gloam/secondary_camera.h"
+#include "gloam/scene/secondary_camera.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gloam/error.h"
-#include "turned_pose.h"
+#include "scene/turned_pose.h"
 
 namespace gloam {
 namespace {

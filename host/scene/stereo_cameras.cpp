@@ -1,9 +1,9 @@
-#include "gloam/stereo_cameras.h"
+#include "gloam/scene/stereo_cameras.h"
 
 #include <cmath>
 
 #include "gloam/error.h"
-#include "turned_pose.h"
+#include "scene/turned_pose.h"
 
 namespace gloam {
 namespace {

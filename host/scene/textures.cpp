@@ -1,4 +1,4 @@
-#include "textures.h"
+#include "scene/textures.h"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 
 namespace gloam {
 

@@ -1,4 +1,4 @@
-#include "gloam/tracer.h"
+#include "gloam/scene/tracer.h"
 
 #include <embree3/rtcore.h>
 
@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "gloam/error.h"
-#include "textures.h"
+#include "scene/textures.h"
 
 namespace gloam {
 namespace {

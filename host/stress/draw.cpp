@@ -7,9 +7,9 @@
 #include <limits>
 #include <set>
 
+#include "base/random.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
-#include "random.h"
 #include "stress/frames.h"
 #include "stress/modules.h"
 #include "stress/probe.h"

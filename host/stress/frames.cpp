@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "analytic_scene.h"
+#include "base/low_discrepancy.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
-#include "low_discrepancy.h"
 
 namespace gloam::stress {
 namespace {

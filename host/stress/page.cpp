@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "base/lists.h"
 #include "gloam/error.h"
-#include "lists.h"
 
 namespace gloam::stress {
 namespace {

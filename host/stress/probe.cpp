@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/files.h"
+#include "base/lists.h"
 #include "gloam/exr.h"
-#include "gloam/files.h"
-#include "lists.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 

@@ -2,7 +2,7 @@
 #include <numeric>
 
 #include "alchemy/params.h"
-#include "gloam/ambient_occlusion.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::techniques {
 namespace {

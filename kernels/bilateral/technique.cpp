@@ -1,5 +1,5 @@
 #include "bilateral/params.h"
-#include "gloam/ambient_occlusion.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::techniques {
 namespace {

@@ -1,5 +1,5 @@
 #include "corner_mask/params.h"
-#include "gloam/masks.h"
+#include "technique/cell_masks.h"
 
 namespace gloam::techniques {
 namespace {

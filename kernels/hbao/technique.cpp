@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "gloam/ambient_occlusion.h"
 #include "hbao/params.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::techniques {
 namespace {

@@ -1,6 +1,6 @@
-#include "gloam/ambient_occlusion.h"
-#include "gloam/stereo.h"
 #include "hbao_plus/params.h"
+#include "technique/ambient_occlusion.h"
+#include "technique/stereo.h"
 
 namespace gloam::techniques {
 namespace {

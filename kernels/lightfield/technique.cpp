@@ -1,10 +1,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "gloam/ambient_occlusion.h"
-#include "gloam/masks.h"
-#include "gloam/point_sets.h"
 #include "lightfield/params.h"
+#include "technique/ambient_occlusion.h"
+#include "technique/cell_masks.h"
+#include "technique/point_sets.h"
 
 namespace gloam::techniques {
 namespace {

@@ -1,4 +1,4 @@
-// From a mask to the work that it leaves: no technique, but the plan's own passes (host/mask.h). A work-item sees to the word
+// From a mask to the work that it leaves: no technique, but the plan's own passes (host/plan/mask.h). A work-item sees to the word
 // (shared/wanted.h) that begins with its row of pixels, if one does.
 //
 // mask_bits     in : source  above 0 where an effect is wanted; with CELL > 1 of cells of CELL x CELL pixels, whose frame is

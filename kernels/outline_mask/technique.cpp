@@ -1,5 +1,5 @@
-#include "gloam/ambient_occlusion.h"
 #include "outline_mask/params.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::techniques {
 namespace {

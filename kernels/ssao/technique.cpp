@@ -1,5 +1,5 @@
-#include "gloam/ambient_occlusion.h"
 #include "ssao/params.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::techniques {
 namespace {

@@ -1,5 +1,5 @@
-#include "gloam/stereo.h"
 #include "stereo/params.h"
+#include "technique/stereo.h"
 
 namespace gloam::techniques {
 namespace {

@@ -1,4 +1,4 @@
-#include "gloam/ambient_occlusion.h"
+#include "technique/ambient_occlusion.h"
 #include "volumetric/params.h"
 
 namespace gloam::techniques {

@@ -10,11 +10,11 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "gloam/capture.h"
 #include "gloam/error.h"
 #include "gloam/projection.h"
-#include "kernel_projection.h"
-#include "key_views.h"
+#include "gloam/scene/capture.h"
+#include "plan/key_views.h"
+#include "run/kernel_projection.h"
 #include "support/integral.h"
 #include "support/long.h"
 #include "support/stress.h"

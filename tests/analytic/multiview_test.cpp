@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "gloam/capture.h"
 #include "gloam/planes.h"
-#include "gloam/reference.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
 #include "support/estimate.h"
 #include "support/long.h"
 #include "support/stress.h"

@@ -1,6 +1,6 @@
 // Outlines of boxes against closed forms: a point is in a box's outline or it is not, and a pixel's count is in how many its
 // point is.
-#include "gloam/outlines.h"
+#include "gloam/scene/outlines.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,9 +13,9 @@
 #include <map>
 #include <set>
 
-#include "gloam/capture.h"
 #include "gloam/error.h"
-#include "mesh_builder.h"
+#include "gloam/scene/capture.h"
+#include "scenes/mesh_builder.h"
 
 namespace gloam::test {
 namespace {

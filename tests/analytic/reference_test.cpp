@@ -1,5 +1,5 @@
 // The ray-traced reference against ambient occlusion in closed form (hard case 16), within 2e-3 at every pixel.
-#include "gloam/reference.h"
+#include "gloam/scene/reference.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "gloam/capture.h"
 #include "gloam/error.h"
-#include "mesh_builder.h"
+#include "gloam/scene/capture.h"
+#include "scenes/mesh_builder.h"
 #include "support/long.h"
 
 namespace gloam {

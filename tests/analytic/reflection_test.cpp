@@ -8,11 +8,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "gloam/capture.h"
 #include "gloam/exr.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
-#include "gloam/reference.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"

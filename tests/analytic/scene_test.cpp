@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analytic_scene.h"
+#include "base/low_discrepancy.h"
 #include "loggia.h"
-#include "low_discrepancy.h"
 
 namespace gloam::analytic {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "gloam/capture.h"
 #include "gloam/planes.h"
-#include "gloam/reference.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
 #include "gloam/stereo_consistency.h"
 #include "support/estimate.h"
 #include "support/long.h"
@@ -339,7 +339,8 @@ TEST_P(StereoAo, LooksAtTheOtherEyeNearWhatThatAloneSees) {
 TEST_P(StereoAo, LooksAtTheOtherEyeWhereTheRadiusReachesOverABorder) {
   const double radius = 0.5;
   const Frame frame = captured("gallery", 0.065);
-  const NearAndEverywhere found = both_ways(stereo, frame, {{"radius", fmt::format("{}", radius)}, {"reproject", "off"}});
+  const NearAndEverywhere found =
+      both_ways(stereo, frame, {{"radius", fmt::format("{}", radius)}, {"reproject", "off"}});
   for (size_t eye = 0; eye < 2; ++eye) {
     const Camera& camera = *frame.views[eye].camera;
     const Channel &near = channel_of(found.near, eye, "ao_raw"), &depth = channel_of(frame, eye, "depth");
@@ -380,7 +381,8 @@ TEST_P(StereoAo, SparingTheSecondLookCostsNothing) {
         const double apart = inconsistency(found.near, frame), allowed = inconsistency(found.everywhere, frame);
         const double error = rmse(found.near, truth);
         const std::string what = fmt::format(
-            "{}, {}, {} first, reproject {}: largest difference {:.4f}, {:.4f} % over .1, inconsistency {:.5f} of {:.5f}, "
+            "{}, {}, {} first, reproject {}: largest difference {:.4f}, {:.4f} % over .1, inconsistency {:.5f} of "
+            "{:.5f}, "
             "RMSE {:.5f}, one eye {:.5f}",
             stereo, scene_name, primary, reproject, largest, 100 * off, apart, allowed, error, error_of_one);
         fmt::print("{}\n", what);

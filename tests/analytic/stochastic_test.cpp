@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "gloam/capture.h"
 #include "gloam/planes.h"
+#include "gloam/scene/capture.h"
 #include "support/estimate.h"
 #include "support/long.h"
 

@@ -1,5 +1,5 @@
 // gloam auto: what a frame calls for, what is written either way, and what is refused.
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
@@ -93,8 +93,8 @@ TEST_F(CliAuto, AMaskThatIsNotWantedIsNotMade) {
 
 TEST_F(CliAuto, TheHeaderSaysWhatMadeThePlanesAsRunDoes) {
   ASSERT_EQ(automatic(room(), {"--radius", "0.2", "--seed", "3"}).status, 0);
-  ASSERT_EQ(gloam({"run", "bitmask", path("frame.exr"), "-o", path("run.exr"), "--radius", "0.2", "--seed", "3", "--only",
-                   "corner-mask"})
+  ASSERT_EQ(gloam({"run", "bitmask", path("frame.exr"), "-o", path("run.exr"), "--radius", "0.2", "--seed", "3",
+                   "--only", "corner-mask"})
                 .status,
             0);
   FrameFile out(path("out.exr"), {}), expected(path("run.exr"), {});
@@ -184,8 +184,8 @@ TEST_F(CliAuto, WhatOnlyHiddenLayersTellIsNotOverlooked) {
   EXPECT_EQ(effect["share_of_tiles"], 0);
   EXPECT_EQ(effect["wanted"], true);
   EXPECT_EQ(effect["runs"], "sd-bitmask");
-  ASSERT_EQ(gloam({"run", "sd-bitmask", path("frame.exr"), "-o", path("run.exr"), "--only", "hidden-mask", "--elsewhere",
-                   "bitmask"})
+  ASSERT_EQ(gloam({"run", "sd-bitmask", path("frame.exr"), "-o", path("run.exr"), "--only", "hidden-mask",
+                   "--elsewhere", "bitmask"})
                 .status,
             0);
   EXPECT_EQ(difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).max, 0);
@@ -282,8 +282,9 @@ TEST_F(CliAuto, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(message({"--explain", path("why.jpg")}).find("is a PNG"), std::string::npos);
   EXPECT_NE(message({"--explain", path("out.exr")}).find("PNG"), std::string::npos);
   EXPECT_NE(message({"--set", "radios=1"}).find("did you mean 'radius'"), std::string::npos);
-  EXPECT_NE(message({"--set", "sd-bitmask.sample=1"}).find("sd-bitmask: no parameter 'sample' (did you mean 'samples'?)"),
-            std::string::npos);
+  EXPECT_NE(
+      message({"--set", "sd-bitmask.sample=1"}).find("sd-bitmask: no parameter 'sample' (did you mean 'samples'?)"),
+      std::string::npos);
   EXPECT_NE(message({"--set", "stereo-bitmask.filter=box"}).find("filter = 'box' is not allowed"), std::string::npos);
   EXPECT_NE(message({"--preset", "best"}).find("no preset 'best'"), std::string::npos);
   const Result missing = gloam({"auto", path("nothing.exr"), "-o", path("out.exr")});

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

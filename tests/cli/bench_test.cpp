@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 #include <set>
 
-#include "gloam_process.h"
-#include "picture.h"
+#include "cli/gloam_process.h"
+#include "picture/picture.h"
 #include "support/long.h"
 
 namespace gloam::test {

@@ -10,7 +10,7 @@
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 
 namespace gloam::test {
 namespace {

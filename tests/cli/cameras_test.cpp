@@ -13,7 +13,7 @@
 #include <cmath>
 #include <functional>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

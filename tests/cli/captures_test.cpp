@@ -1,6 +1,6 @@
 // Real frames, written by a renderer: the main job with no flag but the radius.
 // The captures lie beside the project on machines that have them; elsewhere these tests are skipped.
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

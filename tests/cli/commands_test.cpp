@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "support/stress.h"
 
 namespace gloam::test {

@@ -1,7 +1,7 @@
 // One technique is what `ao` stands for: in run, plan, auto, the list, the README and the demo.
 #include <regex>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

@@ -1,7 +1,7 @@
 // gloam run --history: a sequence, frame after frame.
 #include <fmt/format.h>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "support/long.h"
 
 namespace gloam::test {

@@ -1,5 +1,5 @@
 // gloam info --picture: the contact sheet of a file.
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

@@ -1,5 +1,5 @@
 // gloam info --sheet and --scan-line: one plane of all views as a picture.
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "unit/pictures.h"
 
 namespace gloam::test {

@@ -2,7 +2,7 @@
 // damaged; the build with sanitizers has no handlers of its own for it.
 #include <random>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {
@@ -24,7 +24,8 @@ class KernelCache : public Cli {
     more["POCL_CACHE_DIR"] = path("cache").string();
     return more;
   }
-  Result run(const char* output, const std::map<std::string, std::string>& more = {}, const Limits& limits = {.seconds = 60}) const {
+  Result run(const char* output, const std::map<std::string, std::string>& more = {},
+             const Limits& limits = {.seconds = 60}) const {
     return finish(start({"run", "normals", loggia, "-o", path(output)}, environment(more), limits));
   }
   std::vector<fs::path> kept(const std::string& ending) const {
@@ -45,7 +46,8 @@ class KernelCache : public Cli {
   void expect_mended(const char* what) const {
     const Result first = run("first.exr");
     EXPECT_EQ(first.status, 0) << what << first.err;
-    EXPECT_NE(first.err.find("note: the compiled kernels in " + path("cache").string() + " were damaged"), std::string::npos)
+    EXPECT_NE(first.err.find("note: the compiled kernels in " + path("cache").string() + " were damaged"),
+              std::string::npos)
         << what << first.err;
     const Result second = run("second.exr");
     EXPECT_EQ(second.status, 0) << what << second.err;

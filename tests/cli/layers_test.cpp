@@ -1,6 +1,6 @@
 // Peeled layers at the command line: what is told of them, decoded, and refused.
+#include "cli/gloam_process.h"
 #include "gloam/planes.h"
-#include "gloam_process.h"
 #include "support/stress.h"
 
 namespace gloam::test {

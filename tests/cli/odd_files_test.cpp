@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

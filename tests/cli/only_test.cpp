@@ -1,5 +1,5 @@
 // --only at the command line: what is planned, said, written and refused.
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "support/stress.h"
 
 namespace gloam::test {

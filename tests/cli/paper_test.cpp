@@ -3,7 +3,7 @@
 #include <fstream>
 #include <map>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "support/long.h"
 #include "unit/pictures.h"
 

@@ -1,5 +1,5 @@
 // gloam pick --by: the figure that decides, and truths of one eye and of both.
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <set>
 #include <sstream>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 
 namespace gloam::test {
 namespace {

@@ -10,9 +10,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cli/gloam_process.h"
 #include "gloam/parameters.h"
 #include "gloam/technique.h"
-#include "gloam_process.h"
 
 namespace gloam::test {
 namespace {

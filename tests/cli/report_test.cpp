@@ -3,8 +3,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "gloam_process.h"
-#include "picture.h"
+#include "cli/gloam_process.h"
+#include "picture/picture.h"
 
 namespace gloam::test {
 namespace {

@@ -1,6 +1,6 @@
 // --resolution and --with at the command line: what is planned, written and refused.
+#include "cli/gloam_process.h"
 #include "gloam/error.h"
-#include "gloam_process.h"
 #include "support/long.h"
 #include "support/stress.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "gloam_process.h"
+#include "cli/gloam_process.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "unit/pictures.h"

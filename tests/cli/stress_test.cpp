@@ -8,8 +8,8 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/gloam_process.h"
 #include "gloam/technique.h"
-#include "gloam_process.h"
 
 namespace gloam::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "random.h"
+#include "base/random.h"
 
 namespace gloam::fuzz {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-#include "exr_stream.h"
+#include "exr/stream.h"
 #include "fuzz/cameras.h"
 #include "fuzz/exr_damage.h"
 #include "fuzz/exr_made.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "random.h"
+#include "base/random.h"
 
 namespace gloam::fuzz {
 

@@ -9,9 +9,9 @@
 #include "fuzz/promise.h"
 #include "fuzz/target.h"
 #include "fuzz/words.h"
-#include "gloam/capture.h"
-#include "gloam/scene.h"
-#include "gloam/tracer.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/scene.h"
+#include "gloam/scene/tracer.h"
 
 namespace gloam::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "random.h"
+#include "base/random.h"
 
 /// libFuzzer's own names. Returns 0; ends the program where a promise is broken.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "fingerprint.h"
 #include "gloam/error.h"
+#include "scene/fingerprint.h"
 #include "support/light_field.h"
 #include "support/long.h"
 #include "support/stress.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/low_discrepancy.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
-#include "low_discrepancy.h"
 #include "support/estimate.h"
 #include "support/stress.h"
 

@@ -1,6 +1,6 @@
 #include "support/light_field.h"
 
-#include "gloam/capture.h"
+#include "gloam/scene/capture.h"
 
 namespace gloam::test {
 

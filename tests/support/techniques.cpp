@@ -6,7 +6,7 @@
 #include <map>
 
 #include "gloam/error.h"
-#include "kernel_sources.h"
+#include "run/kernel_sources.h"
 
 namespace gloam::test {
 namespace {

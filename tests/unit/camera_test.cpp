@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "camera_io.h"
+#include "camera/camera_io.h"
 #include "gloam/error.h"
 #include "unit/read_channel.h"
 

@@ -1,5 +1,5 @@
 // Captured planes against what is known of the scene.
-#include "gloam/capture.h"
+#include "gloam/scene/capture.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 

@@ -1,5 +1,5 @@
 // Which channels are found as which plane, from names alone.
-#include "channel_names.h"
+#include "exr/channel_names.h"
 
 #include <gtest/gtest.h>
 

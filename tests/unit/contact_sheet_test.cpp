@@ -7,7 +7,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/visualise.h"
-#include "pictures.h"
+#include "unit/pictures.h"
 
 namespace gloam {
 namespace {

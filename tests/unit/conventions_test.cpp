@@ -1,5 +1,5 @@
 // Depth, background and normals brought to gloam's conventions; the door that every frame passes.
-#include "conventions.h"
+#include "normalise/conventions.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
-#include "camera_io.h"
+#include "camera/camera_io.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "unit/read_channel.h"

@@ -1,5 +1,5 @@
 // FLIP on images made from formulas, against what a transcription of the authors' Python code (github.com/NVlabs/flip) finds.
-#include "gloam/flip.h"
+#include "compare/flip.h"
 
 #include <gtest/gtest.h>
 

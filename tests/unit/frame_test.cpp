@@ -15,8 +15,8 @@
 #include <set>
 #include <sstream>
 
+#include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/files.h"
 #include "gloam/planes.h"
 
 namespace {

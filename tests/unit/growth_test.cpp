@@ -1,5 +1,5 @@
 // The exponent of growth, and the frames that growth is measured on.
-#include "growth.h"
+#include "bench/growth.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 
 #include "gloam/error.h"
 #include "gloam/frame_files.h"
-#include "message_of.h"
 #include "support/stress.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "gloam/error.h"
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include "gloam/exr.h"
 #include "gloam/projection.h"
-#include "message_of.h"
 #include "support/light_field.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

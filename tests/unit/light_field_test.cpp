@@ -15,8 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gloam/projection.h"
-#include "key_views.h"
-#include "message_of.h"
+#include "plan/key_views.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

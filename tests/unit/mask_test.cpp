@@ -10,10 +10,10 @@
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
-#include "message_of.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

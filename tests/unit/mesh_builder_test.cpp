@@ -1,5 +1,5 @@
 // The shapes of the built-in scenes, and the scenes themselves.
-#include "mesh_builder.h"
+#include "scenes/mesh_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "gloam/capture.h"
-#include "gloam/tracer.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/tracer.h"
 
 namespace gloam::scenes {
 namespace {

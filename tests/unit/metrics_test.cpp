@@ -11,8 +11,8 @@
 #include <opencv2/quality/qualityssim.hpp>
 #include <random>
 
+#include "compare/flip.h"
 #include "gloam/error.h"
-#include "gloam/flip.h"
 
 namespace gloam {
 namespace {

@@ -1,5 +1,5 @@
 // Which settings gloam pick times in turn, of all that it tried once.
-#include "pick.h"
+#include "bench/pick.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What each kind of point set promises, at counts that are squares, primes and neither, and that it is worth having.
-#include "gloam/point_sets.h"
+#include "technique/point_sets.h"
 
 #include <gtest/gtest.h>
 

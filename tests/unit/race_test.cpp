@@ -1,5 +1,5 @@
 // What a technique's time is said to be spent on.
-#include "race.h"
+#include "bench/race.h"
 
 #include <gtest/gtest.h>
 

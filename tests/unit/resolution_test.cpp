@@ -13,12 +13,12 @@
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
-#include "kernel_sources.h"
-#include "message_of.h"
-#include "resample.h"
+#include "plan/resample.h"
+#include "run/kernel_sources.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <string>
 
-#include "gloam/capture.h"
 #include "gloam/error.h"
-#include "gloam/scene.h"
-#include "gloam/tracer.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/scene.h"
+#include "gloam/scene/tracer.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gloam/error.h"
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 #include "support/long.h"
 
 namespace gloam {

@@ -8,9 +8,9 @@
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
-#include "message_of.h"
 #include "support/stress.h"
 #include "support/techniques.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

@@ -1,5 +1,5 @@
 // The second camera: what it has to see lies in its image, and it turns about its pivot.
-#include "gloam/secondary_camera.h"
+#include "gloam/scene/secondary_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "gloam/error.h"
-#include "gloam/scene.h"
+#include "gloam/scene/scene.h"
 
 namespace gloam {
 namespace {

@@ -10,8 +10,8 @@
 #include <limits>
 #include <numbers>
 
-#include "message_of.h"
 #include "support/stress.h"
+#include "unit/message_of.h"
 
 namespace gloam::test {
 namespace {

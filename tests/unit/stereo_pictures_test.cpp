@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "message_of.h"
-#include "pictures.h"
+#include "unit/message_of.h"
+#include "unit/pictures.h"
 
 namespace gloam {
 namespace {

@@ -1,5 +1,5 @@
 // What keeping planes in half precision does to them.
-#include "storage.h"
+#include "bench/storage.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 
 #include "gloam/error.h"
 #include "gloam/visualise.h"
-#include "pictures.h"
 #include "unit/message_of.h"
+#include "unit/pictures.h"
 
 namespace gloam {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "gloam/error.h"
-#include "pictures.h"
+#include "unit/pictures.h"
 
 namespace gloam {
 namespace {

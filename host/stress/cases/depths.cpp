@@ -5,9 +5,9 @@
 #include <limits>
 #include <tuple>
 
-#include "conventions.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
+#include "normalise/conventions.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 

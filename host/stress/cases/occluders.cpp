@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "analytic_scene.h"
+#include "base/low_discrepancy.h"
 #include "gloam/planes.h"
-#include "low_discrepancy.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 #include "stress/surfaces.h"

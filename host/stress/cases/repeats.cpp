@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel_sources.h"
+#include "run/kernel_sources.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 

@@ -1,0 +1,267 @@
+#include "base/files.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "gloam/error.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of files in the making, where a signal handler can read them: no allocation, no lock.
+struct TemporaryName {
+  std::atomic<bool> taken{false};   ///< a writer owns this slot
+  std::atomic<bool> exists{false};  ///< `path` is complete and may be unlinked
+  std::atomic<bool> moving{false};  ///< being renamed: the file is either still there or already under its own name
+  char path[PATH_MAX];
+};
+static_assert(std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<unsigned>::is_always_lock_free);
+std::array<TemporaryName, 16> temporaries;
+std::atomic<unsigned> files_written{0};
+
+/// No signal arrives between two steps that belong together.
+class SignalsLater {
+ public:
+  SignalsLater() {
+    sigset_t all;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsLater() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsLater(const SignalsLater&) = delete;
+  SignalsLater& operator=(const SignalsLater&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+std::string random_name() {
+  std::array<unsigned char, 12> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
+    throw Error("no random name for a new file: {}", std::strerror(errno));
+  std::string name = ".gloam-";
+  for (const unsigned char byte : bytes) name += fmt::format("{:02x}", byte);
+  return name;
+}
+
+/// A new file that nobody else has, removed unless it was renamed; while it exists, a signal handler knows it.
+class Temporary {
+ public:
+  /// In the folder of `target`, since only within one file system is a rename one step. Short, since the target's own name may
+  /// be as long as a name can be.
+  Temporary(const fs::path& target, mode_t mode) {
+    constexpr int tries = 100;
+    for (int i = 0; i < tries && descriptor_ < 0; ++i) {
+      path_ = (target.parent_path() / random_name()).string();
+      if (path_.size() >= PATH_MAX) throw Error("the path is too long");
+      const SignalsLater later;
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+      if (descriptor_ >= 0)
+        enter();
+      else if (errno != EEXIST)
+        break;
+    }
+    if (descriptor_ < 0) throw Error("{}", std::strerror(errno));
+  }
+  ~Temporary() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!renamed_) ::unlink(path_.c_str());
+    if (!slot_) return;
+    slot_->exists.store(false);
+    slot_->moving.store(false);
+    slot_->taken.store(false);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  /// To the disk, and then to `target`. A crash after this leaves the file whole.
+  void finish(const fs::path& target) {
+    // Some file systems cannot sync, and say so.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) throw Error("{}", std::strerror(errno));
+    // What a network file system could not store, it may say here alone.
+    if (::close(std::exchange(descriptor_, -1)) != 0) throw Error("{}", std::strerror(errno));
+    if (slot_) slot_->moving.store(true);
+    renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
+    if (!renamed_) throw Error("{}", std::strerror(errno));
+    files_written.fetch_add(1);
+    sync_folder(target.parent_path());
+  }
+
+ private:
+  void enter() {
+    for (TemporaryName& slot : temporaries) {
+      if (slot.taken.exchange(true)) continue;
+      slot_ = &slot;
+      std::memcpy(slot.path, path_.c_str(), path_.size() + 1);
+      slot.exists.store(true);
+      return;
+    }
+  }
+  /// The new name is in the folder's data. The file is whole without it, so failures are of no account.
+  static void sync_folder(const fs::path& folder) {
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+  }
+
+  std::string path_;
+  TemporaryName* slot_ = nullptr;
+  int descriptor_ = -1;
+  bool renamed_ = false;
+};
+
+std::atomic<const char*> interruption_text{nullptr};
+std::atomic<bool> leaving{false};
+
+void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
+
+extern "C" void remove_and_leave(int signal) {
+  if (leaving.exchange(true)) return;  // a second signal on another thread: one says it
+  unsigned written = files_written.load();
+  for (TemporaryName& slot : temporaries)
+    if (slot.exists.load() && ::unlink(slot.path) != 0 && slot.moving.load()) ++written;
+  if (const char* text = interruption_text.load()) {
+    say("gloam: interrupted; ");
+    say(text);
+    say("\n");
+    ::_exit(128 + signal);
+  }
+  static const char nothing[] = "gloam: interrupted; no output was written\n";
+  static const char something[] = "gloam: interrupted; already written: ";
+  char count[32] = {};
+  char* digit = count + sizeof count - 9;
+  std::memcpy(digit, " file(s)\n", 9);
+  for (unsigned rest = written; rest > 0; rest /= 10) *--digit = char('0' + rest % 10);
+  [[maybe_unused]] ssize_t put = written ? ::write(STDERR_FILENO, something, sizeof something - 1)
+                                         : ::write(STDERR_FILENO, nothing, sizeof nothing - 1);
+  if (written) put = ::write(STDERR_FILENO, digit, size_t(count + sizeof count - digit));
+  ::_exit(128 + signal);
+}
+
+/// Where the data has to go: through symbolic links, so that they stay, also where nothing is at their end yet.
+fs::path resolved(const fs::path& path) {
+  constexpr int most_links = 40;  // Linux follows as many
+  fs::path target = path;
+  std::error_code code;
+  for (int i = 0; fs::is_symlink(target, code); ++i) {
+    if (i == most_links) throw Error("{}: cannot write: {}", path.string(), std::strerror(ELOOP));
+    const fs::path next = fs::read_symlink(target, code);
+    if (code) break;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target;
+}
+
+void check_target(const fs::path& path, const fs::path& target) {
+  std::error_code code;
+  if (const std::string why = why_unwritable(target); !why.empty())
+    throw Error("{}: cannot write: {}", path.string(), why);
+  const fs::path folder = target.parent_path().empty() ? fs::path(".") : target.parent_path();
+  if (!fs::is_directory(folder, code))
+    throw Error("{}: cannot write: '{}' is not a folder", path.string(), folder.string());
+}
+
+/// Permissions for what replaces `target`, and whether they are a file's that stands there.
+std::pair<mode_t, bool> permissions_for(const fs::path& target) {
+  struct stat about {};
+  if (::stat(target.c_str(), &about) != 0) return {0666, false};
+  return {about.st_mode & 07777, true};
+}
+
+}  // namespace
+
+std::string why_unwritable(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (code == std::errc::filename_too_long) return code.message();
+  if (fs::is_directory(status)) return "it is a folder; name a file in it";
+  if (fs::exists(status) && !fs::is_regular_file(status)) return "it is a device or a pipe; name a regular file";
+  return "";
+}
+
+void NewFile::append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) throw Error("{}", std::strerror(errno));
+    bytes.remove_prefix(size_t(put));
+  }
+}
+
+void write_atomically(const fs::path& path, const std::function<void(NewFile&)>& write) {
+  if (path.empty()) throw Error("an empty path cannot be written");
+  const fs::path target = resolved(path);
+  check_target(path, target);
+  const auto [mode, replaces] = permissions_for(target);
+  try {
+    Temporary temporary(target, mode);
+    // Once more, as the mask for new files does not hold for one that is replaced.
+    if (replaces) ::fchmod(temporary.descriptor(), mode);
+    NewFile file(temporary.descriptor());
+    write(file);
+    temporary.finish(target);
+  } catch (const std::exception& error) {
+    std::string cause = error.what();
+    for (char& c : cause)
+      if (c == '\n' || c == '\r') c = ' ';
+    cause = printable(cause);
+    if (cause.starts_with(printable(path.string()))) throw Error("{}", cause);
+    throw Error("{}: cannot write: {}", path.string(), cause);
+  }
+}
+
+void remove_temporaries_on_signal() {
+  struct sigaction action {};
+  action.sa_handler = remove_and_leave;
+  sigemptyset(&action.sa_mask);
+  for (int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+  ::signal(SIGXFSZ, SIG_IGN);
+  files_written.store(0);
+}
+
+void say_on_interruption(const char* text) { interruption_text.store(text); }
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  write_atomically(path, [&](NewFile& file) { file.append(text); });
+}
+
+void check_regular(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (fs::is_directory(status)) throw Error("{}: is a folder; name a file in it", path.string());
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw Error("{}: is a device or a pipe; name a regular file", path.string());
+}
+
+std::string read_text(const fs::path& path) {
+  check_regular(path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
+  return text;
+}
+
+}  // namespace gloam

@@ -1,0 +1,126 @@
+#include "gloam/stereo_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "gloam/error.h"
+#include "picture/inconsistency_image.h"
+#include "picture/picture.h"
+
+namespace gloam {
+namespace {
+
+/// Blue, green, red. What does not count is this at half strength over the plane: it stays dark where that is dark, and
+/// purple where that is bright.
+const cv::Vec3d purple(200, 40, 150);
+
+cv::Vec3b toned(const cv::Vec3b& colour) {
+  cv::Vec3b out;
+  for (int c = 0; c < 3; ++c) out[c] = cv::saturate_cast<unsigned char>(0.5 * (colour[c] + purple[c]));
+  return out;
+}
+
+/// Both as images of three colours, left first.
+std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& left, const Plane& right) {
+  std::array<cv::Mat, 2> images = {coloured(left), coloured(right)};
+  if (images[0].size() != images[1].size())
+    throw Error("{}: not written: the left image is {}x{} and the right one {}x{}", path.string(), images[0].cols,
+                images[0].rows, images[1].cols, images[1].rows);
+  return images;
+}
+
+// --- The legend
+
+constexpr int least_width = 320, margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
+const Style words{8, ink};
+
+/// A field of colours and what they mean.
+struct Key {
+  std::string text;
+  cv::Mat swatch;
+};
+
+cv::Mat plain_swatch(const cv::Scalar& colour) { return {swatch_height, swatch_width / 2, CV_8UC3, colour}; }
+
+std::vector<Key> keys_of(double magnify) {
+  cv::Mat scale(swatch_height, swatch_width, CV_8UC3);
+  for (int x = 0; x < scale.cols; ++x) scale.col(x).setTo(cv::Scalar::all(to_byte(double(x) / (scale.cols - 1))));
+  cv::Mat hidden = plain_swatch(toned(cv::Vec3b::all(255))), background = plain_swatch(background_tone);
+  hidden.colRange(0, hidden.cols / 2).setTo(cv::Scalar(toned(cv::Vec3b::all(0))));
+  hatch(background, cv::Mat(background.size(), CV_8UC1, cv::Scalar(255)), 1);
+  return {{fmt::format("difference between the eyes, 0 to {:.3g} (x {:g})", 1 / magnify, magnify), scale},
+          {"does not count: one eye alone sees it, or an edge", hidden},
+          {"no surface", background}};
+}
+
+/// Where each key stands: from left to right, in as many rows as that takes.
+std::vector<cv::Point> places_of(const std::vector<Key>& keys, int width) {
+  std::vector<cv::Point> places;
+  cv::Point at(margin, margin);
+  for (const Key& key : keys) {
+    const int needed = key.swatch.cols + 6 + int(text_width(key.text, words)) + 18;
+    if (at.x > margin && at.x + needed > width) at = {margin, at.y + row_height};
+    places.push_back(at);
+    at.x += needed;
+  }
+  return places;
+}
+
+cv::Mat with_legend(const cv::Mat& image, double magnify) {
+  const std::vector<Key> keys = keys_of(magnify);
+  const int width = std::max(image.cols, least_width);
+  const std::vector<cv::Point> places = places_of(keys, width);
+  cv::Mat sheet(image.rows + places.back().y + row_height, width, CV_8UC3, paper);
+  image.copyTo(sheet(cv::Rect({}, image.size())));
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const cv::Rect field(places[i] + cv::Point(0, image.rows), keys[i].swatch.size());
+    keys[i].swatch.copyTo(sheet(field));
+    cv::rectangle(sheet, field, rule, 1);
+    const double room = width - field.br().x - 6;
+    put_text(sheet, shortened(keys[i].text, room, words), {field.br().x + 6, field.br().y - 2}, words);
+  }
+  return sheet;
+}
+
+}  // namespace
+
+cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, double magnify) {
+  cv::Mat image = coloured(shown), background(image.size(), CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const StereoPixel pixel = errors.pixels[size_t(y) * size_t(image.cols) + size_t(x)];
+      background.at<unsigned char>(y, x) = pixel == StereoPixel::background ? 255 : 0;
+      cv::Vec3b& colour = image.at<cv::Vec3b>(y, x);
+      colour = pixel == StereoPixel::counted ? cv::Vec3b::all(to_byte(magnify * double(errors.error.at(x, y))))
+                                             : toned(colour);
+    }
+  }
+  image.setTo(background_tone, background);
+  hatch(image, background, 1);
+  return image;
+}
+
+void write_inconsistency_picture(const std::filesystem::path& path, const Plane& shown, const StereoErrors& errors,
+                                 double magnify) {
+  write_png(path, with_legend(inconsistency_image(shown, errors, magnify), magnify));
+}
+
+void write_anaglyph(const std::filesystem::path& path, const Plane& left, const Plane& right) {
+  const std::array<cv::Mat, 2> images = pair_of(path, left, right);
+  cv::Mat out = images[1].clone();
+  const int from_red_to_red[] = {2, 2};
+  cv::mixChannels(&images[0], 1, &out, 1, from_red_to_red, 1);
+  write_png(path, out);
+}
+
+void write_side_by_side(const std::filesystem::path& path, const Plane& left, const Plane& right) {
+  const std::array<cv::Mat, 2> images = pair_of(path, left, right);
+  cv::Mat out;
+  cv::hconcat(images[0], images[1], out);
+  write_png(path, out);
+}
+
+}  // namespace gloam

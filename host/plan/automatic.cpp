@@ -1,0 +1,314 @@
+#include "gloam/automatic.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "plan/adaptive.h"
+
+namespace gloam {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+std::vector<const Technique*> refinements_of(const Technique& technique) {
+  std::vector<const Technique*> found;
+  for (const Technique& t : registry()) {
+    if (t.effect.refines == technique.name) found.push_back(&t);
+  }
+  return found;
+}
+
+bool is_of(const std::string& setting, const std::string& technique) { return setting.rfind(technique + ".", 0) == 0; }
+
+/// What is asked of a technique: of one that refines another, "gtao.bias" too, as "stereo-gtao.bias"; and what names another that
+/// may or may not run is not its business.
+Settings settings_for(const Technique& technique, const PlanRequest& asked) {
+  Settings settings = technique.effect.settings;
+  const std::string& refined = technique.effect.refines;
+  const std::vector<const Technique*> others = refinements_of(refined.empty() ? technique : find_technique(refined));
+  for (const auto& [name, value] : asked.settings) {
+    const bool is_of_another = std::any_of(others.begin(), others.end(), [&, &name = name](const Technique* other) {
+      return other != &technique && is_of(name, other->name);
+    });
+    if (is_of_another) continue;
+    const bool is_of_refined = !refined.empty() && is_of(name, refined);
+    settings.emplace_back(is_of_refined ? technique.name + name.substr(refined.size()) : name, value);
+  }
+  return settings;
+}
+
+/// What names a technique that may not even run is checked all the same.
+void check_settings(const std::vector<const Technique*>& refinements, const PlanRequest& asked) {
+  for (const auto& [name, value] : asked.settings) {
+    for (const Technique* technique : refinements) {
+      if (!is_of(name, technique->name)) continue;
+      const std::string bare = name.substr(technique->name.size() + 1);
+      ParameterValues values(technique->parameters);
+      std::vector<std::string> known;
+      for (const Parameter& p : technique->parameters) known.push_back(p.name);
+      if (!values.has(bare))
+        throw UsageError("{}: no parameter '{}'{}; there are {}", technique->name, bare, suggestion(bare, known),
+                         enumerate(known));
+      values.set(bare, value, technique->name);
+    }
+  }
+}
+
+PlanRequest request_everywhere(const Technique& technique, const PlanRequest& asked) {
+  PlanRequest request = asked;
+  request.outputs = {technique.name};
+  request.settings = settings_for(technique, asked);
+  return request;
+}
+
+/// Whether fewer samples can be taken in some tiles (`PlanRequest::adaptive`).
+bool can_adapt(const Technique& technique) {
+  const std::vector<Pass> passes = technique.passes(ParameterValues(technique.parameters));
+  return std::any_of(passes.begin(), passes.end(), is_estimate);
+}
+
+/// Whether what an effect plans has a parameter of that name: "radius", or "gtao.radius".
+bool knows(const Plan& plan, const Technique& technique, const std::string& setting) {
+  const std::vector<const Technique*> refinements = refinements_of(technique);
+  if (std::any_of(refinements.begin(), refinements.end(), [&](const Technique* t) { return is_of(setting, t->name); }))
+    return true;
+  return std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {
+    const bool is_its_own = is_of(setting, planned.technique->name);
+    return planned.values.has(is_its_own ? setting.substr(planned.technique->name.size() + 1) : setting);
+  });
+}
+
+const ParameterValues& values_of(const Plan& plan, const Technique& technique) {
+  return std::find_if(plan.passes.begin(), plan.passes.end(),
+                      [&](const PlannedPass& planned) { return planned.technique == &technique; })
+      ->values;
+}
+
+/// The mask by itself, with the parameters that it has for the technique, and `more` over them.
+PlanRequest mask_request(const Technique& technique, const Look& look, const Settings& more, int resolution) {
+  const std::string& mask = technique.effect.mask;
+  PlanRequest request{.outputs = {mask}, .as_cells = true, .resolution = resolution};
+  if (technique.views == 1) {
+    PlanRequest restricted = request_everywhere(technique, look.asked);
+    restricted.mask = mask;
+    const Plan whole = make_plan(restricted, look.available, look.holds);
+    const ParameterValues& values = values_of(whole, find_technique(mask));
+    for (const Parameter& p : values.table()) request.settings.emplace_back(mask + "." + p.name, values.text(p.name));
+  }
+  for (const auto& [name, value] : more) request.settings.emplace_back(mask + "." + name, value);
+  return request;
+}
+
+double share_above_0(const Frame& frame, const std::string& plane) {
+  double above = 0, all = 0;
+  for (const View& view : frame.views) {
+    const Channel& channel = view.find(plane)->channels.front();
+    const Layout& layout = channel.layout();
+    for (int y = 0; y < layout.height; ++y) {
+      const float* row = channel.row(y);
+      above += double(std::count_if(row, row + layout.width, [](float value) { return value > 0; }));
+    }
+    all += double(layout.width) * layout.height;
+  }
+  return all > 0 ? above / all : 0;
+}
+
+std::string in_percent(double share) { return share < 0.01 ? "less than 1 %" : fmt::format("{:.0f} %", 100 * share); }
+
+void look_at(EffectChoice& choice, const Look& look, const Settings& settings, int resolution) {
+  const Plan plan = make_plan(mask_request(*choice.technique, look, settings, resolution), look.available, look.holds);
+  RunResult result = run(plan, look.frame, look.device, look.options);
+  choice.cells = plan.outputs.front();
+  choice.share = share_above_0(result.frame, choice.cells);
+  choice.seen = std::move(result.frame);
+  choice.classify_ms += *std::min_element(result.total_ms.begin(), result.total_ms.end());
+}
+
+EffectChoice choose(const Technique& technique, const Look& look) {
+  EffectChoice choice{.technique = &technique};
+  const Effect& effect = technique.effect;
+  look_at(choice, look, effect.glance, effect.glance_resolution);
+  choice.is_everywhere = choice.share > effect.most_share;
+  // What a glance overlooks the mask may still find.
+  if (choice.share == 0 && effect.least_share == 0) look_at(choice, look, {}, 1);
+  choice.is_wanted = choice.share > effect.least_share;
+  choice.why = choice.is_wanted ? fmt::format("{} on {} of the image{}", effect.somewhere, in_percent(choice.share),
+                                              choice.is_everywhere ? ", so a mask would cost more than it saves" : "")
+                                : effect.nowhere;
+  return choice;
+}
+
+/// Why a frame, or what is asked for, does not go with what refines an effect; empty where it does.
+std::string hindrance(const Technique& technique, const Look& look) {
+  if (technique.views == 2 && look.frame.views.size() != 2)
+    return fmt::format("the frame has {}", look.frame.views.size() == 1 ? "one view" : "more than two views");
+  const auto has_pose = [](const View& view) { return view.camera && view.camera->pose; };
+  if (technique.views == 2 && !std::all_of(look.frame.views.begin(), look.frame.views.end(), has_pose))
+    return "nothing tells where the two cameras stand";
+  try {
+    make_plan(request_everywhere(technique, look.asked), look.available, look.holds);
+  } catch (const MissingPlanes& missing) {
+    const std::string& plane = missing.planes.front();
+    const auto least = missing.instead.find(plane);
+    return fmt::format("the frame has no '{}'", least == missing.instead.end() ? plane : least->second);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// `chosen`: the refinement that runs already, or null.
+EffectChoice choose_refinement(const Technique& technique, const Technique* chosen, const Look& look) {
+  std::string why_not = hindrance(technique, look);
+  if (why_not.empty() && chosen) why_not = fmt::format("{} runs, which does not do this as well", chosen->name);
+  if (why_not.empty()) return choose(technique, look);
+  EffectChoice choice{.technique = &technique};
+  choice.why = std::move(why_not);
+  return choice;
+}
+
+/// In place of what it refines, or beside it where a mask tells them apart.
+PlanRequest refined_request(const EffectChoice& refinement, const Technique& refined, const Look& look) {
+  const Technique& technique = *refinement.technique;
+  PlanRequest request = request_everywhere(technique, look.asked);
+  if (technique.views == 2 || refinement.is_everywhere || look.asked.resolution > 1) return request;
+  request.mask = technique.effect.mask;
+  request.elsewhere = refined.name;
+  for (const auto& setting : look.asked.settings) {
+    if (is_of(setting.first, refined.name)) request.settings.push_back(setting);
+  }
+  return request;
+}
+
+/// Rounds that decide whether a mask pays.
+constexpr int least_rounds = 3;
+/// A mask that saves less is not worth what it leaves out.
+constexpr double most_of_everywhere = 0.95;
+
+double least(const std::vector<double>& ms) { return ms.empty() ? 0 : *std::min_element(ms.begin(), ms.end()); }
+
+void leave_mask_out(Decision& decision, const std::string& why) {
+  decision.request = decision.everywhere;
+  decision.effect.is_everywhere = true;
+  decision.effect.why += why;
+}
+
+}  // namespace
+
+PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
+                            const std::vector<std::string>& available, const std::string& holds) {
+  PlanRequest known = asked;
+  if (technique.then.empty()) known.then.clear();
+  if (technique.extras.empty()) known.with.clear();
+  if (!can_adapt(technique)) known.adaptive.clear();
+  PlanRequest request = known;
+  request.outputs = {technique.name};
+  request.mask = technique.effect.mask;
+  request.settings.clear();
+  const Plan plan = make_plan(request, available, holds);
+  std::erase_if(known.settings, [&](const auto& setting) { return !knows(plan, technique, setting.first); });
+  return known;
+}
+
+std::vector<const Technique*> techniques_with_effects() {
+  std::vector<const Technique*> found;
+  for (const Technique& technique : registry()) {
+    if (!technique.effect.name.empty() && technique.effect.refines.empty()) found.push_back(&technique);
+  }
+  return found;
+}
+
+std::vector<std::string> inputs_of_effect(const Technique& technique, const PlanRequest& asked,
+                                          const std::vector<std::string>& available, const std::string& holds) {
+  check_settings(refinements_of(technique), asked);
+  PlanRequest request = request_everywhere(technique, asked);
+  request.mask = technique.effect.mask;
+  std::vector<std::string> inputs = make_plan(request, available, holds).inputs;
+  for (const Technique* refinement : refinements_of(technique)) {
+    try {
+      for (const std::string& plane : make_plan(request_everywhere(*refinement, asked), available, holds).inputs) {
+        if (std::find(inputs.begin(), inputs.end(), plane) == inputs.end()) inputs.push_back(plane);
+      }
+    } catch (const UsageError&) {
+      continue;
+    } catch (const MissingPlanes&) {
+      continue;
+    }
+  }
+  return inputs;
+}
+
+Decision decide(const Technique& technique, const Look& look) {
+  Decision decision{.effect = choose(technique, look)};
+  decision.everywhere = decision.request = request_everywhere(technique, look.asked);
+  if (!decision.effect.is_everywhere) decision.request.mask = technique.effect.mask;
+  const Technique* chosen = nullptr;
+  for (const Technique* t : refinements_of(technique)) {
+    // Where nothing calls for an effect more layers may, but not the same in two views.
+    if (!decision.effect.is_wanted && t->views == 2) continue;
+    decision.refinements.push_back(choose_refinement(*t, chosen, look));
+    const EffectChoice& refinement = decision.refinements.back();
+    decision.effect.classify_ms += refinement.classify_ms;
+    if (!refinement.is_wanted) continue;
+    chosen = t;
+    if (!decision.effect.is_wanted) decision.effect.why += fmt::format(" that is seen, but {}", refinement.why);
+    decision.effect.is_wanted = true;
+    decision.request = refined_request(refinement, technique, look);
+    // What only spares work is left out where nothing is looked at.
+    if (t->effect.settings.empty()) decision.everywhere = request_everywhere(*t, look.asked);
+  }
+  return decision;
+}
+
+Computed compute(Decision& decision, const Look& look, MaskUse use) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const bool has_mask = !decision.request.mask.empty();
+  Computed done{.ms_masked = unknown, .ms_everywhere = unknown};
+  if (!has_mask || use == MaskUse::never) {
+    done.result = run(make_plan(has_mask ? decision.everywhere : decision.request, look.available, look.holds),
+                      look.frame, look.device, look.options);
+    done.ms = least(done.result.total_ms);
+    if (has_mask) done.ms_everywhere = done.ms;
+    if (has_mask) leave_mask_out(decision, ", computed everywhere as asked");
+    return done;
+  }
+  const Plan masked = make_plan(decision.request, look.available, look.holds);
+  if (use == MaskUse::always) {
+    done.result = run(masked, look.frame, look.device, look.options);
+    done.ms = done.ms_masked = least(done.result.total_ms);
+    done.is_masked = true;
+    return done;
+  }
+  const Plan everywhere = make_plan(decision.everywhere, look.available, look.holds);
+  RunOptions once = look.options;
+  once.repeat = 1;
+  RunResult with_mask, without;
+  std::vector<double> ms_with, ms_without;
+  // In turn, so that what else the machine does falls on both; the first round pays for what a device does once.
+  for (int round = 0; round < std::max(least_rounds, look.options.repeat); ++round) {
+    with_mask = run(masked, look.frame, look.device, once);
+    without = run(everywhere, look.frame, look.device, once);
+    ms_with.push_back(with_mask.total_ms.front());
+    ms_without.push_back(without.total_ms.front());
+  }
+  done.ms_masked = least(ms_with);
+  done.ms_everywhere = least(ms_without);
+  done.is_masked = done.ms_masked <= most_of_everywhere * done.ms_everywhere;
+  done.ms = done.is_masked ? done.ms_masked : done.ms_everywhere;
+  done.result = std::move(done.is_masked ? with_mask : without);
+  if (done.is_masked)
+    decision.effect.why += fmt::format("; the mask saves {:.0f} %", 100 * (1 - done.ms_masked / done.ms_everywhere));
+  else
+    leave_mask_out(decision,
+                   fmt::format("; with a mask {:.2f} ms, everywhere {:.2f}", done.ms_masked, done.ms_everywhere));
+  return done;
+}
+
+void look_closely(EffectChoice& choice, const Look& look) {
+  EffectChoice closer{.technique = choice.technique};
+  look_at(closer, look, {}, choice.technique->effect.glance_resolution);
+  choice.seen = std::move(closer.seen);
+}
+
+}  // namespace gloam

@@ -1,0 +1,174 @@
+#include "plan/mask.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/lists.h"
+#include "gloam/planes.h"
+#include "plan/resample.h"
+
+namespace gloam {
+namespace {
+
+/// Bits of what is wanted, and with what filters read around it, at a resolution.
+std::string wanted(int scale) { return scale == 1 ? "wanted" : fmt::format("wanted@{}", scale); }
+std::string grown(int scale) { return scale == 1 ? "wanted.grown" : fmt::format("wanted.grown@{}", scale); }
+
+std::string wanted_around(int scale) { return fmt::format("wanted.around{}", scale); }
+
+PlannedPass mask_pass(std::string name, std::string kernel, Binding read, Binding written,
+                      std::vector<std::pair<std::string, int>> defines, int scale) {
+  if (scale > 1) name += fmt::format(" at 1/{}", scale);
+  Pass pass{.name = std::move(name), .kernel = std::move(kernel), .defines = std::move(defines), .scale = scale};
+  pass.reads = {std::move(read)};
+  pass.writes = {std::move(written)};
+  return {&masking(), std::move(pass), ParameterValues(masking().parameters)};
+}
+
+struct Reach {
+  int x = 0, y = 0;
+  bool is_none() const { return x == 0 && y == 0; }
+};
+
+const char* const rest = "wanted.rest";
+
+class Restriction {
+ public:
+  Restriction(const Plan& plan, const std::vector<const Technique*>& techniques, const Technique* elsewhere)
+      : plan_(plan), elsewhere_(elsewhere), source_(plan.mask) {
+    for (const PlannedPass& planned : plan.passes) {
+      const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
+      is_restricted_.push_back(planned.pass.can_skip && (is_asked_for || planned.technique == &resampling()));
+      if (planned.pass.repeats_cells && planned.pass.writes.front().plane == plan.mask &&
+          !contains(plan.outputs, plan.mask)) {
+        // The cells do as well.
+        left_out_ = &planned;
+        source_ = planned.pass.reads.front().plane;
+        cell_ = plane_scales(plan).at(source_);
+      }
+    }
+  }
+
+  bool has_work() const {
+    return std::find(is_restricted_.begin(), is_restricted_.end(), true) != is_restricted_.end();
+  }
+
+  void rewrite() {
+    for (size_t i = 0; i < plan_.passes.size(); ++i) {
+      if (&plan_.passes[i] == left_out_) continue;
+      PlannedPass planned = plan_.passes[i];
+      if (is_restricted_[i]) {
+        const int scale = planned.pass.scale;
+        const bool is_read_around = !reach_after(i + 1, scale).is_none();
+        need_wanted(scale);
+        if (is_read_around) need_grown(scale);
+        const std::string bits = is_read_around ? grown(scale) : wanted(scale);
+        if (estimated.empty()) estimated = bits;
+        skip_by(planned.pass, planned.technique == elsewhere_ ? rest : bits);
+        if (elsewhere_ && planned.technique != elsewhere_) keep_skipped(planned.pass);
+      }
+      passes.push_back(std::move(planned));
+    }
+  }
+
+  std::vector<PlannedPass> passes;
+  std::string estimated;  ///< bits by which the first of the restricted passes skips
+
+ private:
+  /// How far later passes of the same resolution read around a pixel, from pass `from` on.
+  Reach reach_after(size_t from, int scale) const {
+    Reach reach;
+    for (size_t i = from; i < plan_.passes.size(); ++i) {
+      if (!is_restricted_[i] || plan_.passes[i].pass.scale != scale) continue;
+      reach.x += plan_.passes[i].pass.reach_x;
+      reach.y += plan_.passes[i].pass.reach_y;
+    }
+    return reach;
+  }
+
+  void need_wanted(int scale) {
+    if (!wanted_.insert(scale).second) return;
+    if (scale == 1) {
+      passes.push_back(bits_pass(source_, cell_, "", "wanted", elsewhere_ ? rest : ""));
+    } else {
+      need_wanted(1);
+      // Those from which a wanted pixel is upsampled.
+      add_grown(wanted(1), wanted_around(scale), {scale - 1, scale - 1}, 1);
+      passes.push_back(mask_pass("reduced", "mask_reduced", {"whole", wanted_around(scale)}, {"wanted", wanted(scale)},
+                                 {{"SCALE", scale}}, scale));
+    }
+  }
+
+  /// As far as all filters together read: those between have the same.
+  void need_grown(int scale) {
+    if (!grown_.insert(scale).second) return;
+    add_grown(wanted(scale), grown(scale), reach_after(0, scale), scale);
+  }
+
+  void add_grown(const std::string& from, const std::string& to, Reach reach, int scale) {
+    passes.push_back(mask_pass("grown", "mask_grown", {"wanted", from}, {"grown", to},
+                               {{"REACH_X", reach.x}, {"REACH_Y", reach.y}}, scale));
+  }
+
+  const Plan& plan_;
+  const Technique* elsewhere_;
+  std::string source_;
+  int cell_ = 1;
+  const PlannedPass* left_out_ = nullptr;
+  std::vector<bool> is_restricted_;
+  std::set<int> wanted_, grown_;  ///< resolutions that have these
+};
+
+}  // namespace
+
+const Technique& masking() {
+  static const Technique technique = {.name = "mask",
+                                      .summary = "from a mask to the pixels that it leaves",
+                                      .source = "mask/mask.cl",
+                                      .any_projection = true};
+  return technique;
+}
+
+PlannedPass bits_pass(const std::string& source, int cell, const std::string& asked, const std::string& wanted,
+                      const std::string& rest) {
+  PlannedPass planned = mask_pass("bits", "mask_bits", {"source", source}, {"wanted", wanted},
+                                  {{"CELL", cell}, {"WITH_ASKED", !asked.empty()}, {"WITH_REST", !rest.empty()}}, 1);
+  if (!asked.empty()) planned.pass.reads.push_back({"asked", asked});
+  if (!rest.empty()) planned.pass.writes.push_back({"rest", rest});
+  return planned;
+}
+
+void skip_by(Pass& pass, const std::string& bits) {
+  std::erase_if(pass.reads, [](const Binding& binding) { return binding.argument == "wanted"; });
+  std::erase_if(pass.defines, [](const auto& define) { return define.first == "MASKED"; });
+  pass.reads.push_back({"wanted", bits});
+  pass.defines.emplace_back("MASKED", 1);
+}
+
+void keep_skipped(Pass& pass) { pass.defines.emplace_back("KEEP", 1); }
+
+void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques, const Technique* elsewhere) {
+  for (const Technique* technique : techniques) {
+    if (technique->views > 1)
+      throw UsageError("--only: restricts techniques that look at one view, and {} looks at two; leave it out",
+                       technique->name);
+  }
+  const bool looks_into_key_views = std::any_of(plan.passes.begin(), plan.passes.end(), [](const PlannedPass& planned) {
+    return planned.pass.on != Pass::Views::every;
+  });
+  if (elsewhere && looks_into_key_views)
+    throw UsageError(
+        "--elsewhere {}: what views take over from one another (reuse=on) is one technique's; leave out one of both",
+        elsewhere->name);
+  Restriction restriction(plan, techniques, elsewhere);
+  if (!restriction.has_work())
+    throw UsageError("--only: {} has no work that a mask can leave out; leave it out", plan.technique);
+  restriction.rewrite();
+  plan.passes = std::move(restriction.passes);
+  if (elsewhere)
+    plan.rest = rest;
+  else
+    plan.wanted = restriction.estimated;
+}
+
+}  // namespace gloam

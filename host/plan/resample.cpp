@@ -1,0 +1,153 @@
+#include "plan/resample.h"
+
+#include <set>
+
+#include "base/lists.h"
+#include "gloam/planes.h"
+#include "resample/params.h"
+
+namespace gloam {
+namespace {
+
+std::string reduced_name(const std::string& plane, int resolution) { return fmt::format("{}@{}", plane, resolution); }
+
+/// The kernel for planes of such components.
+std::string kernel_for(const std::string& kernel, const std::string& plane) {
+  using Components = std::vector<std::string>;
+  static const std::vector<std::pair<Components, std::string>> endings = {
+      {{""}, ""}, {{"x", "y", "z"}, "_vector"}, {{"r", "g", "b"}, "_color"}, {{"r", "g", "b", "a"}, "_color_alpha"}};
+  const Components components = plane_kind(plane).components;
+  for (const auto& [known, ending] : endings) {
+    if (known == components) return kernel + ending;
+  }
+  throw Error("'{}' has the components {}, which cannot be had at a lower resolution", plane, enumerate(components));
+}
+
+/// Of the whole image's plane or stack, every n-th pixel.
+Pass subsample(const std::string& plane, const Plan& plan) {
+  const int resolution = plan.resolution;
+  Pass pass{.name = "subsample " + plane, .defines = {{"SCALE", resolution}}, .scale = resolution};
+  pass.reads = {{"source", plane}};
+  const auto stack = plan.stacks.find(plane);
+  if (stack == plan.stacks.end()) {
+    pass.kernel = kernel_for("subsample", plane);
+    pass.writes = {{"result", reduced_name(plane, resolution)}};
+  } else {
+    const int layers = int(stack->second.size());
+    pass.kernel = "subsample_stack";
+    pass.defines.emplace_back("SOURCE_LAYERS", layers);
+    pass.writes = {{"result", reduced_name(plane, resolution), layers}};
+  }
+  return pass;
+}
+
+Pass upsample(const std::string& plane, int resolution) {
+  return {.name = "upsample " + plane,
+          .kernel = kernel_for("joint_upsample", plane),
+          .reads = {{"source", reduced_name(plane, resolution)},
+                    {"low_depth", reduced_name("depth", resolution)},
+                    {"low_normal", reduced_name("normal", resolution)},
+                    "depth",
+                    "normal"},
+          .writes = {{"result", plane}},
+          .defines = {{"SCALE", resolution}, {"OUTSIDE", int(plane_kind(plane).outside)}},
+          .can_skip = true};
+}
+
+/// Passes of a plan, rewritten one by one.
+class Reduction {
+ public:
+  Reduction(const Plan& plan, const ParameterValues& values) : plan_(plan), values_(values) {}
+
+  void add(const PlannedPass& planned) { passes.push_back(planned); }
+
+  void add_reduced(PlannedPass planned) {
+    for (Binding& binding : planned.pass.reads) rename(binding);
+    for (Binding& binding : planned.pass.writes) {
+      made_.insert(binding.plane);
+      rename(binding);
+    }
+    planned.pass.scale *= plan_.resolution;
+    planned.scale = plan_.resolution;
+    passes.push_back(std::move(planned));
+  }
+
+  void add_outputs() {
+    for (const std::string& output : plan_.outputs) {
+      if (made_.count(output) == 0) continue;
+      if (contains(resampling().reads, output))
+        throw UsageError(
+            "{}: '{}' is what guides upsampling, so it has to be made of every pixel; use --resolution full",
+            plan_.technique, output);
+      if (is_stack(output))
+        throw UsageError("{}: '{}' holds layers, which cannot be upsampled; use --resolution full", plan_.technique,
+                         output);
+      for (const std::string& guide : resampling().reads) need(guide);
+      passes.push_back({&resampling(), upsample(output, plan_.resolution), values_});
+    }
+  }
+
+  /// Of the outputs that are made at the low resolution, the names there.
+  std::vector<std::string> reduced_outputs() const {
+    std::vector<std::string> outputs = plan_.outputs;
+    for (std::string& output : outputs) {
+      if (made_.count(output)) output = reduced_name(output, plan_.resolution);
+    }
+    return outputs;
+  }
+
+  std::vector<PlannedPass> passes;
+
+ private:
+  /// What is not made at the low resolution comes from the whole image.
+  void need(const std::string& plane) {
+    if (!made_.insert(plane).second) return;
+    passes.push_back({&resampling(), subsample(plane, plan_), values_, plan_.resolution});
+  }
+
+  void rename(Binding& binding) {
+    need(binding.plane);
+    binding.plane = reduced_name(binding.plane, plan_.resolution);
+  }
+
+  const Plan& plan_;
+  const ParameterValues& values_;
+  std::set<std::string> made_;  ///< at the low resolution
+};
+
+/// Layers that nobody asked for are there for who did: made at the same resolution.
+bool makes_stack(const Technique& technique) {
+  return std::any_of(technique.writes.begin(), technique.writes.end(),
+                     [](const std::string& plane) { return is_stack(plane); });
+}
+
+}  // namespace
+
+const Technique& resampling() {
+  static const Technique technique = {.name = "resample",
+                                      .summary = "every n-th pixel, and back by joint bilateral upsampling",
+                                      .paper = "Kopf, Cohen, Lischinski, Uyttendaele 2007",
+                                      .source = "resample/resample.cl",
+                                      .reads = {"depth", "normal"},
+                                      .parameters = ResampleParams::table()};
+  return technique;
+}
+
+void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const ParameterValues& values,
+            bool is_upsampled) {
+  Reduction reduction(plan, values);
+  for (PlannedPass& planned : plan.passes) {
+    const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
+    if (is_asked_for || makes_stack(*planned.technique))
+      reduction.add_reduced(std::move(planned));
+    else
+      reduction.add(planned);
+  }
+  if (is_upsampled)
+    reduction.add_outputs();
+  else
+    plan.outputs = reduction.reduced_outputs();
+  plan.passes = std::move(reduction.passes);
+}
+
+}  // namespace gloam

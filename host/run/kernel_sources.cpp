@@ -1,0 +1,46 @@
+#include "run/kernel_sources.h"
+
+#include <set>
+#include <sstream>
+
+#include "gloam/error.h"
+
+namespace gloam {
+namespace {
+
+/// The file named by `#include "file"`; empty for any other line.
+std::string included(const std::string& line) {
+  const std::string word = "#include \"";
+  const size_t start = line.find(word);
+  if (start == std::string::npos || line.find_first_not_of(" \t") != start) return "";
+  const size_t end = line.find('"', start + word.size());
+  return end == std::string::npos ? "" : line.substr(start + word.size(), end - start - word.size());
+}
+
+void append(const std::string& file, std::set<std::string>& seen, std::string& out) {
+  if (!seen.insert(file).second) return;
+  out += fmt::format("#line 1 \"{}\"\n", file);
+  std::istringstream lines(kernel_sources().at(file));
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::string inner = included(line);
+    if (inner.empty() || kernel_sources().count(inner) == 0) {
+      out += line + "\n";  // an include of the host's branch, or one that the kernel compiler will not find and name
+      continue;
+    }
+    append(inner, seen, out);
+    out += fmt::format("#line {} \"{}\"\n", number + 1, file);
+  }
+}
+
+}  // namespace
+
+std::string flatten(const std::string& file) {
+  std::set<std::string> seen;
+  std::string out;
+  if (kernel_sources().count(file) == 0) throw Error("no kernel file kernels/{}", file);
+  append(file, seen, out);
+  return out;
+}
+
+}  // namespace gloam

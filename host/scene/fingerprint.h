@@ -1,0 +1,52 @@
+// Tells what a kept file was made from: a 64-bit FNV-1a hash over the bytes of plain values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "gloam/frame.h"
+#include "gloam/scene/scene.h"
+
+namespace gloam {
+
+class Fingerprint {
+ public:
+  void add_bytes(const void* data, size_t count) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (size_t i = 0; i < count; ++i) state_ = (state_ ^ bytes[i]) * 0x100000001b3ULL;
+  }
+  template <typename Value>
+  void add(const Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
+    add_bytes(&value, sizeof value);
+  }
+  /// A list and its length, so that neighbours cannot be taken for each other.
+  template <typename Value>
+  void add(const std::vector<Value>& values) {
+    add(values.size());
+    add_bytes(values.data(), values.size() * sizeof(Value));
+  }
+  void add(const std::string& text) {
+    add(text.size());
+    add_bytes(text.data(), text.size());
+  }
+  /// All that rays can meet: triangles, normals, cut-outs and where they are.
+  void add(const Scene& scene);
+  /// What they see there: materials, textures and light.
+  void add_light(const Scene& scene);
+  /// What surfaces do with light: roughness and reflectance of every view.
+  void add_gloss(const Frame& frame);
+  /// What rays start from: depth and normals of every view, and its camera.
+  void add(const Frame& frame);
+
+  /// 16 hexadecimal digits.
+  std::string text() const;
+
+ private:
+  uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace gloam

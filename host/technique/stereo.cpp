@@ -1,0 +1,156 @@
+#include "technique/stereo.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "technique/ambient_occlusion.h"
+
+namespace gloam {
+namespace {
+
+using Filter = StereoChoices::Filter;
+
+Pass visibility(const StereoChoices& c) {
+  Pass pass{.name = "visibility",
+            .kernel = "stereo_visibility",
+            .reads = {"depth", of_other({"other_depth", "depth"})},
+            .writes = {"stereo_depth"}};
+  if (c.reproject) pass.writes.push_back("newly_visible");
+  if (c.near_half_occluded()) pass.writes.push_back("half_occluded");
+  return pass;
+}
+
+/// Of the eye that the other one's estimate looks at.
+Pass half_occlusion(const StereoChoices& c) {
+  return {.name = "half-occlusion",
+          .kernel = "stereo_half_occlusion",
+          .reads = {{"depth", "stereo_depth"}},
+          .writes = {"half_occluded"},
+          .view = c.reproject ? 1 - c.primary : -1};
+}
+
+/// Of both eyes: the same planes of the other one, but for the normals.
+Pass from_both(Pass estimate, const std::string& kernel) {
+  estimate.kernel = kernel;
+  estimate.reads.front().plane = "stereo_depth";
+  const std::vector<Binding> own = estimate.reads;
+  for (const Binding& read : own) {
+    if (read.plane != "normal" && read.plane != "newly_visible")
+      estimate.reads.push_back(of_other({"other_" + read.argument, read.plane, read.layers}));
+  }
+  return estimate;
+}
+
+Pass reprojection(const StereoChoices& c) {
+  return {.name = "reproject",
+          .kernel = "stereo_reproject",
+          .reads = {{"depth", "stereo_depth"},
+                    "normal",
+                    of_other({"other_depth", "stereo_depth"}),
+                    of_other({"other_normal", "normal"}),
+                    of_other({"other", "ao_raw"})},
+          .writes = {{"result", "ao_raw"}, "newly_visible"},
+          .defines = {{"NO_BACK_CHECK", !c.back_check}},
+          .view = 1 - c.primary};
+}
+
+/// What the second eye alone sees.
+Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& c) {
+  estimate.reads.push_back("newly_visible");
+  Pass pass = from_both(std::move(estimate), both + "_list");
+  pass.name = "newly visible";
+  pass.defines.emplace_back("ESTIMATE_MONO", !c.estimate_both);
+  pass.view = 1 - c.primary;
+  return pass;
+}
+
+/// Each pass leaves the sum of its weights too, times that of the one before.
+void keep_weights(std::vector<Pass>& passes) {
+  for (size_t i = 0; i < passes.size(); ++i) {
+    Pass& pass = passes[i];
+    pass.kernel = "bilateral_weighted";
+    if (i > 0) pass.reads.insert(pass.reads.begin() + 1, Binding("source_weights", passes[i - 1].writes.back().plane));
+    pass.writes.push_back({"result_weights", pass.writes.front().plane + "_weights"});
+    pass.defines.emplace_back("WITH_SOURCE_WEIGHTS", i > 0);
+  }
+}
+
+Pass blend(const Pass& last) {
+  Pass pass{.name = "blend",
+            .kernel = "stereo_blend",
+            .reads = {{"source", last.writes[0].plane}, {"source_weights", last.writes[1].plane}, "depth", "normal"},
+            .writes = {{"result", "ao"}},
+            .defines = last.defines};
+  for (const Binding& other :
+       {Binding("other_source", last.writes[0].plane), Binding("other_weights", last.writes[1].plane),
+        Binding("other_depth", "depth"), Binding("other_normal", "normal")})
+    pass.reads.push_back(of_other(other));
+  return pass;
+}
+
+/// The filter is the technique's own, and has its settings.
+void set_initial(std::vector<Parameter>& parameters, const std::string& name, const std::string& value) {
+  for (Parameter& p : parameters) {
+    if (p.name == name) p.initial = std::stod(value);
+  }
+}
+
+}  // namespace
+
+Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
+                        std::function<std::vector<Pass>(const ParameterValues&)> passes) {
+  Technique t = std::move(mono);
+  t.summary = t.name + " for two eyes that agree on what both of them see";
+  t.name.insert(0, "stereo-");
+  t.paper += "; for two eyes Shi, Billeter, Eisemann 2022";
+  t.views = 2;
+  t.writes = t.outputs = {"ao", "ao_raw"};
+  t.default_for.clear();
+  t.effect = {};
+  t.extras.clear();
+  t.parameters = std::move(parameters);
+  for (const auto& [name, value] : std::exchange(t.then_with, {})) set_initial(t.parameters, name, value);
+  t.then.clear();
+  t.passes = std::move(passes);
+  return t;
+}
+
+std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
+  if (filter == Filter::mono) return bilateral_passes(taps, false, "ao");
+  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, "ao_of_one_eye");
+  keep_weights(passes);
+  passes.push_back(blend(passes.back()));
+  return passes;
+}
+
+std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& c) {
+  Pass estimate = std::move(mono.back());
+  estimate.extras.clear();
+  mono.pop_back();
+  std::vector<Pass> passes = std::move(mono);
+  if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
+  passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
+  if (c.near_half_occluded()) {
+    passes.back().reads.push_back(of_other({"other_half_occluded", "half_occluded"}));
+    passes.insert(passes.end() - 1, half_occlusion(c));
+  }
+  if (c.reproject) {
+    passes.back().view = c.primary;
+    passes.push_back(reprojection(c));
+    passes.push_back(newly_visible(estimate, both, c));
+  }
+  for (Pass& pass : stereo_filter_passes(c.filter, c.half_width)) passes.push_back(std::move(pass));
+  for (Pass& pass : passes) {
+    // The whole program needs what its estimate does.
+    for (const auto& define : estimate.defines) {
+      if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
+        pass.defines.push_back(define);
+    }
+    pass.defines.insert(
+        pass.defines.end(),
+        {{"STEREO", 1}, {"WITH_PIXEL_LIST", c.reproject}, {"WITH_HALF_OCCLUSION", c.near_half_occluded()}});
+  }
+  return passes;
+}
+
+}  // namespace gloam
