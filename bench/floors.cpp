@@ -9,7 +9,7 @@ namespace {
 
 #define FRAME_SCALAR float
 #define FRAME_NAME KernelFrame
-#include "shared/frame.h"
+#include "shared/frame/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
 
@@ -44,7 +44,7 @@ Floor::Floor(Device& device, const Frame& frame, const char* header, const char*
 double Floor::run() { return launch(device_, kernel_, global_); }
 
 GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params)
-    : Floor(device, frame, "shared/fan.h", gather_floor_cl, "gather_floor") {
+    : Floor(device, frame, "shared/sampling/fan.h", gather_floor_cl, "gather_floor") {
   kernel_.setArg(1, params.radius);
   kernel_.setArg(2, params.max_reach);
   kernel_.setArg(3, planes.depth);
@@ -52,7 +52,7 @@ GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& plane
 }
 
 CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)
-    : Floor(device, frame, "shared/load.h", copy_floor_cl, "copy_floor") {
+    : Floor(device, frame, "shared/lanes/load.h", copy_floor_cl, "copy_floor") {
   kernel_.setArg(1, planes.depth);
   kernel_.setArg(2, planes.result().buffer);
 }

@@ -1,5 +1,5 @@
 // What HBAO+'s sampling costs by itself: the addresses of kernels/hbao_plus, one gather each, and a sum.
-// Comes after shared/fan.h. -D LANES, DIRECTIONS, STEPS, JITTER
+// Comes after shared/sampling/fan.h. -D LANES, DIRECTIONS, STEPS, JITTER
 static inline __attribute__((always_inline)) real sum_of_gathers(Frame frame, global const float* depth, Receiver r,
                                                                  Fan fan, int within) {
   real sum = 0;

@@ -32,7 +32,7 @@ float3 position(Camera c, int x, int y, float z) {
   return (float3)((x + 0.5f - c.centre_x) * c.scale_x * z, (c.centre_y - y - 0.5f) * c.scale_y * z, -z);
 }
 
-// Two numbers of a pixel, 0 to 1: those of kernels/shared/sample.h.
+// Two numbers of a pixel, 0 to 1: those of kernels/shared/sampling/sample.h.
 float unit_random(uint h) { return (h >> 8) * 0x1p-24f; }
 float turn_at(Camera c, int x, int y) { return unit_random(x * 0x8e42b7fdu + y * 0x4f2cbe3cu + c.seed * 0x9e3779b9u); }
 float shift_at(Camera c, int x, int y) { return unit_random(x * 0xc13fa9a9u + y * 0x91e10da6u + c.seed * 0x6a09e667u); }

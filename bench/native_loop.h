@@ -10,7 +10,7 @@ inline void cosine_sine(F a, F& cosine, F& sine) {
   sine = a * fma(fma(fma(b, all(-1.0f / 5040), all(1.0f / 120)), b, all(-1.0f / 6)), b, all(1));
 }
 
-// The pixel noise of kernels/shared/sample.h, per column.
+// The pixel noise of kernels/shared/sampling/sample.h, per column.
 constexpr uint32_t turn_across = 0x8e42b7fdu, shift_across = 0xc13fa9a9u;
 
 // What one row's pixels share.

@@ -4,7 +4,7 @@
 
 #include "base/lists.h"
 #include "gloam/planes.h"
-#include "shared/ambient_occlusion.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam::bench {

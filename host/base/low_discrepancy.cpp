@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "shared/hash.h"
+#include "shared/lanes/hash.h"
 
 namespace gloam {
 namespace {

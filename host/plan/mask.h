@@ -19,7 +19,7 @@ const Technique& masking();
 void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques,
                       const Technique* elsewhere = nullptr);
 
-/// The pass from a plane that is above 0 or not to bits of pixels (shared/wanted.h): `wanted` and, unless empty, `rest`, those
+/// The pass from a plane that is above 0 or not to bits of pixels (shared/lanes/wanted.h): `wanted` and, unless empty, `rest`, those
 /// of the others; of the bits `asked` alone, unless that is empty. The plane is of cells of `cell` x `cell` pixels.
 PlannedPass bits_pass(const std::string& source, int cell, const std::string& asked, const std::string& wanted,
                       const std::string& rest);

@@ -1,4 +1,4 @@
-// What kernels know of a view's projection (kernels/shared/projection.h).
+// What kernels know of a view's projection (kernels/shared/frame/projection.h).
 #pragma once
 
 #include "gloam/frame.h"
@@ -7,12 +7,12 @@ namespace gloam {
 
 #define PROJECTION_SCALAR float
 #define PROJECTION_NAME ProjectionOfFloats
-#include "shared/projection.h"
+#include "shared/frame/projection.h"
 #undef PROJECTION_SCALAR
 #undef PROJECTION_NAME
 #define PROJECTION_SCALAR double
 #define PROJECTION_NAME ProjectionOfDoubles
-#include "shared/projection.h"
+#include "shared/frame/projection.h"
 #undef PROJECTION_SCALAR
 #undef PROJECTION_NAME
 

@@ -24,14 +24,14 @@ namespace {
 #define FRAME_SCALAR float
 #define FRAME_NAME FrameOfFloats
 #define NEIGHBOUR_NAME NeighbourOfFloats
-#include "shared/frame.h"
+#include "shared/frame/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
 #undef NEIGHBOUR_NAME
 #define FRAME_SCALAR double
 #define FRAME_NAME FrameOfDoubles
 #define NEIGHBOUR_NAME NeighbourOfDoubles
-#include "shared/frame.h"
+#include "shared/frame/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
 #undef NEIGHBOUR_NAME
@@ -189,14 +189,14 @@ class Buffers {
     return planes;
   }
 
-  /// Bits of what is wanted (shared/wanted.h), in a plane's memory.
+  /// Bits of what is wanted (shared/lanes/wanted.h), in a plane's memory.
   Channel download_bits(const std::string& name, const Layout& layout) {
     Channel bits(layout);
     device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, 0, layout.bytes(), bits.data());
     return bits;
   }
 
-  /// How many pixels a list has (shared/pixel_list.h): the first number of the plane's memory.
+  /// How many pixels a list has (shared/lanes/pixel_list.h): the first number of the plane's memory.
   int length_of_list(const std::string& name) {
     cl_int length = 0;
     device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, 0, sizeof length, &length);

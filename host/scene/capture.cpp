@@ -22,7 +22,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
-#include "shared/stochastic.h"
+#include "shared/sampling/stochastic.h"
 
 namespace gloam {
 namespace {

@@ -18,7 +18,7 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
 
-/// What is below is a mirror: all of its rays go one way (kernels/shared/ggx.h has the same bound).
+/// What is below is a mirror: all of its rays go one way (kernels/shared/rays/ggx.h has the same bound).
 constexpr float mirror_roughness = 0.03f;
 
 /// Rays of a mirror; they differ in where the sun is looked for from what they meet.

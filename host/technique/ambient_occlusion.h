@@ -26,7 +26,7 @@ std::vector<Preset> presets_of_samples();
 int value_of_samples(const ParameterValues& values);
 int directions_times_steps(const ParameterValues& values);
 
-/// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/ambient_occlusion.h) beside `defines`.
+/// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/sampling/ambient_occlusion.h) beside `defines`.
 template <typename Params>
 Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector<std::pair<std::string, int>> defines) {
   defines.insert(defines.end(), {{"JITTER", p.jitter}, {"OUTSIDE_OPEN", p.outside == Params::outside_values::open}});
@@ -39,7 +39,7 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
           .can_skip = true};
 }
 
-/// The cross-bilateral filter (shared/bilateral_filter.h) from "ao_raw" to `result`, along rows and then columns, or over all
+/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from "ao_raw" to `result`, along rows and then columns, or over all
 /// taps of a square at once. `half_width`: taps on either side, pixels.
 std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& result);
 
@@ -47,7 +47,7 @@ std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::st
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);
 
-/// The pass that makes of so many stochastic depths what kernels read (shared/hidden_depths.h); then `estimate`, with that as
+/// The pass that makes of so many stochastic depths what kernels read (shared/sampling/hidden_depths.h); then `estimate`, with that as
 /// occluders behind the depth too: the last of its `reads`.
 std::vector<Pass> behind_depth(Pass estimate, int samples);
 

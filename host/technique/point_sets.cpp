@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "gloam/error.h"
-#include "shared/hash.h"
+#include "shared/lanes/hash.h"
 
 namespace gloam {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// The choices of STEREO_PARAMS (shared/stereo_params.h).
+/// The choices of STEREO_PARAMS (shared/stereo/params.h).
 struct StereoChoices {
   bool estimate_both = true;  ///< estimate from what both eyes see, not from what one does
   bool reproject = true, back_check = true;
@@ -23,9 +23,9 @@ struct StereoChoices {
 
 /// The passes of a technique for two eyes. `mono`: its passes for one eye up to the estimate, the last, which is from "depth"
 /// and "normal" (the first two that it reads) to "ao_raw". The kernel of both eyes is called `both`, that for a list of
-/// pixels `both`_list: their arguments are the estimate's, with stereo_depth (shared/stereo_passes.h) instead of the depth,
+/// pixels `both`_list: their arguments are the estimate's, with stereo_depth (shared/stereo/passes.h) instead of the depth,
 /// the list, and the same planes of the other eye but for normals; the first also takes HALF_OCCLUDED_ARGUMENT
-/// (shared/half_occlusion.h). Extra planes are not made.
+/// (shared/stereo/half_occlusion.h). Extra planes are not made.
 std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& choices);
 
 /// The technique `mono` for two eyes: "stereo-" before its name, with parameters and passes of its own, and no extra
@@ -33,7 +33,7 @@ std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both,
 Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
                         std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
-/// The filter alone, from "ao_raw" to "ao". Kernels: shared/bilateral_filter.h, shared/stereo_filter.h.
+/// The filter alone, from "ao_raw" to "ao". Kernels: shared/filter/bilateral_filter.h, shared/stereo/filter.h.
 std::vector<Pass> stereo_filter_passes(StereoChoices::Filter filter, int half_width);
 
 template <typename Params>

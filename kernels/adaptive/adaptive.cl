@@ -6,7 +6,7 @@
 //   out: important  1 where AO varies by least_range and more, in a tile and one pixel of the base pass around it; else 0
 // -D PIXELS (of the base pass, per tile and axis)
 #include "adaptive/params.h"
-#include "shared/load.h"
+#include "shared/lanes/load.h"
 
 typedef AdaptiveParams Params;
 

@@ -13,7 +13,7 @@
 #include "alchemy/params.h"
 #include "estimators/alchemy.h"
 #ifndef LEVEL
-#include "shared/spiral.h"
+#include "shared/sampling/spiral.h"
 #endif
 
 #if SCALABLE

@@ -1,4 +1,4 @@
-#include "shared/ambient_occlusion.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 #define SPIRAL_PARAMS(P) \
   REACH_PARAMS(P)        \

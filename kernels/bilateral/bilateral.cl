@@ -3,4 +3,4 @@
 
 typedef BilateralParams Params;
 
-#include "shared/bilateral_filter.h"
+#include "shared/filter/bilateral_filter.h"

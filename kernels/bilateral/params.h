@@ -1,5 +1,5 @@
-#include "shared/bilateral_params.h"
-#include "shared/params.h"
+#include "shared/filter/bilateral_params.h"
+#include "shared/lanes/params.h"
 
 #define BILATERAL_FILTER_PARAMS(P)                                     \
   P(float, radius, 0.5f, 0, INFINITY, "scene units",                   \

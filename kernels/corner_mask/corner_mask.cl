@@ -8,7 +8,7 @@
 // corner_find
 //   in : depth, normal       of these pixels
 //   out: found               1 where something rises, else 0; 0 on background
-// then                       shared/cells.h
+// then                       shared/sampling/cells.h
 // Of what is hidden behind the depth the same question is asked by hidden-mask:
 //
 // corner_subsample_hidden
@@ -18,15 +18,15 @@
 //   in : occluders           these, in place of the depth
 // -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
 #include "corner_mask/params.h"
-#include "shared/fan.h"
-#include "shared/subsample.h"
+#include "shared/filter/subsample.h"
+#include "shared/sampling/fan.h"
 
 #ifdef OCCLUDERS_LAYERS
 typedef HiddenMaskParams Params;
 #else
 typedef CornerMaskParams Params;
 #endif
-#include "shared/cells.h"
+#include "shared/sampling/cells.h"
 
 kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                              PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,

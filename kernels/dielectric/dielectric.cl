@@ -3,7 +3,7 @@
 // in : depth        view-space z, +inf = background
 // out: reflectance  at normal incidence; 0 on background
 #include "dielectric/params.h"
-#include "shared/camera.h"
+#include "shared/frame/camera.h"
 
 kernel void dielectric(Frame frame, DielectricParams params, PLANE depth, PLANE_OUT reflectance_r,
                        PLANE_OUT reflectance_g, PLANE_OUT reflectance_b) {

@@ -4,7 +4,7 @@
 #ifndef GLOAM_ALCHEMY_H
 #define GLOAM_ALCHEMY_H
 
-#include "shared/sample.h"
+#include "shared/sampling/sample.h"
 
 // What the contributions need of the radius at a pixel. Lengths are in units of the pixel's depth.
 typedef struct {

@@ -3,7 +3,7 @@
 #ifndef GLOAM_ARC_H
 #define GLOAM_ARC_H
 
-#include "shared/slice.h"
+#include "shared/sampling/slice.h"
 
 // Elevations are kept as cotangents: one division, exact for flat ones, no angle. This one is that of nothing: 0 degrees.
 #define NO_HORIZON ((scalar)1e9f)

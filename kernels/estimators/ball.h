@@ -2,7 +2,7 @@
 #ifndef GLOAM_BALL_ESTIMATOR_H
 #define GLOAM_BALL_ESTIMATOR_H
 
-#include "shared/slice.h"
+#include "shared/sampling/slice.h"
 
 // Depths are compared as heights above the tangent plane of the pixel's surface. Along an eye's ray height falls evenly,
 // so that says the same, and a pixel that shows the plane itself has height 0, wherever in the pixel the point fell. What

@@ -6,7 +6,7 @@
 #ifndef GLOAM_BENT_NORMAL_H
 #define GLOAM_BENT_NORMAL_H
 
-#include "shared/ambient_occlusion.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 #define WITH_OPEN_DIRECTIONS (WITH_BENT_NORMAL || WITH_CONE)
 

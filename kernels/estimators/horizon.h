@@ -5,7 +5,7 @@
 #define GLOAM_HORIZON_H
 
 #include "estimators/bent_normal.h"
-#include "shared/slice.h"
+#include "shared/sampling/slice.h"
 
 // Heights are elevations above the tangent plane, kept as the share of a direction's wedge that lies below: the sine, by
 // which all directions count alike; or its square, by which they count by their cosine to the normal.

@@ -2,7 +2,7 @@
 #ifndef GLOAM_OBSCURANCE_H
 #define GLOAM_OBSCURANCE_H
 
-#include "shared/math.h"
+#include "shared/lanes/math.h"
 
 // 0..1: cosine of the angle between the normal n (unit) and the direction v to the occluder, above the bias, fading
 // with the squared distance to 0 at the radius. `inverse_square` is 1 / radius^2 in the units of v. A sample on the

@@ -3,7 +3,7 @@
 #ifndef GLOAM_SECTORS_H
 #define GLOAM_SECTORS_H
 
-#include "shared/slice.h"
+#include "shared/sampling/slice.h"
 
 // Of a slice. Less than the bits of a mask by one and a little: no shift by all of them, whatever the rounding.
 #define SECTORS ((scalar)30.9f)

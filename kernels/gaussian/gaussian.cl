@@ -10,8 +10,8 @@
 // out: result  filtered; 1 on background and where it is not wanted
 // -D HALF_WIDTH, MASKED (wanted.h)
 #include "gaussian/params.h"
-#include "shared/camera.h"
-#include "shared/wanted.h"
+#include "shared/frame/camera.h"
+#include "shared/lanes/wanted.h"
 
 // exp(-x) for x >= 0, relative error below 3e-7. In plain operations: the same bits everywhere.
 static inline scalar exp_of_minus(scalar x) {

@@ -31,11 +31,11 @@ typedef SdGtaoParams Params;
 typedef GtaoParams Params;
 #endif
 #if STOCHASTIC
-#include "shared/hidden_depths.h"
+#include "shared/sampling/hidden_depths.h"
 #endif
 #if STEREO
-#include "shared/stereo_estimate.h"
-#include "shared/stereo_passes.h"
+#include "shared/stereo/estimate.h"
+#include "shared/stereo/passes.h"
 #endif
 
 // What a row of pixels looks for, the same on both sides of all slices.

@@ -11,7 +11,7 @@
 // -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/horizon.h"
 #include "hbao/params.h"
-#include "shared/fan.h"
+#include "shared/sampling/fan.h"
 
 #if STOCHASTIC
 typedef SdHbaoParams Params;
@@ -19,7 +19,7 @@ typedef SdHbaoParams Params;
 typedef HbaoParams Params;
 #endif
 #if STOCHASTIC
-#include "shared/hidden_depths.h"
+#include "shared/sampling/hidden_depths.h"
 #endif
 
 // Lifts a horizon by what the layers at an offset in pixels do to it. Inlined by order, and returns no struct: oclgrind

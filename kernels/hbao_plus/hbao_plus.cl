@@ -12,7 +12,7 @@
 //    MULTIVIEW, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "estimators/obscurance.h"
 #include "hbao_plus/params.h"
-#include "shared/fan.h"
+#include "shared/sampling/fan.h"
 
 #if STEREO && STOCHASTIC
 typedef StereoSdHbaoPlusParams Params;
@@ -26,14 +26,14 @@ typedef SdHbaoPlusParams Params;
 typedef HbaoPlusParams Params;
 #endif
 #if STOCHASTIC
-#include "shared/hidden_depths.h"
+#include "shared/sampling/hidden_depths.h"
 #endif
 #if MULTIVIEW || STEREO
-#include "shared/neighbour.h"
+#include "shared/frame/neighbour.h"
 #endif
 #if STEREO
-#include "shared/stereo_estimate.h"
-#include "shared/stereo_passes.h"
+#include "shared/stereo/estimate.h"
+#include "shared/stereo/passes.h"
 #endif
 
 // The largest contribution of all layers at an index from `here`, which lies (dx, dy) pixels from the point. `by_both`: whether

@@ -1,5 +1,5 @@
-#include "shared/ambient_occlusion.h"
-#include "shared/stereo_params.h"
+#include "shared/sampling/ambient_occlusion.h"
+#include "shared/stereo/params.h"
 
 #define HBAO_PLUS_PARAMS(P)                                                                                   \
   REACH_PARAMS(P)                                                                                             \

@@ -3,8 +3,8 @@
 #define GLOAM_LIGHTFIELD_FIND_H
 
 #include "lightfield/spot.h"
-#include "shared/cells.h"
-#include "shared/subsample.h"
+#include "shared/filter/subsample.h"
+#include "shared/sampling/cells.h"
 
 kernel void lightfield_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                                  PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,

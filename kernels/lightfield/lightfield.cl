@@ -1,6 +1,6 @@
 // Ambient occlusion for light-field displays (Doronin, Kara, Barsi, Martini 2017). A display's module has no eye: from an
 // image and its depths no matrix leads back to points. So a point is taken from the plane `position`, and only the map from
-// points to pixels is asked (Algorithm 2; shared/projection.h). With a camera's map it is what `ssao` and `hbao+` are.
+// points to pixels is asked (Algorithm 2; shared/frame/projection.h). With a camera's map it is what `ssao` and `hbao+` are.
 //
 // lightfield_ssao_estimate       share of the points in balls around the pixel's point with something seen before them; of
 //                                several radii (section 6, after Hoang, Low 2010) the one that takes most
@@ -10,11 +10,11 @@
 //      position  scene units, the world's axes
 //      points    of the balls: x, y, share of the axis, share of the volume; SAMPLES for each of RADII
 // out: ao_raw    1 = open .. 0 = closed, unfiltered; 1 on background
-// ..._list: the same for the pixels of a list (shared/pixel_list.h), whatever their order
+// ..._list: the same for the pixels of a list (shared/lanes/pixel_list.h), whatever their order
 //
 // lightfield_find: where something within the radius may occlude, as `corner-mask` asks it, one pixel for each cell
 // in : depth, normal, position  of the pixels that stand for cells (lightfield_subsample)
-// out: found     1 where something rises over the tangent plane, else 0; 0 on background; then shared/cells.h
+// out: found     1 where something rises over the tangent plane, else 0; 0 on background; then shared/sampling/cells.h
 //
 // lightfield_reuse: what key views show of the same points
 // in : key_depth, key_position, key_ao      of the nearest key view; far_...: of the next one on the other side
@@ -23,7 +23,7 @@
 #include "lightfield/params.h"
 #include "lightfield/spot.h"
 #if ESTIMATE > 1
-#include "shared/fan.h"
+#include "shared/sampling/fan.h"
 #endif
 #if ESTIMATE == 1
 typedef LightfieldSsaoParams Params;

@@ -1,4 +1,4 @@
-#include "shared/ambient_occlusion.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 #define REUSE_PARAMS(P, from)                                                                                 \
   P(bool, reuse, off, "take over what key views have found of the same points, and compute only what is new") \

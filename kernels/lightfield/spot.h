@@ -3,8 +3,8 @@
 #define GLOAM_LIGHTFIELD_SPOT_H
 
 #include "estimators/ball.h"
-#include "shared/pixel_list.h"
-#include "shared/projection.h"
+#include "shared/frame/projection.h"
+#include "shared/lanes/pixel_list.h"
 
 // The planes that tell surfaces.
 typedef struct {

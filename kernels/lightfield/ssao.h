@@ -3,7 +3,7 @@
 #define GLOAM_LIGHTFIELD_SSAO_H
 
 #include "lightfield/spot.h"
-#include "shared/ball.h"
+#include "shared/sampling/ball.h"
 
 #define TABLE constant float*
 

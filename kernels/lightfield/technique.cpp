@@ -11,7 +11,7 @@ namespace {
 
 using Points = LightfieldSsaoParams::points_values;
 
-/// As `ssao` has them (shared/ball.h): a Fibonacci spiral, and distances by a sequence beside it. Further radii go on with both.
+/// As `ssao` has them (shared/sampling/ball.h): a Fibonacci spiral, and distances by a sequence beside it. Further radii go on with both.
 glm::dvec3 of_spiral(int k, int radius, int samples) {
   constexpr double golden_turns = 0.38196601125010515;
   constexpr uint32_t distance_step = 0xbb67ae85u;

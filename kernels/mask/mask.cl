@@ -1,5 +1,5 @@
 // From a mask to the work that it leaves: no technique, but the plan's own passes (host/plan/mask.h). A work-item sees to the word
-// (shared/wanted.h) that begins with its row of pixels, if one does.
+// (shared/lanes/wanted.h) that begins with its row of pixels, if one does.
 //
 // mask_bits     in : source  above 0 where an effect is wanted; with CELL > 1 of cells of CELL x CELL pixels, whose frame is
 //                            `other`
@@ -13,7 +13,7 @@
 // mask_grown    in : wanted
 //               out: grown   wanted, and REACH_X columns and REACH_Y rows around; beside the image anything
 // -D CELL, WITH_ASKED, WITH_REST (mask_bits); SCALE (mask_reduced); REACH_X (at most 32), REACH_Y (mask_grown)
-#include "shared/wanted.h"
+#include "shared/lanes/wanted.h"
 
 static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
   ((global uint*)wanted)[index_of(f, k, ROW_Y)] = word & bits_in_frame(f, k);

@@ -2,7 +2,7 @@
 // its own pixels as all others; together the rings cover the radius. From the coarsest on, what was found is brought up by
 // joint bilateral upsampling and combined with what the next resolution finds.
 //
-// subsample: shared/subsample.h
+// subsample: shared/filter/subsample.h
 //
 // estimate: level 0 is the whole image, each further one half as wide and high as the one before.
 // in : depth, normal          of this level; view-space z, scene units, +inf = background; unit, view space
@@ -14,10 +14,10 @@
 // -D MASKED (wanted.h), LEVEL, LEVELS, COARSER, SAMPLES, WITH_MEAN, JITTER, NO_FALLOFF, OUTSIDE_OPEN, SCALE (2)
 #include "estimators/obscurance.h"
 #include "multires/params.h"
-#include "shared/ambient_occlusion.h"
-#include "shared/subsample.h"
-#include "shared/upsample.h"
-#include "shared/wanted.h"
+#include "shared/filter/subsample.h"
+#include "shared/filter/upsample.h"
+#include "shared/lanes/wanted.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 kernel void multires_subsample(Frame frame, Frame other, MultiresParams params, PLANE depth, PLANE normal_x,
                                PLANE normal_y, PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x,

@@ -3,8 +3,8 @@
 //
 // in : depth   view-space z, scene units, +inf = background
 // out: normal  unit, view space, towards the camera; zero on background
-#include "shared/camera.h"
-#include "shared/math.h"
+#include "shared/frame/camera.h"
+#include "shared/lanes/math.h"
 
 // A surface steeper than this is seen edge-on; squares stay far from overflow.
 #define STEEPEST ((scalar)1e12f)

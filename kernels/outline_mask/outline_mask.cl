@@ -7,8 +7,8 @@
 //                     1 - occlusion there, else 1; 1 on background (outline_ao, section 5, before the filter)
 // -D STAND_ALONE, MASKED
 #include "outline_mask/params.h"
-#include "shared/camera.h"
-#include "shared/wanted.h"
+#include "shared/frame/camera.h"
+#include "shared/lanes/wanted.h"
 
 #if STAND_ALONE
 kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count, PLANE depth,

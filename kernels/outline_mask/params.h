@@ -1,4 +1,4 @@
-#include "shared/params.h"
+#include "shared/lanes/params.h"
 
 #define OUTLINE_MASK_PARAMS(P) \
   P(float, least_count, 2, 1, INFINITY, "", "outlines that a pixel's surface lies in from which on it is wanted")

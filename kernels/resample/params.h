@@ -1,4 +1,4 @@
-#include "shared/params.h"
+#include "shared/lanes/params.h"
 
 #define RESAMPLE_PARAMS(P)                                                                                          \
   P(float, radius, 0.5f, 0, INFINITY, "scene units", "radius of what is upsampled: the measure of depth_tolerance") \

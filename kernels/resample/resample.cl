@@ -5,8 +5,8 @@
 // joint_upsample (OpenCL has an `upsample` of its own): `frame` is the whole, `other` the reduced one (upsample.h).
 // -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of what is unknown)
 #include "resample/params.h"
-#include "shared/upsample.h"
-#include "shared/wanted.h"
+#include "shared/filter/upsample.h"
+#include "shared/lanes/wanted.h"
 
 static inline void subsample_plane(Frame frame, Frame other, PLANE source, PLANE_OUT result) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);

@@ -1,4 +1,4 @@
-#include "shared/ambient_occlusion.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 #define BALL_PARAMS(P)                                                                                            \
   P(bool, hemisphere, on, "points in the half of the ball above the surface; off: in all of it, as in the paper") \

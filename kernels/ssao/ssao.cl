@@ -9,7 +9,7 @@
 // -D SAMPLES, HEMISPHERE, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/ball.h"
 #include "estimators/bent_normal.h"
-#include "shared/ball.h"
+#include "shared/sampling/ball.h"
 #include "ssao/params.h"
 
 #if STOCHASTIC
@@ -18,7 +18,7 @@ typedef SdSsaoParams Params;
 typedef SsaoParams Params;
 #endif
 #if STOCHASTIC
-#include "shared/hidden_depths.h"
+#include "shared/sampling/hidden_depths.h"
 #endif
 
 // What a row of pixels looks for.

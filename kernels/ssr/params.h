@@ -1,4 +1,4 @@
-#include "shared/params.h"
+#include "shared/lanes/params.h"
 
 // How a ray is followed.
 #define RAY_PARAMS(P)                                                                                                \

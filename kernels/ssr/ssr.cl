@@ -23,17 +23,17 @@
 //      RAYS layers of each.
 // -D LEVELS, BOTH_DEPTHS, LEVEL (ssr_level), RAYS, NEIGHBOURS, JITTER, STEREO, TRAVERSAL, FADE, REPROJECTION, OTHER_NEIGHBOURS,
 //    IN_OTHER (ssr_march), TEMPORAL, MASKED, MASK_ALONE (reflection-mask: mirrors for all surfaces, and ssr_found)
-#include "shared/ggx.h"
-#include "shared/pixel_list.h"
-#include "shared/sample.h"
-#include "shared/screen_ray.h"
-#include "shared/wanted.h"
+#include "shared/lanes/pixel_list.h"
+#include "shared/lanes/wanted.h"
+#include "shared/rays/ggx.h"
+#include "shared/rays/screen_ray.h"
+#include "shared/sampling/sample.h"
 #include "ssr/params.h"
 #if STEREO || TEMPORAL
-#include "shared/neighbour.h"
+#include "shared/frame/neighbour.h"
 #endif
 #if TEMPORAL
-#include "shared/history.h"
+#include "shared/frame/history.h"
 #endif
 
 #if MASK_ALONE

@@ -1,5 +1,5 @@
-#include "shared/params.h"
-#include "shared/stereo_params.h"
+#include "shared/lanes/params.h"
+#include "shared/stereo/params.h"
 
 #define STEREO_VISIBILITY_PARAMS(P) BACK_CHECK_PARAMS(P)
 

@@ -3,12 +3,12 @@
 //
 // in : depth, other_depth  view-space z of either eye, scene units, +inf = background
 // out: seen_by_both        1 where both eyes see the surface, else 0
-#include "shared/stereo.h"
+#include "shared/stereo/visibility.h"
 #include "stereo/params.h"
 
 #ifdef COLUMNS
 typedef StereoBilateralParams Params;
-#include "shared/stereo_filter.h"
+#include "shared/stereo/filter.h"
 #else
 kernel void stereo_seen_by_both(Frame frame, Neighbour neighbour, StereoVisibilityParams params, PLANE depth,
                                 PLANE other_depth, PLANE_OUT seen_by_both) {

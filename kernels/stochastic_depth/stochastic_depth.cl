@@ -5,8 +5,8 @@
 //      peel        stack of all surfaces under the pixel centre, the nearest among them
 // out: stochastic  stack of SAMPLES depths; +inf where a sample was offered nothing
 // -D SAMPLES, HASHED, PEEL_LAYERS
-#include "shared/load.h"
-#include "shared/stochastic.h"
+#include "shared/lanes/load.h"
+#include "shared/sampling/stochastic.h"
 #include "stochastic_depth/params.h"
 
 static inline natural subset_of(natural hash, uint alpha) {

@@ -7,7 +7,7 @@
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED
 #include "estimators/column.h"
-#include "shared/disk.h"
+#include "shared/sampling/disk.h"
 #include "volumetric/params.h"
 
 // What a row of pixels looks for.

@@ -59,7 +59,7 @@ struct Plan {
   std::vector<PlannedPass> passes;                         ///< in order
   int resolution = 1;                                      ///< as asked for
   std::string mask;                                        ///< the plane that says what is wanted; empty: everything is
-  std::string wanted;  ///< bits by which the estimate skips pixels (shared/wanted.h); empty: it skips none
+  std::string wanted;  ///< bits by which the estimate skips pixels (shared/lanes/wanted.h); empty: it skips none
   std::string rest;    ///< bits of pixels that a second estimate sees to; empty: there is none
   std::vector<std::pair<std::string, std::string>> skipped;  ///< what, why
   std::vector<std::string> depends_on_pixels;                ///< what only the pixel values will tell

@@ -41,7 +41,7 @@ struct RunResult {
   double skipped_share = 0;
   /// Share of them that a plan's second estimate saw to (`Plan::rest`), in such rows.
   double rest_share = 0;
-  /// Pixels of all views that passes put on a list, for others to compute one by one (shared/pixel_list.h): by the list's plane.
+  /// Pixels of all views that passes put on a list, for others to compute one by one (shared/lanes/pixel_list.h): by the list's plane.
   std::map<std::string, long long> listed;
   unsigned long long device_bytes = 0;  ///< of the views that are there at the same time
 };

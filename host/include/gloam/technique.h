@@ -21,7 +21,7 @@ namespace gloam {
 /// With `of_other` it is the plane of the other of two views (`Technique::views`); with `of_key` that of a key view
 /// (`Pass::on`): 1 of the nearest one, 2 of the next one on the other side, or of the nearest again where there is none.
 ///
-/// With `starts_empty`, which is for lists that a pass writes (shared/pixel_list.h), the plane's first number is 0 when the pass
+/// With `starts_empty`, which is for lists that a pass writes (shared/lanes/pixel_list.h), the plane's first number is 0 when the pass
 /// begins.
 struct Binding {
   std::string argument, plane;
@@ -67,14 +67,14 @@ struct Pass {
   int view = -1;
   /// Each pixel reads many others at some distance: launched in an order that keeps these in the cache.
   bool looks_around = false;
-  /// Where a mask leaves pixels out it skips rows of pixels of which none is wanted (shared/wanted.h).
+  /// Where a mask leaves pixels out it skips rows of pixels of which none is wanted (shared/lanes/wanted.h).
   bool can_skip = false;
   /// A filter's: each pixel reads what earlier passes made so many columns and rows around, at most 32.
   int reach_x = 0, reach_y = 0;
   /// The neighbour is the camera that the view had in the frame before (`View::camera_before`); where that is not known it sees
   /// nothing.
   bool from_frame_before = false;
-  /// Its kernel asks how the view projects (`projections`, shared/projection.h), and how key views do that it reads: the view's
+  /// Its kernel asks how the view projects (`projections`, shared/frame/projection.h), and how key views do that it reads: the view's
   /// own, then those of the nearest and of the further key view.
   bool projects = false;
   /// Numbers that its kernel reads, the same for all pixels, by argument.

@@ -4,7 +4,7 @@
 //      normal   unit or zero, view space
 // out: ao       1 open .. 0 closed
 // -D FAULT: its number in technique.cpp
-#include "shared/camera.h"
+#include "shared/frame/camera.h"
 
 kernel void faults(Frame frame, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE_OUT ao) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
@@ -13,23 +13,23 @@ kernel void faults(Frame frame, PLANE depth, PLANE normal_x, PLANE normal_y, PLA
   real open = (real)(1);
 #if FAULT == 1  // has an epsilon of its own, in scene units
   open = choose(background, open, (real)(1) - (real)(0.01f) / (z + (real)(0.02f)));
-#elif FAULT == 2  // does not know background
+#elif FAULT == 2   // does not know background
   open = z / (z + (real)(1));
-#elif FAULT == 3  // depends on the width of a row of lanes
+#elif FAULT == 3   // depends on the width of a row of lanes
   open = choose(background, open, (real)(1) - (real)(0.001f * LANES));
-#elif FAULT == 4  // looks beside the image without asking where it ends
+#elif FAULT == 4   // looks beside the image without asking where it ends
   open = choose(load(depth, here + 1) < z, (real)(0), open);
-#elif FAULT == 5  // shadows itself
+#elif FAULT == 5   // shadows itself
   open = choose(background, open, fabs(load(normal_z, here)));
-#elif FAULT == 6  // looks to the left alone, and not beyond the border
+#elif FAULT == 6   // looks to the left alone, and not beyond the border
   const real left = load(depth, here - 1);
   open = choose((FIRST_X + IOTA > 0) & (left < z), left / z, open);
-#elif FAULT == 7  // reads where nothing is
+#elif FAULT == 7   // reads where nothing is
   open = ((global const float*)8)[ROW_Y];
-#elif FAULT == 8  // does not end
+#elif FAULT == 8   // does not end
   volatile int more = 1;
   while (more) open += (real)(1);
-#elif FAULT == 9  // takes every camera for the one of 80 columns over 60 degrees
+#elif FAULT == 9   // takes every camera for the one of 80 columns over 60 degrees
   const real next = load(depth, here + 1), x = to_real(FIRST_X + IOTA) - (real)(39.5f);
   const real aside = ((x + 1) * next - x * z) / (real)(69.282f);
   const real height = load(normal_x, here) * aside - load(normal_z, here) * (next - z);

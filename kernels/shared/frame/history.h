@@ -1,0 +1,102 @@
+// What the frame before showed of a surface, and how far it is believed (temporal reprojection: Yang, Liu, Salvi 2020, "A Survey of
+// Temporal Antialiasing Techniques", sections 3 and 4).
+#ifndef GLOAM_HISTORY_H
+#define GLOAM_HISTORY_H
+
+#include "shared/sampling/sample.h"
+
+// The four pixels of the frame before around a place; their weights add up to 1 over those that count: surfaces about as far away, of
+// which something was kept.
+typedef struct {
+  integer pixel[4];  // from the plane's start
+  real weight[4];
+  mask is_known;  // there is one
+} Past;
+
+// `x`, `y`: the place, in pixels from the middle of the first. `depth`: of the surface, where `counts`; its depth may have
+// changed by so large a share.
+static inline Past past_at(Frame frame, PLANE history_depth, PLANE history_frames, real x, real y, real depth,
+                           scalar same_depth, mask counts) {
+  Past past;
+  const real inside_x = clamp(x, (real)(-2), (real)((scalar)frame.width + 1));
+  const real inside_y = clamp(y, (real)(-2), (real)((scalar)frame.height + 1));
+  const real left = floor(inside_x), top = floor(inside_y), right_share = inside_x - left, lower_share = inside_y - top;
+  real sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const integer column = to_integer(left) + (k & 1), row = to_integer(top) + (k >> 1);
+    const mask is_inside = to_mask((column >= 0) & (column < frame.width) & (row >= 0) & (row < frame.height));
+    const integer safe_column = clamp(column, (integer)(0), (integer)(frame.width - 1));
+    const integer safe_row = clamp(row, (integer)(0), (integer)(frame.height - 1));
+    past.pixel[k] = FRAME_GUARD + safe_row * frame.pitch + safe_column;
+    const real z = gather(history_depth, past.pixel[k]);
+    const mask is_same = counts & is_inside & !is_background(z) & (fabs(z - depth) <= same_depth * depth) &
+                         (gather(history_frames, past.pixel[k]) >= (scalar)0.5f);
+    const real share = (k & 1 ? right_share : 1 - right_share) * (k >> 1 ? lower_share : 1 - lower_share);
+    past.weight[k] = choose(is_same, share, (real)(0));
+    sum += past.weight[k];
+  }
+  past.is_known = sum > (scalar)0.01f;
+  const real scale = (scalar)1 / choose(past.is_known, sum, (real)(1));
+  for (int k = 0; k < 4; ++k) past.weight[k] = choose(past.is_known, past.weight[k] * scale, (real)(0));
+  return past;
+}
+
+// 0 where nothing is known.
+static inline real value_of(Past past, PLANE plane) {
+  real value = 0;
+  for (int k = 0; k < 4; ++k)
+    value += choose(past.weight[k] > 0, past.weight[k] * gather(plane, past.pixel[k]), (real)(0));
+  return value;
+}
+
+// Which neighbours of a row of pixels show a surface about as far away: every second pixel of 5 x 5, as filtered ones are alike where they
+// touch.
+typedef struct {
+  mask counts[9];
+  real share;  // of each in their mean
+} Alike;
+
+static inline int around_column(int i) { return 2 * (i % 3) - 2; }
+static inline int around_row(Frame frame, int i) { return clamp(ROW_Y + 2 * (i / 3) - 2, 0, frame.height - 1); }
+
+static inline Alike alike_around(Frame frame, PLANE depth, real own, scalar same_depth) {
+  Alike alike;
+  real count = 0;
+  for (int i = 0; i < 9; ++i) {
+    const integer column = FIRST_X + around_column(i) + IOTA;
+    const real z = load(depth, index_of(frame, FIRST_X + around_column(i), around_row(frame, i)));
+    alike.counts[i] =
+        to_mask((column >= 0) & (column < frame.width)) & !is_background(z) & (fabs(z - own) <= same_depth * own);
+    count += choose(alike.counts[i], (real)(1), (real)(0));
+  }
+  alike.share = (scalar)1 / larger(count, (real)(1));
+  return alike;
+}
+
+// Their mean, and their mean deviation from it. Deviations are not squared: radiance may be large.
+typedef struct {
+  real mean, deviation;
+} Around;
+
+static inline Around around_of(Frame frame, Alike alike, PLANE plane) {
+  real value[9];
+  Around a;
+  a.mean = a.deviation = 0;
+  for (int i = 0; i < 9; ++i) {
+    const int there = index_of(frame, FIRST_X + around_column(i), around_row(frame, i));
+    value[i] = choose(alike.counts[i], load(plane, there), (real)(0));
+    a.mean += value[i];
+  }
+  a.mean *= alike.share;
+  for (int i = 0; i < 9; ++i) a.deviation += choose(alike.counts[i], fabs(value[i] - a.mean), (real)(0));
+  a.deviation *= alike.share;
+  return a;
+}
+
+// A value brought as near to the neighbours' mean as `within` times their deviation.
+static inline real kept_near(Around a, real value, scalar within) {
+  const real reach = within * a.deviation;
+  return clamp(value, a.mean - reach, a.mean + reach);
+}
+
+#endif

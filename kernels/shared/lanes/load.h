@@ -1,0 +1,152 @@
+// Reading and writing planes. Layout: FRAME_GUARD floats, rows of `pitch` floats, FRAME_GUARD floats.
+#ifndef GLOAM_LOAD_H
+#define GLOAM_LOAD_H
+
+#include "shared/frame/frame.h"
+#include "shared/lanes/lanes.h"
+
+#define PLANE global const float* restrict
+#define PLANE_OUT global float* restrict
+
+// The row of pixels that this work-item computes.
+#define FIRST_X ((int)get_global_id(0) * LANES)
+#define ROW_Y ((int)get_global_id(1))
+
+// Where pixel (x, y) lies. Up to FRAME_GUARD pixels left and right of a row may be loaded: they belong to other rows or
+// to the guard, and the caller leaves them out by their x.
+static inline int index_of(Frame f, int x, int y) { return FRAME_GUARD + y * f.pitch + x; }
+
+// A stack is one buffer with its layers one after another: this is one of them, a plane like any other. How many there
+// are is a constant of the program (plan.h).
+static inline global const float* layer_of(global const float* stack, Frame f, int layer) {
+  return stack + (size_t)layer * (2 * FRAME_GUARD + (size_t)f.pitch * f.height);
+}
+
+static inline global float* layer_of_out(global float* stack, Frame f, int layer) {
+  return stack + (size_t)layer * (2 * FRAME_GUARD + (size_t)f.pitch * f.height);
+}
+
+#if LANES == 1
+static inline real load(PLANE plane, int i) { return to_real(plane[i]); }
+static inline void store(real value, PLANE_OUT plane, int i) { plane[i] = to_stored(value); }
+#else
+static inline real load(PLANE plane, int i) { return to_real(JOIN(vload, LANES)(0, plane + i)); }
+static inline void store(real value, PLANE_OUT plane, int i) { JOIN(vstore, LANES)(to_stored(value), 0, plane + i); }
+#endif
+
+static inline real3 load3(PLANE x, PLANE y, PLANE z, int i) { return make3(load(x, i), load(y, i), load(z, i)); }
+
+// Values of a plane at one index per lane.
+static inline real gather(PLANE plane, integer i) {
+#if LANES == 1
+  return to_real(plane[i]);
+#elif LANES == 4
+  return to_real((stored)(plane[i.s0], plane[i.s1], plane[i.s2], plane[i.s3]));
+#elif LANES == 8
+  return to_real(
+      (stored)(plane[i.s0], plane[i.s1], plane[i.s2], plane[i.s3], plane[i.s4], plane[i.s5], plane[i.s6], plane[i.s7]));
+#else
+  return to_real((stored)(plane[i.s0], plane[i.s1], plane[i.s2], plane[i.s3], plane[i.s4], plane[i.s5], plane[i.s6],
+                          plane[i.s7], plane[i.s8], plane[i.s9], plane[i.sa], plane[i.sb], plane[i.sc], plane[i.sd],
+                          plane[i.se], plane[i.sf]));
+#endif
+}
+
+static inline real3 gather3(PLANE x, PLANE y, PLANE z, integer i) {
+  return make3(gather(x, i), gather(y, i), gather(z, i));
+}
+
+// One value per lane to one index each. Lanes of the same index have the same value.
+static inline void scatter(real value, PLANE_OUT plane, integer i) {
+  const stored v = to_stored(value);
+#if LANES == 1
+  plane[i] = v;
+#else
+  const float* values = (const float*)&v;
+  const int* indices = (const int*)&i;
+  for (int k = 0; k < LANES; ++k) plane[indices[k]] = values[k];
+#endif
+}
+
+// Values of two planes stored side by side, pixel by pixel: `pairs` is where the first pixel's lie.
+static inline void gather_pair(global const float* pairs, integer i, real* first, real* second) {
+#if LANES == 1
+  *first = to_real(pairs[2 * i]);
+  *second = to_real(pairs[2 * i + 1]);
+#else
+  // One gather of 64 bits instead of two of 32.
+  global const long* p = (global const long*)pairs;
+#if LANES == 4
+  const float8 v = as_float8((long4)(p[i.s0], p[i.s1], p[i.s2], p[i.s3]));
+  *first = to_real(v.even);
+  *second = to_real(v.odd);
+#elif LANES == 8
+  const float16 v = as_float16((long8)(p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7]));
+  *first = to_real(v.even);
+  *second = to_real(v.odd);
+#else
+  const float16 v = as_float16((long8)(p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7]));
+  const float16 w = as_float16((long8)(p[i.s8], p[i.s9], p[i.sa], p[i.sb], p[i.sc], p[i.sd], p[i.se], p[i.sf]));
+  *first = to_real((float16)(v.even, w.even));
+  *second = to_real((float16)(v.odd, w.odd));
+#endif
+#endif
+}
+
+// Writes such pairs, of the row of pixels from index `i` on.
+static inline void store_pair(real first, real second, global float* pairs, int i) {
+#if LANES == 1
+  pairs[2 * i] = to_stored(first);
+  pairs[2 * i + 1] = to_stored(second);
+#else
+  const stored a = to_stored(first), b = to_stored(second);
+  JOIN(float, LANES) low, high;
+  low.even = a.lo;
+  low.odd = b.lo;
+  high.even = a.hi;
+  high.odd = b.hi;
+  JOIN(vstore, LANES)(low, 0, pairs + 2 * i);
+  JOIN(vstore, LANES)(high, 0, pairs + 2 * i + LANES);
+#endif
+}
+
+// Four planes side by side.
+static inline void store_four(real first, real second, real third, real fourth, global float* fours, int i) {
+#if LANES == 1
+  store_pair(first, second, fours, 2 * i);
+  store_pair(third, fourth, fours, 2 * i + 1);
+#else
+  // As pairs of pairs: of the first and third, of the second and fourth.
+  const stored a = to_stored(first), b = to_stored(second), c = to_stored(third), d = to_stored(fourth);
+  stored low_ac, high_ac, low_bd, high_bd;
+  low_ac.even = a.lo;
+  low_ac.odd = c.lo;
+  high_ac.even = a.hi;
+  high_ac.odd = c.hi;
+  low_bd.even = b.lo;
+  low_bd.odd = d.lo;
+  high_bd.even = b.hi;
+  high_bd.odd = d.hi;
+  store_pair(to_real(low_ac), to_real(low_bd), fours, 2 * i);
+  store_pair(to_real(high_ac), to_real(high_bd), fours, 2 * i + LANES);
+#endif
+}
+
+// From the first lane's pixel to those dx pixels to the right of and dy pixels below each lane's own, as an index.
+static inline integer index_near(Frame f, integer dx, integer dy) { return dy * f.pitch + (dx + IOTA); }
+
+// The same where |dy| and the pitch are below SHORT_PITCH: on AVX-512 a multiplication of 16 bits takes half the time of one of 32.
+#define SHORT_PITCH 32768
+static inline integer index_near_short(Frame f, integer dx, integer dy) {
+#if LANES == 16 && defined(__AVX512BW__)
+  typedef short Pairs __attribute__((vector_size(64)));
+  // Products of the lower and of the upper half of each lane, added; the upper half of the pitch is 0.
+  const integer rows =
+      as_int16(__builtin_ia32_pmaddwd512(__builtin_astype(dy, Pairs), __builtin_astype((integer)(f.pitch), Pairs)));
+  return rows + (dx + IOTA);
+#else
+  return index_near(f, dx, dy);
+#endif
+}
+
+#endif

@@ -1,0 +1,56 @@
+// Pixels that are left to be computed, one after another, so that lanes stand for pixels of anywhere: a list instead of a mask
+// over the whole image. It lies in a plane's memory: how many there are, and from FRAME_GUARD on their indices.
+//
+// The order is that in which work-items come to append, and differs from run to run; a kernel that computes each pixel by
+// itself gives the same image all the same.
+#ifndef GLOAM_PIXEL_LIST_H
+#define GLOAM_PIXEL_LIST_H
+
+#include "shared/lanes/load.h"
+
+#define PIXEL_LIST global const float* restrict
+#define PIXEL_LIST_OUT global float* restrict
+
+static inline void empty_list(PIXEL_LIST_OUT list) { ((global int*)list)[0] = 0; }
+
+// Appends those of the row of pixels from index `here` on for which a mask holds.
+static inline void append_pixels(PIXEL_LIST_OUT list, int here, mask which) {
+  if (!ANY(which)) return;
+  global int* entries = (global int*)list;
+#if LANES == 1
+  entries[FRAME_GUARD + atomic_inc(entries)] = here;
+#else
+  const natural chosen = bits_of(which);
+  const uint* is_chosen = (const uint*)&chosen;
+  int pixels[LANES], count = 0;
+  for (int i = 0; i < LANES; ++i) {
+    pixels[count] = here + i;
+    count += is_chosen[i] != 0;
+  }
+  const int first = FRAME_GUARD + atomic_add(entries, count);
+  for (int i = 0; i < count; ++i) entries[first + i] = pixels[i];
+#endif
+}
+
+// The pixels of this work-item, one for each lane; 0 where the list has come to its end. Launched as for all pixels of the
+// image. Lanes for which nothing is left have the first lane's pixel.
+static inline int pixels_of_item(PIXEL_LIST list, Frame f, integer* index) {
+  global const int* entries = (global const int*)list;
+  // Down the columns of items: devices hand out the image row by row, and the first rows would get all there is to do.
+  const int first = FIRST_X * f.height + ROW_Y * LANES, count = entries[0];
+  if (first >= count) return 0;
+  entries += FRAME_GUARD + first;
+#if LANES == 1
+  *index = entries[0];
+#else
+  const integer left = IOTA < (integer)(count - first) ? (integer)(-1) : (integer)(0);
+  const integer all = JOIN(vload, LANES)(0, entries);
+  *index = left ? all : (integer)(entries[0]);
+#endif
+  return 1;
+}
+
+static inline integer column_of(Frame f, integer index) { return (index - FRAME_GUARD) % f.pitch; }
+static inline integer row_of(Frame f, integer index) { return (index - FRAME_GUARD) / f.pitch; }
+
+#endif

@@ -1,0 +1,56 @@
+// Reading the other of two views at a pixel for each lane. Along most surfaces these follow one another as this view's pixels
+// do, but for a step of one pixel now and then: two loads are quicker then than a gather.
+#ifndef GLOAM_PIXEL_ROW_H
+#define GLOAM_PIXEL_ROW_H
+
+#include "shared/lanes/load.h"
+
+typedef struct {
+  integer column, row;  // of each lane
+  int first_column, y;  // of the first lane before the step, and of all
+  mask is_further;      // behind the step
+} PixelRow;
+
+static inline int lowest_lane(integer v) {
+#if LANES == 1
+  return v;
+#else
+#if LANES == 16
+  const int8 half_of = min(v.lo, v.hi);
+  const int4 quarter = min(half_of.lo, half_of.hi);
+#elif LANES == 8
+  const int4 quarter = min(v.lo, v.hi);
+#else
+  const int4 quarter = v;
+#endif
+  const int2 last = min(quarter.lo, quarter.hi);
+  return min(last.x, last.y);
+#endif
+}
+
+// Whether the pixels of those lanes that count follow one another in a row. To be asked only where some lane counts.
+static inline int follow_in_a_row(integer column, integer row, mask counts, PixelRow* p) {
+  const integer offset = column - (FIRST_X + IOTA), which = integer_of(counts);
+  const int lowest = lowest_lane(which ? offset : (integer)(INT_MAX));
+  p->column = column;
+  p->row = row;
+  p->first_column = FIRST_X + lowest;
+  p->y = lowest_lane(which ? row : (integer)(INT_MAX));
+  p->is_further = to_mask(offset > lowest);
+  return !ANY(counts & to_mask((offset > lowest + 1) | (row != p->y)));
+}
+
+// Values at the pixels `dx` to the right of and `dy` below each lane's, moved onto the border of the image. `in_a_row`: what
+// follow_in_a_row gave, as a constant; lanes that do not count have any value then.
+static inline __attribute__((always_inline)) real value_at(Frame f, global const float* plane, const PixelRow* p,
+                                                           int dx, int dy, int in_a_row) {
+  if (in_a_row) {
+    const int first = index_of(f, p->first_column + dx, clamp(p->y + dy, 0, f.height - 1));
+    return choose(p->is_further, load(plane, first + 1), load(plane, first));
+  }
+  const integer x = clamp(p->column + dx, (integer)(0), (integer)(f.width - 1));
+  const integer y = clamp(p->row + dy, (integer)(0), (integer)(f.height - 1));
+  return gather(plane, FRAME_GUARD + y * f.pitch + x);
+}
+
+#endif

@@ -1,0 +1,74 @@
+// Which pixels of the image are wanted, where a mask leaves some out: one bit for each, 32 pixels in a word. Word k of a row
+// lies where the row's pixel k would, in a plane's memory.
+//
+// A kernel that skips rows of pixels has the argument WANTED_ARGUMENT before those that it writes, and SKIP_UNWANTED as its
+// first line.
+// -D MASKED; KEEP (rows that are left out keep what they hold)
+#ifndef GLOAM_WANTED_H
+#define GLOAM_WANTED_H
+
+#include "shared/lanes/load.h"
+
+#define WANTED global const float* restrict
+#define WANTED_OUT global float* restrict
+
+static inline int words_of_row(Frame f) { return (f.width + 31) / 32; }
+
+// The bits of a word that lie in the image.
+static inline uint bits_in_frame(Frame f, int k) {
+  const int left = f.width - 32 * k;
+  return left >= 32 ? 0xffffffffu : (1u << left) - 1;
+}
+
+// Bit i: whether a mask holds for lane i.
+static inline uint bit_of_each_lane(mask m) {
+#if LANES == 1
+  return m ? 1u : 0u;
+#else
+  const natural bits = bits_of(m) & ((natural)(1) << to_natural(IOTA));
+#if LANES == 16
+  const uint8 eight = bits.lo | bits.hi;
+  const uint4 four = eight.lo | eight.hi;
+#elif LANES == 8
+  const uint4 four = bits.lo | bits.hi;
+#else
+  const uint4 four = bits;
+#endif
+  const uint2 two = four.lo | four.hi;
+  return two.x | two.y;
+#endif
+}
+
+// The row of pixels that a work-item computes.
+static inline mask wanted_in_row(WANTED wanted, Frame f) {
+  const uint word = ((global const uint*)wanted)[index_of(f, FIRST_X / 32, ROW_Y)] >> (FIRST_X % 32);
+#if LANES == 1
+  return word & 1;
+#else
+  return to_mask(((integer)((int)word) & ((integer)(1) << IOTA)) != 0);
+#endif
+}
+
+#if KEEP
+#define OPEN_UNLESS_KEPT(STORE)
+#else
+#define OPEN_UNLESS_KEPT(STORE) STORE;
+#endif
+
+// Makes `is_wanted`. A kernel returns where nothing of its row is, once it has STOREd at index `here` what pixels that are left
+// out hold.
+#if MASKED
+#define WANTED_ARGUMENT WANTED wanted,
+#define SKIP_UNWANTED(frame, STORE)                    \
+  const mask is_wanted = wanted_in_row(wanted, frame); \
+  if (!ANY(is_wanted)) {                               \
+    const int here = index_of(frame, FIRST_X, ROW_Y);  \
+    OPEN_UNLESS_KEPT(STORE)                            \
+    return;                                            \
+  }
+#else
+#define WANTED_ARGUMENT
+#define SKIP_UNWANTED(frame, STORE) const mask is_wanted = EVERY_LANE;
+#endif
+
+#endif

@@ -1,0 +1,107 @@
+// Where to look, and with which noise from pixel to pixel: the same seed gives the same image on every device and lane
+// width.
+#ifndef GLOAM_SAMPLE_H
+#define GLOAM_SAMPLE_H
+
+#include "shared/frame/camera.h"
+#include "shared/lanes/math.h"
+
+// The upper 24 bits as 0 <= u < 1: exact in float.
+static inline real unit_random(natural bits) { return to_real(bits >> 8) * (scalar)0x1p-24; }
+
+// Two numbers for each pixel, 0 <= each < 1, spread evenly over any few neighbouring pixels, so that a small filter sees all
+// directions: rank-1 lattices. `turn` has the steps of interleaved gradient noise (Jimenez 2014), `shift` those of the R2
+// sequence (Roberts 2018). In whole numbers: the same on every device, in float and in double.
+typedef struct {
+  real turn, shift;
+} Noise;
+
+static inline Noise noise_of(natural column, natural row, int seed) {
+  Noise n;
+#if JITTER
+  const uint first_turn = (uint)seed * 0x9e3779b9u, first_shift = (uint)seed * 0x6a09e667u;
+  n.turn = unit_random(column * 0x8e42b7fdu + (row * 0x4f2cbe3cu + first_turn));
+  n.shift = unit_random(column * 0xc13fa9a9u + (row * 0x91e10da6u + first_shift));
+#else
+  n.turn = (real)(0);
+  n.shift = (real)(0.5f);
+#endif
+  return n;
+}
+
+static inline Noise noise_at(integer x, int y, int seed) { return noise_of(to_natural(x), (natural)((uint)y), seed); }
+
+// Turns by the golden angle, from point to point of a Fibonacci spiral.
+static inline void turn_golden(scalar* cosine, scalar* sine) {
+  const scalar step_cosine = (scalar)-0.7373688780783197, step_sine = (scalar)0.6754902942615238;
+  const scalar next = *cosine * step_cosine - *sine * step_sine;
+  *sine = *sine * step_cosine + *cosine * step_sine;
+  *cosine = next;
+}
+
+// How far a radius in scene units reaches on the screen, in pixels of each axis, capped; and in units of the depth.
+typedef struct {
+  real pixels_x, pixels_y;
+  real inverse_square;  // 1 / (radius / depth)^2
+} Reach;
+
+// A radius of 0 reaches no pixel; an infinite one every pixel up to the cap. Distances of 1e15 depths and more are out
+// of any reach, so that background never counts, not even for an infinite radius.
+static inline Reach reach_of(Frame f, Anchor a, scalar radius, scalar most_pixels) {
+  Reach r;
+  const real relative = (scalar)radius * a.inverse_depth;
+  const real per_depth = f.perspective * a.inverse_depth + f.parallel;
+  r.pixels_x = smaller(((scalar)radius / f.scale_x) * per_depth, (real)(most_pixels));
+  r.pixels_y = smaller(((scalar)radius / f.scale_y) * per_depth, (real)(most_pixels));
+  const real inverse = larger(quick_inverse(larger(relative, (real)(1e-18f))), (real)(1e-15f));
+  r.inverse_square = inverse * inverse;
+  return r;
+}
+
+static inline Reach longer(Reach r, real factor) {
+  r.pixels_x *= factor;
+  r.pixels_y *= factor;
+  return r;
+}
+
+// How samples around a pixel are read: the same for all samples of a work-item, so that a loop over them is written once
+// for a constant and chosen once. (One loop for all is a sixth slower on AVX-512.)
+#define SAMPLES_INSIDE 0         // every sample of every lane lies in the frame
+#define SAMPLES_CLAMPED 1        // some are moved onto its border
+#define SAMPLES_IN_WIDE_FRAME 2  // the same, and the pitch has more than 15 bits (load.h)
+
+// Whether no lane's pixel reaches out of the frame.
+static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
+  // One pixel for rounding, and one because samples may start one pixel away even where the radius is less.
+  const real x = r.pixels_x + 2, y = r.pixels_y + 2;
+  // Asked so that what cannot be compared is not inside.
+  return !ANY(!((a.x >= x) & (a.x + x < (scalar)f.width) & (a.y >= y) & (a.y + y < (scalar)f.height)));
+}
+
+// Changes an offset in pixels from each lane's own (x, y) that leads out of the frame to the frame's border. Returns which
+// samples count: all, or with OUTSIDE_OPEN only those that were in the frame.
+// `within`: a constant, one of the above.
+static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer* dx, integer* dy) {
+  if (within == SAMPLES_INSIDE) return EVERY_LANE;
+  const integer kept_x = min(max(*dx, -x), f.width - 1 - x), kept_y = min(max(*dy, -y), f.height - 1 - y);
+#if OUTSIDE_OPEN
+  const mask inside = to_mask((kept_x == *dx) & (kept_y == *dy));
+#else
+  const mask inside = EVERY_LANE;
+#endif
+  *dx = kept_x;
+  *dy = kept_y;
+  return inside;
+}
+
+// The index of an offset that stays in the frame, from the first lane's. |dy| is below SHORT_PITCH.
+static inline integer index_within(Frame f, int within, integer dx, integer dy) {
+  return within == SAMPLES_IN_WIDE_FRAME ? index_near(f, dx, dy) : index_near_short(f, dx, dy);
+}
+
+// A plane's value at an offset that stays in the frame; `here` is the first lane's index.
+static inline real sample_near(PLANE plane, Frame f, int here, int within, integer dx, integer dy) {
+  return gather(plane + here, index_within(f, within, dx, dy));
+}
+
+#endif

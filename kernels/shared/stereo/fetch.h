@@ -1,0 +1,92 @@
+// What the other eye has of this eye's surfaces, fetched between its pixels: of the four around a place those that show the
+// surface count, by how near they are, by their distance from its tangent plane and by the angle between the normals.
+#ifndef GLOAM_STEREO_FETCH_H
+#define GLOAM_STEREO_FETCH_H
+
+#include "shared/frame/neighbour.h"
+#include "shared/frame/surface.h"
+#include "shared/lanes/pixel_row.h"
+
+// The planes of the other eye that tell its surfaces.
+typedef struct {
+  global const float *depth, *normal_x, *normal_y, *normal_z;
+} SurfacePlanes;
+
+static inline SurfacePlanes surface_planes(global const float* depth, global const float* normal_x,
+                                           global const float* normal_y, global const float* normal_z) {
+  SurfacePlanes p;
+  p.depth = depth;
+  p.normal_x = normal_x;
+  p.normal_y = normal_y;
+  p.normal_z = normal_z;
+  return p;
+}
+
+typedef struct {
+  PixelRow pixels;  // the upper left of the four
+  int in_a_row;
+  real weights[4];  // of all four
+  real share;       // their sum, 0 to 1: how far what is seen around is the surface
+  mask is_known;
+} Between;
+
+static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame f, TangentPlane plane,
+                                                               Projection there, SurfacePlanes planes, int in_a_row) {
+  const real x = larger(there.x - to_real(b->pixels.column), (real)(0));
+  const real y = larger(there.y - to_real(b->pixels.row), (real)(0));
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const int i = k % 2, j = k / 2;
+    const real step = ((scalar)i - x) * plane.per_column + ((scalar)j - y) * plane.per_row;
+    const real depth = fabs(value_at(f, planes.depth, &b->pixels, i, j, in_a_row));
+    const real3 n = make3(value_at(f, planes.normal_x, &b->pixels, i, j, in_a_row),
+                          value_at(f, planes.normal_y, &b->pixels, i, j, in_a_row),
+                          value_at(f, planes.normal_z, &b->pixels, i, j, in_a_row));
+    const real near = (i ? x : 1 - x) * (j ? y : 1 - y);
+    const real weight = near * same_surface(plane, f, step, depth, n);
+    const mask is_inside = to_mask((to_natural(b->pixels.column + i) < (natural)((uint)f.width)) &
+                                   (to_natural(b->pixels.row + j) < (natural)((uint)f.height)));
+    b->weights[k] = choose(is_inside & !is_background(depth), weight, (real)(0));
+  }
+}
+
+// Around where the other eye shows a surface. `normal`: its, in this eye's space; `distance`, `angle`: tangent_plane_at.
+static inline __attribute__((always_inline)) void between_pixels(Neighbour neighbour, Projection there, real3 normal,
+                                                                 scalar distance, scalar angle, SurfacePlanes planes,
+                                                                 Between* b) {
+  const Frame other = neighbour.frame;
+  b->share = (real)(0);
+  b->is_known = there.is_seen;
+  b->in_a_row = 0;
+  if (!ANY(there.is_seen)) return;
+  const TangentPlane plane =
+      tangent_plane_at(other, there.x, there.y, there.depth, rotated(neighbour, normal), distance, angle);
+  // Of parallel eyes the place lies in this row but for rounding, which must not choose between rows lane by lane.
+  const integer column = nearest(floor(there.x + (scalar)0x1p-10)), row = nearest(floor(there.y + (scalar)0x1p-10));
+  b->in_a_row = follow_in_a_row(column, row, there.is_seen, &b->pixels);
+  if (b->in_a_row)
+    weigh_pixels(b, other, plane, there, planes, 1);
+  else
+    weigh_pixels(b, other, plane, there, planes, 0);
+  b->share = b->weights[0] + b->weights[1] + b->weights[2] + b->weights[3];
+  b->is_known &= b->share > (scalar)1e-3f;
+}
+
+static inline __attribute__((always_inline)) real weighted_sum(const Between* b, Frame f, global const float* plane,
+                                                               int in_a_row) {
+  real sum = b->weights[0] * value_at(f, plane, &b->pixels, 0, 0, in_a_row);
+#pragma unroll
+  for (int k = 1; k < 4; ++k)
+    sum = multiply_add(b->weights[k], value_at(f, plane, &b->pixels, k % 2, k / 2, in_a_row), sum);
+  return sum;
+}
+
+// A plane of the other eye; of use where it is known.
+static inline __attribute__((always_inline)) real fetch_between(const Between* b, Frame other,
+                                                                global const float* plane) {
+  const real sum = b->in_a_row ? weighted_sum(b, other, plane, 1) : weighted_sum(b, other, plane, 0);
+  // Divided exactly, so that what is open all around stays just that.
+  return sum / choose(b->is_known, b->share, (real)(1));
+}
+
+#endif

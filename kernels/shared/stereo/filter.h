@@ -1,0 +1,73 @@
+// The cross-bilateral filter of bilateral.h for two eyes (Shi, Billeter, Eisemann 2022, section 3.3): F and F* are the filtered
+// values of a surface in either eye, W and W* the sums of their weights. result = w F + (1 - w) F*, with w = smoothstep(0.5 -
+// blend, 0.5 + blend, W / (W + W*)): the eye that sees more of the surface decides, and both eyes decide alike.
+//
+// The paper filters the other eye's pixels anew around each of this eye's. Here each eye filters its own once, and F* and W*
+// are fetched between the other's pixels, as far as they show the surface: half the work. Its step ends at one half, so
+// that each eye keeps its own value of what both see alike; one about one half gives both eyes the same.
+//
+// bilateral_weighted  in : source, source_weights, depth, normal  source_weights: of the pass before (WITH_SOURCE_WEIGHTS)
+//                     out: result, result_weights                 F and W
+// stereo_blend        in : source, source_weights, depth, normal  of this eye, and the same of the other
+//                     out: result                                 1 on background
+// -D COLUMNS, ROWS
+#ifndef GLOAM_STEREO_FILTER_H
+#define GLOAM_STEREO_FILTER_H
+
+#include "shared/filter/bilateral.h"
+#include "shared/stereo/fetch.h"
+
+#if WITH_SOURCE_WEIGHTS
+#define SOURCE_WEIGHTS_ARGUMENT PLANE source_weights,
+#else
+#define SOURCE_WEIGHTS_ARGUMENT
+#endif
+
+kernel void bilateral_weighted(Frame frame, Params params, PLANE source, SOURCE_WEIGHTS_ARGUMENT PLANE depth,
+                               PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE_OUT result,
+                               PLANE_OUT result_weights) {
+  const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
+  const integer x = FIRST_X + IOTA;
+  const real z = load(depth, here);
+  const TangentPlane plane =
+      tangent_plane_at(frame, to_real(x), (real)(y), z, load3(normal_x, normal_y, normal_z, here),
+                       params.depth_tolerance * params.radius, params.normal_tolerance);
+  const Taps taps = taps_around(frame, plane, x, y, here, source, depth, normal_x, normal_y, normal_z);
+  const mask is_surface = !is_background(z);
+  store(choose(is_surface, taps.sum / taps.weights, (real)(1)), result, here);
+#if WITH_SOURCE_WEIGHTS
+  const real before = load(source_weights, here);
+#else
+  const real before = (real)(1);
+#endif
+  store(choose(is_surface, before * taps.weights, (real)(0)), result_weights, here);
+}
+
+// 0 below `from`, 1 above `to`, and smooth in between.
+static inline real smooth_step(scalar from, scalar to, real value) {
+  const scalar width = max(to - from, (scalar)1e-6f);
+  const real t = smaller(larger((value - from) * ((scalar)1 / width), (real)(0)), (real)(1));
+  return t * t * (3 - 2 * t);
+}
+
+kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANE source, PLANE source_weights,
+                         PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE other_source,
+                         PLANE other_weights, PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y,
+                         PLANE other_normal_z, PLANE_OUT result) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real z = load(depth, here), own = load(source, here), own_weight = load(source_weights, here);
+  Between b;
+  between_pixels(neighbour, project_row(frame, neighbour, z), load3(normal_x, normal_y, normal_z, here),
+                 params.depth_tolerance * params.radius, params.normal_tolerance,
+                 surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z), &b);
+  real open = own;
+  if (ANY(b.is_known)) {
+    const real weight = b.share * fetch_between(&b, neighbour.frame, other_weights);
+    const real found = fetch_between(&b, neighbour.frame, other_source);
+    const real w =
+        smooth_step((scalar)0.5 - params.blend, (scalar)0.5 + params.blend, own_weight / (own_weight + weight));
+    open = choose(b.is_known, found + w * (own - found), own);
+  }
+  store(open, result, here);
+}
+#endif

@@ -1,0 +1,94 @@
+// Passes of two eyes (stereo.h), whatever is estimated.
+//
+// stereo_visibility   in : depth, other_depth  view-space z of either eye, scene units, +inf = background
+//                     out: stereo_depth        negative where both eyes see the surface
+// stereo_reproject    in : depth, other_depth    as left by stereo_visibility
+//                          normal, other_normal  unit, view space
+//                          other                 the other eye's result, 0 to 1
+//                     out: result                what the other eye found where both see the surface and it shows around; else 1
+//                          newly_visible         what is left to be computed (pixel_list.h)
+// stereo_half_occlusion in : depth           as left by stereo_visibility
+//                       out: half_occluded   where what this eye alone sees may matter (half_occlusion.h)
+// -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST, WITH_HALF_OCCLUSION (stereo_visibility empties these)
+#ifndef GLOAM_STEREO_PASSES_H
+#define GLOAM_STEREO_PASSES_H
+
+#include "shared/lanes/pixel_list.h"
+#include "shared/stereo/fetch.h"
+#include "shared/stereo/half_occlusion.h"
+#include "shared/stereo/visibility.h"
+
+#if WITH_PIXEL_LIST
+#define PIXEL_LIST_OUT_ARGUMENT , PIXEL_LIST_OUT newly_visible
+#else
+#define PIXEL_LIST_OUT_ARGUMENT
+#endif
+#if WITH_HALF_OCCLUSION
+#define HALF_OCCLUDED_OUT_ARGUMENT , PLANE_OUT half_occluded
+#else
+#define HALF_OCCLUDED_OUT_ARGUMENT
+#endif
+
+kernel void stereo_visibility(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE other_depth,
+                              PLANE_OUT stereo_depth PIXEL_LIST_OUT_ARGUMENT HALF_OCCLUDED_OUT_ARGUMENT) {
+#if WITH_PIXEL_LIST
+  if (FIRST_X == 0 && ROW_Y == 0) empty_list(newly_visible);
+#endif
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+#if WITH_HALF_OCCLUSION
+  empty_cells(half_occluded, frame, here);
+#endif
+  const real z = load(depth, here);
+  const mask is_seen = seen_by_both_eyes(frame, neighbour, params.back_check, z, other_depth);
+  store(stereo_depth_of(z, is_seen), stereo_depth, here);
+}
+
+#if WITH_HALF_OCCLUSION
+kernel void stereo_half_occlusion(Frame frame, Params params, PLANE depth, PLANE_OUT half_occluded) {
+  const real z = fabs(load(depth, index_of(frame, FIRST_X, ROW_Y)));
+  mark_around_all(half_occluded, frame, position_at(frame, to_real(FIRST_X + IOTA), (real)(ROW_Y), z), params.radius,
+                  is_half_occluded(depth, frame));
+}
+#endif
+
+#if WITH_PIXEL_LIST
+// Without a back-check what the other eye sees only has to be as far away as the pixel's surface.
+#define SAME_DEPTH ((scalar)0.02)
+
+kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
+                             PLANE normal_y, PLANE normal_z, PLANE other_depth, PLANE other_normal_x,
+                             PLANE other_normal_y, PLANE other_normal_z, PLANE other, PLANE_OUT result,
+                             PIXEL_LIST_OUT newly_visible) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real stored_depth = load(depth, here), z = fabs(stored_depth);
+  const Projection there = project_row(frame, neighbour, z);
+#if NO_BACK_CHECK
+  const real depth_there = fabs(gather(other_depth, nearest_index(neighbour.frame, there)));
+  const mask is_found = there.is_seen & (fabs(depth_there - there.depth) < SAME_DEPTH * there.depth);
+#else
+  mask is_found = is_shared(stored_depth);
+#endif
+  Between b;
+  between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
+                 params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
+                 &b);
+  real found = (real)(1);
+#if !NO_BACK_CHECK
+  is_found &= b.is_known;
+#endif
+  if (ANY(is_found))
+    found = choose(b.is_known, fetch_between(&b, neighbour.frame, other),
+                   gather(other, nearest_index(neighbour.frame, there)));
+  store(choose(is_found, found, (real)(1)), result, here);
+  const mask in_row = to_mask(FIRST_X + IOTA < frame.width);
+  append_pixels(newly_visible, here, !is_found & !is_background(z) & in_row);
+}
+#endif
+
+// The filters, where a pass has the taps for them.
+#ifdef COLUMNS
+#include "shared/filter/bilateral_filter.h"
+#include "shared/stereo/filter.h"
+#endif
+
+#endif
