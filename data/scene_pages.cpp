@@ -135,9 +135,10 @@ std::string section(const Figures& f) {
 
 std::string page(const std::vector<Figures>& all) {
   std::string text =
-      "<!-- Written by script/update-scenes: change data/scenes/ or data/scene_pages.cpp instead. -->\n"
+      "<!-- Written by script/update-scenes: change host/scene/built_in/ or data/scene_pages.cpp instead. -->\n"
       "# Built-in scenes\n\n"
-      "Each is made by a program in `data/scenes/`, the same at every run; `gloam capture NAME -o frame.exr` makes a "
+      "Each is made by a program in `host/scene/built_in/`, the same at every run; `gloam capture NAME -o frame.exr` "
+      "makes a "
       "G-buffer of it.\n\n";
   text += table(all, "");
   text += fmt::format(

@@ -15,7 +15,7 @@
 
 #include "gloam/error.h"
 #include "gloam/scene/capture.h"
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::test {
 namespace {

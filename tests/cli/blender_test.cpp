@@ -10,7 +10,7 @@
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::test {
 namespace {

@@ -15,7 +15,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 

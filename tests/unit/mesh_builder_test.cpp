@@ -1,5 +1,5 @@
 // The shapes of the built-in scenes, and the scenes themselves.
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -104,7 +104,7 @@ struct SceneRecipe {
   std::function<Scene(const ParameterValues&)> make;  ///< deterministic
 };
 
-/// All of data/scenes/, sorted by name.
+/// All of host/scene/built_in/, sorted by name.
 const std::vector<SceneRecipe>& builtin_scenes();
 /// None when there is no such scene.
 const SceneRecipe* find_builtin_scene(const std::string& name);

@@ -1,6 +1,6 @@
 // A slab that stands out from a wall towards the camera, for occluders that no ray from the eye meets (Vermeer, Scandolo,
 // Eisemann 2021, figure 3).
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::scenes {
 namespace {

@@ -7,8 +7,8 @@
 #include <glm/gtc/constants.hpp>
 #include <unordered_map>
 
-#include "scenes/mesh_builder.h"
-#include "scenes/tube.h"
+#include "scene/built_in/mesh_builder.h"
+#include "scene/built_in/tube.h"
 
 namespace gloam::scenes {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <glm/gtc/constants.hpp>
 
-#include "scenes/mesh_builder.h"
-#include "scenes/tube.h"
+#include "scene/built_in/mesh_builder.h"
+#include "scene/built_in/tube.h"
 
 namespace gloam::scenes {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "scenes/mesh_builder.h"
-#include "scenes/tube.h"
+#include "scene/built_in/mesh_builder.h"
+#include "scene/built_in/tube.h"
 
 namespace gloam::scenes {
 namespace {

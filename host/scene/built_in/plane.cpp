@@ -2,7 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::scenes {
 namespace {

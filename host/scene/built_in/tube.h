@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::scenes {
 

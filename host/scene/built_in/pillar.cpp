@@ -1,6 +1,6 @@
 // A pillar before a rib on a wall, with any number of sheets between the two: how deep a hidden occluder may lie (Vermeer,
 // Scandolo, Eisemann 2021, figure 8).
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::scenes {
 namespace {

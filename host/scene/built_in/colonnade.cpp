@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 namespace gloam::scenes {
 namespace {

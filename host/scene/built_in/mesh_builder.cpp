@@ -1,4 +1,4 @@
-#include "scenes/mesh_builder.h"
+#include "scene/built_in/mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>
