@@ -22,7 +22,7 @@ std::set<std::string> settable_by(const CLI::App* command_line) {
   if (!command_line) return names;
   const std::string command = command_line->get_name();
   // Where a command has a flag of that name, --set alone sets the parameter.
-  const auto add = [&](const std::vector<Parameter>& parameters) {
+  const auto add = [&](const ParameterList& parameters) {
     for (const Parameter& p : parameters) {
       if (!command_line->get_option_no_throw("--" + p.name)) names.insert(p.name);
     }
@@ -107,7 +107,7 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
 }
 
 /// `settable`: those that are flags.
-void print_parameters(const std::string& owner, const std::vector<Parameter>& parameters,
+void print_parameters(const std::string& owner, const ParameterList& parameters,
                       const std::set<std::string>& settable) {
   if (parameters.empty()) return;
   const ParameterValues initial(parameters);

@@ -48,7 +48,7 @@ void set_falloff(AoReferenceOptions& options, const std::string& name,
                  const std::vector<std::pair<std::string, std::string>>& settings) {
   const Technique* technique = falloff_technique(name);
   options.falloff = name;
-  ParameterValues values(technique ? technique->parameters : std::vector<Parameter>());
+  ParameterValues values(technique ? technique->parameters : ParameterList());
   for (const auto& [key, value] : settings) {
     const size_t dot = key.rfind('.');
     if (!technique || key.substr(0, dot) != technique->name)

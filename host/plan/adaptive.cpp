@@ -115,7 +115,7 @@ const Technique& adapting() {
   return technique;
 }
 
-bool is_estimate(const Pass& pass) { return pass.can_skip && pass.looks_around; }
+bool is_estimate(const Pass& pass) { return pass.can_skip && pass.footprint.is_wide; }
 
 void adapt(Plan& plan, const std::vector<const Technique*>& techniques, const std::string& preset,
            const ParameterValues& values) {

@@ -80,8 +80,8 @@ class Restriction {
     Reach reach;
     for (size_t i = from; i < plan_.passes.size(); ++i) {
       if (!is_restricted_[i] || plan_.passes[i].pass.scale != scale) continue;
-      reach.x += plan_.passes[i].pass.reach_x;
-      reach.y += plan_.passes[i].pass.reach_y;
+      reach.x += plan_.passes[i].pass.footprint.columns;
+      reach.y += plan_.passes[i].pass.footprint.rows;
     }
     return reach;
   }
@@ -154,7 +154,7 @@ void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& technique
                        technique->name);
   }
   const bool looks_into_key_views = std::any_of(plan.passes.begin(), plan.passes.end(), [](const PlannedPass& planned) {
-    return planned.pass.on != Pass::Views::every;
+    return planned.pass.on == On::key_views || planned.pass.on == On::views_between;
   });
   if (elsewhere && looks_into_key_views)
     throw UsageError(

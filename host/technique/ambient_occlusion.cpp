@@ -9,9 +9,8 @@ Pass bilateral_pass(const std::string& name, const std::string& from, const std:
           .reads = {{"source", from}, "depth", "normal"},
           .writes = {{"result", to}},
           .defines = {{"COLUMNS", columns}, {"ROWS", rows}},
-          .can_skip = true,
-          .reach_x = columns,
-          .reach_y = rows};
+          .footprint = {.columns = columns, .rows = rows},
+          .can_skip = true};
 }
 
 }  // namespace
@@ -88,7 +87,7 @@ Pass at_lower_resolution(Pass sort, int scale) {
   return sort;
 }
 
-Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,
+Technique over_stochastic_depth(Technique technique, ParameterList parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes) {
   technique.summary = technique.name + " with stochastic depths behind what is seen";
   technique.name.insert(0, stochastic_prefix);

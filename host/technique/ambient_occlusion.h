@@ -35,7 +35,7 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector
           .reads = {"depth", "normal"},
           .writes = {"ao_raw"},
           .defines = std::move(defines),
-          .looks_around = true,
+          .footprint = {.is_wide = true},
           .can_skip = true};
 }
 
@@ -63,7 +63,7 @@ Pass at_lower_resolution(Pass sort, int scale);
 
 /// The same technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its
 /// own.
-Technique over_stochastic_depth(Technique technique, std::vector<Parameter> parameters,
+Technique over_stochastic_depth(Technique technique, ParameterList parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
 }  // namespace gloam

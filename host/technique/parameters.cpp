@@ -107,7 +107,7 @@ std::string allowed_values(const Parameter& p) {
   return p.unit.empty() ? range : range + " " + p.unit;
 }
 
-ParameterValues::ParameterValues(std::vector<Parameter> table) : table_(std::move(table)), bytes_(4 * table_.size()) {
+ParameterValues::ParameterValues(ParameterList table) : table_(std::move(table)), bytes_(4 * table_.size()) {
   for (const Parameter& p : table_) {
     const bool is_choice = p.type == Parameter::Type::choice;
     const bool is_bool = p.type == Parameter::Type::boolean;

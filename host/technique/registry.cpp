@@ -33,8 +33,16 @@ bool makes_first_view_only(const Technique& technique) {
   return std::all_of(passes.begin(), passes.end(), [&](const Pass& pass) {
     const bool is_output = std::any_of(pass.writes.begin(), pass.writes.end(),
                                        [&](const Binding& b) { return contains(technique.writes, b.plane); });
-    return !is_output || pass.view == 0;
+    return !is_output || pass.on == On::first_view;
   });
+}
+
+bool takes(const Pass& pass, From where) {
+  return std::any_of(pass.reads.begin(), pass.reads.end(), [&](const Binding& b) { return b.from == where; });
+}
+
+const std::string& source_of(const Technique& technique, const Pass& pass) {
+  return pass.source.empty() ? technique.source : pass.source;
 }
 
 const Technique& find_technique(const std::string& name) {

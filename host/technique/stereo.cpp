@@ -13,7 +13,7 @@ using Filter = StereoChoices::Filter;
 Pass visibility(const StereoChoices& c) {
   Pass pass{.name = "visibility",
             .kernel = "stereo_visibility",
-            .reads = {"depth", of_other({"other_depth", "depth"})},
+            .reads = {"depth", from(From::other_view, {"other_depth", "depth"})},
             .writes = {"stereo_depth"}};
   if (c.reproject) pass.writes.push_back("newly_visible");
   if (c.near_half_occluded()) pass.writes.push_back("half_occluded");
@@ -26,7 +26,7 @@ Pass half_occlusion(const StereoChoices& c) {
           .kernel = "stereo_half_occlusion",
           .reads = {{"depth", "stereo_depth"}},
           .writes = {"half_occluded"},
-          .view = c.reproject ? 1 - c.primary : -1};
+          .on = c.reproject ? on_view(1 - c.primary) : On::every_view};
 }
 
 /// Of both eyes: the same planes of the other one, but for the normals.
@@ -36,7 +36,7 @@ Pass from_both(Pass estimate, const std::string& kernel) {
   const std::vector<Binding> own = estimate.reads;
   for (const Binding& read : own) {
     if (read.plane != "normal" && read.plane != "newly_visible")
-      estimate.reads.push_back(of_other({"other_" + read.argument, read.plane, read.layers}));
+      estimate.reads.push_back(from(From::other_view, {"other_" + read.argument, read.plane, read.layers}));
   }
   return estimate;
 }
@@ -46,12 +46,12 @@ Pass reprojection(const StereoChoices& c) {
           .kernel = "stereo_reproject",
           .reads = {{"depth", "stereo_depth"},
                     "normal",
-                    of_other({"other_depth", "stereo_depth"}),
-                    of_other({"other_normal", "normal"}),
-                    of_other({"other", "ao_raw"})},
+                    from(From::other_view, {"other_depth", "stereo_depth"}),
+                    from(From::other_view, {"other_normal", "normal"}),
+                    from(From::other_view, {"other", "ao_raw"})},
           .writes = {{"result", "ao_raw"}, "newly_visible"},
           .defines = {{"NO_BACK_CHECK", !c.back_check}},
-          .view = 1 - c.primary};
+          .on = on_view(1 - c.primary)};
 }
 
 /// What the second eye alone sees.
@@ -60,7 +60,7 @@ Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& 
   Pass pass = from_both(std::move(estimate), both + "_list");
   pass.name = "newly visible";
   pass.defines.emplace_back("ESTIMATE_MONO", !c.estimate_both);
-  pass.view = 1 - c.primary;
+  pass.on = on_view(1 - c.primary);
   return pass;
 }
 
@@ -84,12 +84,12 @@ Pass blend(const Pass& last) {
   for (const Binding& other :
        {Binding("other_source", last.writes[0].plane), Binding("other_weights", last.writes[1].plane),
         Binding("other_depth", "depth"), Binding("other_normal", "normal")})
-    pass.reads.push_back(of_other(other));
+    pass.reads.push_back(from(From::other_view, other));
   return pass;
 }
 
 /// The filter is the technique's own, and has its settings.
-void set_initial(std::vector<Parameter>& parameters, const std::string& name, const std::string& value) {
+void set_initial(ParameterList& parameters, const std::string& name, const std::string& value) {
   for (Parameter& p : parameters) {
     if (p.name == name) p.initial = std::stod(value);
   }
@@ -97,7 +97,7 @@ void set_initial(std::vector<Parameter>& parameters, const std::string& name, co
 
 }  // namespace
 
-Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
+Technique over_two_eyes(Technique mono, ParameterList parameters,
                         std::function<std::vector<Pass>(const ParameterValues&)> passes) {
   Technique t = std::move(mono);
   t.summary = t.name + " for two eyes that agree on what both of them see";
@@ -131,11 +131,11 @@ std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both,
   if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
   passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
   if (c.near_half_occluded()) {
-    passes.back().reads.push_back(of_other({"other_half_occluded", "half_occluded"}));
+    passes.back().reads.push_back(from(From::other_view, {"other_half_occluded", "half_occluded"}));
     passes.insert(passes.end() - 1, half_occlusion(c));
   }
   if (c.reproject) {
-    passes.back().view = c.primary;
+    passes.back().on = on_view(c.primary);
     passes.push_back(reprojection(c));
     passes.push_back(newly_visible(estimate, both, c));
   }

@@ -30,7 +30,7 @@ std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both,
 
 /// The technique `mono` for two eyes: "stereo-" before its name, with parameters and passes of its own, and no extra
 /// planes. The filter, which follows `mono`, is one of its passes.
-Technique over_two_eyes(Technique mono, std::vector<Parameter> parameters,
+Technique over_two_eyes(Technique mono, ParameterList parameters,
                         std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
 /// The filter alone, from "ao_raw" to "ao". Kernels: shared/filter/bilateral_filter.h, shared/stereo/filter.h.

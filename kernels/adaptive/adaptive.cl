@@ -8,8 +8,6 @@
 #include "adaptive/params.h"
 #include "shared/lanes/load.h"
 
-typedef AdaptiveParams Params;
-
 kernel void important_tiles(Frame frame, Frame other, Params params, PLANE ao, PLANE_OUT important) {
   const integer first = (FIRST_X + IOTA) * PIXELS;
   real brightest = 0, darkest = 1;

@@ -17,10 +17,8 @@
 #endif
 
 #if SCALABLE
-typedef SaoParams Params;
 #define FACTOR 5
 #else
-typedef AlchemyParams Params;
 #define FACTOR 2
 #endif
 

@@ -21,11 +21,6 @@
 #include "shared/filter/subsample.h"
 #include "shared/sampling/fan.h"
 
-#ifdef OCCLUDERS_LAYERS
-typedef HiddenMaskParams Params;
-#else
-typedef CornerMaskParams Params;
-#endif
 #include "shared/sampling/cells.h"
 
 kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,

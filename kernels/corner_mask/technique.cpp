@@ -26,7 +26,7 @@ std::vector<Pass> passes_in_cells(int cell, const std::vector<std::pair<std::str
                          .writes = {{"found", "corners"}},
                          .defines = defines,
                          .scale = cell,
-                         .looks_around = true}});
+                         .footprint = {.is_wide = true}}});
 }
 
 std::vector<Pass> corner_passes(const CornerMaskParams& p) { return passes_in_cells(p.cell, defines_of(p)); }

@@ -12,15 +12,15 @@ std::vector<Pass> passes(const GaussianParams& p) {
            .reads = {{"source", "ao_raw"}, "depth"},
            .writes = {{"sum", "gaussian_sum"}, {"weight", "gaussian_weight"}},
            .defines = defines,
-           .can_skip = true,
-           .reach_x = p.half_width},
+           .footprint = {.columns = p.half_width},
+           .can_skip = true},
           {.name = "vertical",
            .kernel = "gaussian_vertical",
            .reads = {{"sum", "gaussian_sum"}, {"weight", "gaussian_weight"}, "depth"},
            .writes = {{"result", "ao"}},
            .defines = defines,
-           .can_skip = true,
-           .reach_y = p.half_width}};
+           .footprint = {.rows = p.half_width},
+           .can_skip = true}};
 }
 
 }  // namespace

@@ -17,19 +17,6 @@
 #include "estimators/sectors.h"
 #include "gtao/params.h"
 
-#if BITMASK && STEREO
-typedef StereoBitmaskParams Params;
-#elif STEREO
-typedef StereoGtaoParams Params;
-#elif BITMASK && STOCHASTIC
-typedef SdBitmaskParams Params;
-#elif BITMASK
-typedef BitmaskParams Params;
-#elif STOCHASTIC
-typedef SdGtaoParams Params;
-#else
-typedef GtaoParams Params;
-#endif
 #if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"
 #endif

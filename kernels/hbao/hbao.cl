@@ -14,11 +14,6 @@
 #include "shared/sampling/fan.h"
 
 #if STOCHASTIC
-typedef SdHbaoParams Params;
-#else
-typedef HbaoParams Params;
-#endif
-#if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"
 #endif
 

@@ -14,17 +14,6 @@
 #include "hbao_plus/params.h"
 #include "shared/sampling/fan.h"
 
-#if STEREO && STOCHASTIC
-typedef StereoSdHbaoPlusParams Params;
-#elif STEREO
-typedef StereoAoParams Params;
-#elif MULTIVIEW
-typedef MultiviewParams Params;
-#elif STOCHASTIC
-typedef SdHbaoPlusParams Params;
-#else
-typedef HbaoPlusParams Params;
-#endif
 #if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"
 #endif

@@ -23,14 +23,14 @@ std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return behind_depth(est
 std::vector<Pass> multiview_passes(const MultiviewParams& p) {
   Pass estimate = estimate_of(p);
   estimate.writes = {{"ao_raw", "multiview_own"}};
-  estimate.view = 0;
+  estimate.on = On::first_view;
   estimate.defines.push_back({"MULTIVIEW", 1});
   std::vector<Pass> passes = behind_depth(std::move(estimate), p);
   Binding other_depth = "depth", other_hidden = passes.back().reads.back();  // what behind_depth has it read
   if (const int scale = 1 << p.other_resolution; scale > 1) {
     Pass sort = at_lower_resolution(passes.front(), scale);
-    passes.front().view = 0;
-    sort.view = 1;
+    passes.front().on = On::first_view;
+    sort.on = On::second_view;
     other_depth = sort.writes.front();
     other_hidden = {other_hidden.argument, sort.writes.back().plane, other_hidden.layers};
     passes.insert(passes.begin() + 1, std::move(sort));
@@ -41,8 +41,8 @@ std::vector<Pass> multiview_passes(const MultiviewParams& p) {
   other.reads = {"depth",
                  "normal",
                  {"own", "multiview_own"},
-                 of_other({"other_depth", other_depth.plane}),
-                 of_other(other_hidden)};
+                 from(From::other_view, {"other_depth", other_depth.plane}),
+                 from(From::other_view, other_hidden)};
   other.writes = {"ao_raw"};
   passes.push_back(std::move(other));
   return passes;

@@ -26,15 +26,12 @@
 #include "shared/sampling/fan.h"
 #endif
 #if ESTIMATE == 1
-typedef LightfieldSsaoParams Params;
 #define ESTIMATE_NAME lightfield_ssao_estimate
 #include "lightfield/ssao.h"
 #elif ESTIMATE == 2
-typedef LightfieldHbaoPlusParams Params;
 #define ESTIMATE_NAME lightfield_hbao_plus_estimate
 #include "lightfield/hbao_plus.h"
 #else
-typedef LightfieldMaskParams Params;
 #include "lightfield/find.h"
 #endif
 #if REUSE

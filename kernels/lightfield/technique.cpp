@@ -60,28 +60,29 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
              .reads = {"depth", "position"},
              .writes = {"ao_raw", starts_empty("newly_visible")},
              .defines = estimate.defines,
+             .on = On::views_between,
              .can_skip = true,
-             .projects = true,
-             .on = Pass::Views::between};
+             .projects = true};
   Pass key{.name = "key",
            .kernel = "lightfield_key",
            .reads = {"ao_of_key"},
            .writes = {"ao_raw"},
            .defines = estimate.defines,
-           .can_skip = true,
-           .on = Pass::Views::key};
+           .on = On::key_views,
+           .can_skip = true};
   reuse.defines.emplace_back("FROM_BOTH", p.reuse_from == Params::reuse_from_values::both);
-  for (const auto& [prefix, number] : {std::pair{"key_", 1}, {"far_", 2}}) {
+  for (const auto& [prefix, view] : {std::pair{"key_", From::nearest_key_view}, {"far_", From::further_key_view}}) {
     for (const auto& [argument, plane] : {std::pair{"depth", "depth"}, {"position", "position"}, {"ao", "ao_of_key"}})
-      reuse.reads.push_back(of_key(number, {std::string(prefix) + argument, plane}));
+      reuse.reads.push_back(from(view, {std::string(prefix) + argument, plane}));
   }
   Pass rest = estimate;
   rest.name = "newly visible";
   rest.kernel += "_list";
   rest.reads.push_back("newly_visible");
-  rest.looks_around = rest.can_skip = false;
-  rest.on = Pass::Views::between;
-  estimate.on = Pass::Views::key;
+  rest.footprint = {};
+  rest.can_skip = false;
+  rest.on = On::views_between;
+  estimate.on = On::key_views;
   estimate.writes = {{"ao_raw", "ao_of_key"}};
   estimate.can_skip = false;
   return {estimate, key, reuse, rest};
@@ -171,7 +172,7 @@ std::vector<Pass> mask_passes(const LightfieldMaskParams& p) {
             .writes = {{"found", "corners"}},
             .defines = defines,
             .scale = p.cell,
-            .looks_around = true,
+            .footprint = {.is_wide = true},
             .projects = true};
   return mask_of_cells({std::move(subsample), std::move(find)});
 }

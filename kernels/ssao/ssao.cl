@@ -13,11 +13,6 @@
 #include "ssao/params.h"
 
 #if STOCHASTIC
-typedef SdSsaoParams Params;
-#else
-typedef SsaoParams Params;
-#endif
-#if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"
 #endif
 

@@ -36,16 +36,6 @@
 #include "shared/frame/history.h"
 #endif
 
-#if MASK_ALONE
-typedef ReflectionMaskParams Params;
-#elif STEREO
-typedef StereoSsrParams Params;
-#elif TEMPORAL
-typedef TemporalSssrParams Params;
-#else
-typedef SssrParams Params;
-#endif
-
 // --- Hierarchy
 
 kernel void ssr_nearness(Frame frame, Params params, PLANE depth,

@@ -51,7 +51,7 @@ Bindings operator+(Bindings a, const Bindings& b) {
 Bindings of_other_eye(const Bindings& planes) {
   Bindings bindings;
   for (const Binding& plane : planes)
-    bindings.push_back(of_other({"other_" + plane.argument, plane.plane, plane.layers}));
+    bindings.push_back(from(From::other_view, {"other_" + plane.argument, plane.plane, plane.layers}));
   return bindings;
 }
 
@@ -156,11 +156,12 @@ class Passes {
   /// A ray ends there where it comes to be behind something: it has no use for what is farthest.
   Pass march_in_other() const {
     Bindings cells_of_other = cells(false);
-    for (Binding& cell : cells_of_other) cell = of_other(cell);
+    for (Binding& cell : cells_of_other) cell.from = From::other_view;
     return {.name = "march on",
             .kernel = "ssr_march",
             .reads = Bindings{"depth", "normal"} + cells_of_other + Bindings{{"list", "ssr_others", c_.rays}} +
-                     directions() + of_rays({"left_at"}) + of_other_eye({"normal"}) + Bindings{of_other("back_depth")},
+                     directions() + of_rays({"left_at"}) + of_other_eye({"normal"}) +
+                     Bindings{from(From::other_view, "back_depth")},
             .writes = {{"met", "ssr_met_in_other", c_.rays}},
             .defines = {{"BOTH_DEPTHS", 0}, {"IN_OTHER", 1}}};
   }
@@ -180,9 +181,8 @@ class Passes {
               .kernel = "ssr_resolve",
               .reads = reflector() + rays() + seen(),
               .writes = {{"reflection", c_.accumulates ? "reflection_raw" : "reflection"}},
-              .can_skip = true,
-              .reach_x = 2,
-              .reach_y = 2};
+              .footprint = {.columns = 2, .rows = 2},
+              .can_skip = true};
     if (c_.accumulates) pass.writes.push_back({"reach", "ssr_reach"});
     if (c_.reprojection)
       pass.reads = pass.reads + Bindings{"instance"} + of_other_eye(Bindings{"depth", "instance"} + rays() + seen());
@@ -195,14 +195,12 @@ class Passes {
             .reads = reflector() + Bindings{"motion",
                                             {"reach", "ssr_reach"},
                                             {"now", "reflection_raw"},
-                                            "history",
-                                            "history_depth",
-                                            "history_frames"},
+                                            from(From::frame_before, "history"),
+                                            from(From::frame_before, "history_depth"),
+                                            from(From::frame_before, "history_frames")},
             .writes = {"reflection", "frames"},
-            .can_skip = true,
-            .reach_x = 2,
-            .reach_y = 2,
-            .from_frame_before = true};
+            .footprint = {.columns = 2, .rows = 2},
+            .can_skip = true};
   }
 
   std::vector<Pass> with_defines(std::vector<Pass> passes) const {

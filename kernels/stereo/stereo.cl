@@ -7,7 +7,6 @@
 #include "stereo/params.h"
 
 #ifdef COLUMNS
-typedef StereoBilateralParams Params;
 #include "shared/stereo/filter.h"
 #else
 kernel void stereo_seen_by_both(Frame frame, Neighbour neighbour, StereoVisibilityParams params, PLANE depth,

@@ -7,7 +7,7 @@ namespace {
 std::vector<Pass> visibility_passes(const StereoVisibilityParams&) {
   return {{.name = "visibility",
            .kernel = "stereo_seen_by_both",
-           .reads = {"depth", of_other({"other_depth", "depth"})},
+           .reads = {"depth", from(From::other_view, {"other_depth", "depth"})},
            .writes = {"seen_by_both"}}};
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,14 @@ struct Parameter {
   std::string unit, help;
 };
 
+/// The parameters of a technique, in the order of its kernels' struct.
+struct ParameterList : std::vector<Parameter> {
+  using std::vector<Parameter>::vector;
+  ParameterList(std::string type, std::initializer_list<Parameter> list)
+      : std::vector<Parameter>(list), type(std::move(type)) {}
+  std::string type;  ///< name of the struct, which kernels call Params: "GtaoParams"
+};
+
 Parameter float_parameter(const char* name, double initial, double min, double max, const char* unit, const char* help);
 Parameter int_parameter(const char* name, int initial, int min, int max, const char* unit, const char* help);
 Parameter bool_parameter(const char* name, int initial, const char* help);
@@ -37,9 +46,9 @@ std::string allowed_values(const Parameter& parameter);
 class ParameterValues {
  public:
   ParameterValues() = default;
-  explicit ParameterValues(std::vector<Parameter> table);
+  explicit ParameterValues(ParameterList table);
 
-  const std::vector<Parameter>& table() const { return table_; }
+  const ParameterList& table() const { return table_; }
   bool has(const std::string& name) const;
   /// Sets from text; throws UsageError with the range ("hbao+: radius = '-1' is not allowed; 0 to inf scene units is").
   void set(const std::string& name, const std::string& value, const std::string& technique);
@@ -58,7 +67,7 @@ class ParameterValues {
 
  private:
   size_t index_of(const std::string& name) const;
-  std::vector<Parameter> table_;
+  ParameterList table_;
   std::vector<std::byte> bytes_;
 };
 

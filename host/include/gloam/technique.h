@@ -10,36 +10,39 @@
 
 namespace gloam {
 
+/// Where the plane behind a kernel argument comes from.
+enum class From {
+  this_view,
+  other_view,        ///< the other of two views (`Technique::views`)
+  frame_before,      ///< the same view in the frame before: what its history holds, as `View::camera_before` shows it
+  nearest_key_view,  ///< of the views that others look into (`Technique::key_views`)
+  further_key_view   ///< the next key view on the other side, or the nearest again where there is none
+};
+
 /// A plane behind a kernel argument. Argument and plane mostly share the name; a kernel that serves several planes
 /// names its argument otherwise: {"source", "ao_raw"}. A plane of several components takes as many arguments, in order
 /// (`normal_x`, `normal_y`, `normal_z`).
 ///
 /// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
 /// the technique's own resolution whatever the pass's, or with `as_launched` of the pass's. A pass that reads and writes
-/// such a stack names it once, as written. Of a stack of depth layers (planes.h) that it reads, it is the first so many layers; 0: all there are.
+/// such a stack names it once, as written. Of a stack of depth layers (planes.h) that a pass reads, it is the first so many
+/// layers; 0: all there are.
 ///
-/// With `of_other` it is the plane of the other of two views (`Technique::views`); with `of_key` that of a key view
-/// (`Pass::on`): 1 of the nearest one, 2 of the next one on the other side, or of the nearest again where there is none.
-///
-/// With `starts_empty`, which is for lists that a pass writes (shared/lanes/pixel_list.h), the plane's first number is 0 when the pass
-/// begins.
+/// With `starts_empty`, which is for lists that a pass writes (shared/lanes/pixel_list.h), the plane's first number is 0
+/// when the pass begins.
 struct Binding {
   std::string argument, plane;
-  int layers = 0, of_key = 0;
-  bool of_other = false, as_launched = false, starts_empty = false;
+  int layers = 0;
+  From from = From::this_view;
+  bool as_launched = false, starts_empty = false;
   Binding(const char* name) : argument(name), plane(name) {}
   Binding(std::string argument, std::string plane, int layers = 0)
       : argument(std::move(argument)), plane(std::move(plane)), layers(layers) {}
 };
 
-/// The binding of the other view's plane.
-inline Binding of_other(Binding binding) {
-  binding.of_other = true;
-  return binding;
-}
-
-inline Binding of_key(int number, Binding binding) {
-  binding.of_key = number;
+/// The binding with its plane taken from elsewhere: from(From::other_view, {"other_depth", "depth"}).
+inline Binding from(From where, Binding binding) {
+  binding.from = where;
   return binding;
 }
 
@@ -48,39 +51,54 @@ inline Binding starts_empty(Binding binding) {
   return binding;
 }
 
+/// The views of a frame that a pass runs on. What reads a plane runs, of these, on the views that have the plane.
+enum class On {
+  every_view,
+  first_view,
+  second_view,
+  key_views,     ///< of a frame of many views, those that others look into (`Technique::key_views`)
+  views_between  ///< those that are no key views
+};
+
+/// The first (0) or the second (1) view.
+inline On on_view(int number) { return number == 0 ? On::first_view : On::second_view; }
+
+/// How far around a pixel a pass reads.
+struct Footprint {
+  /// Columns and rows to either side, at most 32, of what earlier passes made: a filter's. A mask lets the passes before it
+  /// compute that much more.
+  int columns = 0, rows = 0;
+  /// Many pixels at distances that parameters decide, of planes that no mask leaves out. On CPUs such a pass is launched in an
+  /// order that keeps them in the cache.
+  bool is_wide = false;
+};
+
 /// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, projections, Params params, tables...,
 /// reads..., writes...).
 /// A technique without parameters has no `params`. `other` is there only where planes of a second resolution are bound:
-/// their frame; `neighbour` (frame.h) only where planes of the other view are, or `from_frame_before`.
+/// their frame; `neighbour` (frame.h) only where planes of the other view or of the frame before are bound. Of a frame before
+/// whose camera is not known, the neighbour sees nothing.
 struct Pass {
   std::string name;                                  ///< "estimate": shown as "hbao+/estimate"
-  std::string kernel;                                ///< function in the technique's source
+  std::string kernel;                                ///< function in `source`
   std::vector<Binding> reads, writes;                ///< planes that no technique declares are intermediate
   std::vector<std::pair<std::string, int>> defines;  ///< counts that shape loops, and choices
+  std::string source;                                ///< kernel file below kernels/; empty: the technique's
   /// Of the technique's `extras` those that this pass can make. Of these the ones asked for join `writes`, with a define
   /// each: WITH_BENT_NORMAL.
   std::vector<Binding> extras;
   /// Pixels of the image per pixel of what is computed, along each axis: one of `scale` x `scale` pixels is launched, and
   /// the planes written are that small (`reduced`, frame.h).
   int scale = 1;
-  /// The view that it runs on, by number; -1: on every one. Passes that read what it makes run there too.
-  int view = -1;
-  /// Each pixel reads many others at some distance: launched in an order that keeps these in the cache.
-  bool looks_around = false;
+  On on = On::every_view;
+  Footprint footprint;
   /// Where a mask leaves pixels out it skips rows of pixels of which none is wanted (shared/lanes/wanted.h).
   bool can_skip = false;
-  /// A filter's: each pixel reads what earlier passes made so many columns and rows around, at most 32.
-  int reach_x = 0, reach_y = 0;
-  /// The neighbour is the camera that the view had in the frame before (`View::camera_before`); where that is not known it sees
-  /// nothing.
-  bool from_frame_before = false;
-  /// Its kernel asks how the view projects (`projections`, shared/frame/projection.h), and how key views do that it reads: the view's
-  /// own, then those of the nearest and of the further key view.
+  /// Its kernel asks how the view projects (`projections`, shared/frame/projection.h), and how key views do that it reads: the
+  /// view's own, then those of the nearest and of the further key view.
   bool projects = false;
   /// Numbers that its kernel reads, the same for all pixels, by argument.
   std::vector<std::pair<std::string, std::vector<float>>> tables;
-  /// Which views of a frame of many it runs on (`Technique::key_views`): all, key views, or those between them.
-  enum class Views { every, key, between } on = Views::every;
   /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
   bool repeats_cells = false;
 };
@@ -115,7 +133,7 @@ struct Technique {
   std::string name;     ///< as users type it: "hbao+"
   std::string summary;  ///< one line
   std::string paper;    ///< author, year
-  std::string source;   ///< kernel file below kernels/: "hbao_plus/hbao_plus.cl"
+  std::string source;   ///< kernel file below kernels/ of passes that name none: "hbao_plus/hbao_plus.cl"
   std::vector<std::string> reads, writes;
   std::vector<std::string> outputs;  ///< planes that `gloam run` writes; empty: `writes`. Others than `writes` are made
                                      ///< by the technique that `then` names
@@ -130,7 +148,7 @@ struct Technique {
   /// For given parameters, every how many views one is a key view, which other views may look into; 1: all are alike.
   std::function<int(const ParameterValues&)> key_views;
   std::vector<std::string> extras;  ///< planes made beside `writes` where they are asked for by name
-  std::vector<Parameter> parameters;
+  ParameterList parameters;
   std::vector<Preset> presets;
   std::string caution;  ///< what to know before choosing a preset; may be empty
   /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant
@@ -162,6 +180,12 @@ std::function<double(const ParameterValues&, double, double)> contribution_of(do
     return contribution(values.as<Params>(), cosine, distance);
   };
 }
+
+/// Whether a pass reads any plane from there.
+bool takes(const Pass& pass, From where);
+
+/// The kernel file of one of a technique's passes.
+const std::string& source_of(const Technique& technique, const Pass& pass);
 
 /// Whether it needs two views and makes an image of the first alone, where others make one of each.
 bool makes_first_view_only(const Technique& technique);

@@ -312,7 +312,7 @@ Frame frame_of_eyes(const Technique& technique) {
 /// Whether any pass is told of the world, another view or the frame before.
 bool looks_beyond_its_view(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
-    if (planned.pass.projects || planned.pass.from_frame_before || planned.technique->views > 1) return true;
+    if (planned.pass.projects || takes(planned.pass, From::frame_before) || planned.technique->views > 1) return true;
   }
   const auto holds = [](const std::vector<std::string>& planes, const char* name) {
     return std::find(planes.begin(), planes.end(), name) != planes.end();

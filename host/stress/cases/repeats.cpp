@@ -15,7 +15,7 @@ bool uses_seed(const Plan& plan) {
     const auto& defines = planned.pass.defines;
     const bool is_still =
         std::find(defines.begin(), defines.end(), std::pair<std::string, int>("JITTER", 0)) != defines.end();
-    if (!is_still && flatten(planned.technique->source).find("frame.seed") != std::string::npos) return true;
+    if (!is_still && flatten(source_of(*planned.technique, planned.pass)).find("frame.seed") != std::string::npos) return true;
   }
   return false;
 }

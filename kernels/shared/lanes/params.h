@@ -8,6 +8,7 @@
 //     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
 //   PARAMS(NameParams, NAME_PARAMS)
 //
+// Kernels call the struct of the technique that they run for Params: they are compiled with -D Params=NameParams.
 // Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints.
 #ifndef GLOAM_PARAMS_H
 #define GLOAM_PARAMS_H
@@ -54,7 +55,7 @@
 #define PARAMS(Type, LIST)                                                         \
   struct Type {                                                                    \
     LIST(PARAM_FIELD)                                                              \
-    static std::vector<::gloam::Parameter> table() { return {LIST(PARAM_ENTRY)}; } \
+    static ::gloam::ParameterList table() { return {#Type, {LIST(PARAM_ENTRY)}}; } \
   };                                                                               \
   static_assert(sizeof(Type) == 4 * (0 LIST(PARAM_ONE)), #Type ": parameters are 4-byte scalars only");
 

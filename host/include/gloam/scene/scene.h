@@ -100,7 +100,7 @@ struct SceneRecipe {
   std::string name;     ///< "courtyard"
   std::string summary;  ///< one line
   std::string kind;     ///< what it stands for: "architecture", "thin", "object" or "flat"
-  std::vector<Parameter> parameters;
+  ParameterList parameters;
   std::function<Scene(const ParameterValues&)> make;  ///< deterministic
 };
 

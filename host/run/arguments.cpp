@@ -1,0 +1,179 @@
+#include "run/arguments.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "base/lists.h"
+#include "gloam/planes.h"
+#include "run/kernel_projection.h"
+
+namespace gloam {
+namespace {
+
+#define FRAME_SCALAR float
+#define FRAME_NAME FrameOfFloats
+#define NEIGHBOUR_NAME NeighbourOfFloats
+#include "shared/frame/frame.h"
+#undef FRAME_SCALAR
+#undef FRAME_NAME
+#undef NEIGHBOUR_NAME
+#define FRAME_SCALAR double
+#define FRAME_NAME FrameOfDoubles
+#define NEIGHBOUR_NAME NeighbourOfDoubles
+#include "shared/frame/frame.h"
+#undef FRAME_SCALAR
+#undef FRAME_NAME
+#undef NEIGHBOUR_NAME
+static_assert(Layout::guard == FRAME_GUARD);
+
+/// `layout`: of every `scale`-th pixel. The centre of reduced pixel X is that of pixel X * scale.
+template <typename KernelFrame>
+KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout& layout, int scale, int seed) {
+  using Scalar = decltype(KernelFrame::scale_x);
+  const auto centre = [scale](double pixels) { return Scalar((pixels - 0.5) / scale + 0.5); };
+  return {layout.width,
+          layout.height,
+          layout.pitch,
+          seed,
+          Scalar(scale / camera.fx),
+          Scalar(scale / camera.fy),
+          centre(camera.cx - frame.window.x0),
+          centre(camera.cy - frame.window.y0),
+          Scalar(camera.orthographic ? 0 : 1),
+          Scalar(camera.orthographic ? 1 : 0)};
+}
+
+/// `frame`: of the neighbour. Differences of places are taken in double, so that views far from the origin stay exact.
+template <typename KernelNeighbour, typename KernelFrame>
+KernelNeighbour kernel_neighbour(const KernelFrame& frame, const Pose& own, const Pose& other) {
+  KernelNeighbour n;
+  n.frame = frame;
+  const glm::dmat3 rotation = other.world_to_view * glm::transpose(own.world_to_view);
+  const glm::dvec3 translation = other.world_to_view * (own.position - other.position);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) n.rotation[3 * row + column] = rotation[column][row];
+    n.translation[row] = translation[row];
+  }
+  return n;
+}
+
+template <typename KernelFrame>
+KernelFrame frame_of(const ViewOnDevice& target, int scale, int seed) {
+  return kernel_frame<KernelFrame>(target.frame, *target.view.camera, reduced(target.layout, scale), scale, seed);
+}
+
+void set_frame(cl::Kernel& kernel, cl_uint index, const ViewOnDevice& target, int scale, const RunOptions& options) {
+  if (options.real == Real::float64)
+    kernel.setArg(index, frame_of<FrameOfDoubles>(target, scale, options.seed));
+  else
+    kernel.setArg(index, frame_of<FrameOfFloats>(target, scale, options.seed));
+}
+
+/// Of the resolution of the planes that are bound of it.
+void set_neighbour(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned, const ViewOnDevice& target,
+                   const ViewOnDevice& other, const RunOptions& options) {
+  const auto binding = std::find_if(planned.pass.reads.begin(), planned.pass.reads.end(),
+                                    [](const Binding& b) { return b.from == From::other_view; });
+  const int scale = other.layouts.scale_of(binding->plane);
+  const Pose &from = *target.view.camera->pose, &to = *other.view.camera->pose;
+  if (options.real == Real::float64)
+    kernel.setArg(index,
+                  kernel_neighbour<NeighbourOfDoubles>(frame_of<FrameOfDoubles>(other, scale, options.seed), from, to));
+  else
+    kernel.setArg(index,
+                  kernel_neighbour<NeighbourOfFloats>(frame_of<FrameOfFloats>(other, scale, options.seed), from, to));
+}
+
+/// From a view to where its camera was in the frame before; without both poses to nowhere.
+template <typename KernelNeighbour, typename KernelFrame>
+KernelNeighbour neighbour_before(const ViewOnDevice& target, int scale, int seed) {
+  const Camera& now = *target.view.camera;
+  const Camera& before = target.view.camera_before.value_or(now);
+  const KernelFrame frame = kernel_frame<KernelFrame>(target.frame, before, reduced(target.layout, scale), scale, seed);
+  if (target.view.camera_before && now.pose && before.pose)
+    return kernel_neighbour<KernelNeighbour>(frame, *now.pose, *before.pose);
+  KernelNeighbour nowhere = kernel_neighbour<KernelNeighbour>(frame, Pose(), Pose());
+  std::fill_n(nowhere.translation, 3, std::numeric_limits<decltype(frame.scale_x)>::quiet_NaN());
+  return nowhere;
+}
+
+void set_neighbour_before(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned, const ViewOnDevice& target,
+                          const RunOptions& options) {
+  const int scale = planned.pass.scale;
+  if (options.real == Real::float64)
+    kernel.setArg(index, neighbour_before<NeighbourOfDoubles, FrameOfDoubles>(target, scale, options.seed));
+  else
+    kernel.setArg(index, neighbour_before<NeighbourOfFloats, FrameOfFloats>(target, scale, options.seed));
+}
+
+template <typename Number>
+cl::Buffer constants(Device::Impl& device, const std::vector<Number>& numbers) {
+  return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, numbers.size() * sizeof(Number),
+          const_cast<Number*>(numbers.data())};
+}
+
+/// The view's own, then those of the key views.
+cl::Buffer projections_of(Device::Impl& device, const Plan& plan, const PlannedPass& planned,
+                          const ViewOnDevice& target, const OtherViews& others, const RunOptions& options) {
+  const bool are_computed = !contains(plan.inputs, "position");
+  std::vector<ProjectionOfDoubles> projections;
+  for (const ViewOnDevice* to :
+       {&target, static_cast<const ViewOnDevice*>(others.nearest), static_cast<const ViewOnDevice*>(others.far)}) {
+    if (to)
+      projections.push_back(kernel_projection(target.frame, target.view, to->view, planned.pass.scale, are_computed));
+  }
+  if (projections.size() == 3) {
+    projections[1].share = 1 - others.share_of_far;
+    projections[2].share = others.share_of_far;
+  }
+  if (options.real == Real::float64) return constants(device, projections);
+  std::vector<ProjectionOfFloats> floats;
+  for (const ProjectionOfDoubles& projection : projections) floats.push_back(in_floats(projection));
+  return constants(device, floats);
+}
+
+}  // namespace
+
+std::vector<std::string> declared_arguments(const PlannedPass& planned, const Layouts& layouts) {
+  std::vector<std::string> names = {"frame"};
+  if (other_scale(planned, layouts) != 0) names.push_back("other");
+  if (takes(planned.pass, From::other_view) || takes(planned.pass, From::frame_before)) names.push_back("neighbour");
+  if (planned.pass.projects) names.push_back("projections");
+  if (!planned.technique->parameters.empty()) names.push_back("params");
+  for (const auto& [argument, unused] : planned.pass.tables) names.push_back(argument);
+  for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
+    for (const Binding& binding : *list) {
+      for (const std::string& component : plane_kind(binding.plane).components) {
+        names.push_back(component.empty() ? binding.argument : binding.argument + "_" + component);
+      }
+    }
+  }
+  return names;
+}
+
+void set_arguments(cl::Kernel& kernel, const Plan& plan, const PlannedPass& planned, Device::Impl& device,
+                   ViewOnDevice& target, const OtherViews& others, const RunOptions& options) {
+  cl_uint index = 0;
+  set_frame(kernel, index++, target, planned.pass.scale, options);
+  if (const int scale = other_scale(planned, target.layouts)) set_frame(kernel, index++, target, scale, options);
+  if (takes(planned.pass, From::other_view))
+    set_neighbour(kernel, index++, planned, target, *others.other, options);
+  else if (takes(planned.pass, From::frame_before))
+    set_neighbour_before(kernel, index++, planned, target, options);
+  const auto set_numbers = [&](cl::Buffer buffer) {
+    kernel.setArg(index++, buffer);
+    target.numbers.push_back(std::move(buffer));
+  };
+  if (planned.pass.projects) set_numbers(projections_of(device, plan, planned, target, others, options));
+  if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
+  for (const auto& [unused, table] : planned.pass.tables) set_numbers(constants(device, table));
+  for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
+    for (const Binding& binding : *list) {
+      ViewOnDevice& from = others.of(binding) ? *others.of(binding) : target;
+      for (cl::Buffer& buffer : from.buffers.of(binding.plane)) kernel.setArg(index++, buffer);
+    }
+  }
+}
+
+}  // namespace gloam

@@ -1,0 +1,136 @@
+#include "run/checks.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/lists.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "run/layouts.h"
+
+namespace gloam {
+namespace {
+
+std::string mebibytes(unsigned long long bytes) { return fmt::format("{} MiB", (bytes + (1 << 20) - 1) >> 20); }
+
+/// Every how many views of a plan one is a key view; 1 where all are alike.
+int key_view_spacing(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.pass.on == On::key_views || planned.pass.on == On::views_between)
+      return planned.technique->key_views(planned.values);
+  }
+  return 1;
+}
+
+void check_two_views(const Plan& plan, const Frame& frame) {
+  if (frame.views.size() != 2)
+    throw Error(
+        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo IPD makes one, "
+        "--views A,B takes two of more",
+        plan.technique, frame.views.size());
+}
+
+/// Of views that look into one another.
+void check_poses(const Plan& plan, const Frame& frame) {
+  for (const View& view : frame.views) {
+    if (!view.camera->pose)
+      throw Error(
+          "{}: view '{}' has a camera without a pose, so nothing tells where it stands beside the {}; give "
+          "camera_to_world in a --camera file",
+          plan.technique, view.name, frame.views.size() > 2 ? "others" : "other");
+  }
+}
+
+/// The technique that the plan is named after, if it runs.
+const Technique* leading_technique(const Plan& plan) {
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.technique->name == plan.technique) return planned.technique;
+  }
+  return nullptr;
+}
+
+/// Of a view that is no camera's with an eye. Who asked for a technique that can see it has asked for more, or lacks a plane.
+[[noreturn]] void refuse_module(const Plan& plan, const Technique& refusing, const View& view) {
+  const std::string what =
+      fmt::format("view '{}' is of a light-field display's module, whose rays meet in no eye", view.name);
+  const Technique* leading = leading_technique(plan);
+  if (!leading || !leading->any_projection) {
+    std::vector<std::string> able;
+    for (const Technique& technique : registry()) {
+      if (technique.any_projection && technique.key_views) able.push_back(technique.name);
+    }
+    throw Error("{}: {}; {} compute such views", refusing.name, what, enumerate(able));
+  }
+  for (const std::string& plane : refusing.writes) {
+    if (contains(leading->reads, plane))
+      throw Error("{}: {}, and {} needs one; give a frame with {}", leading->name, what, refusing.name, plane);
+  }
+  // What is no technique for anyone to ask for is the plan's own.
+  const bool is_asked_for = contains(technique_names(), refusing.name);
+  throw Error("{}: {}, and {} needs one; leave it out", leading->name, what,
+              is_asked_for ? refusing.name : "what --resolution or --adaptive adds");
+}
+
+/// What a view has to have for the plan's passes to make sense of it.
+void check_projections(const Plan& plan, const Frame& frame) {
+  const bool reads_positions = contains(plan.inputs, "position");
+  for (const View& view : frame.views) {
+    if (reads_positions && !view.camera->pose)
+      throw Error(
+          "{}: positions of view '{}' are the world's, and nothing tells where its camera stands; --plane "
+          "position=none has them made from depth",
+          plan.technique, view.name);
+    if (!view.camera->slits) continue;
+    for (const PlannedPass& planned : plan.passes) {
+      if (!planned.technique->any_projection) refuse_module(plan, *planned.technique, view);
+    }
+  }
+}
+
+}  // namespace
+
+bool needs_two_views(const Plan& plan) {
+  return std::any_of(plan.passes.begin(), plan.passes.end(),
+                     [](const PlannedPass& planned) { return planned.technique->views == 2; });
+}
+
+int key_view_spacing(const Plan& plan, size_t views) { return views > 1 ? key_view_spacing(plan) : 1; }
+
+void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info) {
+  const unsigned long long needed = device_bytes(plan, layout, views);
+  if (needed > info.memory) {
+    throw Error("{}: {}x{} pixels need {} of device memory, and {} has {}; use a smaller frame or another --device",
+                plan.technique, layout.width, layout.height, mebibytes(needed), info.name, mebibytes(info.memory));
+  }
+  if (layout.count() > size_t(std::numeric_limits<int>::max())) {
+    throw Error("{}: {}x{} pixels with rows padded to {} are more than 2^31; use a smaller frame", plan.technique,
+                layout.width, layout.height, layout.pitch);
+  }
+  const Layouts layouts(plan, layout);
+  for (const std::string& name : planes_of(plan)) {
+    const size_t layers = layers_in_buffer(plan, name);
+    const unsigned long long bytes = layers * layouts.of(name).bytes();
+    if (bytes <= info.largest_buffer) continue;
+    const std::string what = layers == 1 ? "one plane" : fmt::format("'{}', {} layers", name, layers);
+    throw Error(
+        "{}: {} of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another --device",
+        plan.technique, what, layout.width, layout.height, mebibytes(bytes), info.name, mebibytes(info.largest_buffer));
+  }
+}
+
+void check_real(const Plan& plan, const DeviceInfo& info, const RunOptions& options) {
+  if (options.real == Real::float64 && !info.has_double) {
+    throw Error("{}: {} has no double precision; use --real float or another --device", plan.technique, info.name);
+  }
+}
+
+void check_views(const Plan& plan, const Frame& frame) {
+  for (const View& view : frame.views) {
+    if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);
+  }
+  check_projections(plan, frame);
+  if (needs_two_views(plan)) check_two_views(plan, frame);
+  if (needs_two_views(plan) || key_view_spacing(plan, frame.views.size()) > 1) check_poses(plan, frame);
+}
+
+}  // namespace gloam

@@ -1,0 +1,24 @@
+// What a plan asks of a device and of a frame, told before anything is computed.
+#pragma once
+
+#include "gloam/run.h"
+
+namespace gloam {
+
+/// Whether passes look from one of two views into the other.
+bool needs_two_views(const Plan& plan);
+
+/// Every how many views of a frame of so many one is a key view; 1 where all are alike.
+int key_view_spacing(const Plan& plan, size_t views);
+
+/// Throws Error where the device's memory or its largest buffer is too small.
+void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info);
+
+/// Throws Error where double precision is asked for and the device has none.
+void check_real(const Plan& plan, const DeviceInfo& info, const RunOptions& options);
+
+/// Throws Error where a view lacks the camera, the pose or the projection that the plan's passes need, or where views are
+/// too few.
+void check_views(const Plan& plan, const Frame& frame);
+
+}  // namespace gloam
