@@ -1,0 +1,38 @@
+// The walk back from the planes asked for to what makes them, and to the planes at hand.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plan/wanted.h"
+
+namespace gloam {
+
+/// Walks back from planes to what makes them, and to the planes at hand.
+class Walk {
+ public:
+  /// `also`: planes that are needed beside the outputs. `mask`: one that is needed before them; may be empty.
+  Walk(const Wanted& wanted, std::vector<std::string> available, const std::vector<std::string>& also,
+       const std::string& mask);
+
+  Techniques order;  ///< techniques to run
+  std::vector<std::string> inputs, missing;
+  std::vector<std::pair<std::string, std::string>> skipped;  ///< what, why
+
+ private:
+  void need(const std::string& plane, const Technique* asking);
+  void schedule(const Technique& technique);
+
+  const Wanted& wanted_;
+  const std::vector<std::string> available_;
+  Techniques begun_;
+  std::vector<std::string> made_;
+};
+
+/// Throws MissingPlanes with all that a walk missed, in words; what would take least first. `technique`: the plan's name.
+/// `holds`: words on what the file does hold.
+[[noreturn]] void throw_missing(const std::string& technique, const Wanted& wanted, const Walk& walk,
+                                const std::string& holds);
+
+}  // namespace gloam
