@@ -101,9 +101,9 @@ static inline Place place_at(Frame frame, Params params, Receiver r, integer dx,
   return p;
 }
 
-// The depth there in one layer of the occluders. The layers themselves hold every pixel that a level would.
-static inline real depth_at(Frame frame, DepthLayers layers, global const float* depth_levels, Receiver r, int layer,
-                            Place p, int within) {
+// The depth there in the first layer. Further ones hold every pixel that a level would.
+static inline real depth_at(Frame frame, DepthLayers layers, global const float* depth_levels, Receiver r, Place p,
+                            int within) {
 #ifdef READS_LEVELS
   if (ANY(p.coarse)) {
     const real coarse = gather(depth_levels, p.index);
@@ -111,23 +111,22 @@ static inline real depth_at(Frame frame, DepthLayers layers, global const float*
     return choose(p.coarse, coarse, sample_near(layers.first, frame, r.here, within, p.dx, p.dy));
   }
 #endif
-  return sample_near(layer_at(layers, frame, layer), frame, r.here, within, p.dx, p.dy);
+  return sample_near(layers.first, frame, r.here, within, p.dx, p.dy);
 }
 
 // The largest contribution of all layers.
 static inline real obscurance_near(Frame frame, Params params, DepthLayers layers, global const float* depth_levels,
                                    Receiver r, Falloff falloff, Place p, int within) {
-  real largest = 0;
-  for (int k = 0; k < LAYERS; ++k) {
-    const real depth = depth_at(frame, layers, depth_levels, r, k, p, within);
+  const real depth = depth_at(frame, layers, depth_levels, r, p, within), x = to_real(p.dx), y = to_real(p.dy);
+  const integer index = index_within(frame, within, p.dx, p.dy);
 #if GATHERS_ONLY
-    largest += depth;
-    continue;
+  real sum = depth;
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) sum += behind.next;
+  return sum;
 #endif
-    const real3 v = towards_near(frame, r.point, to_real(p.dx), to_real(p.dy), relative_depth(r.point, r.depth, depth));
-    const real found = obscurance(v, r.normal, params, falloff);
-    largest = k == 0 ? found : larger(found, largest);
-  }
+  real largest = obscurance(towards_depth(frame, r, x, y, depth), r.normal, params, falloff);
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest)
+  largest = larger(obscurance(towards_depth(frame, r, x, y, behind.next), r.normal, params, falloff), largest);
   return largest;
 }
 
@@ -142,7 +141,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     const Place p = place_at(frame, params, r, dx, dy, larger(spiral.distance_x, spiral.distance_y));
     const real found = obscurance_near(frame, params, layers, depth_levels, r, falloff, p, within);
-    sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    sum += counted(counts, found);
     next_sample(&spiral);
   }
   return sum;

@@ -19,9 +19,8 @@
 // -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
 #include "corner_mask/params.h"
 #include "shared/filter/subsample.h"
-#include "shared/sampling/fan.h"
-
 #include "shared/sampling/cells.h"
+#include "shared/sampling/fan.h"
 
 kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                              PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,

@@ -142,10 +142,7 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
 #if COMPENSATED
   take_depth(frame, params, search, side, depth, in_frame, &side->closed_by_depth);
 #endif
-  Behind behind;
-#pragma unroll 4
-  for (int k = 0; k < LAYERS - 1; ++k) {
-    if (!look_behind(layers, frame, k, here, place, asked, r.farthest, &behind)) break;
+  FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {
     take_depth(frame, params, search, side, behind.next, behind.counts, &side->closed);
   }
 }

@@ -28,17 +28,14 @@ static inline __attribute__((always_inline)) void rise_near(Frame frame, Params 
   return;
 #endif
   const real x = to_real(dx), y = to_real(dy), depth = gather(layers.first + r.here, place);
-  const real3 v = towards_near(frame, r.point, x, y, relative_depth(r.point, r.depth, depth));
+  const real3 v = towards_depth(frame, r, x, y, depth);
   Rise rise = rise_to(*horizon, v, r.normal, r.reach.inverse_square, counts);
   const real by_first = rise.taken;
   // A height is no more than its sine.
   const mask rises = fused_dot3(r.normal, v) > horizon->height * least_distance(r, x, y);
   const mask asked = counts & asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
-  Behind behind;
-#pragma unroll 4
-  for (int k = 0; k < LAYERS - 1; ++k) {
-    if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
-    const real3 w = towards_near(frame, r.point, x, y, relative_depth(r.point, r.depth, behind.next));
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, place, asked, r.farthest) {
+    const real3 w = towards_depth(frame, r, x, y, behind.next);
     rise = greater_rise(rise, rise_to(*horizon, w, r.normal, r.reach.inverse_square, behind.counts));
   }
   rise.taken = COMPENSATE(params, rise.taken, by_first);

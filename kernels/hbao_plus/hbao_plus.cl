@@ -35,16 +35,13 @@ static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Par
   return sum_of_depths(layers, frame, here, place, r.farthest);
 #endif
   const real depth = depth_seen(gather(layers.first + here, place), by_both);
-  const real3 v = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, depth));
+  const real3 v = towards_depth(frame, r, dx, dy, depth);
   const real by_first = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
   const mask rises = fused_dot3(r.normal, v) > params.bias * least_distance(r, dx, dy);
   const mask asked = asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
   real largest = by_first;
-  Behind behind;
-#pragma unroll 4
-  for (int k = 0; k < LAYERS - 1; ++k) {
-    if (!look_behind(layers, frame, k, here, place, asked, r.farthest, &behind)) break;
-    const real3 w = towards_near(frame, r.point, dx, dy, relative_depth(r.point, r.depth, behind.next));
+  FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {
+    const real3 w = towards_depth(frame, r, dx, dy, behind.next);
     largest =
         choose(behind.counts, larger(obscurance(w, r.normal, params.bias, r.reach.inverse_square), largest), largest);
   }
@@ -64,7 +61,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
       mask by_both;
       const real found = obscurance_at(frame, params, layers, r, to_real(dx), to_real(dy), r.here,
                                        index_within(frame, within, dx, dy), &by_both);
-      sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+      sum += counted(counts, found);
     }
     turn(&fan);
   }

@@ -28,7 +28,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame f, Par
       step_at(fan, k, &dx, &dy);
       const mask counts = place_sample(f, s, within, &dx, &dy, &place);
       const real found = obscurance_at(params, planes, s, reach, dx, dy, place, straight);
-      sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+      sum += counted(counts, found);
     }
     turn(&fan);
   }

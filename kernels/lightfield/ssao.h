@@ -133,7 +133,7 @@ static inline __attribute__((always_inline)) real occluded_points(Frame f, PROJE
     const mask counts = place_sample(f, s, within, &dx, &dy, &place);
     const real height = point.distance * ((point.axis + bias) * b->radius) + b->heights.rounding;
     const real found = occlusion_at(p, planes, s, b, dx, dy, place, height, straight);
-    sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    sum += counted(counts, found);
   }
   return sum;
 }

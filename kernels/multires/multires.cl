@@ -74,9 +74,9 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
 #if GATHERS_ONLY
     sum += sample;
 #else
-    const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, sample));
+    const real3 v = towards_depth(frame, r, to_real(dx), to_real(dy), sample);
     const real found = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
-    sum += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    sum += counted(counts, found);
 #endif
     const real next = cosine * turn_cosine - sine * turn_sine;
     sine = sine * turn_cosine + cosine * turn_sine;

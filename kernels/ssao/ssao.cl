@@ -55,10 +55,7 @@ static inline __attribute__((always_inline)) real occlusion_at(Frame frame, Para
   // What is in reach occludes the point as much as it can, or by a part in the outer range.
   const mask asked = asks_further(is_behind & (by_first < 1), is_behind, by_first <= 0);
   real largest = by_first;
-  Behind behind;
-#pragma unroll 4
-  for (int k = 0; k < LAYERS - 1; ++k) {
-    if (!look_behind(layers, frame, k, r.here, place, asked, r.farthest, &behind)) break;
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, place, asked, r.farthest) {
     const real further = relative_depth(r.point, r.depth, behind.next);
     const mask occludes = behind.counts & stands_before(further, fall, there - height);
     largest = larger(choose(occludes, range_weight(further, s.per_range), (real)(0)), largest);
@@ -78,8 +75,7 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, P
     project(s.on_screen, point, &dx, &dy);
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     const real height = point.distance * ((point.axis + s.bias) * s.on_screen.radius) + s.heights.rounding;
-    real found = occlusion_at(frame, params, layers, s, dx, dy, height, within);
-    if (OUTSIDE_OPEN) found = choose(counts, found, (real)(0));
+    const real found = counted(counts, occlusion_at(frame, params, layers, s, dx, dy, height, within));
     sum += found;
 #if WITH_OPEN_DIRECTIONS
     add_open(open, direction_of(point, s.ball.axes), 1 - found);

@@ -37,23 +37,25 @@ static inline Search search_of(Frame frame, VolumetricParams params, Receiver r,
   return s;
 }
 
+// How much of a column something at a depth occludes.
+static inline real occlusion_by(Search s, Column column, real depth, real fall, real counted) {
+  const real e = relative_depth(s.receiver.point, s.receiver.depth, depth);
+  return below(column, surface_height(e, fall, counted, s.heights)) * range_weight(e, s.per_range);
+}
+
 // How much of a column is occluded: of all layers at its pixel the largest.
 static inline real occlusion_at(Frame frame, DepthLayers layers, Search s, integer dx, integer dy, Column column,
                                 real bias, int within) {
   const Receiver r = s.receiver;
+  const integer index = index_within(frame, within, dx, dy);
+#if GATHERS_ONLY
+  return sum_of_depths(layers, frame, r.here, index, r.farthest);
+#endif
   const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
   const real counted = there - bias - s.heights.rounding;
-  real largest = 0;
-  for (int k = 0; k < LAYERS; ++k) {
-    const real depth = sample_near(layer_at(layers, frame, k), frame, r.here, within, dx, dy);
-#if GATHERS_ONLY
-    largest += depth;
-    continue;
-#endif
-    const real e = relative_depth(r.point, r.depth, depth);
-    const real found = below(column, surface_height(e, fall, counted, s.heights)) * range_weight(e, s.per_range);
-    largest = larger(found, largest);
-  }
+  real largest = larger(occlusion_by(s, column, gather(layers.first + r.here, index), fall, counted), (real)(0));
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest)
+  largest = larger(occlusion_by(s, column, behind.next, fall, counted), largest);
   return largest;
 }
 
@@ -73,7 +75,7 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, De
     const real left = 1 - square + (scalar)1e-20f;  // above 0
     const Column column = column_of(middle, s.rise * (left * inverse_sqrt(left)));
     const real found = occlusion_at(frame, layers, s, dx, dy, column, distance * s.bias, within);
-    occluded += OUTSIDE_OPEN ? choose(counts, found, (real)(0)) : found;
+    occluded += counted(counts, found);
     whole += column.high - column.low;
   }
   return choose(whole > 0, occluded / whole, (real)(0));

@@ -94,6 +94,15 @@ static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer*
   return inside;
 }
 
+// What a sample adds: nothing where it does not count.
+static inline real counted(mask counts, real found) {
+#if OUTSIDE_OPEN
+  return choose(counts, found, (real)(0));
+#else
+  return found;
+#endif
+}
+
 // The index of an offset that stays in the frame, from the first lane's. |dy| is below SHORT_PITCH.
 static inline integer index_within(Frame f, int within, integer dx, integer dy) {
   return within == SAMPLES_IN_WIDE_FRAME ? index_near(f, dx, dy) : index_near_short(f, dx, dy);
