@@ -22,6 +22,8 @@ Material material_of(const std::vector<Source>& sources);
 std::string needs_section(const Material& material);
 std::string fronts_section(const Material& material);
 std::string scenes_section(const Material& material);
+/// Presets that take more time than a smaller one and are farther from the truth.
+std::string presets_section(const Material& material);
 std::string converged_section(const Material& material);
 std::string ladder_section(const Material& material);
 std::string floor_section(const Material& material);

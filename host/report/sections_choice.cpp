@@ -128,6 +128,36 @@ std::string table_of_scene(const Material& material, const Scene& scene) {
   return table.empty() ? "" : table.text();
 }
 
+/// A preset and the next larger one, which is farther from the truth on some scenes.
+struct WorsePreset {
+  std::string technique, smaller, larger;
+  std::vector<std::string> on;  ///< scenes, with both errors
+  size_t of = 0;                ///< scenes that have both presets
+};
+
+const Row* find_row(const std::vector<Row>& rows, const std::string& technique, const std::string& preset,
+                    const std::string& scene) {
+  for (const Row& row : rows) {
+    if (row.technique == technique && row.preset == preset && row.scene == scene && row.variant.empty()) return &row;
+  }
+  return nullptr;
+}
+
+WorsePreset compared_presets(const Material& material, const std::string& technique, const std::string& smaller,
+                             const std::string& larger) {
+  WorsePreset found{technique, smaller, larger, {}, 0};
+  for (const Scene& scene : material.all.scenes) {
+    const Row* less = find_row(material.all.rows, technique, smaller, scene.name);
+    const Row* more = find_row(material.all.rows, technique, larger, scene.name);
+    if (!less || !more || !less->rmse_to_truth || !more->rmse_to_truth) continue;
+    ++found.of;
+    const std::string before = error_text(less->rmse_to_truth), after = error_text(more->rmse_to_truth);
+    if (as_printed(after) > as_printed(before))
+      found.on.push_back(fmt::format("{} {} to {}", plain_text(scene.name), before, after));
+  }
+  return found;
+}
+
 }  // namespace
 
 Material material_of(const std::vector<Source>& sources) {
@@ -179,6 +209,26 @@ std::string scenes_section(const Material& material) {
              "technique says how many it takes. With `*` the setting is on the scene's front, of which techniques "
              "over further layers are no part.") +
          tables;
+}
+
+std::string presets_section(const Material& material) {
+  Table table({"technique", "from", "to", "farther from the truth on", "of scenes"}, "llllr");
+  const std::vector<std::string> presets = presets_of(material.all.rows);
+  for (const std::string& technique : techniques_of(material.all.rows)) {
+    for (size_t i = 1; i < presets.size(); ++i) {
+      const WorsePreset found = compared_presets(material, technique, presets[i - 1], presets[i]);
+      if (found.on.empty()) continue;
+      table.add({plain_text(technique), plain_text(found.smaller), plain_text(found.larger),
+                 fmt::format("{}", fmt::join(found.on, ", ")), fmt::format("{} of {}", found.on.size(), found.of)});
+    }
+  }
+  if (table.empty()) return "";
+  return "## Presets that get worse\n\n" +
+         paragraph(
+             "A larger preset takes more samples and more time, and is not always nearer to the truth: of occluders "
+             "without a back, more samples find more. RMSE of a preset and of the next larger one, where the larger "
+             "one is farther.") +
+         table.text();
 }
 
 }  // namespace gloam::report

@@ -641,6 +641,16 @@ TEST_F(Documentation, ShowsEveryPresetOfAScene) {
       << scenes;
 }
 
+TEST_F(Documentation, SaysWhichPresetsGetWorse) {
+  EXPECT_EQ(page_of(documented()).find("## Presets that get worse"), std::string::npos);
+  Json document = documented();
+  for (Json& row : document["results"]) {
+    if (row["technique"] == "even" && row["preset"] == "ultra" && row["scene"] == "hall") row["rmse_to_truth"] = .1512;
+  }
+  EXPECT_EQ(rows_of(section(page_of(document), "## Presets that get worse")),
+            "| even | medium | ultra | hall .150 to .151 | 1 of 2 |\n");
+}
+
 TEST_F(Documentation, LeavesOutWhatWasNotMeasured) {
   const std::vector<std::string> least = {"Which technique for which need", "The fronts", "Scene by scene",
                                           "Where the errors come from"};
