@@ -576,6 +576,77 @@ TEST(TemporalReflection, MirrorsAndWhatWasHiddenAreOfThisFrameAlone) {
   }
 }
 
+// --- Fade
+
+/// What is left of a hit so far from the border of an image, in sizes of the image.
+double faded(double from_border, double width) {
+  const double t = std::clamp(from_border / width, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// Distance of a point from the border of the image that shows it, in sizes of the image; 0 beyond it.
+double to_border(const MirrorRoom& room, const dvec3& point) {
+  const glm::dvec2 at = room.projected(point) / glm::dvec2(room.shot.width, room.shot.height);
+  return std::max(std::min({at.x, 1 - at.x, at.y, 1 - at.y}), 0.0);
+}
+
+/// How far confidence and colour are from what fades by `border_of`, and at how many pixels another border would tell.
+struct Fading {
+  int compared = 0, told_apart = 0;
+  double worst = 0, worst_color = 0;
+};
+
+template <typename BorderOf>
+Fading fading_of(const Frame& out, const std::array<const MirrorRoom*, 2>& eyes, const BorderOf& border_of) {
+  constexpr double width = 0.3, environment = 5;
+  Fading f;
+  for (const size_t view : {0, 1}) {
+    const MirrorRoom &own = *eyes[view], &other = *eyes[1 - view];
+    for (int y = 0; y < own.shot.height; ++y) {
+      for (int x = 0; x < own.shot.width; ++x) {
+        if (!own.is_floor(x, y)) continue;
+        const dvec3 met = own.reflected(x, y);
+        // Which image shows what lies within a pixel of a border, rounding decides.
+        const bool is_shown = own.shows(met, 1) || (other.shows(met, 1) && !own.shows(met, -1));
+        if (!is_shown || from_edge(met) < 0.1) continue;
+        const double here = to_border(own, met), there = to_border(other, met);
+        const double expected = faded(border_of(here, there), width);
+        ++f.compared;
+        f.told_apart += std::abs(faded(here, width) - faded(there, width)) > 0.05;
+        f.worst = std::max(f.worst, std::abs(confidence(out, view).at(x, y) - expected));
+        const double red = expected * checker(met).x + (1 - expected) * environment;
+        f.worst_color =
+            std::max(f.worst_color, std::abs(out.views[view].find("reflection")->channels[0].at(x, y) - red));
+      }
+    }
+  }
+  return f;
+}
+
+// Of the places that a hit has in both images, the one farther from the border decides for both eyes alike; without the stereo
+// fade, that of the image that the hit was found in.
+TEST(StereoReflection, HitsFadeByTheImageThatShowsThemFartherFromItsBorder) {
+  for (const Shot& shot : shots()) {
+    const MirrorRoom left(shot, -0.2), right(shot, 0.2);
+    Frame pair = pair_of(left, right);
+    for (const char* fade : {"stereo", "mono"}) {
+      const Frame out =
+          outputs_of(find_technique("stereo-ssr"), pair,
+                     {{"fade", fade}, {"fade_border", "0.3"}, {"environment_r", "5"}}, {.math = Math::precise});
+      const bool is_stereo = fade == std::string("stereo");
+      const Fading f = fading_of(out, {&left, &right}, [&](double here, double there) {
+        return is_stereo ? std::max(here, there) : here > 0 ? here : there;
+      });
+      std::printf("%s: compared %d pixels, %d tell the borders apart: worst confidence %.1e, worst color %.1e\n", fade,
+                  f.compared, f.told_apart, f.worst, f.worst_color);
+      EXPECT_GT(f.compared, 2500);
+      EXPECT_GT(f.told_apart, 500);
+      EXPECT_LT(f.worst, 1e-4);
+      EXPECT_LT(f.worst_color, 1e-3);
+    }
+  }
+}
+
 // --- Against rays, in a scene with rough and smooth surfaces
 
 struct Errors {
