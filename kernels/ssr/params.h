@@ -34,9 +34,7 @@
   P(choice, fade, stereo, (stereo, mono),                                                                            \
     "hits fade near the border of the image that shows them nearer to its middle, or of the one they were found in") \
   P(bool, reprojection, on, "use the other eye's rays that show the same virtual image")                             \
-  P(int, other_neighbours, 5, 1, 25, "pixels", "of the other eye whose rays each pixel uses")                        \
-  P(float, other_length, 0.1f, 0, INFINITY, "",                                                                      \
-    "how much longer or shorter the other eye's rays may be, as a share; roughness is added to it")
+  P(int, other_neighbours, 21, 1, 25, "pixels", "of the other eye whose rays each pixel uses")
 
 #define TEMPORAL_SSSR_PARAMS(P)                                                                            \
   SSSR_PARAMS(P)                                                                                           \

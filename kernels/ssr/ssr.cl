@@ -892,14 +892,17 @@ typedef struct {
   global const float *depth, *instance, *x, *y, *z, *r, *g, *b, *length, *density, *confidence;
 } OtherRays;
 
-static inline void take_rays_of_other(Frame frame, Neighbour n, Params params, Reflector s, OtherRays rays,
-                                      real instance, mask counts, Reflected* sum) {
+// Each ray is judged by itself: turned from the pixel at hand to what it met, it weighs by the lobe that the surface has there for
+// that direction. How long it is does not matter: rays of a rough surface meet things near and far. A miss does not count: it says
+// that the images show nothing there, not that nothing is there.
+static inline void take_rays_of_other(Frame frame, Neighbour n, Reflector s, OtherRays rays, real instance, mask counts,
+                                      Reflected* sum) {
   const mask has_met = counts & (sum->met > 0);
   if (!ANY(has_met)) return;
   const real expected = sum->length / choose(has_met, sum->met, (real)(1));
   const Projection there = same_virtual_image(frame, n, s, expected, has_met);
   const real3 p = position_at(frame, s.point.x, s.point.y, s.depth);
-  const real tolerance = (params.other_length + s.roughness) * expected, per_depth = (scalar)1 / s.depth;
+  const real per_depth = (scalar)1 / s.depth;
   const integer column = nearest(there.x), row = nearest(there.y);
   if (!ANY(there.is_seen)) return;
   for (int i = 0; i < OTHER_NEIGHBOURS; ++i) {
@@ -919,15 +922,14 @@ static inline void take_rays_of_other(Frame frame, Neighbour n, Params params, R
       SeenRay seen;
       seen.length = gather(rays.length, ray);
       seen.density = gather(rays.density, ray);
-      const real off = smaller(seen.length, s.depth * FAR_ENOUGH) - expected;
-      const mask agrees = is_alike & (seen.length > 0) & (fabs(off) <= tolerance) & !isinf(seen.density);
-      if (!ANY(agrees)) continue;
+      const mask has_hit = is_alike & (seen.length > 0) & !isinf(seen.density);
+      if (!ANY(has_hit)) continue;
       const real3 d = gather3(rays.x, rays.y, rays.z, ray);
       const real3 direction = rotated_back(n, d);
       seen.direction = towards_met(s, v, direction, seen.length);
       seen.radiance = gather3(rays.r, rays.g, rays.b, ray);
       seen.confidence = gather(rays.confidence, ray);
-      take_ray(sum, s, seen, agrees);
+      take_ray(sum, s, seen, has_hit);
     }
   }
 }
@@ -1006,8 +1008,7 @@ kernel void ssr_resolve(Frame frame,
   const OtherRays others = {other_depth,      other_instance,    other_ray_x,         other_ray_y,
                             other_ray_z,      other_ray_r,       other_ray_g,         other_ray_b,
                             other_ray_length, other_ray_density, other_ray_confidence};
-  take_rays_of_other(frame, neighbour, params, s, others, load(instance, here), s.reflects & !s.is_mirror & !is_rough,
-                     &sum);
+  take_rays_of_other(frame, neighbour, s, others, load(instance, here), s.reflects & !s.is_mirror & !is_rough, &sum);
 #endif
 #if TEMPORAL
   const mask has_met = sum.met > 0;

@@ -262,6 +262,13 @@ Technique for_two_eyes() {
   t.default_for.clear();
   t.views = 2;
   t.parameters = StereoSsrParams::table();
+  // As many pixels of either eye.
+  for (Preset& preset : t.presets) {
+    const auto own = preset.settings;
+    for (const auto& [name, value] : own) {
+      if (name == "neighbours") preset.settings.emplace_back("other_neighbours", value);
+    }
+  }
   t.passes = passes_of(stereo_passes);
   t.effect = {.name = "reflections alike in two views",
               .refines = "sssr",

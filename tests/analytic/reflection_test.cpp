@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <random>
 
 #include "gloam/exr.h"
 #include "gloam/metrics.h"
@@ -415,7 +417,8 @@ TEST(StereoReflection, WithoutItsModulesItIsThePlainOne) {
 
 /// The room again, with a nearly perfect mirror, so that it has a lobe, and a wall whose colour changes smoothly.
 struct SmoothRoom : MirrorRoom {
-  explicit SmoothRoom(const Shot& shot_, double eye_x = 0, float roughness = 0.04f) : MirrorRoom(shot_, eye_x) {
+  explicit SmoothRoom(const Shot& shot_, double eye_x = 0, float roughness = 0.04f, const Post& post_ = {})
+      : MirrorRoom(shot_, eye_x, post_) {
     for (int y = 0; y < shot.height; ++y) {
       for (int x = 0; x < shot.width; ++x) {
         const dvec3 color = is_floor(x, y) ? dvec3(0) : smooth(point(x, y));
@@ -573,6 +576,201 @@ TEST(TemporalReflection, MirrorsAndWhatWasHiddenAreOfThisFrameAlone) {
     for (int y = 0; y < shot.height; ++y)
       for (int x = 0; x < shot.width; ++x)
         EXPECT_EQ(after.views[0].find("frames")->channels[0].at(x, y), room.is_floor(x, y) ? 1 : 0) << is_mirror;
+  }
+}
+
+// --- Fade
+
+/// What is left of a hit so far from the border of an image, in sizes of the image.
+double faded(double from_border, double width) {
+  const double t = std::clamp(from_border / width, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// Distance of a point from the border of the image that shows it, in sizes of the image; 0 beyond it.
+double to_border(const MirrorRoom& room, const dvec3& point) {
+  const glm::dvec2 at = room.projected(point) / glm::dvec2(room.shot.width, room.shot.height);
+  return std::max(std::min({at.x, 1 - at.x, at.y, 1 - at.y}), 0.0);
+}
+
+/// How far confidence and colour are from what fades by `border_of`, and at how many pixels another border would tell.
+struct Fading {
+  int compared = 0, told_apart = 0;
+  double worst = 0, worst_color = 0;
+};
+
+template <typename BorderOf>
+Fading fading_of(const Frame& out, const std::array<const MirrorRoom*, 2>& eyes, const BorderOf& border_of) {
+  constexpr double width = 0.3, environment = 5;
+  Fading f;
+  for (const size_t view : {0, 1}) {
+    const MirrorRoom &own = *eyes[view], &other = *eyes[1 - view];
+    for (int y = 0; y < own.shot.height; ++y) {
+      for (int x = 0; x < own.shot.width; ++x) {
+        if (!own.is_floor(x, y)) continue;
+        const dvec3 met = own.reflected(x, y);
+        // Which image shows what lies within a pixel of a border, rounding decides.
+        const bool is_shown = own.shows(met, 1) || (other.shows(met, 1) && !own.shows(met, -1));
+        if (!is_shown || from_edge(met) < 0.1) continue;
+        const double here = to_border(own, met), there = to_border(other, met);
+        const double expected = faded(border_of(here, there), width);
+        ++f.compared;
+        f.told_apart += std::abs(faded(here, width) - faded(there, width)) > 0.05;
+        f.worst = std::max(f.worst, std::abs(confidence(out, view).at(x, y) - expected));
+        const double red = expected * checker(met).x + (1 - expected) * environment;
+        f.worst_color =
+            std::max(f.worst_color, std::abs(out.views[view].find("reflection")->channels[0].at(x, y) - red));
+      }
+    }
+  }
+  return f;
+}
+
+// Of the places that a hit has in both images, the one farther from the border decides for both eyes alike; without the stereo
+// fade, that of the image that the hit was found in.
+TEST(StereoReflection, HitsFadeByTheImageThatShowsThemFartherFromItsBorder) {
+  for (const Shot& shot : shots()) {
+    const MirrorRoom left(shot, -0.2), right(shot, 0.2);
+    Frame pair = pair_of(left, right);
+    for (const char* fade : {"stereo", "mono"}) {
+      const Frame out =
+          outputs_of(find_technique("stereo-ssr"), pair,
+                     {{"fade", fade}, {"fade_border", "0.3"}, {"environment_r", "5"}}, {.math = Math::precise});
+      const bool is_stereo = fade == std::string("stereo");
+      const Fading f = fading_of(out, {&left, &right}, [&](double here, double there) {
+        return is_stereo ? std::max(here, there) : here > 0 ? here : there;
+      });
+      std::printf("%s: compared %d pixels, %d tell the borders apart: worst confidence %.1e, worst color %.1e\n", fade,
+                  f.compared, f.told_apart, f.worst, f.worst_color);
+      EXPECT_GT(f.compared, 2500);
+      EXPECT_GT(f.told_apart, 500);
+      EXPECT_LT(f.worst, 1e-4);
+      EXPECT_LT(f.worst_color, 1e-3);
+    }
+  }
+}
+
+// --- Rays of the other eye
+
+/// Two eyes before a glossy floor of strips that are alternately one object and another, and a post before the wall.
+/// Colours tell whose ray it was: what the left eye shows is red alone, what the right one shows is green, each pixel in
+/// a shade of its own.
+struct GlossyPair {
+  std::array<SmoothRoom, 2> eyes;
+  Frame frame;
+
+  explicit GlossyPair(const Shot& shot) : eyes{room(shot, -0.2), room(shot, 0.2)}, frame(pair_of(eyes[0], eyes[1])) {
+    for (const size_t eye : {0, 1}) {
+      std::mt19937 random(uint32_t(eye + 1));
+      View& view = frame.views[eye];
+      for (int y = 0; y < shot.height; ++y) {
+        for (int x = 0; x < shot.width; ++x) {
+          for (Channel& channel : view.planes.at("color").channels) channel.at(x, y) = 0;
+          const bool is_floor = eyes[eye].is_floor(x, y), is_odd = int(std::floor(eyes[eye].point(x, y).x / 0.6)) & 1;
+          const float shade = std::uniform_real_distribution(0.25f, 1.0f)(random);
+          if (!is_floor) view.planes.at("color").channels[eye].at(x, y) = shade;
+          view.planes.at("instance").channels[0].at(x, y) = !is_floor ? 3 : is_odd ? 1 : 2;
+        }
+      }
+    }
+  }
+
+  static SmoothRoom room(const Shot& shot, double eye_x) {
+    return SmoothRoom(shot, eye_x, 0.2f, {.low_x = -0.5, .high_x = 0.5, .bottom = -0.7});
+  }
+
+  /// One ray per pixel and no neighbours, so that each pixel has its own ray, and at most one of the other eye.
+  Frame reflections(const char* reprojection) {
+    return outputs_of(find_technique("stereo-ssr"), frame,
+                      {{"neighbours", "1"},
+                       {"other_neighbours", "1"},
+                       {"reprojection", reprojection},
+                       {"traversal", "mono"},
+                       {"fade", "mono"},
+                       {"fade_border", "0"}},
+                      {.math = Math::precise});
+  }
+
+  /// Where the other eye sees the virtual image of what lies so far along the mirror ray of a pixel, in pixels: on the
+  /// way from the image, which stands behind the floor, to that eye.
+  glm::dvec2 same_virtual_image(size_t eye, int x, int y, double length) const {
+    const MirrorRoom &own = eyes[eye], &other = eyes[1 - eye];
+    const dvec3 away = glm::normalize(turned(ray_through(own.shot, x + 0.5, y + 0.5).direction, -down));
+    const dvec3 image = own.point(x, y) + length * away;
+    const dvec3 to_eye = own.shot.camera.orthographic ? -away : other.eye - image;
+    return other.projected(image + to_eye * ((floor_height - image.y) / to_eye.y));
+  }
+};
+
+/// Rays of one kind that the other eye has where it sees a pixel's virtual image.
+struct Counted {
+  int asked = 0, taken = 0,
+      wrong = 0;  ///< of which so many changed what the pixel has, and so many brought another pixel's ray
+};
+
+struct Shared {
+  Counted alike, longer, missed, of_another_object;  ///< longer: or shorter, by more than half
+};
+
+/// `alone` and `together`: without and with the other eye's rays.
+Shared shared_by(const GlossyPair& pair, const Frame& alone, const Frame& together, size_t eye) {
+  const size_t other = 1 - eye;
+  const auto at = [](const Frame& frame, size_t view, const char* plane, size_t channel, const glm::ivec2& p) {
+    return double(frame.views[view].find(plane)->channels[channel].at(p.x, p.y));
+  };
+  const int width = pair.frame.width(), height = pair.frame.height();
+  Shared shared;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::ivec2 here(x, y);
+      const double length = at(alone, eye, "hit", 0, here);
+      if (!pair.eyes[eye].is_floor(x, y) || length == 0) continue;
+      const glm::dvec2 place = pair.same_virtual_image(eye, x, y, length), off = glm::fract(place) - 0.5;
+      const glm::ivec2 there(glm::floor(place));
+      const bool is_inside = there.x >= 0 && there.y >= 0 && there.x < width && there.y < height;
+      // Between two pixels rounding decides.
+      if (!is_inside || std::max(std::abs(off.x), std::abs(off.y)) > 0.49) continue;
+      const bool is_same = at(pair.frame, eye, "instance", 0, here) == at(pair.frame, other, "instance", 0, there);
+      const double of_other = at(alone, other, "hit", 0, there), ratio = of_other / length;
+      Counted& counted = !is_same                         ? shared.of_another_object
+                         : of_other == 0                  ? shared.missed
+                         : ratio > 1.5 || ratio < 1 / 1.5 ? shared.longer
+                                                          : shared.alike;
+      ++counted.asked;
+      const double share = 1 - at(together, eye, "reflection", eye, here) / at(alone, eye, "reflection", eye, here);
+      const double from_other = at(together, eye, "reflection", other, here);
+      if (share < 0.02 && from_other < 0.01) continue;
+      ++counted.taken;
+      counted.wrong += std::abs(from_other / share - at(alone, other, "reflection", other, there)) > 0.01;
+    }
+  }
+  return shared;
+}
+
+// Of the other eye the ray counts of the one pixel where that eye sees the same virtual image, if that is of the same
+// object and has met something, however near.
+TEST(StereoReflection, RaysOfTheOtherEyeComeFromWhereItSeesTheSameVirtualImage) {
+  for (const Shot& shot : shots()) {
+    GlossyPair pair(shot);
+    const Frame alone = pair.reflections("off"), together = pair.reflections("on");
+    for (const size_t eye : {0, 1}) {
+      const Shared s = shared_by(pair, alone, together, eye);
+      for (const auto& [what, counted] :
+           {std::pair("alike", s.alike), std::pair("longer or shorter", s.longer), std::pair("missed", s.missed),
+            std::pair("of another object", s.of_another_object)}) {
+        std::printf("view %zu, %s: %d of %d count, %d of another pixel\n", eye, what, counted.taken, counted.asked,
+                    counted.wrong);
+        EXPECT_EQ(counted.wrong, 0);
+      }
+      EXPECT_GT(s.alike.taken, 0.9 * s.alike.asked);
+      EXPECT_GT(s.alike.asked, 1000);
+      EXPECT_GT(s.longer.taken, 10);
+      EXPECT_GT(s.missed.asked, 20);
+      EXPECT_EQ(s.missed.taken, 0);
+      // Eyes whose rays are all parallel see each strip where the other does.
+      EXPECT_GT(s.of_another_object.asked, shot.camera.orthographic ? 10 : 500);
+      EXPECT_EQ(s.of_another_object.taken, 0);
+    }
   }
 }
 
