@@ -79,6 +79,8 @@ struct Pass {
   bool projects = false;
   /// Numbers that its kernel reads, the same for all pixels, by argument.
   std::vector<std::pair<std::string, std::vector<float>>> tables;
+  /// What it writes is the same in both of two views where both see the surface, and has to stay so at a lower resolution.
+  bool views_agree = false;
   /// Which views of a frame of many it runs on (`Technique::key_views`): all, key views, or those between them.
   enum class Views { every, key, between } on = Views::every;
   /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
