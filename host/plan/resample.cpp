@@ -1,5 +1,6 @@
 #include "plan/resample.h"
 
+#include <map>
 #include <set>
 
 #include "base/lists.h"
@@ -54,6 +55,19 @@ Pass upsample(const std::string& plane, int resolution) {
           .can_skip = true};
 }
 
+/// From the reduced pixels of both views, so that these agree on what both see.
+Pass upsample_of_both(const std::string& plane, int resolution) {
+  Pass pass = upsample(plane, resolution);
+  pass.kernel = kernel_for("joint_upsample_of_both", plane);
+  pass.can_skip = false;
+  pass.defines.emplace_back("TWO_VIEWS", 1);
+  for (const Binding& other : {Binding("other_source", reduced_name(plane, resolution)),
+                               Binding("other_depth", reduced_name("depth", resolution)),
+                               Binding("other_normal", reduced_name("normal", resolution))})
+    pass.reads.push_back(from(From::other_view, other));
+  return pass;
+}
+
 /// Passes of a plan, rewritten one by one.
 class Reduction {
  public:
@@ -65,6 +79,7 @@ class Reduction {
     for (Binding& binding : planned.pass.reads) rename(binding);
     for (Binding& binding : planned.pass.writes) {
       made_.insert(binding.plane);
+      agreed_[binding.plane] = planned.pass.views_agree;
       rename(binding);
     }
     planned.pass.scale *= plan_.resolution;
@@ -83,7 +98,8 @@ class Reduction {
         throw UsageError("{}: '{}' holds layers, which cannot be upsampled; use --resolution full", plan_.technique,
                          output);
       for (const std::string& guide : resampling().reads) need(guide);
-      passes.push_back({&resampling(), upsample(output, plan_.resolution), values_});
+      const auto pass_for = agreed_[output] ? upsample_of_both : upsample;
+      passes.push_back({&resampling(), pass_for(output, plan_.resolution), values_});
     }
   }
 
@@ -112,7 +128,8 @@ class Reduction {
 
   const Plan& plan_;
   const ParameterValues& values_;
-  std::set<std::string> made_;  ///< at the low resolution
+  std::set<std::string> made_;          ///< at the low resolution
+  std::map<std::string, bool> agreed_;  ///< of these, whether two views do
 };
 
 /// Layers that nobody asked for are there for who did: made at the same resolution.

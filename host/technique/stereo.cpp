@@ -80,7 +80,8 @@ Pass blend(const Pass& last) {
             .kernel = "stereo_blend",
             .reads = {{"source", last.writes[0].plane}, {"source_weights", last.writes[1].plane}, "depth", "normal"},
             .writes = {{"result", "ao"}},
-            .defines = last.defines};
+            .defines = last.defines,
+            .views_agree = true};
   for (const Binding& other :
        {Binding("other_source", last.writes[0].plane), Binding("other_weights", last.writes[1].plane),
         Binding("other_depth", "depth"), Binding("other_normal", "normal")})

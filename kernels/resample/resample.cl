@@ -3,10 +3,16 @@
 //
 // subsample: `frame` is the reduced one, `other` the whole. Pixel (x, y) is pixel (x, y) * SCALE of the whole.
 // joint_upsample (OpenCL has an `upsample` of its own): `frame` is the whole, `other` the reduced one (upsample.h).
-// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of what is unknown)
+// joint_upsample_of_both: the same from the reduced pixels of two views that agree (shared/stereo/upsample.h); `neighbour` is the other
+// view, reduced.
+// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of what is unknown),
+//    TWO_VIEWS (joint_upsample_of_both)
 #include "resample/params.h"
 #include "shared/filter/upsample.h"
 #include "shared/lanes/wanted.h"
+#if TWO_VIEWS
+#include "shared/stereo/upsample.h"
+#endif
 
 static inline void subsample_plane(Frame frame, Frame other, PLANE source, PLANE_OUT result) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
@@ -53,6 +59,37 @@ kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLAN
   // Divided exactly: not even rounding leads beyond the values at hand.
   const real mean = weighted(w, s, source) / choose(known, w.total, (real)(1));
   store(choose(known & is_wanted, mean, (real)(OUTSIDE)), result, s.here);
+}
+#endif
+
+#if TWO_VIEWS
+kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour, ResampleParams params, PLANE source,
+                                   PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z,
+                                   PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE other_source,
+                                   PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z,
+                                   PLANE_OUT result) {
+  const scalar distance = params.depth_tolerance * params.radius;
+  const Site s = site_at(frame, other, distance, params.normal_tolerance, depth, normal_x, normal_y, normal_z);
+  const Weights w = weights_of_same(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
+  const Projection there = project_row_into_reduced(frame, neighbour, s.plane.depth);
+  const SurfacePlanes planes = surface_planes(low_depth, low_normal_x, low_normal_y, low_normal_z);
+  const SurfacePlanes others = surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z);
+  Between b;
+  between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, s.here), distance, params.normal_tolerance,
+                 others, WITHIN_A_LOAD, &b);
+  Mixture m;
+  m.sum = weighted(w, s, source);
+  m.total = w.total;
+  mix_between(&m, &b, there, neighbour.frame, other_source);
+  const mask is_surface = !is_background(s.plane.depth);
+  const real counts = choose(is_surface, share_of_farther(m), (real)(0));
+  if (ANY(counts > 0)) {
+    mix_around_own(&m, s, other, counts, planes, source);
+    mix_around_other(&m, &b, there, neighbour.frame, counts, others, other_source);
+  }
+  const mask known = is_surface & (m.total > 0);
+  // Divided exactly, as above.
+  store(choose(known, m.sum / choose(known, m.total, (real)(1)), (real)(OUTSIDE)), result, s.here);
 }
 #endif
 

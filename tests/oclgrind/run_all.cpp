@@ -120,6 +120,17 @@ int run_masked(const Technique& technique) {
   return passes;
 }
 
+/// At half resolution, where two views that agree are upsampled together; 0 for a technique that looks at one view.
+int run_reduced(const Technique& technique) {
+  if (technique.views != 2) return 0;
+  Frame frame = shoot(perspective(width, height), room());
+  plan_for(technique, frame);  // invents what it needs
+  const Plan plan = make_plan({.outputs = {technique.name}, .settings = few_samples(technique), .resolution = 2},
+                              plane_names(frame), "the frame has not");
+  run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+  return int(plan.passes.size());
+}
+
 /// Through slits whose rays change evenly over the image, and through others, with views that look into one another; 0 for a
 /// technique whose views do not.
 int run_modules(const Technique& technique) {
@@ -161,7 +172,7 @@ int run_all_of(const Technique& technique) {
   int passes = run_defaults(technique, perspective(width, height), true);
   passes += run_defaults(technique, orthographic(width, height, 4), false);
   for (const bool with_normals : {true, false}) passes += run_defaults(technique, perspective(1, 1), with_normals);
-  return passes + run_variants(technique) + run_masked(technique) + run_modules(technique);
+  return passes + run_variants(technique) + run_masked(technique) + run_reduced(technique) + run_modules(technique);
 }
 
 /// Every `parts`-th technique, from `part` on; `bits_only`: only what tells bits.

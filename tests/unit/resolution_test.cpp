@@ -119,6 +119,42 @@ TEST(Resolution, AFollowerOnItsOwnIsReducedAlone) {
                    "bilateral/horizontal", "bilateral/vertical", "resample/upsample ao"}));
 }
 
+/// The pass that upsamples a plane.
+const Pass& upsampling_of(const Plan& plan, const std::string& plane) {
+  const auto found = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                  [&](const PlannedPass& p) { return p.pass.name == "upsample " + plane; });
+  if (found == plan.passes.end()) throw Error("nothing upsamples {}", plane);
+  return found->pass;
+}
+
+bool looks_at_other_view(const Pass& pass) {
+  return std::any_of(pass.reads.begin(), pass.reads.end(),
+                     [](const Binding& read) { return read.from == From::other_view; });
+}
+
+/// What the filter of both eyes has made alike; not what is raw, and nothing where each eye has a filter of its own.
+TEST(Resolution, WhatTwoViewsAgreeOnIsUpsampledFromBoth) {
+  const Names available = {"depth", "normal", "stochastic.00", "stochastic.01", "stochastic.02", "stochastic.03"};
+  for (const char* technique : {"stereo-ao", "stereo-gtao", "stereo-bitmask", "stereo-sd-hbao+"}) {
+    for (const char* filter : {"mono", "stereo", "stereo2d"}) {
+      const Plan plan = plan_of({.outputs = {technique}, .settings = {{"filter", filter}}, .resolution = 2}, available);
+      const std::string what = fmt::format("{}, {}", technique, filter);
+      EXPECT_EQ(looks_at_other_view(upsampling_of(plan, "ao")), filter != std::string("mono")) << what;
+      EXPECT_FALSE(looks_at_other_view(upsampling_of(plan, "ao_raw"))) << what;
+    }
+  }
+  const PlanRequest filtered{.outputs = {"gtao"}, .then = "stereo-bilateral", .resolution = 4};
+  EXPECT_TRUE(looks_at_other_view(upsampling_of(plan_of(filtered), "ao"))) << "as --filter";
+  const Pass pass = upsampling_of(plan_of(filtered), "ao");
+  Names others;
+  for (const Binding& read : pass.reads) {
+    if (read.from == From::other_view) others.push_back(read.argument + " " + read.plane);
+  }
+  EXPECT_EQ(others, (Names{"other_source ao@4", "other_depth depth@4", "other_normal normal@4"}));
+  EXPECT_FALSE(pass.can_skip) << "masks restrict techniques that look at one view";
+  EXPECT_FALSE(looks_at_other_view(upsampling_of(plan_of({.outputs = {"gtao"}, .resolution = 4}), "ao")));
+}
+
 TEST(Resolution, UpsamplingInheritsTheRadius) {
   const Plan plan = plan_of(
       {.outputs = {"hbao+"}, .settings = {{"radius", "3"}, {"resample.depth_tolerance", "0.25"}}, .resolution = 2});

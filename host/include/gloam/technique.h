@@ -99,6 +99,8 @@ struct Pass {
   bool projects = false;
   /// Numbers that its kernel reads, the same for all pixels, by argument.
   std::vector<std::pair<std::string, std::vector<float>>> tables;
+  /// What it writes is the same in both of two views where both see the surface, and has to stay so at a lower resolution.
+  bool views_agree = false;
   /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
   bool repeats_cells = false;
 };

@@ -99,8 +99,9 @@ static inline void take_nearest(Weights* w, mask alone, Site s, Frame frame, PLA
   w->total = choose(alone, total, w->total);
 }
 
-static inline Weights weights_of(Site s, Frame frame, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
-                                 PLANE low_normal_z) {
+// Of the four those that show the same surface.
+static inline Weights weights_of_same(Site s, Frame frame, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
+                                      PLANE low_normal_z) {
   Weights w;
   w.total = 0;
 #pragma unroll
@@ -115,6 +116,12 @@ static inline Weights weights_of(Site s, Frame frame, PLANE low_depth, PLANE low
       w.total += w.of[j][i];
     }
   }
+  return w;
+}
+
+static inline Weights weights_of(Site s, Frame frame, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
+                                 PLANE low_normal_z) {
+  Weights w = weights_of_same(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
   const mask alone = !is_background(s.plane.depth) & !(w.total > (scalar)1e-3f);
   if (ANY(alone)) take_nearest(&w, alone, s, frame, low_depth);
   return w;

@@ -51,12 +51,13 @@ static inline real distance_from(TangentPlane p, Frame f, real step, real depth)
   return multiply_add(depth - p.depth, p.per_depth, pixel * step);
 }
 
-// 1 where a neighbour's normal is the plane's, 0 from the tolerance on.
-static inline real agreement(TangentPlane p, real3 n) {
-  const real sum =
-      multiply_add(n.x, p.normal.x, multiply_add(n.y, p.normal.y, multiply_add(n.z, p.normal.z, (real)(p.square))));
-  return larger(sum, (real)(0));
+// 1 where a neighbour's normal is the plane's, falling with the cosine to 0 at the tolerance and below 0 beyond.
+static inline real signed_agreement(TangentPlane p, real3 n) {
+  return multiply_add(n.x, p.normal.x, multiply_add(n.y, p.normal.y, multiply_add(n.z, p.normal.z, (real)(p.square))));
 }
+
+// 1 where a neighbour's normal is the plane's, 0 from the tolerance on.
+static inline real agreement(TangentPlane p, real3 n) { return larger(signed_agreement(p, n), (real)(0)); }
 
 // 1 on the same plane with the same normal, 0 from the tolerances on and on background.
 static inline real same_surface(TangentPlane p, Frame f, real step, real depth, real3 n) {

@@ -98,6 +98,23 @@ static inline integer integer_of(mask m) {
 #endif
 }
 
+// Per lane: the value of the lane that `from` names, 0 to LANES - 1.
+#if LANES == 1
+static inline real lane_of(real v, integer from) { return v; }
+#else
+static inline real lane_of(real v, integer from) {
+#if LANES == 16 && defined(__AVX512F__) && !defined(REAL_DOUBLE)
+  return __builtin_ia32_permvarsf512(v, from);
+#elif LANES == 8 && defined(__AVX2__) && !defined(REAL_DOUBLE)
+  return __builtin_ia32_permvarsf256(v, from);
+#elif defined(REAL_DOUBLE)
+  return shuffle(v, JOIN(convert_, N_LANES(ulong))(from));
+#else
+  return shuffle(v, to_natural(from));
+#endif
+}
+#endif
+
 // Per lane: m ? a : b.
 static inline real choose(mask m, real a, real b) { return m ? a : b; }
 

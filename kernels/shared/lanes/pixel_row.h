@@ -1,5 +1,6 @@
 // Reading the other of two views at a pixel for each lane. Along most surfaces these follow one another as this view's pixels
-// do, but for a step of one pixel now and then: two loads are quicker then than a gather.
+// do, but for a step of one pixel now and then: two loads are quicker then than a gather. Of a reduced view (upsample.h) several
+// lanes share a pixel, and one load holds those of all lanes.
 #ifndef GLOAM_PIXEL_ROW_H
 #define GLOAM_PIXEL_ROW_H
 
@@ -9,7 +10,13 @@ typedef struct {
   integer column, row;  // of each lane
   int first_column, y;  // of the first lane before the step, and of all
   mask is_further;      // behind the step
+  integer lane;         // of those that a load from the first column on fills, the one that holds each lane's pixel
 } PixelRow;
+
+// How the pixels of lanes lie.
+#define ANYWHERE 0
+#define IN_A_ROW 1       // one after another
+#define WITHIN_A_LOAD 2  // in a row, and in no more columns than there are lanes
 
 static inline int lowest_lane(integer v) {
 #if LANES == 1
@@ -28,7 +35,7 @@ static inline int lowest_lane(integer v) {
 #endif
 }
 
-// Whether the pixels of those lanes that count follow one another in a row. To be asked only where some lane counts.
+// IN_A_ROW where the pixels of those lanes that count follow one another, else ANYWHERE. To be asked only where some lane counts.
 static inline int follow_in_a_row(integer column, integer row, mask counts, PixelRow* p) {
   const integer offset = column - (FIRST_X + IOTA), which = integer_of(counts);
   const int lowest = lowest_lane(which ? offset : (integer)(INT_MAX));
@@ -37,15 +44,28 @@ static inline int follow_in_a_row(integer column, integer row, mask counts, Pixe
   p->first_column = FIRST_X + lowest;
   p->y = lowest_lane(which ? row : (integer)(INT_MAX));
   p->is_further = to_mask(offset > lowest);
-  return !ANY(counts & to_mask((offset > lowest + 1) | (row != p->y)));
+  return ANY(counts & to_mask((offset > lowest + 1) | (row != p->y))) ? ANYWHERE : IN_A_ROW;
 }
 
-// Values at the pixels `dx` to the right of and `dy` below each lane's, moved onto the border of the image. `in_a_row`: what
-// follow_in_a_row gave, as a constant; lanes that do not count have any value then.
+// The same: WITHIN_A_LOAD or ANYWHERE.
+static inline int lie_within_a_load(integer column, integer row, mask counts, PixelRow* p) {
+  const integer which = integer_of(counts);
+  p->column = column;
+  p->row = row;
+  p->first_column = lowest_lane(which ? column : (integer)(INT_MAX));
+  p->y = lowest_lane(which ? row : (integer)(INT_MAX));
+  const integer lane = column - p->first_column;
+  p->lane = which ? lane & (LANES - 1) : (integer)(0);
+  return ANY(counts & to_mask((lane != p->lane) | (row != p->y))) ? ANYWHERE : WITHIN_A_LOAD;
+}
+
+// Values at the pixels `dx` to the right of and `dy` below each lane's, moved onto the border of the image. `how`: they lie, as a
+// constant; lanes that do not count have any value unless it is ANYWHERE.
 static inline __attribute__((always_inline)) real value_at(Frame f, global const float* plane, const PixelRow* p,
-                                                           int dx, int dy, int in_a_row) {
-  if (in_a_row) {
+                                                           int dx, int dy, int how) {
+  if (how != ANYWHERE) {
     const int first = index_of(f, p->first_column + dx, clamp(p->y + dy, 0, f.height - 1));
+    if (how == WITHIN_A_LOAD) return lane_of(load(plane, first), p->lane);
     return choose(p->is_further, load(plane, first + 1), load(plane, first));
   }
   const integer x = clamp(p->column + dx, (integer)(0), (integer)(f.width - 1));

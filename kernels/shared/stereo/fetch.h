@@ -23,25 +23,26 @@ static inline SurfacePlanes surface_planes(global const float* depth, global con
 }
 
 typedef struct {
-  PixelRow pixels;  // the upper left of the four
-  int in_a_row;
-  real weights[4];  // of all four
-  real share;       // their sum, 0 to 1: how far what is seen around is the surface
+  TangentPlane plane;  // the surface's, where the other eye shows it
+  PixelRow pixels;     // the upper left of the four
+  real right, below;   // from that to the place
+  int how;             // they lie: what was expected, or ANYWHERE
+  real weights[4];     // of all four
+  real share;          // their sum, 0 to 1: how far what is seen around is the surface
   mask is_known;
 } Between;
 
-static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame f, TangentPlane plane,
-                                                               Projection there, SurfacePlanes planes, int in_a_row) {
-  const real x = larger(there.x - to_real(b->pixels.column), (real)(0));
-  const real y = larger(there.y - to_real(b->pixels.row), (real)(0));
+static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame f, SurfacePlanes planes, int how) {
+  const TangentPlane plane = b->plane;
+  const real x = b->right, y = b->below;
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
     const int i = k % 2, j = k / 2;
     const real step = ((scalar)i - x) * plane.per_column + ((scalar)j - y) * plane.per_row;
-    const real depth = fabs(value_at(f, planes.depth, &b->pixels, i, j, in_a_row));
-    const real3 n = make3(value_at(f, planes.normal_x, &b->pixels, i, j, in_a_row),
-                          value_at(f, planes.normal_y, &b->pixels, i, j, in_a_row),
-                          value_at(f, planes.normal_z, &b->pixels, i, j, in_a_row));
+    const real depth = fabs(value_at(f, planes.depth, &b->pixels, i, j, how));
+    const real3 n =
+        make3(value_at(f, planes.normal_x, &b->pixels, i, j, how), value_at(f, planes.normal_y, &b->pixels, i, j, how),
+              value_at(f, planes.normal_z, &b->pixels, i, j, how));
     const real near = (i ? x : 1 - x) * (j ? y : 1 - y);
     const real weight = near * same_surface(plane, f, step, depth, n);
     const mask is_inside = to_mask((to_natural(b->pixels.column + i) < (natural)((uint)f.width)) &
@@ -51,42 +52,49 @@ static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame
 }
 
 // Around where the other eye shows a surface. `normal`: its, in this eye's space; `distance`, `angle`: tangent_plane_at.
+// `expected`: how the pixels lie (pixel_row.h) along most surfaces, as a constant.
 static inline __attribute__((always_inline)) void between_pixels(Neighbour neighbour, Projection there, real3 normal,
                                                                  scalar distance, scalar angle, SurfacePlanes planes,
-                                                                 Between* b) {
+                                                                 int expected, Between* b) {
   const Frame other = neighbour.frame;
   b->share = (real)(0);
   b->is_known = there.is_seen;
-  b->in_a_row = 0;
+  b->how = ANYWHERE;
   if (!ANY(there.is_seen)) return;
-  const TangentPlane plane =
-      tangent_plane_at(other, there.x, there.y, there.depth, rotated(neighbour, normal), distance, angle);
+  b->plane = tangent_plane_at(other, there.x, there.y, there.depth, rotated(neighbour, normal), distance, angle);
   // Of parallel eyes the place lies in this row but for rounding, which must not choose between rows lane by lane.
   const integer column = nearest(floor(there.x + (scalar)0x1p-10)), row = nearest(floor(there.y + (scalar)0x1p-10));
-  b->in_a_row = follow_in_a_row(column, row, there.is_seen, &b->pixels);
-  if (b->in_a_row)
-    weigh_pixels(b, other, plane, there, planes, 1);
+  b->right = larger(there.x - to_real(column), (real)(0));
+  b->below = larger(there.y - to_real(row), (real)(0));
+  b->how = expected == WITHIN_A_LOAD ? lie_within_a_load(column, row, there.is_seen, &b->pixels)
+                                     : follow_in_a_row(column, row, there.is_seen, &b->pixels);
+  if (b->how == expected)
+    weigh_pixels(b, other, planes, expected);
   else
-    weigh_pixels(b, other, plane, there, planes, 0);
+    weigh_pixels(b, other, planes, ANYWHERE);
   b->share = b->weights[0] + b->weights[1] + b->weights[2] + b->weights[3];
   b->is_known &= b->share > (scalar)1e-3f;
 }
 
 static inline __attribute__((always_inline)) real weighted_sum(const Between* b, Frame f, global const float* plane,
-                                                               int in_a_row) {
-  real sum = b->weights[0] * value_at(f, plane, &b->pixels, 0, 0, in_a_row);
+                                                               int how) {
+  real sum = b->weights[0] * value_at(f, plane, &b->pixels, 0, 0, how);
 #pragma unroll
-  for (int k = 1; k < 4; ++k)
-    sum = multiply_add(b->weights[k], value_at(f, plane, &b->pixels, k % 2, k / 2, in_a_row), sum);
+  for (int k = 1; k < 4; ++k) sum = multiply_add(b->weights[k], value_at(f, plane, &b->pixels, k % 2, k / 2, how), sum);
   return sum;
 }
 
-// A plane of the other eye; of use where it is known.
+// A plane of the other eye, times `share`. `expected`: as given to between_pixels.
+static inline __attribute__((always_inline)) real weighted_between(const Between* b, Frame other, int expected,
+                                                                   global const float* plane) {
+  return b->how == expected ? weighted_sum(b, other, plane, expected) : weighted_sum(b, other, plane, ANYWHERE);
+}
+
+// A plane of the other eye whose pixels were expected in a row; of use where it is known.
 static inline __attribute__((always_inline)) real fetch_between(const Between* b, Frame other,
                                                                 global const float* plane) {
-  const real sum = b->in_a_row ? weighted_sum(b, other, plane, 1) : weighted_sum(b, other, plane, 0);
   // Divided exactly, so that what is open all around stays just that.
-  return sum / choose(b->is_known, b->share, (real)(1));
+  return weighted_between(b, other, IN_A_ROW, plane) / choose(b->is_known, b->share, (real)(1));
 }
 
 #endif

@@ -59,7 +59,7 @@ kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANE 
   Between b;
   between_pixels(neighbour, project_row(frame, neighbour, z), load3(normal_x, normal_y, normal_z, here),
                  params.depth_tolerance * params.radius, params.normal_tolerance,
-                 surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z), &b);
+                 surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z), IN_A_ROW, &b);
   real open = own;
   if (ANY(b.is_known)) {
     const real weight = b.share * fetch_between(&b, neighbour.frame, other_weights);

@@ -71,7 +71,7 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
   Between b;
   between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
                  params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
-                 &b);
+                 IN_A_ROW, &b);
   real found = (real)(1);
 #if !NO_BACK_CHECK
   is_found &= b.is_known;
