@@ -198,6 +198,15 @@ void FrameFlags::add_to(CLI::App& app) {
       ->excludes(one);
 }
 
+/// What a float holds, or an infinity.
+static float parse_depth_value(const std::string& text, const std::string& flag) {
+  const double infinity = std::numeric_limits<double>::infinity(), most = std::numeric_limits<float>::max();
+  const double value = parse_number(text, flag, -infinity, infinity);
+  if (std::isfinite(value) && std::abs(value) > most)
+    throw UsageError("{} {} is not allowed; a number from {:g} to {:g}, inf or -inf is", flag, text, -most, most);
+  return float(value);
+}
+
 ReadOptions FrameFlags::read_options() const {
   ReadOptions options;
   options.camera_file = camera;
@@ -205,7 +214,7 @@ ReadOptions FrameFlags::read_options() const {
   const double most = std::numeric_limits<double>::infinity();
   if (!near.empty()) options.near = parse_number(near, "--near", 0, most);
   if (!far.empty()) options.far = parse_number(far, "--far", 0, most);
-  if (!background.empty()) options.background = float(parse_number(background, "--background", -most, most));
+  if (!background.empty()) options.background = parse_depth_value(background, "--background");
   options.depth = one_of<DepthConvention>(depth, "--depth",
                                           {{"auto", DepthConvention::automatic},
                                            {"z", DepthConvention::z},
