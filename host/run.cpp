@@ -16,6 +16,7 @@
 #include "key_views.h"
 #include "lists.h"
 #include "mask.h"
+#include "plan_buffers.h"
 #include "resample.h"
 
 namespace gloam {
@@ -67,44 +68,6 @@ KernelNeighbour kernel_neighbour(const KernelFrame& frame, const Pose& own, cons
   }
   return n;
 }
-
-/// Every plane and stack that a plan's passes touch.
-std::set<std::string> planes_of(const Plan& plan) {
-  std::set<std::string> planes;
-  for (const PlannedPass& p : plan.passes) {
-    for (const Binding& b : p.pass.reads) planes.insert(b.plane);
-    for (const Binding& b : p.pass.writes) planes.insert(b.plane);
-  }
-  return planes;
-}
-
-/// Planes of one channel each that lie in one buffer: the layers of a stack; 1 for all else.
-size_t layers_in_buffer(const Plan& plan, const std::string& name) {
-  if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
-  // Two techniques may make one of the same name, one after the other.
-  int layers = 1;
-  for (const PlannedPass& planned : plan.passes) {
-    for (const Binding& binding : planned.pass.writes) {
-      if (binding.plane == name) layers = std::max(layers, binding.layers);
-    }
-  }
-  return size_t(layers);
-}
-
-/// The layouts of a plan's planes on an image.
-class Layouts {
- public:
-  Layouts(const Plan& plan, const Layout& whole) : whole_(whole), scales_(plane_scales(plan)) {}
-  Layout of(const std::string& plane) const { return reduced(whole_, scale_of(plane)); }
-  int scale_of(const std::string& plane) const {
-    const auto known = scales_.find(plane);
-    return known == scales_.end() ? 1 : known->second;
-  }
-
- private:
-  Layout whole_;
-  std::map<std::string, int> scales_;
-};
 
 /// The one scale beside the pass's own among the planes that it binds of its view; 0 where there is none.
 int other_scale(const PlannedPass& planned, const Layouts& layouts) {
@@ -781,22 +744,6 @@ class KeyViewsRun {
   std::map<size_t, Target> keys_;   // on the device
 };
 
-/// Every how many views of a plan one is a key view; 1 where all are alike.
-int key_view_spacing(const Plan& plan) {
-  for (const PlannedPass& planned : plan.passes) {
-    if (planned.pass.on != Pass::Views::every) return planned.technique->key_views(planned.values);
-  }
-  return 1;
-}
-
-/// The same of a frame of so many views.
-int key_view_spacing(const Plan& plan, size_t views) { return views > 1 ? key_view_spacing(plan) : 1; }
-
-bool needs_two_views(const Plan& plan) {
-  return std::any_of(plan.passes.begin(), plan.passes.end(),
-                     [](const PlannedPass& planned) { return planned.technique->views == 2; });
-}
-
 void check_two_views(const Plan& plan, const Frame& frame) {
   if (frame.views.size() != 2)
     throw Error(
@@ -876,16 +823,6 @@ void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, c
 }
 
 }  // namespace
-
-unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views) {
-  const Layouts layouts(plan, layout);
-  unsigned long long bytes = 0;
-  for (const std::string& name : planes_of(plan))
-    bytes += plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
-  if (needs_two_views(plan)) return 2 * bytes;
-  // A view between two key views.
-  return key_view_spacing(plan, views) > 1 ? std::min<size_t>(views, 3) * bytes : bytes;
-}
 
 void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options) {
   check_real(plan, device.info(), options);

@@ -196,6 +196,10 @@ void FrameFlags::add_to(CLI::App& app) {
       ->type_name("A,B")
       ->group("Reading the frame")
       ->excludes(one);
+  app.add_option("--limit-memory", limit_memory,
+                 "refuse, before anything is decoded, what would take more; default: what is available")
+      ->type_name("4G|512M")
+      ->group("Reading the frame");
 }
 
 /// What a float holds, or an infinity.
