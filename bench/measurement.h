@@ -44,7 +44,8 @@ struct Subject {
   Radius radius;
   std::optional<Truth> given;      ///< --truth
   const Truth* truth = nullptr;    ///< that, or traced; null: none
-  std::unique_ptr<Truths> truths;  ///< where the scene is at hand
+  std::unique_ptr<Truths> truths;       ///< where the scene is at hand
+  unsigned long long memory_bytes = 0;  ///< that measuring was planned to take; 0 where nobody planned
 };
 
 /// One row of the table.

@@ -266,17 +266,19 @@ const char* sensible_scale(bool orthographic) {
   return orthographic ? "1e-12 to 1e12 pixels per unit" : "1e-6 to 1e7 pixels";
 }
 
+/// Pixels from the corner of the image: what lies further to the side is no place that a lens shift or a crop leads to.
+constexpr double farthest_centre = 1e6;
+
 void check_range(const Fields& fields, const Camera& camera) {
-  constexpr double farthest = 1e6;
   if (!is_sensible_scale(camera.fx, camera.orthographic))
     refuse(fields, camera.orthographic ? "pixels_per_unit" : "fx", fmt::format("is {:g}", camera.fx),
            sensible_scale(camera.orthographic));
   if (!is_sensible_scale(camera.fy, camera.orthographic))
     refuse(fields, camera.orthographic ? "pixels_per_unit" : "fy", fmt::format("is {:g}", camera.fy),
            sensible_scale(camera.orthographic));
-  if (!(std::abs(camera.cx) <= farthest))
+  if (!(std::abs(camera.cx) <= farthest_centre))
     refuse(fields, "cx", fmt::format("is {:g}", camera.cx), "at most 1e6 pixels to either side");
-  if (!(std::abs(camera.cy) <= farthest))
+  if (!(std::abs(camera.cy) <= farthest_centre))
     refuse(fields, "cy", fmt::format("is {:g}", camera.cy), "at most 1e6 pixels up or down");
 }
 
@@ -337,6 +339,18 @@ void fit_to_display(Camera& camera, const Size& size, const Window& display) {
   camera.cy = display.y0 + camera.cy * scale_y;
 }
 
+/// In pixels of the frame too: one of another size than the JSON's takes a camera out of the range.
+void check_fit(const Fields& fields, const Camera& camera, const Size& size, const Window& display) {
+  const double x = camera.cx - display.x0, y = camera.cy - display.y0;
+  if (is_sensible_scale(camera.fx, camera.orthographic) && is_sensible_scale(camera.fy, camera.orthographic) &&
+      std::abs(x) <= farthest_centre && std::abs(y) <= farthest_centre)
+    return;
+  refuse(fields, "width",
+         fmt::format("and height are {:g}x{:g}, and for the frame's {}x{} that makes fx {:g} fy {:g} cx {:g} cy {:g}",
+                     size.width, size.height, display.width(), display.height(), camera.fx, camera.fy, x, y),
+         fmt::format("{}, and a centre of at most 1e6 pixels", sensible_scale(camera.orthographic)));
+}
+
 void add_once(std::vector<std::string>& sentences, const std::string& sentence) {
   if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
 }
@@ -351,6 +365,7 @@ Camera camera_from(const Fields& fields, const Window& display, std::vector<std:
     add_once(assumed, fmt::format("camera: {} is for {:g}x{:g} pixels and was scaled to the frame's {}x{}",
                                   camera.source, size.width, size.height, display.width(), display.height()));
   fit_to_display(camera, size, display);
+  check_fit(fields, camera, size, display);
   return camera;
 }
 
@@ -625,6 +640,11 @@ Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44
     if (!is_sensible_scale(scale, camera.orthographic))
       throw Error("worldToNDC: gives {:g} pixels to the unit; {} make sense", scale,
                   sensible_scale(camera.orthographic));
+  const double x = camera.cx - display.x0, y = camera.cy - display.y0;
+  if (!(std::abs(x) <= farthest_centre && std::abs(y) <= farthest_centre))
+    throw Error(
+        "worldToNDC: has the principal point at ({:g}, {:g}); at most 1e6 pixels from the image's corner make sense", x,
+        y);
   camera.pose = pose;
   camera.source = "header";
   return camera;
@@ -649,7 +669,7 @@ CameraMatrices matrices_of(const Camera& camera, const Window& display) {
 
 Camera camera_from_fov(double degrees, const Window& display, double pixel_aspect, const std::string& source) {
   if (!(degrees >= 1 && degrees <= 179))
-    throw UsageError("field of view of {:g} degrees ({}): must be 1 to 179", degrees, source);
+    throw UsageError("{} {:g} is not allowed; a horizontal field of view of 1 to 179 degrees is", source, degrees);
   Camera camera;
   camera.fx = display.width() / 2.0 / std::tan(degrees * std::numbers::pi / 360);
   camera.fy = camera.fx * pixel_aspect;  // lower pixels: more of them on the same length

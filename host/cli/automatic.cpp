@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/statistics.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
 #include "gloam/error.h"
@@ -254,6 +255,24 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
   return found;
 }
 
+/// Results of each effect stay, and those with its mask while it runs without.
+unsigned long long bytes_of_auto(const FrameFiles& files, const std::vector<std::string>& planes,
+                                 const std::vector<std::vector<Plan>>& effects, bool shares_memory) {
+  const Layout layout(files.window().width(), files.window().height());
+  const size_t views = files.views().size();
+  unsigned long long kept = 0, most = 0;
+  for (const std::vector<Plan>& plans : effects) {
+    unsigned long long results = 0;
+    for (const Plan& plan : plans) {
+      const unsigned long long own = bytes_beside_frame(plan, layout, views, false);
+      results = std::max(results, own);
+      most = std::max(most, own + bytes_beside_frame(plan, layout, views, shares_memory));
+    }
+    kept += results;
+  }
+  return process_bytes_with_device + bytes_to_read(files, planes) + kept + most;
+}
+
 void auto_command(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
   mask_use(flags.mask);
@@ -273,12 +292,18 @@ void auto_command(const AutoCommand& flags) {
   const PlanRequest asked = flags.technique_flags.request({});
   Candidates candidates = candidates_for(asked, files);
   std::vector<std::string> planes = {"depth"};
+  std::vector<std::vector<Plan>> plans;
   for (const Candidate& candidate : candidates.possible) {
-    for (const std::string& plane :
-         inputs_of_effect(*candidate.technique, candidate.asked, files.common_planes(), holdings(files)))
-      add_new(planes, plane);
+    plans.push_back(plans_of_effect(*candidate.technique, candidate.asked, files.common_planes(), holdings(files)));
+    for (const Plan& plan : plans.back()) {
+      for (const std::string& plane : plan.inputs) add_new(planes, plane);
+    }
   }
   if (!flags.explain.empty() && contains(files.common_planes(), "color")) add_new(planes, "color");
+  const unsigned long long memory = planned_memory(
+      flags.frame_flags, files.name(), flags.run_flags.device,
+      [&](bool shares_memory) { return bytes_of_auto(files, planes, plans, shares_memory); },
+      "crop or shrink the frame, ask for --resolution half, or for one view (--view)");
   Device device(flags.run_flags.device);
   Frame frame = files.read(planes);
   note(frame.assumed);
@@ -319,6 +344,7 @@ void auto_command(const AutoCommand& flags) {
   out.attributes = provenance(made_by, options);
   write_frame(flags.out, out, writing);
   Json document = document_of(outcomes, device.info());
+  document["memory_bytes"] = memory;
   if (radius) radius->add_to(document);
   flags.json.write(document, written);
   if (flags.json.only_json()) return;

@@ -268,8 +268,10 @@ void bench_command(const BenchCommand& flags) {
                        {"-o", (options.scene.folder / "scene.exr").string()},
                        {"--json", flags.json.file()}});
   std::vector<std::pair<std::string, RadiusReport>> radii;
+  unsigned long long memory = 0;
   if (!flags.frame.empty()) {
     Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, options.scene);
+    memory = subject.memory_bytes;
     radii.emplace_back(subject.name, report_of(subject, options.techniques));
     measure(subject, options, true, device, result);
   }
@@ -282,7 +284,8 @@ void bench_command(const BenchCommand& flags) {
   note(result.notes);
   if (result.rows.empty())
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
-  const Json document = document_of(result, options, device.info());
+  Json document = document_of(result, options, device.info());
+  if (memory > 0) document["memory_bytes"] = memory;
   JsonFlag{(folder / "bench.json").string()}.write(document);
   flags.json.write(document);
   if (flags.json.only_json()) return;

@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "cli/compare_inputs.h"
+#include "cli/compare_rows.h"
 #include "cli/compare_stereo.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
@@ -14,63 +16,13 @@
 namespace gloam::cli {
 namespace {
 
-/// What of the reference a plane of the test is measured against where the user names that plane.
-std::string counterpart(const std::string& plane, const FrameFile& reference) {
-  const std::vector<std::string> planes = reference.common_planes();
-  if (contains(planes, plane)) return plane;
-  for (const PlanePair& pair : result_pairs()) {
-    if (pair.test == plane && contains(planes, pair.reference)) return pair.reference;
-  }
-  throw Error("{}: no plane '{}'{}; {}", reference.path().string(), plane, suggestion(plane, planes),
-              holdings(reference));
-}
-
-/// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
-std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked) {
-  const std::vector<std::string> a = test.common_planes(), b = reference.common_planes();
-  if (!asked.empty()) {
-    if (!contains(a, asked))
-      throw Error("{}: no plane '{}'{}; {}", test.path().string(), asked, suggestion(asked, a), holdings(test));
-    return {{asked, counterpart(asked, reference)}};
-  }
-  std::vector<PlanePair> pairs;
-  for (const PlanePair& pair : result_pairs()) {
-    if (contains(a, pair.test) && contains(b, pair.reference)) pairs.push_back(pair);
-  }
-  if (!pairs.empty()) return pairs;
-  // A result has the depth beside it that it was made from: two depths that are the same say nothing of two results.
-  const std::vector<std::string> results = results_among(a), truths = results_among(b);
-  if (!results.empty() && !truths.empty())
-    throw Error("{} has {} and {} has {}, which cannot be compared; --what PLANE compares another plane",
-                test.path().string(), enumerate(results), reference.path().string(), enumerate(truths));
-  for (const std::string& plane : inputs_among(a)) {
-    if (contains(b, plane)) pairs.push_back({plane, plane});
-  }
-  if (!pairs.empty()) return pairs;
-  throw Error("{} and {} have no plane in common: {}; {}", test.path().string(), reference.path().string(),
-              holdings(test), holdings(reference));
-}
-
-/// A frame with the plane to compare, and depth to know the background by; values as they stand in the file.
-struct Side {
-  FrameFile file;
-  Frame frame;
-
-  bool has(const std::string& plane) const {
-    return std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
-  }
-  void read(const std::string& plane) {
-    std::vector<std::string> planes = {plane};
-    if (plane != "depth" && contains(file.common_planes(), "depth")) planes.push_back("depth");
-    frame = file.read(planes);
-  }
-};
-
-/// Reads both sides and returns the planes to compare: the first that are of use in both.
-PlanePair read_sides(Side& test, Side& reference, const std::string& asked) {
+/// Looks through both sides and returns the planes to compare: the first that are of use in both. `is_told`: --frame tells the
+/// background.
+PlanePair survey_sides(Side& test, Side& reference, const std::string& asked, bool is_told) {
+  const bool test_tells = contains(test.file.common_planes(), "depth");
   for (const PlanePair& pair : comparable_planes(test.file, reference.file, asked)) {
-    test.read(pair.test);
-    reference.read(pair.reference);
+    test.survey(pair.test, !is_told);
+    reference.survey(pair.reference, !is_told && !test_tells);
     if (test.has(pair.test) && reference.has(pair.reference)) return pair;
   }
   const Side& unusable = test.frame.assumed.empty() ? reference : test;
@@ -129,56 +81,10 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_
               reference.path().string(), words(b));
 }
 
-/// Both frames over the same pixels: their windows, or the display window where they share one and the windows differ.
-Window common_window(const Side& test, const Side& reference) {
-  const Frame &a = test.frame, &b = reference.frame;
-  if (a.window == b.window) return a.window;
-  if (a.display == b.display) return a.display;
-  if (a.width() == b.width() && a.height() == b.height()) return {};  // same size, other origin
-  throw Error("{} is {}x{} and {} is {}x{}; only images of one size can be compared", test.file.path().string(),
-              a.width(), a.height(), reference.file.path().string(), b.width(), b.height());
-}
-
-/// How sure a reflection is, is no part of what it looks like, and in a truth it says something else.
-Plane without_confidence(Plane plane) {
-  if (plane.name == "reflection" && plane.channels.size() == 4) plane.channels.pop_back();
-  return plane;
-}
-
-/// Pixels of which the truth says that a view of the frame shows most of what they reflect; none where it does not say.
-std::optional<Mask> shown_pixels(const Plane& truth, const Mask& mask) {
-  if (truth.name != "reflection" || truth.channels.size() != 4) return {};
-  Mask shown = mask;
-  const Layout& layout = truth.channels[0].layout();
-  for (int y = 0; y < layout.height; ++y) {
-    for (int x = 0; x < layout.width; ++x) {
-      const size_t i = size_t(y) * size_t(layout.width) + size_t(x);
-      shown[i] = shown[i] && truth.channels[3].at(x, y) > 0.5f;
-    }
-  }
-  if (std::none_of(shown.begin(), shown.end(), [](auto m) { return m != 0; })) return {};
-  return shown;
-}
-
 /// By the flag, else by what the reference says.
 double exposure_of(const CompareFlags& flags, const FrameFile& reference, const std::string& plane) {
   if (!flags.exposure.empty()) return parse_number(flags.exposure, "--exposure", 1e-30, 1e30);
   return plane == "reflection" ? reference.number_attribute("gloamExposure").value_or(0) : 0;
-}
-
-/// Foreground of a view of one frame; none where it has no depth for that view.
-std::optional<Mask> foreground(const Frame& frame, const std::string& name, const Window& window,
-                               const Layout& layout) {
-  const auto view = std::find_if(frame.views.begin(), frame.views.end(), [&](const View& v) { return v.name == name; });
-  const Plane* depth = view == frame.views.end() ? nullptr : view->find("depth");
-  if (!depth || !covers(frame, window, layout)) return {};
-  const Plane z = cropped(*depth, frame.window, window);
-  Mask mask(size_t(layout.width) * size_t(layout.height));
-  for (int y = 0; y < layout.height; ++y) {
-    for (int x = 0; x < layout.width; ++x)
-      mask[size_t(y) * size_t(layout.width) + size_t(x)] = !is_background(z.channels[0].at(x, y));
-  }
-  return mask;
 }
 
 Json metrics_document(const Metrics& m) {
@@ -283,23 +189,82 @@ Frame background_frame(const CompareFlags& flags, const ReadOptions& options) {
 
 /// --frame first, since the user named it; then what the files themselves know.
 std::optional<Mask> mask_of(const CompareFlags& flags, const Frame& extra, const Side& test, const Side& reference,
-                            const std::pair<std::string, std::string>& views, const Window& window,
-                            const Layout& layout) {
-  if (!flags.frame.empty())
-    return foreground(extra, view_of(extra, views.first), window_under(extra, flags.frame, test.frame, window, layout),
-                      layout);
-  if (const auto mask = foreground(test.frame, views.first, window, layout)) return mask;
-  return foreground(reference.frame, views.second, window, layout);
+                            const std::pair<std::string, std::string>& views, const Overlap& overlap,
+                            const Rows& rows) {
+  if (!flags.frame.empty()) {
+    const Window window = window_under(extra, flags.frame, test.frame, overlap.window, overlap.layout);
+    return foreground(extra, view_of(extra, views.first), {window, overlap.layout}, rows);
+  }
+  if (const auto mask = foreground(test.frame, views.first, overlap, rows)) return mask;
+  return foreground(reference.frame, views.second, overlap, rows);
 }
 
+/// One view of the test against one of the reference.
+struct ViewComparison {
+  Comparison all, shown;  ///< shown: where the frame shows what is reflected
+  bool is_background_known = false;
+};
+
+/// What is compared, and what has come of it so far.
+struct Comparing {
+  const CompareFlags& flags;
+  Side &test, &reference;
+  const Frame& extra;
+  const ViewPairs& pairs;
+  PlanePair planes;
+  Overlap overlap;
+  double exposure;
+  std::vector<ViewComparison> views;
+  std::vector<std::string> pictures;
+};
+
 /// What cannot be compared, with the names of the files.
-Metrics compare_files(const CompareFlags& flags, const Plane& test, const Plane& truth, const Mask& mask,
-                      double exposure) {
+template <typename Work>
+auto naming_files(const CompareFlags& flags, const Work& work) {
   try {
-    return compare(test, truth, mask, exposure);
+    return work();
   } catch (const Error& error) {
     throw Error("{} against {}: {}", flags.test, flags.reference, error.what());
   }
+}
+
+/// Rows [first, last), with those around them that figures look at. All rows at once may be drawn.
+void add_rows(Comparing& c, int first, int last) {
+  const int height = c.overlap.layout.height;
+  const Rows rows{std::max(first - Comparison::reach(), 0), std::min(last + Comparison::reach(), height)};
+  const Frame tests = c.test.read(c.planes.test, c.overlap, rows),
+              truths = c.reference.read(c.planes.reference, c.overlap, rows);
+  for (size_t i = 0; i < c.pairs.size(); ++i) {
+    const auto& [test_view, truth_view] = c.pairs[i];
+    ViewComparison& view = c.views[i];
+    const Plane left = without_confidence(c.test.rows_of(tests, c.planes.test, test_view, c.overlap, rows));
+    Plane truth = c.reference.rows_of(truths, c.planes.reference, truth_view, c.overlap, rows);
+    const std::optional<Mask> known = mask_of(c.flags, c.extra, c.test, c.reference, c.pairs[i], c.overlap, rows);
+    view.is_background_known = known.has_value();
+    const Mask mask = known ? *known : Mask(size_t(c.overlap.layout.width) * size_t(rows.last - rows.first), 1);
+    const std::optional<Mask> where_shown = shown_pixels(truth, mask);
+    const Plane right = without_confidence(std::move(truth));
+    naming_files(c.flags, [&] {
+      view.all.add({left, right, mask, rows.first}, first, last);
+      if (where_shown) view.shown.add({left, right, *where_shown, rows.first}, first, last);
+    });
+    if (c.flags.picture.empty()) continue;
+    const Metrics figures = naming_files(c.flags, [&] { return view.all.figures(); });
+    c.pictures.push_back(picture_path(c.flags.picture, test_view, c.pairs.size() > 1).string());
+    write_difference_picture(
+        c.pictures.back(), left, right, mask, figures,
+        {c.test.file.path().filename().string(), c.reference.file.path().filename().string(), 0, c.exposure});
+  }
+}
+
+/// A picture shows the whole image; figures need some rows at a time.
+void add_all_rows(Comparing& c) {
+  const int height = c.overlap.layout.height;
+  const int at_once =
+      std::min(c.test.file.rows_at_once({c.planes.test}), c.reference.file.rows_at_once({c.planes.reference}));
+  const int steps = std::max(at_once / Comparison::step, 1);
+  const int step = c.flags.picture.empty() ? steps * Comparison::step : height;
+  for (int first = 0; first < height; first += step) add_rows(c, first, std::min(first + step, height));
 }
 
 void compare_command(const CompareFlags& flags) {
@@ -311,40 +276,37 @@ void compare_command(const CompareFlags& flags) {
   Side test{FrameFile(flags.test, options), {}};
   Side reference{FrameFile(flags.reference, options_beside(options, flags.reference)), {}};
   const auto pairs = pair_views(test.file, reference.file, !options.views.empty());
-  const PlanePair planes = read_sides(test, reference, flags.plane);
+  const unsigned long long memory =
+      planned_memory(flags.frame_flags, flags.test + " against " + flags.reference,
+                     bytes_of_comparison(flags, options, test.file, reference.file),
+                     flags.picture.empty() ? "compare one view (--view) or a part of it"
+                                           : "leave -o out, or compare one view (--view)");
+  const PlanePair planes = survey_sides(test, reference, flags.plane, !flags.frame.empty());
   if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test.file, reference.file);
   const Frame extra = background_frame(flags, options);
-  const Window window = common_window(test, reference);
   const double exposure = exposure_of(flags, reference.file, planes.reference);
+  Comparing comparing{flags, test, reference, extra, pairs, planes, overlap_of(test, reference), exposure, {}, {}};
+  const int height = comparing.overlap.layout.height;
+  for (size_t i = 0; i < pairs.size(); ++i)
+    comparing.views.push_back({Comparison(height, exposure), Comparison(height, exposure)});
+  add_all_rows(comparing);
   std::vector<Metrics> all, shown;
   Json views = Json::object();
   bool background_known = false;
-  std::vector<std::string> pictures;
-  for (const auto& pair : pairs) {
-    const Plane left =
-        without_confidence(cropped(*test.frame.view(pair.first).find(planes.test), test.frame.window, window));
-    Plane truth = cropped(*reference.frame.view(pair.second).find(planes.reference), reference.frame.window, window);
-    const Layout layout = left.channels[0].layout();
-    const std::optional<Mask> known = mask_of(flags, extra, test, reference, pair, window, layout);
-    background_known = background_known || known;
-    const Mask mask = known ? *known : Mask(size_t(layout.width) * size_t(layout.height), 1);
-    const std::optional<Mask> where_shown = shown_pixels(truth, mask);
-    const Plane right = without_confidence(std::move(truth));
-    all.push_back(compare_files(flags, left, right, mask, exposure));
-    views[pair.first] = metrics_document(all.back());
-    if (where_shown) {
-      shown.push_back(compare_files(flags, left, right, *where_shown, exposure));
-      views[pair.first]["shown"] = metrics_document(shown.back());
-    }
-    if (flags.picture.empty()) continue;
-    pictures.push_back(picture_path(flags.picture, pair.first, pairs.size() > 1).string());
-    write_difference_picture(
-        pictures.back(), left, right, mask, all.back(),
-        {test.file.path().filename().string(), reference.file.path().filename().string(), 0, exposure});
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const ViewComparison& view = comparing.views[i];
+    background_known = background_known || view.is_background_known;
+    all.push_back(naming_files(flags, [&] { return view.all.figures(); }));
+    views[pairs[i].first] = metrics_document(all.back());
+    if (view.shown.pixels() == 0) continue;
+    shown.push_back(view.shown.figures());
+    views[pairs[i].first]["shown"] = metrics_document(shown.back());
   }
+  const std::vector<std::string>& pictures = comparing.pictures;
   if (!background_known) note({"no depth in either file: every pixel counts; --frame FRAME.exr tells the background"});
   Json document = metrics_document(pooled(all));
   if (!shown.empty()) document["shown"] = metrics_document(pooled(shown));
+  document["memory_bytes"] = memory;
   if (exposure > 0) document["exposure"] = exposure;
   document["plane"] = planes.test;
   document["truth_plane"] = planes.reference;

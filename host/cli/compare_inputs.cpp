@@ -17,6 +17,17 @@ Channel crop(const Channel& channel, const Window& from, const Window& to) {
   return out;
 }
 
+/// What of the reference a plane of the test is measured against where the user names that plane.
+std::string counterpart(const std::string& plane, const FrameFile& reference) {
+  const std::vector<std::string> planes = reference.common_planes();
+  if (contains(planes, plane)) return plane;
+  for (const PlanePair& pair : result_pairs()) {
+    if (pair.test == plane && contains(planes, pair.reference)) return pair.reference;
+  }
+  throw Error("{}: no plane '{}'{}; {}", reference.path().string(), plane, suggestion(plane, planes),
+              holdings(reference));
+}
+
 }  // namespace
 
 void CompareFlags::take_plane_names() {
@@ -63,6 +74,31 @@ std::vector<std::string> inputs_among(const std::vector<std::string>& planes) {
     if (!contains(results, plane)) add_new(inputs, plane);
   }
   return inputs;
+}
+
+std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked) {
+  const std::vector<std::string> a = test.common_planes(), b = reference.common_planes();
+  if (!asked.empty()) {
+    if (!contains(a, asked))
+      throw Error("{}: no plane '{}'{}; {}", test.path().string(), asked, suggestion(asked, a), holdings(test));
+    return {{asked, counterpart(asked, reference)}};
+  }
+  std::vector<PlanePair> pairs;
+  for (const PlanePair& pair : result_pairs()) {
+    if (contains(a, pair.test) && contains(b, pair.reference)) pairs.push_back(pair);
+  }
+  if (!pairs.empty()) return pairs;
+  // A result has the depth beside it that it was made from: two depths that are the same say nothing of two results.
+  const std::vector<std::string> results = results_among(a), truths = results_among(b);
+  if (!results.empty() && !truths.empty())
+    throw Error("{} has {} and {} has {}, which cannot be compared; --what PLANE compares another plane",
+                test.path().string(), enumerate(results), reference.path().string(), enumerate(truths));
+  for (const std::string& plane : inputs_among(a)) {
+    if (contains(b, plane)) pairs.push_back({plane, plane});
+  }
+  if (!pairs.empty()) return pairs;
+  throw Error("{} and {} have no plane in common: {}; {}", test.path().string(), reference.path().string(),
+              holdings(test), holdings(reference));
 }
 
 Plane cropped(const Plane& plane, const Window& from, const Window& to) {

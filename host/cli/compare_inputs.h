@@ -32,6 +32,9 @@ std::vector<std::string> results_among(const std::vector<std::string>& planes);
 /// Those of a file's planes that techniques do not make, the most telling first.
 std::vector<std::string> inputs_among(const std::vector<std::string>& planes);
 
+/// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
+std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked);
+
 /// The part of a plane, which covers `from`, that `to` covers; all of it where `to` is empty.
 Plane cropped(const Plane& plane, const Window& from, const Window& to);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "cli/memory.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/stereo_consistency.h"
@@ -65,6 +66,16 @@ std::vector<Input> open_frame(const CompareFlags& flags, const ReadOptions& opti
   std::vector<Input> frames;
   if (!flags.frame.empty()) frames.push_back(opened(flags.frame, options_beside(options, flags.frame)));
   return frames;
+}
+
+/// Planes of both eyes as they are read, and once more as they are compared.
+unsigned long long bytes_of(const std::vector<Input>& results, const std::vector<Input>& frames,
+                            std::vector<std::string> geometry, const std::string& plane) {
+  unsigned long long bytes = 0;
+  for (const Input& frame : frames) bytes += frame.file.bytes_to_read(geometry);
+  add_new(geometry, plane);
+  for (const Input& result : results) bytes += result.file.bytes_to_read(geometry);
+  return process_bytes + 2 * bytes;
 }
 
 /// Reads of each file what it has of the geometry, and a plane.
@@ -385,6 +396,8 @@ void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   const std::string plane = flags.plane.empty() ? plane_to_compare(results) : plane_asked_for(results, flags.plane);
   std::vector<std::string> geometry = {"depth"};
   if (check.normal_check) geometry.push_back("normal");
+  const unsigned long long memory = planned_memory(
+      flags.frame_flags, flags.test, bytes_of(results, frames, geometry, plane), "give a smaller part of the image");
   read_all(results, geometry, plane);
   read_all(frames, geometry, "depth");
 
@@ -393,7 +406,9 @@ void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   const StereoInconsistency result = inconsistency_of(flags, pair, plane, check);
   note_assumptions(sources, check.normal_check && !result.normal_check);
   const std::vector<std::string> written = write_pictures(flags, stereo, magnify, pair, plane, result);
-  flags.json.write(document_of(result, pair, plane), written);
+  Json document = document_of(result, pair, plane);
+  document["memory_bytes"] = memory;
+  flags.json.write(document, written);
   if (!flags.json.only_json()) print_result(flags, result, pair, plane, written);
 }
 

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "cli/info_views.h"
+#include "cli/memory.h"
 #include "cli/options.h"
+#include "cli/plane_facts.h"
 #include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
@@ -15,36 +17,6 @@
 
 namespace gloam::cli {
 namespace {
-
-struct PlaneFacts {
-  PlaneSource source;
-  double min = std::numeric_limits<double>::infinity(), max = -min, mean = 0;
-  long long nonfinite = 0, counted = 0;
-};
-
-/// Range and mean of a plane over the foreground (everything where there is no depth).
-PlaneFacts facts_of(const PlaneSource& source, const Frame& frame, const FrameFile& file) {
-  PlaneFacts facts{source};
-  facts.nonfinite = file.nonfinite(source.plane, source.view);
-  const View& view = frame.view(source.view);
-  const Plane *depth = view.find("depth"), *plane = view.find(source.plane);
-  if (!plane) return facts;  // found of no use while it was read; `assumed` says why
-  double sum = 0;
-  for (const Channel& channel : plane->channels) {
-    for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) {
-        const float value = channel.at(x, y);
-        if ((depth && is_background(depth->channels[0].at(x, y))) || !std::isfinite(value)) continue;
-        facts.min = std::min(facts.min, double(value));
-        facts.max = std::max(facts.max, double(value));
-        sum += value;
-        ++facts.counted;
-      }
-    }
-  }
-  if (facts.counted) facts.mean = sum / double(facts.counted);
-  return facts;
-}
 
 /// Share of background over all views; none without depth.
 std::optional<double> background_share(const Frame& frame) {
@@ -272,10 +244,14 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   for (const PlaneSource& source : file.planes()) {
     if (std::find(all.begin(), all.end(), source.plane) == all.end()) all.push_back(source.plane);
   }
-  const Frame frame = file.read(all);
+  const unsigned long long memory =
+      planned_memory(flags.frame_flags, path,
+                     process_bytes + (picture.empty() ? file.bytes_to_read_by_rows(all) : file.bytes_to_read(all)),
+                     picture.empty() ? "crop or shrink the frame" : "leave --picture out, or shrink the frame");
+  // A picture shows all planes at once.
+  const Frame frame = picture.empty() ? file.survey(all) : file.read(all);
+  const std::vector<PlaneFacts> facts = picture.empty() ? facts_by_rows(file, frame) : facts_of(file, frame);
   file.verify();
-  std::vector<PlaneFacts> facts;
-  for (const PlaneSource& source : file.planes()) facts.push_back(facts_of(source, frame, file));
 
   Json cameras = Json::object(), first;
   for (const std::string& view : file.views()) {
@@ -302,7 +278,8 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"assumed", frame.assumed},
                    {"runs", abilities.runs},
                    {"lacks", abilities.lacks},
-                   {"unread", unread_channels(file)}};
+                   {"unread", unread_channels(file)},
+                   {"memory_bytes", memory}};
   const Radius suggested = default_radius(frame, stated_radius(file));
   const RadiusReport radius(suggested, frame, {});
   if (pixels_at_median_depth(frame)) radius.add_to(document);

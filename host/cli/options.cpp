@@ -196,6 +196,19 @@ void FrameFlags::add_to(CLI::App& app) {
       ->type_name("A,B")
       ->group("Reading the frame")
       ->excludes(one);
+  app.add_option("--limit-memory", limit_memory,
+                 "refuse, before anything is decoded, what would take more; default: what is available")
+      ->type_name("4G|512M")
+      ->group("Reading the frame");
+}
+
+/// What a float holds, or an infinity.
+static float parse_depth_value(const std::string& text, const std::string& flag) {
+  const double infinity = std::numeric_limits<double>::infinity(), most = std::numeric_limits<float>::max();
+  const double value = parse_number(text, flag, -infinity, infinity);
+  if (std::isfinite(value) && std::abs(value) > most)
+    throw UsageError("{} {} is not allowed; a number from {:g} to {:g}, inf or -inf is", flag, text, -most, most);
+  return float(value);
 }
 
 ReadOptions FrameFlags::read_options() const {
@@ -205,7 +218,7 @@ ReadOptions FrameFlags::read_options() const {
   const double most = std::numeric_limits<double>::infinity();
   if (!near.empty()) options.near = parse_number(near, "--near", 0, most);
   if (!far.empty()) options.far = parse_number(far, "--far", 0, most);
-  if (!background.empty()) options.background = float(parse_number(background, "--background", -most, most));
+  if (!background.empty()) options.background = parse_depth_value(background, "--background");
   options.depth = one_of<DepthConvention>(depth, "--depth",
                                           {{"auto", DepthConvention::automatic},
                                            {"z", DepthConvention::z},

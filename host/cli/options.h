@@ -24,7 +24,7 @@ using NamedPath = std::pair<std::string, std::string>;
 struct FrameFlags {
   std::string camera, depth = "auto", normal_space = "auto", view, views;
   std::vector<std::string> planes;
-  std::string fov, near, far, background;
+  std::string fov, near, far, background, limit_memory;
   void add_to(CLI::App& app);
   /// Throws UsageError for values out of range.
   ReadOptions read_options() const;

@@ -167,6 +167,7 @@ void pick_command(const PickCommand& flags) {
   const std::string command = run_line(flags, picked.finalists[picked.best].variation);
   Json document = document_of(picked, command, flags.by, device.info());
   radius.add_to(document);
+  document["memory_bytes"] = subject.memory_bytes;
   flags.json.write(document);
   if (flags.json.only_json()) return;
   print(picked, options.by, device.info());

@@ -1,8 +1,10 @@
 // gloam plan OUTPUT[,OUTPUT] FRAME.exr: what would be read, compiled and run. Needs no device.
 #include <memory>
 
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
+#include "gloam/memory.h"
 
 namespace gloam::cli {
 namespace {
@@ -58,14 +60,19 @@ void add_plan(CLI::App& app) {
     FrameFiles files = flags->frame.open(options);
     for (const FrameFile& file : files.files()) note(file.camera_notes());
     Plan plan = plan_for(files, request);
+    planned_memory(flags->frame_flags, files.name(), process_bytes + bytes_to_read(files, {"depth"}),
+                   "crop or shrink the frame");
     const std::vector<std::string> decoded = decoded_channels(plan.inputs, files);
     const std::optional<RadiusReport> radius = radius_of_depth(request, plan, files);
+    const unsigned long long memory = bytes_of_run(files, plan.inputs, plan, true);
     Json document = plan_document(plan, decoded);
+    document["memory_bytes"] = memory;
     if (radius) radius->add_to(document);
     flags->json.write(document);
     if (flags->json.only_json()) return;
     print_plan(plan, decoded);
     if (radius) radius->print();
+    fmt::print("memory    about {} at the peak\n", memory_in_words(memory));
   });
 }
 

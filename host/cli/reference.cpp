@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "cli/memory.h"
 #include "cli/radius.h"
 #include "cli/scene_flags.h"
 #include "gloam/error.h"
@@ -207,6 +208,8 @@ void reference_command(ReferenceCommand flags) {
   if (!contains(file.common_planes(), "depth")) throw Error("{}: has no depth; {}", flags.frame, holdings(file));
   const Scene scene = load_scene_of(flags, file);
   const Job job = is_ao ? ao_job(ao, flags, file, scene) : reflection_job(reflection);
+  planned_memory(flags.frame_flags, flags.frame, process_bytes_with_device + 2 * file.bytes_to_read(job.reads),
+                 "crop or shrink the frame");
   const Frame frame = file.read(job.reads);
   note(frame.assumed);
   note_other_scene(file, scene);

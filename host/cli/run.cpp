@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/statistics.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
 #include "gloam/error.h"
@@ -223,6 +224,13 @@ void run_command(const RunCommand& given) {
   FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
   Plan plan = plan_for(files, request);
   if (reads_history(plan) && flags.run_flags.seed.empty()) options.seed = seed_after(*files.history());
+  std::vector<std::string> planes = plan.inputs;
+  const std::vector<std::string> available = files.common_planes();
+  if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");
+  const unsigned long long memory = planned_memory(
+      flags.frame_flags, files.name(), flags.run_flags.device,
+      [&](bool shares_memory) { return bytes_of_run(files, planes, plan, shares_memory); },
+      "crop or shrink the frame, ask for less (--outputs, --resolution half), or for one view (--view)");
   watch.lap("open");
   // The device starts up and compiles while the planes are decoded. A large frame waits to hear that the device has the
   // memory for it.
@@ -242,9 +250,6 @@ void run_command(const RunCommand& given) {
     }
   });
   if (device_bytes(plan, layout, views) > (1ull << 30)) checked.get_future().get();
-  std::vector<std::string> planes = plan.inputs;
-  const std::vector<std::string> available = files.common_planes();
-  if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");
   Frame frame = files.read(planes);
   watch.lap("decode");
   note(frame.assumed);
@@ -268,6 +273,7 @@ void run_command(const RunCommand& given) {
   std::vector<std::string> written = {flags.out};
   written.insert(written.end(), pictures.begin(), pictures.end());
   Json figures = document(flags, plan, result, device.info(), decoded_channels(planes, files), watch);
+  figures["memory_bytes"] = memory;
   if (radius) radius->add_to(figures);
   flags.json.write(figures, written);
   if (flags.json.only_json()) return;

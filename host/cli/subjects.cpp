@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "cli/memory.h"
 #include "gloam/error.h"
+#include "gloam/metrics.h"
 #include "gloam/planes.h"
 
 namespace gloam::cli {
@@ -80,6 +82,35 @@ void read_frame(Subject& subject, FrameFile& file, const std::vector<const Techn
   note(subject.frame.assumed);
 }
 
+/// What is measured in turn is on the device together: each preset, at full and at half resolution.
+unsigned long long bytes_of_plans(const FrameFile& file, const std::vector<const Technique*>& techniques) {
+  const Layout layout(file.window().width(), file.window().height());
+  unsigned long long bytes = 0;
+  for (const Technique* technique : techniques) {
+    for (const int resolution : {1, 2}) {
+      try {
+        const Plan plan = whole_plan({.technique = technique, .resolution = resolution}, file.common_planes(), "");
+        bytes += std::max<size_t>(technique->presets.size(), 1) *
+                 bytes_beside_frame(plan, layout, file.views().size(), true);
+      } catch (const Error&) {  // said where it is skipped
+      }
+    }
+  }
+  return bytes;
+}
+
+/// Besides, the truth, an image that is measured against it, and masks.
+unsigned long long planned_memory_of(const FrameFile& file, const FrameFlags& flags,
+                                     const std::vector<const Technique*>& techniques) {
+  constexpr unsigned long long images = 4;
+  const int width = file.window().width();
+  const unsigned long long image = Layout(width, file.window().height()).bytes();
+  const unsigned long long bytes = process_bytes_with_device + file.bytes_to_read(planes_to_read(file, techniques)) +
+                                   bytes_of_plans(file, techniques) + images * file.views().size() * image +
+                                   Comparison::bytes(width, 1);
+  return planned_memory(flags, file.path().string(), bytes, "name fewer --techniques, or crop or shrink the frame");
+}
+
 void trace_truth(Subject& subject) {
   try {
     subject.truth = &subject.truths->truth(subject.frame);
@@ -129,6 +160,7 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   FrameFile file(frame, flags.read_options());
   subject.name = file.path().stem().string();
   subject.scene_class = "own";
+  subject.memory_bytes = planned_memory_of(file, flags, techniques);
   read_frame(subject, file, techniques);
   if (options.radius) subject.radius = {*options.radius, RadiusSource::flag};
   bool is_known = options.radius.has_value();

@@ -16,8 +16,11 @@ namespace gloam {
 namespace {
 
 /// Rows of the similarity maps made at a time. OpenCV holds some sixteen images of doubles per map, which for a whole
-/// 8192 x 8192 frame would be 8 GiB. A multiple of 4, see `gmsd`.
-constexpr int band_rows = 256;
+/// 8192 x 8192 frame would be 8 GiB. A multiple of 4, see `add_gmsd`.
+int band_rows(int width) {
+  constexpr int pixels = 1 << 20, least = 32;
+  return std::clamp(pixels / width / 4 * 4, least, Comparison::step);
+}
 
 /// SSIM's window is 11 x 11.
 constexpr int ssim_reach = 5;
@@ -42,8 +45,6 @@ void check_sizes(const Plane& test, const Plane& truth, const Mask& foreground) 
   if (foreground.size() != size_t(layout.width) * size_t(layout.height))
     throw Error("'{}' cannot be compared: the images have {}x{} pixels and the mask has {}", test.name, layout.width,
                 layout.height, foreground.size());
-  if (std::all_of(foreground.begin(), foreground.end(), [](unsigned char m) { return m == 0; }))
-    throw Error("'{}' cannot be compared: all {}x{} pixels are background", test.name, layout.width, layout.height);
 }
 
 void check_finite(float value, const Plane& plane, const char* image, int x, int y) {
@@ -52,39 +53,15 @@ void check_finite(float value, const Plane& plane, const char* image, int x, int
               image, value, x, y);
 }
 
-/// What the simple figures are made of. Doubles, added in pixel order on one thread: the same bits every time.
-struct Sums {
-  long long pixels = 0, over_1_255 = 0, over_0_05 = 0;
-  double absolute = 0, squared = 0, difference = 0, max = 0;
-};
+int width_of(const ComparedRows& rows) { return rows.test.channels[0].layout().width; }
 
-void add_pixel(Sums& sums, const Plane& test, const Plane& truth, int x, int y) {
-  double largest = 0;
-  for (size_t c = 0; c < test.channels.size(); ++c) {
-    const float a = test.channels[c].at(x, y), b = truth.channels[c].at(x, y);
-    check_finite(a, test, "test", x, y);
-    check_finite(b, truth, "truth", x, y);
-    const double d = double(a) - double(b);
-    sums.absolute += std::abs(d);
-    sums.squared += d * d;
-    sums.difference += d;
-    largest = std::max(largest, std::abs(d));
-  }
-  ++sums.pixels;
-  sums.max = std::max(sums.max, largest);
-  sums.over_1_255 += largest > 1.0 / 255;
-  sums.over_0_05 += largest > 0.05;
+/// Whether a pixel of the image counts.
+bool counts(const ComparedRows& rows, int x, int y) {
+  return rows.foreground[size_t(y - rows.top) * size_t(width_of(rows)) + size_t(x)] != 0;
 }
 
-Sums add_all(const Plane& test, const Plane& truth, const Mask& foreground) {
-  const Layout& layout = test.channels[0].layout();
-  Sums sums;
-  for (int y = 0; y < layout.height; ++y)
-    for (int x = 0; x < layout.width; ++x)
-      if (foreground[size_t(y) * size_t(layout.width) + size_t(x)]) add_pixel(sums, test, truth, x, y);
-  return sums;
-}
-
+/// `Sums`: of Comparison.
+template <typename Sums>
 Metrics simple_figures(const Sums& sums, size_t components) {
   const double pixels = double(sums.pixels), values = pixels * double(components);
   const double mse = sums.squared / values;
@@ -100,15 +77,14 @@ Metrics simple_figures(const Sums& sums, size_t components) {
   return m;
 }
 
-/// Rows [first, last) as OpenCV's measures want them: 0..255. Background is open (1) in both images, so that whatever
+/// Rows [first, last) of the image as OpenCV's measures want them: 0..255. Background is open (1) in both images, so that whatever
 /// stands there says nothing, not even through a window that reaches across the edge of a surface.
-cv::Mat scaled_rows(const Channel& channel, const Mask& foreground, int first, int last) {
-  const int width = channel.layout().width;
+cv::Mat scaled_rows(const Channel& channel, const ComparedRows& of, int first, int last) {
+  const int width = width_of(of);
   cv::Mat rows(last - first, width, CV_64F);
   for (int y = first; y < last; ++y) {
-    const unsigned char* counts = foreground.data() + size_t(y) * size_t(width);
     double* out = rows.ptr<double>(y - first);
-    for (int x = 0; x < width; ++x) out[x] = counts[x] ? 255.0 * double(channel.at(x, y)) : 255.0;
+    for (int x = 0; x < width; ++x) out[x] = counts(of, x, y) ? 255.0 * double(channel.at(x, y - of.top)) : 255.0;
   }
   return rows;
 }
@@ -116,75 +92,26 @@ cv::Mat scaled_rows(const Channel& channel, const Mask& foreground, int first, i
 /// SSIM lies in -1..1; only rounding, with values of a million and more, leads out of it.
 double bounded(double similarity) { return std::isfinite(similarity) ? std::clamp(similarity, -1.0, 1.0) : 0.0; }
 
-/// Mean of the SSIM map over the foreground. The bands overlap by the reach of the window: the same values as from the
-/// whole image at once.
-double ssim(const Channel& test, const Channel& truth, const Mask& foreground) {
-  const int width = test.layout().width, height = test.layout().height;
-  double sum = 0;
-  long long count = 0;
-  for (int y0 = 0; y0 < height; y0 += band_rows) {
-    const int y1 = std::min(y0 + band_rows, height);
-    const int first = std::max(y0 - ssim_reach, 0), last = std::min(y1 + ssim_reach, height);
-    cv::Mat map;
-    cv::quality::QualitySSIM::compute(scaled_rows(truth, foreground, first, last),
-                                      scaled_rows(test, foreground, first, last), map);
-    for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < width; ++x)
-        if (foreground[size_t(y) * size_t(width) + size_t(x)]) {
-          sum += bounded(map.at<double>(y - first, x));
-          ++count;
-        }
-  }
-  return sum / double(count);
-}
-
 /// Whether the block of 2 x 2 pixels that became pixel (x, y) of the GMSD map holds foreground.
-bool block_counts(const Mask& foreground, const Layout& layout, int x, int y) {
-  for (int v = 2 * y; v < std::min(2 * y + 2, layout.height); ++v)
-    for (int u = 2 * x; u < std::min(2 * x + 2, layout.width); ++u)
-      if (foreground[size_t(v) * size_t(layout.width) + size_t(u)]) return true;
+bool block_counts(const ComparedRows& rows, int height, int x, int y) {
+  for (int v = 2 * y; v < std::min(2 * y + 2, height); ++v)
+    for (int u = 2 * x; u < std::min(2 * x + 2, width_of(rows)); ++u)
+      if (counts(rows, u, v)) return true;
   return false;
 }
 
-/// Similarity of gradients for rows [first, last): a map of half the size, as OpenCV halves the images first. Where
+/// Similarity of gradients for rows [first, last) of the image: a map of half the size, as OpenCV halves the images first. Where
 /// an image is one pixel wide or high nothing would be left, so that pixel is doubled.
-cv::Mat gradient_similarity(const Channel& test, const Channel& truth, const Mask& foreground, int first, int last) {
-  const Layout& layout = test.layout();
-  const auto prepared = [&](const Channel& channel) {
-    cv::Mat rows = scaled_rows(channel, foreground, first, last);
-    if (layout.width == 1) cv::hconcat(rows, rows, rows);
-    if (layout.height == 1) cv::vconcat(rows, rows, rows);
+cv::Mat gradient_similarity(const ComparedRows& of, size_t channel, int height, int first, int last) {
+  const auto prepared = [&](const Plane& plane) {
+    cv::Mat rows = scaled_rows(plane.channels[channel], of, first, last);
+    if (width_of(of) == 1) cv::hconcat(rows, rows, rows);
+    if (height == 1) cv::vconcat(rows, rows, rows);
     return rows;
   };
   cv::Mat map;
-  cv::quality::QualityGMSD::compute(prepared(truth), prepared(test), map);
+  cv::quality::QualityGMSD::compute(prepared(of.truth), prepared(of.test), map);
   return map;
-}
-
-/// Standard deviation of the map over the blocks that hold foreground; 0 where the map sees none of it (OpenCV drops
-/// the last column of an image 5 pixels wide: it rounds half the width to an even number). Bands start at multiples
-/// of 4 rows, which keeps that rounding the same as for the whole image.
-double gmsd(const Channel& test, const Channel& truth, const Mask& foreground) {
-  const Layout& layout = test.layout();
-  double sum = 0, squares = 0;  // of similarity - 1, which is small: no cancellation, and exactly 0 for equal images
-  long long count = 0;
-  for (int y0 = 0; y0 < layout.height; y0 += band_rows) {
-    const int y1 = std::min(y0 + band_rows, layout.height);
-    const int first = std::max(y0 - gmsd_reach, 0), last = std::min(y1 + gmsd_reach, layout.height);
-    const cv::Mat map = gradient_similarity(test, truth, foreground, first, last);
-    const int end = y1 == layout.height ? first / 2 + map.rows : y1 / 2;
-    for (int y = y0 / 2; y < end; ++y)
-      for (int x = 0; x < map.cols; ++x)
-        if (block_counts(foreground, layout, x, y)) {
-          const double below = map.at<double>(y - first / 2, x) - 1;
-          sum += below;
-          squares += below * below;
-          ++count;
-        }
-  }
-  if (count == 0) return 0;
-  const double mean = sum / double(count);
-  return std::sqrt(std::max(squares / double(count) - mean * mean, 0.0));
 }
 
 constexpr size_t colours = 3;
@@ -196,39 +123,18 @@ bool is_colour(const Plane& plane) {
          std::equal(rgb.begin(), rgb.end(), names.begin());
 }
 
-/// Rows [first, last) of three channels. Background is white in both images.
-cv::Mat colour_rows(const Plane& plane, const Mask& foreground, int first, int last) {
-  const int width = plane.channels[0].layout().width;
+/// Rows [first, last) of the image, three channels. Background is white in both images.
+cv::Mat colour_rows(const Plane& plane, const ComparedRows& of, int first, int last) {
+  const int width = width_of(of);
   cv::Mat rows(last - first, width, CV_64FC3);
   for (int y = first; y < last; ++y) {
-    const unsigned char* counts = foreground.data() + size_t(y) * size_t(width);
     cv::Vec3d* out = rows.ptr<cv::Vec3d>(y - first);
     for (int x = 0; x < width; ++x) {
-      for (size_t c = 0; c < colours; ++c) out[x][int(c)] = counts[x] ? double(plane.channels[c].at(x, y)) : 1.0;
+      for (size_t c = 0; c < colours; ++c)
+        out[x][int(c)] = counts(of, x, y) ? double(plane.channels[c].at(x, y - of.top)) : 1.0;
     }
   }
   return rows;
-}
-
-/// Mean of the FLIP map over the foreground, in bands that overlap as those of `ssim` do.
-double flip(const Plane& test, const Plane& truth, const Mask& foreground) {
-  const int width = test.channels[0].layout().width, height = test.channels[0].layout().height;
-  double sum = 0;
-  long long count = 0;
-  for (int y0 = 0; y0 < height; y0 += band_rows) {
-    const int y1 = std::min(y0 + band_rows, height);
-    const int first = std::max(y0 - flip_reach(), 0), last = std::min(y1 + flip_reach(), height);
-    const cv::Mat map =
-        flip_map(colour_rows(test, foreground, first, last), colour_rows(truth, foreground, first, last));
-    for (int y = y0; y < y1; ++y) {
-      for (int x = 0; x < width; ++x) {
-        if (!foreground[size_t(y) * size_t(width) + size_t(x)]) continue;
-        sum += map.at<double>(y - first, x);
-        ++count;
-      }
-    }
-  }
-  return sum / double(count);
 }
 
 template <typename Function>
@@ -252,49 +158,160 @@ Plane encoded(const Plane& linear) {
   return with_each(linear, [](float v) { return std::isfinite(v) ? float(srgb(v)) : v; });
 }
 
+}  // namespace
+
+double Comparison::Deviation::value() const {
+  if (count == 0) return 0;
+  const double mean = sum / double(count);
+  return std::sqrt(std::max(squares / double(count) - mean * mean, 0.0));
+}
+
+int Comparison::reach() { return std::max({ssim_reach, gmsd_reach, flip_reach()}); }
+
+unsigned long long Comparison::bytes(int width, size_t components) {
+  constexpr unsigned long long maps = 20, of_colour = 3;
+  const unsigned long long rows = static_cast<unsigned long long>(band_rows(width) + 2 * reach());
+  return maps * sizeof(double) * rows * static_cast<unsigned long long>(width) *
+         (components >= colours ? of_colour : 1);
+}
+
+void Comparison::add_pixel(const ComparedRows& rows, int x, int y) {
+  double largest = 0;
+  for (size_t c = 0; c < rows.test.channels.size(); ++c) {
+    const float a = rows.test.channels[c].at(x, y - rows.top), b = rows.truth.channels[c].at(x, y - rows.top);
+    check_finite(a, rows.test, "test", x, y);
+    check_finite(b, rows.truth, "truth", x, y);
+    const double d = double(a) - double(b);
+    sums_.absolute += std::abs(d);
+    sums_.squared += d * d;
+    sums_.difference += d;
+    largest = std::max(largest, std::abs(d));
+  }
+  ++sums_.pixels;
+  sums_.max = std::max(sums_.max, largest);
+  sums_.over_1_255 += largest > 1.0 / 255;
+  sums_.over_0_05 += largest > 0.05;
+}
+
+void Comparison::add_simple(const ComparedRows& rows, int first, int last) {
+  for (int y = first; y < last; ++y)
+    for (int x = 0; x < width_of(rows); ++x)
+      if (counts(rows, x, y)) add_pixel(rows, x, y);
+}
+
+/// Over the foreground. The bands overlap by the reach of the window: the same values as from the whole image at once.
+void Comparison::add_ssim(const ComparedRows& rows, size_t channel, int y0, int y1) {
+  const int first = std::max(y0 - ssim_reach, 0), last = std::min(y1 + ssim_reach, height_);
+  cv::Mat map;
+  cv::quality::QualitySSIM::compute(scaled_rows(rows.truth.channels[channel], rows, first, last),
+                                    scaled_rows(rows.test.channels[channel], rows, first, last), map);
+  for (int y = y0; y < y1; ++y)
+    for (int x = 0; x < width_of(rows); ++x)
+      if (counts(rows, x, y)) {
+        ssim_[channel].sum += bounded(map.at<double>(y - first, x));
+        ++ssim_[channel].count;
+      }
+}
+
+/// Over the blocks that hold foreground; none where the map sees none of it (OpenCV drops the last column of an image 5 pixels
+/// wide: it rounds half the width to an even number). Bands start at multiples of 4 rows, which keeps that rounding the same
+/// as for the whole image.
+void Comparison::add_gmsd(const ComparedRows& rows, size_t channel, int y0, int y1) {
+  const int first = std::max(y0 - gmsd_reach, 0), last = std::min(y1 + gmsd_reach, height_);
+  const cv::Mat map = gradient_similarity(rows, channel, height_, first, last);
+  const int end = y1 == height_ ? first / 2 + map.rows : y1 / 2;
+  Deviation& deviation = gmsd_[channel];
+  for (int y = y0 / 2; y < end; ++y)
+    for (int x = 0; x < map.cols; ++x)
+      if (block_counts(rows, height_, x, y)) {
+        const double below = map.at<double>(y - first / 2, x) - 1;
+        deviation.sum += below;
+        deviation.squares += below * below;
+        ++deviation.count;
+      }
+}
+
+/// Over the foreground, in bands that overlap as those of SSIM do.
+void Comparison::add_flip(const ComparedRows& rows, int y0, int y1) {
+  const int first = std::max(y0 - flip_reach(), 0), last = std::min(y1 + flip_reach(), height_);
+  const cv::Mat map = flip_map(colour_rows(rows.test, rows, first, last), colour_rows(rows.truth, rows, first, last));
+  for (int y = y0; y < y1; ++y) {
+    for (int x = 0; x < width_of(rows); ++x) {
+      if (!counts(rows, x, y)) continue;
+      flip_->sum += map.at<double>(y - first, x);
+      ++flip_->count;
+    }
+  }
+}
+
 /// Where the truth is dark the difference counts by itself.
-double relative_squared_error(const Plane& test, const Plane& truth, const Mask& foreground) {
-  const int width = test.channels[0].layout().width, height = test.channels[0].layout().height;
-  double sum = 0;
-  long long count = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (!foreground[size_t(y) * size_t(width) + size_t(x)]) continue;
+void Comparison::add_relative(const ComparedRows& rows, int first, int last) {
+  for (int y = first; y < last; ++y) {
+    for (int x = 0; x < width_of(rows); ++x) {
+      if (!counts(rows, x, y)) continue;
       for (size_t c = 0; c < colours; ++c) {
-        const double expected = truth.channels[c].at(x, y), d = double(test.channels[c].at(x, y)) - expected;
-        sum += d * d / (expected * expected + 0.01);
-        ++count;
+        const double expected = rows.truth.channels[c].at(x, y - rows.top),
+                     d = double(rows.test.channels[c].at(x, y - rows.top)) - expected;
+        relative_->sum += d * d / (expected * expected + 0.01);
+        ++relative_->count;
       }
     }
   }
-  return sum / double(count);
 }
 
-}  // namespace
+void Comparison::add(const ComparedRows& rows, int first, int last) {
+  check_sizes(rows.test, rows.truth, rows.foreground);
+  const size_t components = rows.test.channels.size();
+  if (ssim_.empty()) {
+    name_ = rows.test.name;
+    size_ = fmt::format("{}x{}", width_of(rows), height_);
+    ssim_.resize(components);
+    gmsd_.resize(components);
+    if (is_colour(rows.test)) flip_.emplace(), relative_.emplace();
+  }
+  add_simple(rows, first, last);
+  if (relative_) add_relative(rows, first, last);
+  // OpenCV would start OpenCL by itself and compute there, with other rounding on every device.
+  cv::ocl::setUseOpenCL(false);
+  const auto add_maps = [&](const ComparedRows& linear, const ComparedRows& seen) {
+    const int band = band_rows(width_of(rows));
+    for (int y0 = first; y0 < last; y0 += band) {
+      const int y1 = std::min(y0 + band, last);
+      for (size_t c = 0; c < components; ++c) add_ssim(seen, c, y0, y1), add_gmsd(seen, c, y0, y1);
+      if (flip_) add_flip(linear, y0, y1);
+    }
+  };
+  if (exposure_ > 0) {
+    const Plane a = exposed(rows.test, exposure_), b = exposed(rows.truth, exposure_);
+    const Plane seen_a = encoded(a), seen_b = encoded(b);
+    add_maps({a, b, rows.foreground, rows.top}, {seen_a, seen_b, rows.foreground, rows.top});
+  } else {
+    add_maps(rows, rows);
+  }
+}
+
+Metrics Comparison::figures() const {
+  if (pixels() == 0) throw Error("'{}' cannot be compared: all {} pixels are background", name_, size_);
+  const size_t components = ssim_.size();
+  Metrics metrics = simple_figures(sums_, components);
+  for (size_t c = 0; c < components; ++c) {
+    metrics.ssim += ssim_[c].value() / double(components);
+    metrics.gmsd += gmsd_[c].value() / double(components);
+  }
+  if (flip_) metrics.flip = flip_->value();
+  if (relative_) metrics.rse = relative_->value();
+  return metrics;
+}
 
 Metrics compare(const Plane& test, const Plane& truth, const Mask& foreground, double exposure) {
   check_sizes(test, truth, foreground);
-  const size_t components = test.channels.size();
-  Metrics metrics = simple_figures(add_all(test, truth, foreground), components);
-  // OpenCV would start OpenCL by itself and compute there, with other rounding on every device.
-  cv::ocl::setUseOpenCL(false);
-  const auto add = [&](const Plane& a, const Plane& b, const Plane& encoded_a, const Plane& encoded_b) {
-    for (size_t c = 0; c < components; ++c) {
-      metrics.ssim += ssim(encoded_a.channels[c], encoded_b.channels[c], foreground) / double(components);
-      metrics.gmsd += gmsd(encoded_a.channels[c], encoded_b.channels[c], foreground) / double(components);
-    }
-    if (is_colour(test)) metrics.flip = flip(a, b, foreground);
-  };
-  if (exposure > 0) {
-    const Plane a = exposed(test, exposure), b = exposed(truth, exposure);
-    add(a, b, encoded(a), encoded(b));
-  } else {
-    add(test, truth, test, truth);
-  }
-  if (is_colour(test)) {
-    metrics.rse = relative_squared_error(test, truth, foreground);
-  }
-  return metrics;
+  if (std::all_of(foreground.begin(), foreground.end(), [](unsigned char m) { return m == 0; }))
+    throw Error("'{}' cannot be compared: all {}x{} pixels are background", test.name, test.channels[0].layout().width,
+                test.channels[0].layout().height);
+  const int height = test.channels[0].layout().height;
+  Comparison comparison(height, exposure);
+  comparison.add({test, truth, foreground}, 0, height);
+  return comparison.figures();
 }
 
 }  // namespace gloam

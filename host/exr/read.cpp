@@ -25,6 +25,8 @@
 #include "base/lists.h"
 #include "camera/camera_io.h"
 #include "exr/channel_names.h"
+#include "exr/decode.h"
+#include "exr/file.h"
 #include "exr/stream.h"
 #include "exr/validation.h"
 #include "exr/verify.h"
@@ -43,48 +45,6 @@ namespace fs = std::filesystem;
 constexpr double assumed_fov = 60;
 /// Width over height: beyond, a header's pixelAspectRatio is no statement about pixels.
 constexpr float narrowest_pixel = 0.01f;
-
-// --- Errors
-// -----------------------------------------------------------------------------------------------------------
-
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  return text;
-}
-
-/// OpenEXR's message without the file's name, which stands before it anyway.
-std::string cause(const std::exception& error, const fs::path& path) {
-  const std::string text = one_line(error.what()), quoted = '"' + path.string() + "\". ";
-  const size_t at = text.find(quoted);
-  return at == std::string::npos ? text : text.substr(at + quoted.size());
-}
-
-/// Runs what OpenEXR does with a file; whatever it throws becomes one line that names the file.
-template <typename Work>
-auto guarded(const fs::path& path, Work&& work) {
-  try {
-    return work();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw Error("{}: not enough memory to read it", path.string());
-  } catch (const std::exception& error) {
-    throw Error("{}: truncated or corrupted EXR ({}); render or copy it again", path.string(), cause(error, path));
-  }
-}
-
-/// Adds the file's name to an error about its contents.
-template <typename Work>
-auto named(const fs::path& path, Work&& work) {
-  try {
-    return work();
-  } catch (const UsageError& error) {
-    throw UsageError("{}: {}", path.string(), error.what());
-  } catch (const Error& error) {
-    throw Error("{}: {}", path.string(), error.what());
-  }
-}
 
 // --- Attributes
 // -------------------------------------------------------------------------------------------------------
@@ -163,61 +123,6 @@ std::optional<Camera> camera_in(const Imf::Header& header, const std::string& pr
 // --- Decoding
 // ---------------------------------------------------------------------------------------------------------
 
-/// Where one channel of the file goes: the first is decoded into, the rest are copies (a part that views share).
-struct Decoding {
-  std::vector<Channel*> targets;
-  float outside = 0;
-};
-using PartDecoding = std::map<std::string, Decoding>;  // by channel name
-
-Imf::Slice slice_of(Channel& channel, const Window& window) {
-  const Layout& layout = channel.layout();
-  return Imf::Slice::Make(Imf::FLOAT, channel.row(0), Imath::V2i(window.x0, window.y0), layout.width, layout.height,
-                          sizeof(float), sizeof(float) * size_t(layout.pitch));
-}
-
-void check_sampling(const Imf::Header& header, const PartDecoding& decoding) {
-  for (const auto& [name, unused] : decoding) {
-    const Imf::Channel* channel = header.channels().findChannel(name);
-    if (channel && (channel->xSampling != 1 || channel->ySampling != 1))
-      throw Error("channel '{}' is subsampled {} x {}; save it at full resolution", name, channel->xSampling,
-                  channel->ySampling);
-  }
-}
-
-Imf::FrameBuffer frame_buffer(PartDecoding& decoding, const Window& window) {
-  Imf::FrameBuffer buffer;
-  for (auto& [name, target] : decoding) buffer.insert(name, slice_of(*target.targets.front(), window));
-  return buffer;
-}
-
-/// Sets what the part's data window leaves out.
-void fill_outside(Channel& channel, const Box& data, const Window& window, float value) {
-  const int width = window.width();
-  const int left = int(data.x0 - window.x0), right = int(data.x1 - window.x0);
-  const int top = int(data.y0 - window.y0), bottom = int(data.y1 - window.y0);
-  for (int y = 0; y < window.height(); ++y) {
-    float* row = channel.row(y);
-    if (y < top || y >= bottom) {
-      std::fill(row, row + width, value);
-      continue;
-    }
-    std::fill(row, row + left, value);
-    std::fill(row + right, row + width, value);
-  }
-}
-
-void copy_image(const Channel& from, Channel& to) { std::memcpy(to.data(), from.data(), from.layout().bytes()); }
-
-/// Inside the data window: the rest is not in the file.
-long long count_nonfinite(const Channel& channel, const Box& data, const Window& window) {
-  long long count = 0;
-  for (int64_t y = data.y0 - window.y0; y < data.y1 - window.y0; ++y)
-    for (int64_t x = data.x0 - window.x0; x < data.x1 - window.x0; ++x)
-      count += !std::isfinite(channel.at(int(x), int(y)));
-  return count;
-}
-
 bool holds(const Channel& channel, float value) {
   for (int y = 0; y < channel.layout().height; ++y)
     if (const float* row = channel.row(y);
@@ -235,25 +140,6 @@ bool all_background(const Channel& depth) {
 void scale_image(Channel& channel, float scale) {
   for (int y = 0; y < channel.layout().height; ++y)
     for (float* p = channel.row(y); p != channel.row(y) + channel.layout().width; ++p) *p *= scale;
-}
-
-void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding, const Window& window) {
-  const Imf::Header& header = file.header(part);
-  const Imf::FrameBuffer buffer = frame_buffer(decoding, window);
-  if (header.hasTileDescription()) {
-    Imf::TiledInputPart input(file, part);
-    input.setFrameBuffer(buffer);
-    input.readTiles(0, input.numXTiles(0) - 1, 0, input.numYTiles(0) - 1, 0);
-  } else {
-    Imf::InputPart input(file, part);
-    input.setFrameBuffer(buffer);
-    input.readPixels(header.dataWindow().min.y, header.dataWindow().max.y);
-  }
-  const Box data = box_of(header.dataWindow());
-  for (auto& [name, target] : decoding) {
-    fill_outside(*target.targets.front(), data, window, target.outside);
-    for (size_t i = 1; i < target.targets.size(); ++i) copy_image(*target.targets.front(), *target.targets[i]);
-  }
 }
 
 std::string type_name(Imf::PixelType type) {
@@ -300,66 +186,6 @@ void check_clipping(const ReadOptions& options, const Camera& camera) {
 
 // --- FrameFile
 // --------------------------------------------------------------------------------------------------------
-
-struct FrameFile::Impl {
-  fs::path path;
-  ReadOptions options;
-  std::unique_ptr<ExrInput> stream;
-  std::unique_ptr<Imf::MultiPartInputFile> file;
-  Window display, window;
-  NamedPlanes names;
-  std::vector<std::string> part_views;  // by the attribute `view`, else by the parts' names; "" where nothing tells
-  std::vector<std::string> channel_names;
-  double pixel_aspect = 1;
-  std::map<std::string, Camera> cameras, modules, from_json;
-  bool json_read = false;
-  std::map<std::string, Pose> poses;  // of views whose header tells the pose and nothing else
-  std::string json_name;              // of the camera JSON that was read
-  bool json_is_shared = false;        // it is that of the other eye's file too
-  std::string json_misfit;            // why it is not used: found, not asked for, and without a camera for some view
-  std::optional<Eye> eye;             // the file is one of two eyes
-  std::vector<std::string> camera_notes;
-  std::string convention, space;
-  bool background_seen = false;  // some pixel has the depth that --background names
-  std::map<std::pair<std::string, std::string>, long long> nonfinite;  // by plane and view
-
-  void open();
-  void check_parts() const;
-  void find_planes();
-  void find_window();
-  void set_window(const Box& box);
-  void become(const Eye& as);
-  void find_cameras();
-  void name_parts();
-  std::string view_of_part(int part) const { return part_views[size_t(part)]; }
-  std::vector<FileChannel> list_channels() const;
-  std::vector<std::string> multi_view() const;
-  const Imf::Header& header_of(const std::string& view) const;
-  template <typename Found>
-  auto in_headers(const std::string& view, const Found& found) const;
-  const std::map<std::string, Camera>& display_cameras();
-  std::optional<Camera> header_camera(const std::string& view);
-  std::optional<Pose> header_pose(const std::string& view);
-  std::map<std::string, Camera> json_cameras();
-  std::optional<Camera> json_camera(const std::map<std::string, Camera>& from_json, const std::string& view);
-  std::optional<Camera> known_camera(const std::string& view, std::optional<Pose>& pose);
-  template <typename Find>
-  void passing_over(bool is_allowed, const Find& find);
-  const PlaneSource* source(const std::string& plane, const std::string& view) const;
-  bool has(const std::string& plane, const std::string& view) const;
-  std::string any_text(const std::string& name) const;
-  bool any_attribute(const std::string& name) const;
-
-  std::vector<std::string> needed(const std::vector<std::string>& planes) const;
-  Frame allocate(const std::vector<std::string>& planes) const;
-  void decode(Frame& frame);
-  void convert_depth(View& view, Frame& frame);
-  void convert_normals(View& view, Frame& frame);
-  void judge_reflectance(View& view, Frame& frame) const;
-  void judge_positions(View& view, Frame& frame) const;
-  NormalSpace said_space(const PlaneSource& normal) const;
-  void settle_camera(View& view, Frame& frame) const;
-};
 
 void FrameFile::Impl::open() {
   stream = std::make_unique<ExrInput>(path);
@@ -632,12 +458,13 @@ std::vector<std::string> FrameFile::Impl::needed(const std::vector<std::string>&
   return all;
 }
 
-Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes) const {
+/// `rows`: as wide as the window.
+Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes, const Window& rows) const {
   Frame frame;
   frame.display = display;
-  frame.window = window;
+  frame.window = rows;
   frame.pixel_aspect = pixel_aspect;
-  const Layout layout(window.width(), window.height());
+  const Layout layout(rows.width(), rows.height());
   for (const std::string& name : names.views) {
     View& view = frame.views.emplace_back();
     view.name = name;
@@ -660,7 +487,6 @@ Frame FrameFile::Impl::allocate(const std::vector<std::string>& planes) const {
 }
 
 void FrameFile::Impl::decode(Frame& frame) {
-  nonfinite.clear();
   std::map<int, PartDecoding> parts;
   for (View& view : frame.views)
     for (auto& [name, plane] : view.planes) {
@@ -676,16 +502,16 @@ void FrameFile::Impl::decode(Frame& frame) {
     PartDecoding& decoding = decodings;
     named(path, [&] { check_sampling(file->header(part), decoding); });
     check_plausible(path, file->header(part), stream->size());
-    guarded(path, [&] { decode_part(*file, part, decoding, window); });
+    guarded(path, [&] { decode_part(*file, part, decoding, frame.window); });
   }
   for (View& view : frame.views)
     for (auto& [name, plane] : view.planes) {
       const PlaneSource* from = source(name, view.name);
       for (size_t i = 0; from && i < from->channels.size(); ++i)
         if (from->channels[i].scale != 1) scale_image(plane.channels[i], from->channels[i].scale);
-      for (size_t i = 0; from && options.count_nonfinite && i < from->channels.size(); ++i)
+      for (size_t i = 0; from && options.count_nonfinite && !is_surveying && i < from->channels.size(); ++i)
         nonfinite[{name, view.name}] +=
-            count_nonfinite(plane.channels[i], box_of(file->header(from->channels[i].part).dataWindow()), window);
+            count_nonfinite(plane.channels[i], box_of(file->header(from->channels[i].part).dataWindow()), frame.window);
     }
 }
 
@@ -762,34 +588,56 @@ NormalSpace FrameFile::Impl::said_space(const PlaneSource& normal) const {
   return any_text("BlenderMultiChannel").empty() ? NormalSpace::automatic : NormalSpace::world;
 }
 
+/// What becomes of a view's normals: none where they are of no use. `count_missing`: pixels of the foreground without any, once
+/// they are in that form.
+std::optional<NormalForm> FrameFile::Impl::settle_normals(
+    const View& view, const NormalSamples& samples, const std::function<long long(const NormalForm&)>& count_missing,
+    Frame& frame) {
+  const Plane* depth = view.find("depth");
+  NormalForm form{said_space(*source("normal", view.name))};
+  std::vector<std::string> notes;
+  if (form.space == NormalSpace::automatic && depth) {
+    form = named(path, [&] { return samples.form(depth->channels.front(), frame.window, *view.camera, notes); });
+  } else if (form.space == NormalSpace::automatic) {
+    form.space = NormalSpace::view;
+    notes.push_back("normal: taken as view space, as there is no depth to tell it from (--normal-space)");
+  }
+  append_new(frame.assumed, notes);
+  if (form.space == NormalSpace::world && !view.camera->pose) {
+    append_new(frame.assumed, {"normals: not used, as where the camera stands is not known (--camera tells)"});
+    return {};
+  }
+  space = form.space == NormalSpace::world ? "world" : "view";
+  const long long missing = depth ? count_missing(form) : 0;
+  if (missing > 0)
+    append_new(frame.assumed,
+               {fmt::format("normals: {} pixel{} of the foreground {} none (zero or not finite) and read{} open",
+                            missing, missing == 1 ? "" : "s", missing == 1 ? "has" : "have", missing == 1 ? "s" : "")});
+  return form;
+}
+
 void FrameFile::Impl::convert_normals(View& view, Frame& frame) {
   const auto found = view.planes.find("normal");
   if (found == view.planes.end()) return;
   Plane& normal = found->second;
-  const Plane* depth = view.find("depth");
-  NormalSpace said = said_space(*source("normal", view.name));
-  std::vector<std::string> notes;
-  if (said == NormalSpace::automatic && depth) {
-    said =
-        named(path, [&] { return detect_normal_space(normal, depth->channels.front(), window, *view.camera, notes); });
-  } else if (said == NormalSpace::automatic) {
-    said = NormalSpace::view;
-    notes.push_back("normal: taken as view space, as there is no depth to tell it from (--normal-space)");
-  }
-  if (said == NormalSpace::world && !view.camera->pose) {
+  NormalSamples samples(normal.channels.front().layout());
+  samples.take(normal, 0);
+  bool is_brought = false;
+  const auto bring = [&](const NormalForm& form) {
+    if (!is_brought) bring_to_view_space(normal, form, *view.camera);
+    is_brought = true;
+  };
+  const std::optional<NormalForm> form = settle_normals(
+      view, samples,
+      [&](const NormalForm& settled) {
+        bring(settled);
+        return count_missing_normals(normal, view.find("depth")->channels.front());
+      },
+      frame);
+  if (form)
+    bring(*form);
+  else
     view.planes.erase(found);
-    append_new(frame.assumed, notes);
-    append_new(frame.assumed, {"normals: not used, as where the camera stands is not known (--camera tells)"});
-    return;
-  }
-  if (said == NormalSpace::world) to_view_space(normal, *view.camera->pose);
-  space = said == NormalSpace::world ? "world" : "view";
-  const long long missing = depth ? count_missing_normals(normal, depth->channels.front()) : 0;
-  if (missing > 0)
-    notes.push_back(fmt::format("normals: {} pixel{} of the foreground {} none (zero or not finite) and read{} open",
-                                missing, missing == 1 ? "" : "s", missing == 1 ? "has" : "have",
-                                missing == 1 ? "s" : ""));
-  append_new(frame.assumed, notes);
 }
 
 /// Positions are the world's.
@@ -799,19 +647,46 @@ void FrameFile::Impl::judge_positions(View& view, Frame& frame) const {
 }
 
 /// Cycles' GlossCol is 1 where a Principled BSDF is no metal, whatever that reflects.
-void FrameFile::Impl::judge_reflectance(View& view, Frame& frame) const {
-  const Plane* reflectance = view.find("reflectance");
-  const Plane* depth = view.find("depth");
-  if (options.channels.contains("reflectance") || !reflectance || !depth) return;
-  const std::string& name = source("reflectance", view.name)->channels.front().name;
-  if (name.find("GlossCol") == std::string::npos) return;
-  const double share = share_of_ones(*reflectance, depth->channels.front());
+bool FrameFile::Impl::is_reflectance_in_doubt(const View& view) const {
+  const PlaneSource* reflectance = source("reflectance", view.name);
+  return reflectance && view.find("depth") && !options.channels.contains("reflectance") &&
+         reflectance->channels.front().name.find("GlossCol") != std::string::npos;
+}
+
+/// `share`: of the surfaces where it is 1.
+void FrameFile::Impl::note_reflectance(double share, Frame& frame) const {
   if (share < 0.5) return;
   append_new(
       frame.assumed,
       {fmt::format("reflectance: GlossCol is 1 on {:.0f} % of the surfaces, as a Principled BSDF writes it whatever "
                    "it reflects: reflections will be far too bright (--plane reflectance=none takes 0.04)",
                    100 * share)});
+}
+
+void FrameFile::Impl::judge_reflectance(View& view, Frame& frame) const {
+  const Plane* reflectance = view.find("reflectance");
+  if (!reflectance || !is_reflectance_in_doubt(view)) return;
+  Ones ones;
+  ones.add(*reflectance, view.find("depth")->channels.front(), 0);
+  note_reflectance(ones.share(), frame);
+}
+
+/// What the names of planes leave to be said, and which views lack what is asked for.
+void FrameFile::Impl::note_names(const std::vector<std::string>& asked, const std::vector<std::string>& decoded,
+                                 Frame& frame) const {
+  if (const auto general = names.assumed.find(""); general != names.assumed.end())
+    append_new(frame.assumed, general->second);
+  for (const std::string& plane : decoded)
+    if (const auto notes = names.assumed.find(plane); notes != names.assumed.end())
+      append_new(frame.assumed, notes->second);
+  append_new(frame.assumed, unused_planes(names.planes, names.views, asked, "--view chooses one"));
+  append_new(frame.assumed, camera_notes);
+}
+
+void FrameFile::Impl::note_unseen_background(Frame& frame) const {
+  const bool has_depth = std::any_of(frame.views.begin(), frame.views.end(), [](View& v) { return v.find("depth"); });
+  if (options.background && has_depth && !background_seen)
+    append_new(frame.assumed, {fmt::format("depth: no pixel is {:.9g} (--background)", *options.background)});
 }
 
 FrameFile::FrameFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -902,15 +777,10 @@ std::string FrameFile::depth_convention() const {
 
 Frame FrameFile::read(const std::vector<std::string>& planes) {
   const std::vector<std::string> needed = impl_->needed(planes);
-  Frame frame = guarded(impl_->path, [&] { return impl_->allocate(needed); });
+  Frame frame = guarded(impl_->path, [&] { return impl_->allocate(needed, impl_->window); });
+  impl_->nonfinite.clear();
   impl_->decode(frame);
-  if (const auto general = impl_->names.assumed.find(""); general != impl_->names.assumed.end())
-    append_new(frame.assumed, general->second);
-  for (const std::string& plane : needed)
-    if (const auto notes = impl_->names.assumed.find(plane); notes != impl_->names.assumed.end())
-      append_new(frame.assumed, notes->second);
-  append_new(frame.assumed, unused_planes(this->planes(), views(), planes, "--view chooses one"));
-  append_new(frame.assumed, impl_->camera_notes);
+  impl_->note_names(planes, needed, frame);
   impl_->background_seen = false;
   for (View& view : frame.views) {
     impl_->settle_camera(view, frame);
@@ -919,9 +789,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
     impl_->judge_reflectance(view, frame);
     if (!impl_->options.as_stored) impl_->judge_positions(view, frame);
   }
-  const bool has_depth = std::any_of(frame.views.begin(), frame.views.end(), [](View& v) { return v.find("depth"); });
-  if (const auto value = impl_->options.background; value && has_depth && !impl_->background_seen)
-    append_new(frame.assumed, {fmt::format("depth: no pixel is {:.9g} (--background)", *value)});
+  impl_->note_unseen_background(frame);
   tidy(frame, impl_->options.background, impl_->options.as_stored);
   for (View& view : frame.views)
     std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });

@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 
 int bytes_of(Imf::PixelType type) { return type == Imf::HALF ? 2 : 4; }
 
-int64_t bytes_per_pixel(const Imf::Header& header) {
-  int64_t bytes = 0;
-  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) bytes += bytes_of(c.channel().type);
-  return bytes;
-}
-
 int64_t lines_per_chunk(const Imf::Header& header) {
   switch (header.compression()) {
     case Imf::NO_COMPRESSION:
@@ -45,6 +39,24 @@ int64_t pixels_per_tile(const Imf::TileDescription& tile) {
 }
 
 }  // namespace
+
+int64_t bytes_per_pixel(const Imf::Header& header) {
+  int64_t bytes = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) bytes += bytes_of(c.channel().type);
+  return bytes;
+}
+
+int64_t pixels_per_chunk(const Imf::Header& header) {
+  if (header.hasTileDescription()) return pixels_per_tile(header.tileDescription());
+  const Box data = box_of(header.dataWindow());
+  return (data.x1 - data.x0) * std::min(data.y1 - data.y0, lines_per_chunk(header));
+}
+
+int64_t rows_per_chunk(const Imf::Header& header) {
+  const Box data = box_of(header.dataWindow());
+  const int64_t rows = header.hasTileDescription() ? int64_t(header.tileDescription().ySize) : lines_per_chunk(header);
+  return std::min(data.y1 - data.y0, rows);
+}
 
 Box box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, int64_t(box.max.x) + 1, int64_t(box.max.y) + 1}; }
 
@@ -85,9 +97,7 @@ void check_claims(const fs::path& path, ExrInput& stream, long long most_pixels)
 void check_plausible(const fs::path& path, const Imf::Header& header, uint64_t file_size) {
   const Box data = box_of(header.dataWindow());
   const int64_t width = data.x1 - data.x0, height = data.y1 - data.y0, per_pixel = bytes_per_pixel(header);
-  int64_t chunk = width * std::min(height, lines_per_chunk(header));
-  if (header.hasTileDescription()) chunk = pixels_per_tile(header.tileDescription());
-  const bool honest = chunk <= INT32_MAX / std::max<int64_t>(per_pixel, 1) &&
+  const bool honest = pixels_per_chunk(header) <= INT32_MAX / std::max<int64_t>(per_pixel, 1) &&
                       uint64_t(width * height) / (1 << 20) * uint64_t(per_pixel) <= file_size;
   if (!honest)
     throw Error("{}: truncated or corrupted EXR (claims {} x {} pixels in {} bytes); render or copy it again",

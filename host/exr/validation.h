@@ -32,6 +32,12 @@ void check_size(const std::filesystem::path& path, const Box& box, const char* w
 /// be parsed is left to OpenEXR to refuse.
 void check_claims(const std::filesystem::path& path, ExrInput& stream, long long most_pixels);
 
+/// What all channels of a part take of the file for a pixel, before compression.
+int64_t bytes_per_pixel(const Imf::Header& header);
+/// What is packed together, and so is unpacked together: some rows, or a tile.
+int64_t pixels_per_chunk(const Imf::Header& header);
+int64_t rows_per_chunk(const Imf::Header& header);
+
 /// Refuses a part whose buffers could not be honest for a file of this size.
 void check_plausible(const std::filesystem::path& path, const Imf::Header& header, uint64_t file_size);
 

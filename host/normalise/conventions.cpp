@@ -256,26 +256,6 @@ uint32_t hash(uint32_t h) {  // lowbias32 (Wellons 2018)
   return h ^ (h >> 16);
 }
 
-/// About 4096 pixels, one at a random place in each cell of a lattice: the same ones every time.
-std::vector<NormalPair> normal_pairs(const Plane& normal, const Channel& depth, const Window& window,
-                                     const Camera& camera) {
-  const int width = depth.layout().width, height = depth.layout().height;
-  const int cell = std::max(1, int(std::sqrt(double(width) * height / 4096)));
-  std::vector<NormalPair> pairs;
-  for (int cell_y = 0; cell_y < height; cell_y += cell)
-    for (int cell_x = 0; cell_x < width; cell_x += cell) {
-      const uint32_t random = hash(uint32_t(cell_y) * 65537u + uint32_t(cell_x));
-      const int x = std::min(width - 1, cell_x + int(random % uint32_t(cell)));
-      const int y = std::min(height - 1, cell_y + int(random / 65536u % uint32_t(cell)));
-      if (is_background(depth.at(x, y))) continue;
-      const glm::dvec3 given(normal.channels[0].at(x, y), normal.channels[1].at(x, y), normal.channels[2].at(x, y));
-      const double length = glm::length(given);
-      if (!(length > 0) || !std::isfinite(length)) continue;
-      if (const auto estimate = normal_from_depth(depth, window, camera, x, y)) pairs.push_back({given, *estimate});
-    }
-  return pairs;
-}
-
 /// Mean cosine between the given normals, as view and as world space, and those from depth.
 struct Agreement {
   double view = 0, world = 0;
@@ -430,20 +410,46 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
   return "z";
 }
 
-NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Window& window, const Camera& camera,
-                                std::vector<std::string>& assumed) {
-  const std::vector<NormalPair> pairs = normal_pairs(normal, depth, window, camera);
+/// One at a random place in each cell of a lattice: the same ones every time.
+NormalSamples::NormalSamples(const Layout& image) {
+  const int width = image.width, height = image.height;
+  const int cell = std::max(1, int(std::sqrt(double(width) * height / 4096)));
+  for (int cell_y = 0; cell_y < height; cell_y += cell)
+    for (int cell_x = 0; cell_x < width; cell_x += cell) {
+      const uint32_t random = hash(uint32_t(cell_y) * 65537u + uint32_t(cell_x));
+      samples_.push_back({std::min(width - 1, cell_x + int(random % uint32_t(cell))),
+                          std::min(height - 1, cell_y + int(random / 65536u % uint32_t(cell))),
+                          glm::dvec3(std::numeric_limits<double>::quiet_NaN())});
+    }
+}
+
+void NormalSamples::take(const Plane& normal, int first_row) {
+  const int rows = normal.channels.front().layout().height;
+  for (Sample& sample : samples_) {
+    const int y = sample.y - first_row;
+    if (y < 0 || y >= rows) continue;
+    for (int c : {0, 1, 2}) sample.normal[c] = normal.channels[size_t(c)].at(sample.x, y);
+  }
+}
+
+NormalForm NormalSamples::form(const Channel& depth, const Window& window, const Camera& camera,
+                               std::vector<std::string>& assumed) const {
+  std::vector<NormalPair> pairs;
+  for (const Sample& sample : samples_) {
+    if (is_background(depth.at(sample.x, sample.y))) continue;
+    const double length = glm::length(sample.normal);
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    if (const auto estimate = normal_from_depth(depth, window, camera, sample.x, sample.y))
+      pairs.push_back({sample.normal, *estimate});
+  }
   if (pairs.empty()) {
     assumed.push_back("normals: taken as view space, as no pixel lets depth tell; --normal-space says otherwise");
-    return NormalSpace::view;
+    return {NormalSpace::view};
   }
   Agreement agreement = agreement_of(pairs, camera.pose, false);
   const Agreement decoded = agreement_of(pairs, camera.pose, true);
   const bool encoded = all_in_unit_cube(pairs) && decoded.best() > agreement.best();
-  if (encoded) {
-    decode_normals(normal);
-    agreement = decoded;
-  }
+  if (encoded) agreement = decoded;
   const std::string taken = encoded ? "decoded from 0..1 and taken" : "taken";
   if (!camera.pose) {
     // Normals of the view's own space agree with depth wherever the camera stands, measured to 0.94 and more; those of
@@ -451,26 +457,40 @@ NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Windo
     if (agreement.view < 0.9) {
       assumed.push_back(fmt::format("normals: taken as world space: as view space they agree with depth only to {:.2f}",
                                     agreement.view));
-      return NormalSpace::world;
+      return {NormalSpace::world, encoded};
     }
     assumed.push_back(fmt::format("normals: {} as view space: they agree with depth to {:.2f}", taken, agreement.view));
-    return NormalSpace::view;
+    return {NormalSpace::view, encoded};
   }
   const bool world = agreement.world > agreement.view;
   assumed.push_back(fmt::format(
       "normals: {} as {} space: they agree with depth to {:.2f}, as {} space to {:.2f}; --normal-space says otherwise",
       taken, world ? "world" : "view", agreement.best(), world ? "view" : "world",
       world ? agreement.view : agreement.world));
-  return world ? NormalSpace::world : NormalSpace::view;
+  return {world ? NormalSpace::world : NormalSpace::view, encoded};
 }
 
-long long count_missing_normals(const Plane& normal, const Channel& depth) {
-  const int width = depth.layout().width, height = depth.layout().height;
+NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Window& window, const Camera& camera,
+                                std::vector<std::string>& assumed) {
+  NormalSamples samples(normal.channels.front().layout());
+  samples.take(normal, 0);
+  const NormalForm form = samples.form(depth, window, camera, assumed);
+  if (form.is_encoded) decode_normals(normal);
+  return form.space;
+}
+
+void bring_to_view_space(Plane& normal, const NormalForm& form, const Camera& camera) {
+  if (form.is_encoded) decode_normals(normal);
+  if (form.space == NormalSpace::world) to_view_space(normal, *camera.pose);
+}
+
+long long count_missing_normals(const Plane& normal, const Channel& depth, int first_row) {
+  const int width = depth.layout().width, height = normal.channels.front().layout().height;
   long long total = 0;
 #pragma omp parallel for reduction(+ : total) if (size_t(width) * size_t(height) > 65536)
   for (int y = 0; y < height; ++y) {
     const float *x = normal.channels[0].row(y), *up = normal.channels[1].row(y), *z = normal.channels[2].row(y);
-    const float* row = depth.row(y);
+    const float* row = depth.row(first_row + y);
     int count = 0;
     for (int i = 0; i < width; ++i) {
       const double a = x[i], b = up[i], c = z[i], square = a * a + b * b + c * c;
@@ -482,17 +502,16 @@ long long count_missing_normals(const Plane& normal, const Channel& depth) {
   return total;
 }
 
-double share_of_ones(const Plane& plane, const Channel& depth) {
-  long long surfaces = 0, ones = 0;
-  for (int y = 0; y < depth.layout().height; ++y) {
-    for (int x = 0; x < depth.layout().width; ++x) {
-      if (is_background(depth.at(x, y))) continue;
+void Ones::add(const Plane& plane, const Channel& depth, int first_row) {
+  const Layout& layout = plane.channels.front().layout();
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x) {
+      if (is_background(depth.at(x, first_row + y))) continue;
       ++surfaces;
       ones +=
           std::all_of(plane.channels.begin(), plane.channels.end(), [&](const Channel& c) { return c.at(x, y) == 1; });
     }
   }
-  return surfaces > 0 ? double(ones) / double(surfaces) : 0;
 }
 
 void to_view_space(Plane& normal, const Pose& pose) {

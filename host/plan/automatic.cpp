@@ -219,24 +219,22 @@ std::vector<const Technique*> techniques_with_effects() {
   return found;
 }
 
-std::vector<std::string> inputs_of_effect(const Technique& technique, const PlanRequest& asked,
-                                          const std::vector<std::string>& available, const std::string& holds) {
+std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest& asked,
+                                  const std::vector<std::string>& available, const std::string& holds) {
   check_settings(refinements_of(technique), asked);
   PlanRequest request = request_everywhere(technique, asked);
   request.mask = technique.effect.mask;
-  std::vector<std::string> inputs = make_plan(request, available, holds).inputs;
+  std::vector<Plan> plans = {make_plan(request, available, holds)};
   for (const Technique* refinement : refinements_of(technique)) {
     try {
-      for (const std::string& plane : make_plan(request_everywhere(*refinement, asked), available, holds).inputs) {
-        if (std::find(inputs.begin(), inputs.end(), plane) == inputs.end()) inputs.push_back(plane);
-      }
+      plans.push_back(make_plan(request_everywhere(*refinement, asked), available, holds));
     } catch (const UsageError&) {
       continue;
     } catch (const MissingPlanes&) {
       continue;
     }
   }
-  return inputs;
+  return plans;
 }
 
 Decision decide(const Technique& technique, const Look& look) {

@@ -6,21 +6,12 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
-#include "run/layouts.h"
+#include "plan/layouts.h"
 
 namespace gloam {
 namespace {
 
 std::string mebibytes(unsigned long long bytes) { return fmt::format("{} MiB", (bytes + (1 << 20) - 1) >> 20); }
-
-/// Every how many views of a plan one is a key view; 1 where all are alike.
-int key_view_spacing(const Plan& plan) {
-  for (const PlannedPass& planned : plan.passes) {
-    if (planned.pass.on == On::key_views || planned.pass.on == On::views_between)
-      return planned.technique->key_views(planned.values);
-  }
-  return 1;
-}
 
 void check_two_views(const Plan& plan, const Frame& frame) {
   if (frame.views.size() != 2)
@@ -88,13 +79,6 @@ void check_projections(const Plan& plan, const Frame& frame) {
 }
 
 }  // namespace
-
-bool needs_two_views(const Plan& plan) {
-  return std::any_of(plan.passes.begin(), plan.passes.end(),
-                     [](const PlannedPass& planned) { return planned.technique->views == 2; });
-}
-
-int key_view_spacing(const Plan& plan, size_t views) { return views > 1 ? key_view_spacing(plan) : 1; }
 
 void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info) {
   const unsigned long long needed = device_bytes(plan, layout, views);

@@ -5,12 +5,6 @@
 
 namespace gloam {
 
-/// Whether passes look from one of two views into the other.
-bool needs_two_views(const Plan& plan);
-
-/// Every how many views of a frame of so many one is a key view; 1 where all are alike.
-int key_view_spacing(const Plan& plan, size_t views);
-
 /// Throws Error where the device's memory or its largest buffer is too small.
 void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info);
 

@@ -3,7 +3,7 @@
 
 #include "gloam/run.h"
 #include "run/device_impl.h"
-#include "run/layouts.h"
+#include "plan/layouts.h"
 
 namespace gloam {
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "plan/layouts.h"
 #include "run/checks.h"
 #include "run/driver.h"
 #include "run/kernels.h"
-#include "run/layouts.h"
 #include "run/views.h"
 
 namespace gloam {
@@ -15,11 +16,21 @@ namespace gloam {
 unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views) {
   const Layouts layouts(plan, layout);
   unsigned long long bytes = 0;
-  for (const std::string& name : planes_of(plan))
-    bytes += plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
-  if (needs_two_views(plan)) return 2 * bytes;
-  // A view between two key views.
-  return key_view_spacing(plan, views) > 1 ? std::min<size_t>(views, 3) * bytes : bytes;
+  for (const std::string& name : planes_of(plan)) bytes += bytes_of(plan, layouts, name);
+  return views_at_once(plan, views) * bytes;
+}
+
+unsigned long long bytes_beside_frame(const Plan& plan, const Layout& layout, size_t views, bool shares_memory) {
+  const Layouts layouts(plan, layout);
+  unsigned long long buffers = 0, results = 0;
+  for (const std::string& name : planes_of(plan)) {
+    const bool is_in_place = contains(plan.inputs, name) && plan.stacks.count(name) == 0;
+    if (!is_in_place) buffers += bytes_of(plan, layouts, name);
+  }
+  for (const std::string& name : plan.outputs) results += bytes_of(plan, layouts, name);
+  const size_t at_once = std::min(views_at_once(plan, views), views);
+  // Results of the views before; those of the last ones are their buffers.
+  return shares_memory ? at_once * buffers + (views - at_once) * results : views * results;
 }
 
 void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options) {

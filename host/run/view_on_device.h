@@ -8,7 +8,7 @@
 
 #include "gloam/run.h"
 #include "run/buffers.h"
-#include "run/layouts.h"
+#include "plan/layouts.h"
 
 namespace gloam {
 

@@ -10,6 +10,7 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "plan/key_views.h"
+#include "plan/layouts.h"
 #include "plan/resample.h"
 #include "run/arguments.h"
 #include "run/checks.h"

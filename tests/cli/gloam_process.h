@@ -29,6 +29,12 @@ struct Result {
   int status = -1;  ///< exit status; 128 + signal when a signal ended it
   std::string out, err;
   nlohmann::json json() const { return nlohmann::json::parse(out); }
+  /// Without what reading more files or drawing changes: the memory that it takes.
+  nlohmann::json findings() const {
+    nlohmann::json document = json();
+    document.erase("memory_bytes");
+    return document;
+  }
   long lines_of_error() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 

@@ -28,7 +28,7 @@ TEST_F(Cli, InfoPictureLeavesTheJsonAsItIs) {
   const Result plain = gloam({"info", loggia, "--json", "-"});
   const Result result = gloam({"info", loggia, "--picture", path("planes.png"), "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.out, plain.out);
+  EXPECT_EQ(result.findings(), plain.findings());
   EXPECT_EQ(files(), std::vector<std::string>{"planes.png"});
 }
 

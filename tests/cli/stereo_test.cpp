@@ -140,7 +140,7 @@ TEST_F(Cli, StereoComparesTwoFilesOfOneEyeEach) {
   const Result result =
       gloam({"compare", "--stereo", path("a.exr"), path("b.exr"), "--frame", path("frame.exr"), "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.json(), whole.json());
+  EXPECT_EQ(result.findings(), whole.findings());
   const Result other = gloam({"compare", "--stereo", path("a.exr"), path("b.exr"), "--frame", path("frame.exr"),
                               "--views", "right,left", "--json", "-"});
   ASSERT_EQ(other.status, 0) << other.err;
@@ -182,7 +182,7 @@ TEST_F(Cli, StereoFrameMayStartAtAnotherCorner) {
   const Result whole = gloam({"compare", "--stereo", path("frame.exr"), "--json", "-"});
   const Result result = gloam({"compare", "--stereo", path("moved.exr"), "--frame", path("frame.exr"), "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.json(), whole.json());
+  EXPECT_EQ(result.findings(), whole.findings());
 }
 
 TEST_F(Cli, StereoPicturesHaveTheSizeOfTheImageAndALegend) {
@@ -360,7 +360,7 @@ TEST_F(Cli, StereoTakesCamerasFromTheResultWhereTheFrameHasNone) {
   const Result whole = gloam({"compare", "--stereo", path("ao.exr"), "--json", "-"});
   const Result result = gloam({"compare", "--stereo", path("ao.exr"), "--frame", path("frame.exr"), "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.json(), whole.json());
+  EXPECT_EQ(result.findings(), whole.findings());
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -51,9 +51,10 @@ std::vector<const Technique*> techniques_with_effects();
 PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
                             const std::vector<std::string>& available, const std::string& holds);
 
-/// Planes that an effect, what refines it and the glance at them take from a frame. Throws MissingPlanes, UsageError.
-std::vector<std::string> inputs_of_effect(const Technique& technique, const PlanRequest& asked,
-                                          const std::vector<std::string>& available, const std::string& holds);
+/// The plans that may run for an effect: its own with its mask, and those of what refines it, as far as the frame has what they
+/// read. Together they read all that the effect and the glance at it take from a frame. Throws MissingPlanes, UsageError.
+std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest& asked,
+                                  const std::vector<std::string>& available, const std::string& holds);
 
 /// Looks at a frame, on the device, at a glance; where that finds nothing, by the mask itself. What refines an effect is looked
 /// for where the frame calls for that, and where it looks at one view, since layers may call for what nothing seen does. Throws what `make_plan`

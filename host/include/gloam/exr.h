@@ -102,6 +102,22 @@ class FrameFile {
   /// Where no camera is known, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.
   Frame read(const std::vector<std::string>& planes);
 
+  /// For figures of frames that are large: the same as `read`, a few rows at a time. The first step decodes the depth whole
+  /// where these planes or the options need it, looks through what only the whole image tells (the space of normals), and returns
+  /// the frame with the depth alone and all that was assumed. Needs `ReadOptions::as_stored`. Throws as `read` does.
+  Frame survey(const std::vector<std::string>& planes);
+  /// Rows [first, last) of the window: `planes` of those that were surveyed, without the depth. The frame's window is these
+  /// rows. A plane that turned out to be of no use is not there.
+  Frame read_rows(const std::vector<std::string>& planes, int first, int last);
+  /// How many rows to ask for, so that no chunk of the file is decoded much more than once and all of these planes take some
+  /// 4 MiB; more where that is in one chunk.
+  int rows_at_once(const std::vector<std::string>& planes) const;
+
+  /// Memory that `read` takes at its peak: the planes, and what decoding them holds beside.
+  unsigned long long bytes_to_read(const std::vector<std::string>& planes) const;
+  /// The same of `survey` and `read_rows` with `rows_at_once`.
+  unsigned long long bytes_to_read_by_rows(const std::vector<std::string>& planes) const;
+
   /// Decodes the channels that serve as no plane too, and drops them, so that damage anywhere in the file is found. For
   /// looking at a file (`gloam info`), not for work on it. Throws as `read` does.
   void verify();

@@ -49,6 +49,10 @@ struct RunResult {
 /// Bytes of device memory that a plan takes for a frame of so many views: of one of them, or of those that look into one another.
 unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views = 1);
 
+/// Bytes of the host's memory that a run takes beside the frame: results, and where the device shares the memory of the host all
+/// that is computed.
+unsigned long long bytes_beside_frame(const Plan& plan, const Layout& layout, size_t views, bool shares_memory);
+
 /// Whether a device can run a plan on so many views: its memory, double precision. Throws what `run` would.
 void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options = {});
 

@@ -33,4 +33,16 @@ class Layouts {
 /// where there are two.
 int other_scale(const PlannedPass& planned, const Layouts& layouts);
 
+/// Bytes of a plane or stack.
+unsigned long long bytes_of(const Plan& plan, const Layouts& layouts, const std::string& name);
+
+/// Whether passes look from one of two views into the other.
+bool needs_two_views(const Plan& plan);
+
+/// Every how many views of a frame of so many one is a key view; 1 where all are alike.
+int key_view_spacing(const Plan& plan, size_t views);
+
+/// How many of a frame's views are on the device together: those that look into one another.
+size_t views_at_once(const Plan& plan, size_t views);
+
 }  // namespace gloam

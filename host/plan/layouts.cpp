@@ -1,8 +1,9 @@
-#include "run/layouts.h"
+#include "plan/layouts.h"
 
 #include <algorithm>
 
 #include "gloam/error.h"
+#include "gloam/planes.h"
 
 namespace gloam {
 
@@ -45,6 +46,29 @@ int other_scale(const PlannedPass& planned, const Layouts& layouts) {
     }
   }
   return other;
+}
+
+unsigned long long bytes_of(const Plan& plan, const Layouts& layouts, const std::string& name) {
+  return plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
+}
+
+bool needs_two_views(const Plan& plan) {
+  return std::any_of(plan.passes.begin(), plan.passes.end(),
+                     [](const PlannedPass& planned) { return planned.technique->views == 2; });
+}
+
+int key_view_spacing(const Plan& plan, size_t views) {
+  if (views < 2) return 1;
+  for (const PlannedPass& planned : plan.passes) {
+    if (planned.pass.on == On::key_views || planned.pass.on == On::views_between)
+      return planned.technique->key_views(planned.values);
+  }
+  return 1;
+}
+
+size_t views_at_once(const Plan& plan, size_t views) {
+  if (needs_two_views(plan)) return 2;
+  return key_view_spacing(plan, views) > 1 ? std::min<size_t>(views, 3) : 1;  // a view between two key views
 }
 
 }  // namespace gloam
