@@ -148,9 +148,4 @@ void check(const WriteOptions& options);
 /// Throws Error naming the path when it cannot be written.
 void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options = {});
 
-/// The door that every frame passes, whether read from disk or made in memory: depth that is NaN, infinite, zero,
-/// negative, equal to a known `far`, or `background` (where given, else 1e10 and more) becomes +inf; normals become
-/// unit, or zero where they are NaN, infinite, zero or on background; padding is set to each plane's `outside` value.
-void normalise(Frame& frame, std::optional<float> background = {});
-
 }  // namespace gloam
