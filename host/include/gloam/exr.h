@@ -46,15 +46,16 @@ struct ChannelSource {
   float scale = 1;   ///< what brings a value to gloam's meaning: -1 for the y of motion vectors that point up
 };
 
-/// What a channel's name already tells about its values.
-enum class Said { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
+/// What a channel's name declares about its values.
+enum class DeclaredConvention { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
+using Said = DeclaredConvention;  // for exr/read.cpp only
 
 /// A plane that could be decoded.
 struct PlaneSource {
   std::string plane;  ///< "depth", "normal", ... (planes.h)
   std::string view;
   std::vector<ChannelSource> channels;
-  Said said = Said::nothing;
+  DeclaredConvention said = DeclaredConvention::nothing;
 };
 
 /// An open EXR file: what it holds, as far as headers and the camera file beside it tell.
