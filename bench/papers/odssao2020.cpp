@@ -36,7 +36,7 @@ struct Masking {
   Settings settings = {};
 };
 
-/// For an estimate of so few samples the mask's usual 24 for 16 pixels are too many; 16 for 64 are the glance of gloam auto.
+/// For an estimate of so few samples the mask's usual 24 for 16 pixels are too many; 16 for 64 are the probe of gloam auto.
 const std::array<Masking, 3> masks = {
     {{"outline-mask", "outline-mask"},
      {"corner-mask", "corner-mask"},

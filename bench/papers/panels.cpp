@@ -27,7 +27,7 @@ void write_panels(const std::filesystem::path& path, const std::vector<Panel>& p
   cv::Mat canvas(rows * down + gap, columns * across + gap, CV_8UC3, paper);
   for (size_t i = 0; i < panels.size(); ++i) {
     const int x = gap + int(i) % columns * across, y = gap + int(i) / columns * down;
-    const Style style{10, ink, true};
+    const TextStyle style{10, ink, true};
     put_text(canvas, shortened(panels[i].label, size.box, style), {x, y + 16}, style);
     const cv::Mat colours = shown(panels[i]), nothing = cv::Mat::zeros(colours.size(), CV_8UC1);
     put_panel(canvas, colours, nothing, {x, y + label_height}, size.image, 1);

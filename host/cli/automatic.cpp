@@ -33,7 +33,7 @@ struct AutoCommand {
   JsonFlag json;
 };
 
-/// An effect from the first look to its planes.
+/// An effect from its probe to its planes.
 struct Outcome {
   Decision decision;
   std::vector<std::string> outputs;
@@ -71,8 +71,8 @@ void take_planes(Frame& from, Frame& to) {
 }
 
 /// Tells what the cells of a choice are as well, where they are to be shown.
-void look_closely_for_picture(EffectChoice& choice, const Look& look) {
-  if (choice.is_wanted && !choice.is_everywhere) look_closely(choice, look);
+void probe_closely_for_picture(EffectChoice& choice, const EffectProbe& probe) {
+  if (choice.is_wanted && !choice.is_everywhere) probe_closely(choice, probe);
 }
 
 MaskUse mask_use(const std::string& word) {
@@ -80,28 +80,28 @@ MaskUse mask_use(const std::string& word) {
                          {{"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}});
 }
 
-Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const Look& look, Frame& out) {
-  Outcome outcome{.decision = decide(technique, look)};
+Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const EffectProbe& probe, Frame& out) {
+  Outcome outcome{.decision = decide(technique, probe)};
   EffectChoice& effect = outcome.decision.effect;
   if (!flags.explain.empty()) {
-    look_closely_for_picture(effect, look);
-    for (EffectChoice& refinement : outcome.decision.refinements) look_closely_for_picture(refinement, look);
+    probe_closely_for_picture(effect, probe);
+    for (EffectChoice& refinement : outcome.decision.refinements) probe_closely_for_picture(refinement, probe);
   }
   outcome.ms = effect.classify_ms;
   if (effect.is_wanted) {
-    Computed computed = compute(outcome.decision, look, mask_use(flags.mask));
+    Computed computed = compute(outcome.decision, probe, mask_use(flags.mask));
     outcome.ms += computed.ms;
     outcome.is_masked = computed.is_masked;
     outcome.ms_masked = computed.ms_masked;
     outcome.ms_everywhere = computed.ms_everywhere;
     take_planes(computed.result.frame, out);
   }
-  outcome.plan = make_plan(outcome.decision.request, look.available, look.holds);
+  outcome.plan = make_plan(outcome.decision.request, probe.available, probe.holds);
   outcome.outputs = outcome.plan->outputs;
-  if (!effect.is_wanted) add_idle_planes(look.frame, outcome.outputs, out);
+  if (!effect.is_wanted) add_idle_planes(probe.frame, outcome.outputs, out);
   if (flags.measure && std::isnan(outcome.ms_everywhere)) {
-    const Plan everywhere = make_plan(outcome.decision.everywhere, look.available, look.holds);
-    outcome.ms_everywhere = best(run(everywhere, look.frame, look.device, look.options));
+    const Plan everywhere = make_plan(outcome.decision.everywhere, probe.available, probe.holds);
+    outcome.ms_everywhere = best(run(everywhere, probe.frame, probe.device, probe.options));
   }
   return outcome;
 }
@@ -322,8 +322,8 @@ void auto_command(const AutoCommand& flags) {
   std::vector<Outcome> outcomes;
   std::optional<RadiusReport> radius;
   for (const Candidate& candidate : candidates.possible) {
-    const Look look{candidate.asked, frame, available, holds, device, options};
-    outcomes.push_back(outcome_of(*candidate.technique, flags, look, out));
+    const EffectProbe probe{candidate.asked, frame, available, holds, device, options};
+    outcomes.push_back(outcome_of(*candidate.technique, flags, probe, out));
     if (radius) continue;
     const Plan& plan = *outcomes.back().plan;
     if (const std::optional<Radius> used = radius_of(plan, outcomes.back().decision.request, made.from))

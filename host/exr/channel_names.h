@@ -1,4 +1,4 @@
-// Which channels of a file serve as which plane: the spellings of the renderers, in one table.
+// Which channels of a file serve as which plane.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// The contact sheet: every plane of a frame as a tile, coloured by what its values mean.
+#include "gloam/contact_sheet.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,9 +8,12 @@
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
-#include "gloam/visualise.h"
+#include "picture/colours.h"
+#include "picture/heading.h"
 #include "picture/picture.h"
-#include "picture/style.h"
+#include "picture/scale.h"
+#include "picture/tile.h"
+#include "picture/wordings.h"
 
 namespace gloam {
 namespace {
@@ -71,8 +75,8 @@ struct Sheet {
   int top(int row) const { return header() + row * (caption() + panel.image.height + gap()) + caption(); }
   int width() const { return left(columns) - gap() + margin(); }
   int height() const { return top(rows) - caption() - gap() + margin(); }
-  Style strong() const { return {9.5 * unit, ink, true}; }
-  Style small() const { return {8.5 * unit, faint}; }
+  TextStyle strong() const { return {9.5 * unit, ink, true}; }
+  TextStyle small() const { return {8.5 * unit, faint}; }
 };
 
 /// Up to four columns, as many as rows before.
@@ -134,7 +138,7 @@ Sheet blank_sheet(const Frame& frame, const ContactSheet& options, const std::ve
   sheet.columns = std::min(sheet.columns, int(most));
   for (const std::vector<SheetTile>& tiles : views) {
     sheet.rows += (int(tiles.size()) + sheet.columns - 1) / sheet.columns;
-    for (const SheetTile& t : tiles) sheet.has_depth |= t.look == Look::depth;
+    for (const SheetTile& t : tiles) sheet.has_depth |= t.style == PictureStyle::depth;
   }
   sheet.canvas = cv::Mat(sheet.height(), sheet.width(), CV_8UC3, paper);
   return sheet;

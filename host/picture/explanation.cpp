@@ -1,4 +1,5 @@
-// The picture of `gloam auto`: where a frame calls for what, and why.
+#include "gloam/explanation.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
-#include "gloam/visualise.h"
 #include "picture/picture.h"
 
 namespace gloam {
@@ -17,7 +17,7 @@ const std::array<cv::Scalar, 5> effect_colours{
     {{0, 159, 230}, {233, 180, 86}, {115, 158, 0}, {167, 121, 204}, {66, 228, 240}}};
 
 constexpr int pad = 24, line = 26, swatch = 18, least_width = 640;
-const Style title_style{14, ink, true}, text_style{12}, cost_style{12, faint};
+const TextStyle title_style{14, ink, true}, text_style{12}, cost_style{12, faint};
 
 cv::Scalar colour_of(size_t effect) { return effect_colours[effect % effect_colours.size()]; }
 

@@ -10,4 +10,8 @@ namespace gloam {
 /// What `write_inconsistency_picture` (gloam/stereo_pictures.h) writes: CV_8UC3, of the plane's size.
 cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, double magnify);
 
+/// How a pixel that does not count is drawn: purple at half strength over the plane's colour, so that it stays dark where
+/// that is dark, and purple where that is bright.
+cv::Vec3b hidden_tone(const cv::Vec3b& colour);
+
 }  // namespace gloam

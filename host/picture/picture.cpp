@@ -84,11 +84,13 @@ cv::Mat colour_image(const Plane& plane) {
 /// Hershey strokes drawn this much larger and averaged down have soft edges and any stroke width.
 constexpr int oversampling = 4;
 
-double font_scale(const Style& style) { return style.size * oversampling / 21; }
-int stroke(const Style& style) { return std::max(1, cvRound(style.size * oversampling * (style.bold ? 0.19 : 0.115))); }
+double font_scale(const TextStyle& style) { return style.size * oversampling / 21; }
+int stroke(const TextStyle& style) {
+  return std::max(1, cvRound(style.size * oversampling * (style.bold ? 0.19 : 0.115)));
+}
 
 /// How much of each pixel the text covers, with a border of `pad` pixels; the baseline is at `baseline`.
-cv::Mat text_coverage(const std::string& text, const Style& style, int pad, int baseline) {
+cv::Mat text_coverage(const std::string& text, const TextStyle& style, int pad, int baseline) {
   const int width = int(text_width(text, style)) + 1 + 2 * pad, height = baseline + int(style.size) + pad;
   cv::Mat large(height * oversampling, width * oversampling, CV_8UC1, cv::Scalar(0)), small;
   cv::putText(large, text, cv::Point(pad, baseline) * oversampling, cv::FONT_HERSHEY_SIMPLEX, font_scale(style),
@@ -176,12 +178,12 @@ cv::Mat read_png(const std::filesystem::path& path) {
   return image;
 }
 
-double text_width(const std::string& text, const Style& style) {
+double text_width(const std::string& text, const TextStyle& style) {
   const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, font_scale(style), stroke(style), nullptr);
   return double(size.width) / oversampling;
 }
 
-void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const Style& style, Align align) {
+void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const TextStyle& style, Align align) {
   if (text.empty()) return;
   const double width = text_width(text, style);
   const int shift = align == Align::left ? 0 : cvRound(align == Align::centre ? width / 2 : width);
@@ -201,7 +203,7 @@ std::string ascii(const std::string& text) {
   return out;
 }
 
-std::string shortened(const std::string& text, double width, const Style& style) {
+std::string shortened(const std::string& text, double width, const TextStyle& style) {
   const std::string whole = ascii(text);
   const size_t most = std::min(whole.size(), size_t(4 * width / style.size));  // no letter is that narrow
   if (most == whole.size() && text_width(whole, style) <= width) return whole;

@@ -45,24 +45,25 @@ cv::Mat read_png(const std::filesystem::path& path);
 enum class Align { left, centre, right };
 
 /// How a piece of text looks. Sizes are heights of capitals in pixels.
-struct Style {
+struct TextStyle {
   double size;
   cv::Scalar colour = ink;
   bool bold = false;
 };
 
 /// Pixels.
-double text_width(const std::string& text, const Style& style);
+double text_width(const std::string& text, const TextStyle& style);
 
 /// Writes text with its baseline at `at`.
-void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const Style& style, Align align = Align::left);
+void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const TextStyle& style,
+              Align align = Align::left);
 
 /// The font holds ASCII only: each other character becomes one '?'.
 std::string ascii(const std::string& text);
 
 /// The text in ASCII, with its middle left out where it is wider than `width`: both the start and the ending of a file
 /// name tell.
-std::string shortened(const std::string& text, double width, const Style& style);
+std::string shortened(const std::string& text, double width, const TextStyle& style);
 
 // --- Panels: images on the paper
 

@@ -13,16 +13,6 @@
 namespace gloam {
 namespace {
 
-/// Blue, green, red. What does not count is this at half strength over the plane: it stays dark where that is dark, and
-/// purple where that is bright.
-const cv::Vec3d purple(200, 40, 150);
-
-cv::Vec3b toned(const cv::Vec3b& colour) {
-  cv::Vec3b out;
-  for (int c = 0; c < 3; ++c) out[c] = cv::saturate_cast<unsigned char>(0.5 * (colour[c] + purple[c]));
-  return out;
-}
-
 /// Both as images of three colours, left first.
 std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& left, const Plane& right) {
   std::array<cv::Mat, 2> images = {coloured(left), coloured(right)};
@@ -35,7 +25,7 @@ std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& l
 // --- The legend
 
 constexpr int least_width = 320, margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
-const Style words{8, ink};
+const TextStyle words{8, ink};
 
 /// A field of colours and what they mean.
 struct Key {
@@ -48,8 +38,8 @@ cv::Mat plain_swatch(const cv::Scalar& colour) { return {swatch_height, swatch_w
 std::vector<Key> keys_of(double magnify) {
   cv::Mat scale(swatch_height, swatch_width, CV_8UC3);
   for (int x = 0; x < scale.cols; ++x) scale.col(x).setTo(cv::Scalar::all(to_byte(double(x) / (scale.cols - 1))));
-  cv::Mat hidden = plain_swatch(toned(cv::Vec3b::all(255))), background = plain_swatch(background_tone);
-  hidden.colRange(0, hidden.cols / 2).setTo(cv::Scalar(toned(cv::Vec3b::all(0))));
+  cv::Mat hidden = plain_swatch(hidden_tone(cv::Vec3b::all(255))), background = plain_swatch(background_tone);
+  hidden.colRange(0, hidden.cols / 2).setTo(cv::Scalar(hidden_tone(cv::Vec3b::all(0))));
   hatch(background, cv::Mat(background.size(), CV_8UC1, cv::Scalar(255)), 1);
   return {{fmt::format("difference between the eyes, 0 to {:.3g} (x {:g})", 1 / magnify, magnify), scale},
           {"does not count: one eye alone sees it, or an edge", hidden},
@@ -86,22 +76,6 @@ cv::Mat with_legend(const cv::Mat& image, double magnify) {
 }
 
 }  // namespace
-
-cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, double magnify) {
-  cv::Mat image = coloured(shown), background(image.size(), CV_8UC1);
-  for (int y = 0; y < image.rows; ++y) {
-    for (int x = 0; x < image.cols; ++x) {
-      const StereoPixel pixel = errors.pixels[size_t(y) * size_t(image.cols) + size_t(x)];
-      background.at<unsigned char>(y, x) = pixel == StereoPixel::background ? 255 : 0;
-      cv::Vec3b& colour = image.at<cv::Vec3b>(y, x);
-      colour = pixel == StereoPixel::counted ? cv::Vec3b::all(to_byte(magnify * double(errors.error.at(x, y))))
-                                             : toned(colour);
-    }
-  }
-  image.setTo(background_tone, background);
-  hatch(image, background, 1);
-  return image;
-}
 
 void write_inconsistency_picture(const std::filesystem::path& path, const Plane& shown, const StereoErrors& errors,
                                  double magnify) {

@@ -1,13 +1,17 @@
-// Pictures of one plane in many views: all of them as a sheet, and one scan line of each.
+#include "gloam/view_pictures.h"
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
-#include "gloam/visualise.h"
+#include "picture/colours.h"
+#include "picture/heading.h"
 #include "picture/picture.h"
-#include "picture/style.h"
+#include "picture/scale.h"
+#include "picture/tile.h"
+#include "picture/wordings.h"
 
 namespace gloam {
 namespace {
@@ -55,7 +59,7 @@ bool any_background(const Tile& tile) {
 std::string key_in_words(const std::vector<Tile>& tiles) {
   std::string words;
   if (std::any_of(tiles.begin(), tiles.end(), any_background)) words += "; hatched: no surface";
-  if (tiles.front().look == Look::depth) words += "; lengths in scene units";
+  if (tiles.front().style == PictureStyle::depth) words += "; lengths in scene units";
   return words;
 }
 
@@ -74,7 +78,7 @@ struct Grid {
   int top(int row) const { return heading + row * (caption() + panel.image.height + gap) + caption(); }
   int width() const { return left(columns) - gap + margin; }
   int height() const { return top(rows) - caption() - gap + margin; }
-  Style label() const { return {9 * unit, ink}; }
+  TextStyle label() const { return {9 * unit, ink}; }
 };
 
 /// Narrower tiles show nothing and cut names off.
@@ -178,7 +182,7 @@ struct LinesLayout {
   int height_of_lines() const { return lines * line_height; }
   int width() const { return left() + panel.image.width + margin; }
   int height() const { return top() + height_of_lines() + px(30) + margin; }
-  Style label() const { return {8.5 * unit, ink}; }
+  TextStyle label() const { return {8.5 * unit, ink}; }
 };
 
 LinesLayout lines_layout(const Frame& frame, bool has_depths) {

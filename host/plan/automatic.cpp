@@ -86,13 +86,13 @@ const ParameterValues& values_of(const Plan& plan, const Technique& technique) {
 }
 
 /// The mask by itself, with the parameters that it has for the technique, and `more` over them.
-PlanRequest mask_request(const Technique& technique, const Look& look, const Settings& more, int resolution) {
+PlanRequest mask_request(const Technique& technique, const EffectProbe& probe, const Settings& more, int resolution) {
   const std::string& mask = technique.effect.mask;
   PlanRequest request{.outputs = {mask}, .as_cells = true, .resolution = resolution};
   if (technique.views == 1) {
-    PlanRequest restricted = request_everywhere(technique, look.asked);
+    PlanRequest restricted = request_everywhere(technique, probe.asked);
     restricted.mask = mask;
-    const Plan whole = make_plan(restricted, look.available, look.holds);
+    const Plan whole = make_plan(restricted, probe.available, probe.holds);
     const ParameterValues& values = values_of(whole, find_technique(mask));
     for (const Parameter& p : values.table()) request.settings.emplace_back(mask + "." + p.name, values.text(p.name));
   }
@@ -116,22 +116,23 @@ double share_above_0(const Frame& frame, const std::string& plane) {
 
 std::string in_percent(double share) { return share < 0.01 ? "less than 1 %" : fmt::format("{:.0f} %", 100 * share); }
 
-void look_at(EffectChoice& choice, const Look& look, const Settings& settings, int resolution) {
-  const Plan plan = make_plan(mask_request(*choice.technique, look, settings, resolution), look.available, look.holds);
-  RunResult result = run(plan, look.frame, look.device, look.options);
+void probe_mask(EffectChoice& choice, const EffectProbe& probe, const Settings& settings, int resolution) {
+  const Plan plan =
+      make_plan(mask_request(*choice.technique, probe, settings, resolution), probe.available, probe.holds);
+  RunResult result = run(plan, probe.frame, probe.device, probe.options);
   choice.cells = plan.outputs.front();
   choice.share = share_above_0(result.frame, choice.cells);
   choice.seen = std::move(result.frame);
   choice.classify_ms += *std::min_element(result.total_ms.begin(), result.total_ms.end());
 }
 
-EffectChoice choose(const Technique& technique, const Look& look) {
+EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
   EffectChoice choice{.technique = &technique};
   const Effect& effect = technique.effect;
-  look_at(choice, look, effect.glance, effect.glance_resolution);
+  probe_mask(choice, probe, effect.probe, effect.probe_resolution);
   choice.is_everywhere = choice.share > effect.most_share;
-  // What a glance overlooks the mask may still find.
-  if (choice.share == 0 && effect.least_share == 0) look_at(choice, look, {}, 1);
+  // What a probe overlooks the mask may still find.
+  if (choice.share == 0 && effect.least_share == 0) probe_mask(choice, probe, {}, 1);
   choice.is_wanted = choice.share > effect.least_share;
   choice.why = choice.is_wanted ? fmt::format("{} on {} of the image{}", effect.somewhere, in_percent(choice.share),
                                               choice.is_everywhere ? ", so a mask would cost more than it saves" : "")
@@ -140,14 +141,14 @@ EffectChoice choose(const Technique& technique, const Look& look) {
 }
 
 /// Why a frame, or what is asked for, does not go with what refines an effect; empty where it does.
-std::string hindrance(const Technique& technique, const Look& look) {
-  if (technique.views == 2 && look.frame.views.size() != 2)
-    return fmt::format("the frame has {}", look.frame.views.size() == 1 ? "one view" : "more than two views");
+std::string hindrance(const Technique& technique, const EffectProbe& probe) {
+  if (technique.views == 2 && probe.frame.views.size() != 2)
+    return fmt::format("the frame has {}", probe.frame.views.size() == 1 ? "one view" : "more than two views");
   const auto has_pose = [](const View& view) { return view.camera && view.camera->pose; };
-  if (technique.views == 2 && !std::all_of(look.frame.views.begin(), look.frame.views.end(), has_pose))
+  if (technique.views == 2 && !std::all_of(probe.frame.views.begin(), probe.frame.views.end(), has_pose))
     return "nothing tells where the two cameras stand";
   try {
-    make_plan(request_everywhere(technique, look.asked), look.available, look.holds);
+    make_plan(request_everywhere(technique, probe.asked), probe.available, probe.holds);
   } catch (const MissingPlanes& missing) {
     const std::string& plane = missing.planes.front();
     const auto least = missing.instead.find(plane);
@@ -159,23 +160,23 @@ std::string hindrance(const Technique& technique, const Look& look) {
 }
 
 /// `chosen`: the refinement that runs already, or null.
-EffectChoice choose_refinement(const Technique& technique, const Technique* chosen, const Look& look) {
-  std::string why_not = hindrance(technique, look);
+EffectChoice choose_refinement(const Technique& technique, const Technique* chosen, const EffectProbe& probe) {
+  std::string why_not = hindrance(technique, probe);
   if (why_not.empty() && chosen) why_not = fmt::format("{} runs, which does not do this as well", chosen->name);
-  if (why_not.empty()) return choose(technique, look);
+  if (why_not.empty()) return choose(technique, probe);
   EffectChoice choice{.technique = &technique};
   choice.why = std::move(why_not);
   return choice;
 }
 
 /// In place of what it refines, or beside it where a mask tells them apart.
-PlanRequest refined_request(const EffectChoice& refinement, const Technique& refined, const Look& look) {
+PlanRequest refined_request(const EffectChoice& refinement, const Technique& refined, const EffectProbe& probe) {
   const Technique& technique = *refinement.technique;
-  PlanRequest request = request_everywhere(technique, look.asked);
-  if (technique.views == 2 || refinement.is_everywhere || look.asked.resolution > 1) return request;
+  PlanRequest request = request_everywhere(technique, probe.asked);
+  if (technique.views == 2 || refinement.is_everywhere || probe.asked.resolution > 1) return request;
   request.mask = technique.effect.mask;
   request.elsewhere = refined.name;
-  for (const auto& setting : look.asked.settings) {
+  for (const auto& setting : probe.asked.settings) {
     if (is_of(setting.first, refined.name)) request.settings.push_back(setting);
   }
   return request;
@@ -237,56 +238,56 @@ std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest&
   return plans;
 }
 
-Decision decide(const Technique& technique, const Look& look) {
-  Decision decision{.effect = choose(technique, look)};
-  decision.everywhere = decision.request = request_everywhere(technique, look.asked);
+Decision decide(const Technique& technique, const EffectProbe& probe) {
+  Decision decision{.effect = choose(technique, probe)};
+  decision.everywhere = decision.request = request_everywhere(technique, probe.asked);
   if (!decision.effect.is_everywhere) decision.request.mask = technique.effect.mask;
   const Technique* chosen = nullptr;
   for (const Technique* t : refinements_of(technique)) {
     // Where nothing calls for an effect more layers may, but not the same in two views.
     if (!decision.effect.is_wanted && t->views == 2) continue;
-    decision.refinements.push_back(choose_refinement(*t, chosen, look));
+    decision.refinements.push_back(choose_refinement(*t, chosen, probe));
     const EffectChoice& refinement = decision.refinements.back();
     decision.effect.classify_ms += refinement.classify_ms;
     if (!refinement.is_wanted) continue;
     chosen = t;
     if (!decision.effect.is_wanted) decision.effect.why += fmt::format(" that is seen, but {}", refinement.why);
     decision.effect.is_wanted = true;
-    decision.request = refined_request(refinement, technique, look);
+    decision.request = refined_request(refinement, technique, probe);
     // What only spares work is left out where nothing is looked at.
-    if (t->effect.settings.empty()) decision.everywhere = request_everywhere(*t, look.asked);
+    if (t->effect.settings.empty()) decision.everywhere = request_everywhere(*t, probe.asked);
   }
   return decision;
 }
 
-Computed compute(Decision& decision, const Look& look, MaskUse use) {
+Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool has_mask = !decision.request.mask.empty();
   Computed done{.ms_masked = unknown, .ms_everywhere = unknown};
   if (!has_mask || use == MaskUse::never) {
-    done.result = run(make_plan(has_mask ? decision.everywhere : decision.request, look.available, look.holds),
-                      look.frame, look.device, look.options);
+    done.result = run(make_plan(has_mask ? decision.everywhere : decision.request, probe.available, probe.holds),
+                      probe.frame, probe.device, probe.options);
     done.ms = least(done.result.total_ms);
     if (has_mask) done.ms_everywhere = done.ms;
     if (has_mask) leave_mask_out(decision, ", computed everywhere as asked");
     return done;
   }
-  const Plan masked = make_plan(decision.request, look.available, look.holds);
+  const Plan masked = make_plan(decision.request, probe.available, probe.holds);
   if (use == MaskUse::always) {
-    done.result = run(masked, look.frame, look.device, look.options);
+    done.result = run(masked, probe.frame, probe.device, probe.options);
     done.ms = done.ms_masked = least(done.result.total_ms);
     done.is_masked = true;
     return done;
   }
-  const Plan everywhere = make_plan(decision.everywhere, look.available, look.holds);
-  RunOptions once = look.options;
+  const Plan everywhere = make_plan(decision.everywhere, probe.available, probe.holds);
+  RunOptions once = probe.options;
   once.repeat = 1;
   RunResult with_mask, without;
   std::vector<double> ms_with, ms_without;
   // In turn, so that what else the machine does falls on both; the first round pays for what a device does once.
-  for (int round = 0; round < std::max(least_rounds, look.options.repeat); ++round) {
-    with_mask = run(masked, look.frame, look.device, once);
-    without = run(everywhere, look.frame, look.device, once);
+  for (int round = 0; round < std::max(least_rounds, probe.options.repeat); ++round) {
+    with_mask = run(masked, probe.frame, probe.device, once);
+    without = run(everywhere, probe.frame, probe.device, once);
     ms_with.push_back(with_mask.total_ms.front());
     ms_without.push_back(without.total_ms.front());
   }
@@ -303,9 +304,9 @@ Computed compute(Decision& decision, const Look& look, MaskUse use) {
   return done;
 }
 
-void look_closely(EffectChoice& choice, const Look& look) {
+void probe_closely(EffectChoice& choice, const EffectProbe& probe) {
   EffectChoice closer{.technique = choice.technique};
-  look_at(closer, look, {}, choice.technique->effect.glance_resolution);
+  probe_mask(closer, probe, {}, choice.technique->effect.probe_resolution);
   choice.seen = std::move(closer.seen);
 }
 

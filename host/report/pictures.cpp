@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 constexpr int margin = 16, gap = 12, header = 52, caption = 32, columns = 3;
 constexpr int widest_tile = 320, narrowest_tile = 80;  ///< pixels
 constexpr int narrowest_box = 160;                     ///< a caption has to be readable
-const Style title_style{11, ink, true}, about_style{7, faint}, name_style{8, ink, true}, figures_style{7.5, ink};
+const TextStyle title_style{11, ink, true}, about_style{7, faint}, name_style{8, ink, true}, figures_style{7.5, ink};
 
 void draw(cv::Mat& canvas, const Tile& tile, cv::Point corner, const PanelSize& panel) {
   put_text(canvas, shortened(tile.name, panel.box, name_style), corner - cv::Point(0, 19), name_style);

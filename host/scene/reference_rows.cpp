@@ -17,7 +17,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
-#include "gloam/scene/capture.h"
+#include "gloam/scene/camera_ray.h"
 #include "scene/fingerprint.h"
 
 namespace gloam {

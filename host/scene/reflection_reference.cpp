@@ -6,7 +6,7 @@
 #include "base/low_discrepancy.h"
 #include "gloam/error.h"
 #include "gloam/projection.h"
-#include "gloam/scene/capture.h"
+#include "gloam/scene/radiance.h"
 #include "gloam/scene/reference.h"
 #include "scene/fingerprint.h"
 #include "scene/reference_rows.h"

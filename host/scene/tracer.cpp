@@ -1,7 +1,5 @@
 #include "gloam/scene/tracer.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +8,8 @@
 #include <tuple>
 
 #include "gloam/error.h"
+#include "scene/embree_filters.h"
+#include "scene/embree_rays.h"
 #include "scene/textures.h"
 
 namespace gloam {
@@ -20,132 +20,6 @@ using glm::vec3;
 
 /// Two hits nearer to each other than this share of their distance are one surface: triangles that meet under the ray.
 constexpr double same_place = 1e-6;
-
-struct FreeDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct FreeScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
-/// Throws what Embree has to say, if anything.
-void check_embree(RTCDevice device, const Scene& scene) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_NONE) return;
-  if (error == RTC_ERROR_OUT_OF_MEMORY)
-    throw Error("{}: no memory to trace {} triangles; use a smaller scene", scene.name, scene.faces());
-  throw Error("{}: cannot be traced, Embree's error {}", scene.name, int(error));
-}
-
-/// What a filter needs of a mesh whose texture has holes.
-struct Cutout {
-  const Scene* scene;
-  const Mesh* mesh;
-};
-
-vec3 barycentric(float u, float v) { return {1 - u - v, u, v}; }
-
-glm::vec2 uv_at(const Mesh& mesh, unsigned triangle, vec3 weights) {
-  if (mesh.uvs.empty()) return glm::vec2(0);
-  const glm::uvec3 t = mesh.triangles[triangle];
-  return weights.x * mesh.uvs[t.x] + weights.y * mesh.uvs[t.y] + weights.z * mesh.uvs[t.z];
-}
-
-/// Whether the texture has a hole there.
-bool is_cut_out(const Cutout& cutout, unsigned triangle, float u, float v) {
-  const Material& material = cutout.scene->materials[size_t(cutout.mesh->material)];
-  const Texture& texture = cutout.scene->textures[size_t(material.albedo_texture)];
-  return texel(texture, uv_at(*cutout.mesh, triangle, barycentric(u, v)), false).a < material.alpha_cutoff;
-}
-
-/// Lets rays pass through holes.
-void pass_holes(const RTCFilterFunctionNArguments* arguments) {
-  const Cutout& cutout = *static_cast<const Cutout*>(arguments->geometryUserPtr);
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (!arguments->valid[i]) continue;
-    const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
-    const float u = RTCHitN_u(arguments->hit, arguments->N, i), v = RTCHitN_v(arguments->hit, arguments->N, i);
-    if (is_cut_out(cutout, triangle, u, v)) arguments->valid[i] = 0;
-  }
-}
-
-/// A hit as Embree reports it.
-struct RawHit {
-  unsigned mesh, triangle;
-  double distance;
-  float u, v;
-};
-
-/// Embree's context with a list behind it, for `gather_hit`.
-struct GatheringContext {
-  RTCIntersectContext base;
-  std::vector<RawHit>* hits;
-};
-
-/// Takes every hit down and lets the ray go on.
-void gather_hit(const RTCFilterFunctionNArguments* arguments) {
-  auto& context = *reinterpret_cast<GatheringContext*>(arguments->context);
-  const RTCHit hit = rtcGetHitFromHitN(arguments->hit, 1, 0);
-  const RTCRay ray = rtcGetRayFromRayN(arguments->ray, 1, 0);
-  if (arguments->valid[0]) context.hits->push_back({hit.geomID, hit.primID, ray.tfar, hit.u, hit.v});
-  arguments->valid[0] = 0;
-}
-
-/// Embree's context with the scene behind it, for `pass_what_is_behind`.
-struct SceneContext {
-  RTCIntersectContext base;
-  const Scene* scene;
-  float near;  ///< hits nearer than this are looked at again
-};
-
-/// Lets go on what has only been hit by rounding: a triangle that in double lies behind the ray's start, such as the one
-/// that the ray leaves.
-void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments) {
-  const auto& context = *reinterpret_cast<const SceneContext*>(arguments->context);
-  const unsigned n = arguments->N;
-  for (unsigned i = 0; i < n; ++i) {
-    if (!arguments->valid[i] || RTCRayN_tfar(arguments->ray, n, i) > context.near) continue;
-    const Mesh& mesh = context.scene->meshes[RTCHitN_geomID(arguments->hit, n, i)];
-    const glm::uvec3 t = mesh.triangles[RTCHitN_primID(arguments->hit, n, i)];
-    const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-    const dvec3 origin(RTCRayN_org_x(arguments->ray, n, i), RTCRayN_org_y(arguments->ray, n, i),
-                       RTCRayN_org_z(arguments->ray, n, i));
-    const dvec3 direction(RTCRayN_dir_x(arguments->ray, n, i), RTCRayN_dir_y(arguments->ray, n, i),
-                          RTCRayN_dir_z(arguments->ray, n, i));
-    const dvec3 normal = glm::cross(b - a, c - a);
-    if (glm::dot(a - origin, normal) * glm::dot(direction, normal) <= 0) arguments->valid[i] = 0;
-  }
-}
-
-/// A ray as Embree takes it, from `start` along it on.
-RTCRay embree_ray(const TracerRay& ray, double start) {
-  const dvec3 origin = ray.origin + start * ray.direction;
-  RTCRay out;
-  out.org_x = float(origin.x), out.org_y = float(origin.y), out.org_z = float(origin.z);
-  out.dir_x = float(ray.direction.x), out.dir_y = float(ray.direction.y), out.dir_z = float(ray.direction.z);
-  out.tnear = float(std::max(ray.near - start, 0.0)), out.tfar = float(ray.far - start);
-  out.time = 0, out.mask = ~0u, out.id = 0, out.flags = 0;
-  return out;
-}
-
-/// Up to 16 rays from one point.
-struct Packet {
-  alignas(64) int valid[16];
-  RTCRayHit16 rays;
-
-  Packet(const vec3& origin, const vec3* directions, int count, float far) {
-    for (int i = 0; i < 16; ++i) {
-      const vec3 direction = i < count ? directions[i] : vec3(0, 0, 1);
-      valid[i] = i < count ? -1 : 0;
-      rays.ray.org_x[i] = origin.x, rays.ray.org_y[i] = origin.y, rays.ray.org_z[i] = origin.z;
-      rays.ray.dir_x[i] = direction.x, rays.ray.dir_y[i] = direction.y, rays.ray.dir_z[i] = direction.z;
-      rays.ray.tnear[i] = 0, rays.ray.tfar[i] = far;
-      rays.ray.time[i] = 0, rays.ray.mask[i] = ~0u, rays.ray.id[i] = 0, rays.ray.flags[i] = 0;
-      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-  }
-};
 
 dvec3 unit_or(const dvec3& v, const dvec3& otherwise) {
   const double length = glm::length(v);
@@ -394,7 +268,7 @@ void Tracer::blocked(const vec3& origin, const vec3* directions, int count, floa
   SceneContext context = impl_->context();
   for (int first = 0; first < count; first += 16) {
     const int n = std::min(16, count - first);
-    Packet packet(origin, directions + first, n, far);
+    RayPacket packet(origin, directions + first, n, far);
     rtcOccluded16(packet.valid, impl_->embree.get(), &context.base, &packet.rays.ray);
     for (int i = 0; i < n; ++i) blocked[first + i] = packet.rays.ray.tfar[i] < 0;
   }
@@ -404,7 +278,7 @@ void Tracer::distances(const vec3& origin, const vec3* directions, int count, fl
   SceneContext context = impl_->context();
   for (int first = 0; first < count; first += 16) {
     const int n = std::min(16, count - first);
-    Packet packet(origin, directions + first, n, far);
+    RayPacket packet(origin, directions + first, n, far);
     rtcIntersect16(packet.valid, impl_->embree.get(), &context.base, &packet.rays);
     for (int i = 0; i < n; ++i) {
       const bool hit = packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;

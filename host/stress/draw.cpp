@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/random.h"
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "stress/frames.h"
 #include "stress/modules.h"

@@ -7,7 +7,7 @@
 
 #include "analytic_scene.h"
 #include "base/low_discrepancy.h"
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
 

@@ -14,9 +14,9 @@ namespace {
 
 /// A stream of random numbers. Integers decide everything, and what is made of them is exact in double: the same bits
 /// with and without fused multiply-adds.
-class Random {
+class RandomStream {
  public:
-  explicit Random(uint32_t seed) : start_(hash_of(seed)), mask_(hash_of(seed ^ 0x9e3779b9u)) {}
+  explicit RandomStream(uint32_t seed) : start_(hash_of(seed)), mask_(hash_of(seed ^ 0x9e3779b9u)) {}
 
   uint32_t bits() { return hash_of(hash_of(start_ + count_++) ^ mask_); }
   /// In [0,1), a multiple of 2^-32.
@@ -31,7 +31,7 @@ class Random {
 };
 
 /// One number in each of `count` equal intervals of [0,1), shuffled.
-std::vector<double> shuffled_strata(int count, Random& random) {
+std::vector<double> shuffled_strata(int count, RandomStream& random) {
   std::vector<int> order(static_cast<size_t>(count));
   std::iota(order.begin(), order.end(), 0);
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
@@ -40,7 +40,7 @@ std::vector<double> shuffled_strata(int count, Random& random) {
   return strata;
 }
 
-std::vector<glm::dvec2> random_points(int count, Random& random) {
+std::vector<glm::dvec2> random_points(int count, RandomStream& random) {
   std::vector<glm::dvec2> points;
   for (int i = 0; i < count; ++i) {
     const double u = random.unit();
@@ -50,7 +50,7 @@ std::vector<glm::dvec2> random_points(int count, Random& random) {
 }
 
 /// Rows differ by one cell at most, and a row is as high as its share of the cells, so that all cells have the same area.
-std::vector<glm::dvec2> jittered_points(int count, Random& random) {
+std::vector<glm::dvec2> jittered_points(int count, RandomStream& random) {
   const int rows = int(std::lround(std::sqrt(count)));
   std::vector<glm::dvec2> points;
   for (int row = 0; row < rows; ++row) {
@@ -63,7 +63,7 @@ std::vector<glm::dvec2> jittered_points(int count, Random& random) {
   return points;
 }
 
-std::vector<glm::dvec2> latin_points(int count, Random& random) {
+std::vector<glm::dvec2> latin_points(int count, RandomStream& random) {
   std::vector<glm::dvec2> points;
   for (const double u : shuffled_strata(count, random))
     points.push_back({u, (int(points.size()) + random.unit()) / count});
@@ -117,7 +117,7 @@ class Disks {
 double largest_distance(int count) { return (1 + std::sqrt(1 + 8 / std::sqrt(3.0) * count)) / (2 * count); }
 
 /// Points that keep `distance`; nothing when the darts leave no room before there are `count`.
-std::optional<std::vector<glm::dvec2>> throw_darts(int count, double distance, Random& random) {
+std::optional<std::vector<glm::dvec2>> throw_darts(int count, double distance, RandomStream& random) {
   Disks disks(distance);
   for (int tries = 500 * count; tries > 0; --tries) {
     const double u = random.coarse_unit();
@@ -130,7 +130,7 @@ std::optional<std::vector<glm::dvec2>> throw_darts(int count, double distance, R
 }
 
 /// Darts fill up a plane at 0.777 of the largest distance (Feder 1980), but take for ever; a little below, they do not.
-std::vector<glm::dvec2> poisson_points(int count, Random& random) {
+std::vector<glm::dvec2> poisson_points(int count, RandomStream& random) {
   double distance = 0.74 * largest_distance(count);
   while (true) {
     if (const auto points = throw_darts(count, distance, random)) return *points;
@@ -138,7 +138,7 @@ std::vector<glm::dvec2> poisson_points(int count, Random& random) {
   }
 }
 
-std::vector<glm::dvec2> plane_points(PointSet set, int count, Random& random) {
+std::vector<glm::dvec2> plane_points(PointSet set, int count, RandomStream& random) {
   switch (set) {
     case PointSet::random:
       return random_points(count, random);
@@ -157,7 +157,7 @@ std::vector<glm::dvec2> plane_points(PointSet set, int count, Random& random) {
 std::vector<glm::dvec3> point_set(PointSet set, int count, uint32_t seed) {
   if (count < 1 || count > max_point_set_count)
     throw UsageError("a set of {} points: a point set has 1 to {} points", count, max_point_set_count);
-  Random random(seed);
+  RandomStream random(seed);
   std::vector<double> w = shuffled_strata(count, random);
   if (set == PointSet::random) std::generate(w.begin(), w.end(), [&] { return random.unit(); });
   std::vector<glm::dvec3> points;

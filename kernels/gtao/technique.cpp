@@ -73,7 +73,7 @@ Technique bitmask_over_depth() {
   t.passes = passes_of(bitmask_passes);
   t.effect = {.name = "ambient occlusion",
               .mask = "corner-mask",
-              .glance = {{"cell", "8"}, {"search_steps", "2"}},
+              .probe = {{"cell", "8"}, {"search_steps", "2"}},
               .most_share = 0.8,
               .somewhere = "something rises over the surface within the radius",
               .nowhere = "nothing rises over any surface within the radius"};
@@ -85,7 +85,7 @@ Technique bitmask_over_stochastic_depth() {
   t.effect = {.name = "hidden layers",
               .refines = "bitmask",
               .mask = "hidden-mask",
-              .glance = {{"cell", "16"}, {"search_steps", "2"}},
+              .probe = {{"cell", "16"}, {"search_steps", "2"}},
               .most_share = 0.5,
               .somewhere = "something that the depth hides rises over what is seen",
               .nowhere = "nothing that the depth hides rises over what is seen"};
@@ -98,7 +98,7 @@ Technique bitmask_over_two_eyes() {
   t.effect = {.name = "two views alike",
               .refines = "bitmask",
               .mask = "stereo-visibility",
-              .glance_resolution = 4,
+              .probe_resolution = 4,
               .least_share = 0.5,
               .settings = {{"estimate", "mono"}, {"filter", "mono"}},
               .somewhere = "the second view takes over what the first finds, and both see the same",

@@ -194,7 +194,7 @@ Effect effect_of_displays() {
   return {.name = "ambient occlusion",
           .for_displays = true,
           .mask = "lightfield-mask",
-          .glance = {{"cell", "8"}, {"search_steps", "2"}},
+          .probe = {{"cell", "8"}, {"search_steps", "2"}},
           .most_share = 0,
           .settings = {{"reuse", "on"}},
           .somewhere = "something rises over the surface within the radius",

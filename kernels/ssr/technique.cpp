@@ -246,7 +246,7 @@ Technique plain() {
   // Rays are listed one by one: a mask over the image has little to add where surfaces reflect at all.
   t.effect = {.name = "reflections",
               .mask = "reflection-mask",
-              .glance_resolution = 4,
+              .probe_resolution = 4,
               .most_share = 0.3,
               .somewhere = "a surface reflects something that the image shows",
               .nowhere = "no surface reflects anything that the image shows"};
@@ -273,7 +273,7 @@ Technique for_two_eyes() {
   t.effect = {.name = "reflections alike in two views",
               .refines = "sssr",
               .mask = "stereo-visibility",
-              .glance_resolution = 4,
+              .probe_resolution = 4,
               .least_share = 0.3,
               .somewhere = "each view has rays for the other, since both see the same",
               .nowhere = "the two views have too little in common"};

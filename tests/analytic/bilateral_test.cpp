@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "support/estimate.h"
 #include "support/stress.h"
 

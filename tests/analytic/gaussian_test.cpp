@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "gloam/error.h"
+#include "gloam/scene/camera_ray.h"
 #include "gloam/scene/capture.h"
 #include "scene/built_in/mesh_builder.h"
 

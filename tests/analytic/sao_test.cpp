@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "support/depth_layers.h"
 #include "support/estimate.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/low_discrepancy.h"
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "support/estimate.h"
 #include "support/stress.h"

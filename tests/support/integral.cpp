@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/projection.h"
 #include "support/depth_layers.h"
 

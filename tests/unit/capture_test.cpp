@@ -13,7 +13,7 @@
 #include <set>
 
 #include "gloam/error.h"
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "scene/built_in/mesh_builder.h"
 #include "support/stress.h"

@@ -28,11 +28,11 @@ Names found(const Names& names, const std::string& plane) {
   return channels_of(name_planes(single_part(names), {}), plane);
 }
 
-Said said_of(const Names& names, const std::string& plane) {
+DeclaredConvention said_of(const Names& names, const std::string& plane) {
   for (const PlaneSource& source : name_planes(single_part(names), {}).planes)
     if (source.plane == plane) return source.said;
   ADD_FAILURE() << "no " << plane;
-  return Said::nothing;
+  return DeclaredConvention::nothing;
 }
 
 std::string error_of(const Names& names, const NameOptions& options, const Names& multi_view = {}) {
@@ -124,12 +124,12 @@ TEST(ChannelNames, OwnNamesComeFirst) {
 }
 
 TEST(ChannelNames, RayDistanceIsKnownByName) {
-  EXPECT_EQ(said_of({"distance.Y"}, "depth"), Said::ray_distance);
-  EXPECT_EQ(said_of({"dd.y"}, "depth"), Said::ray_distance);
-  EXPECT_EQ(said_of({"any.T"}, "depth"), Said::ray_distance);
-  EXPECT_EQ(said_of({"ViewLayer.Depth.Z"}, "depth"), Said::planar);
-  EXPECT_EQ(said_of({"depth.V"}, "depth"), Said::nothing);
-  EXPECT_EQ(said_of({"Z"}, "depth"), Said::nothing);
+  EXPECT_EQ(said_of({"distance.Y"}, "depth"), DeclaredConvention::ray_distance);
+  EXPECT_EQ(said_of({"dd.y"}, "depth"), DeclaredConvention::ray_distance);
+  EXPECT_EQ(said_of({"any.T"}, "depth"), DeclaredConvention::ray_distance);
+  EXPECT_EQ(said_of({"ViewLayer.Depth.Z"}, "depth"), DeclaredConvention::planar);
+  EXPECT_EQ(said_of({"depth.V"}, "depth"), DeclaredConvention::nothing);
+  EXPECT_EQ(said_of({"Z"}, "depth"), DeclaredConvention::nothing);
 }
 
 TEST(ChannelNames, MitsubaBeautyIsTheOnlyRgbaLayerLeft) {

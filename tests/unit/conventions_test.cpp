@@ -13,6 +13,7 @@
 #include "camera/camera_io.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "unit/read_channel.h"
 
 namespace {

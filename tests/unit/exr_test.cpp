@@ -32,6 +32,7 @@
 #include <limits>
 
 #include "gloam/error.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-#include "gloam/scene/capture.h"
+#include "gloam/scene/camera_ray.h"
 #include "gloam/scene/tracer.h"
 
 namespace gloam::scenes {

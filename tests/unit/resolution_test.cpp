@@ -9,7 +9,7 @@
 #include <set>
 
 #include "gloam/error.h"
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"

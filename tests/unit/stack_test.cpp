@@ -7,6 +7,7 @@
 
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/plan.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"

@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// What there is to look at, and with what. The frame has passed the door.
-struct Look {
+/// What a frame is probed for effects with. The frame is normalised (gloam/normalise.h).
+struct EffectProbe {
   const PlanRequest& asked;  ///< settings, preset, filter and resolution
   const Frame& frame;
   const std::vector<std::string>& available;  ///< planes of the frame
@@ -27,9 +27,9 @@ struct EffectChoice {
   bool is_wanted = false;
   bool is_everywhere = false;  ///< wanted on so much of the image that no mask is made
   std::string why;             ///< in words, with the share
-  double share = 0;            ///< of the tiles that were looked at, of all views
+  double share = 0;            ///< of the tiles that were probed, of all views
   double classify_ms = 0;      ///< what finding out took, on the device
-  std::string cells;           ///< the plane of `seen`; empty where nothing was looked at
+  std::string cells;           ///< the plane of `seen`; empty where nothing was probed
   Frame seen;                  ///< of each view one pixel per tile: above 0 where it is called for
 };
 
@@ -39,7 +39,7 @@ struct Decision {
   std::vector<EffectChoice>
       refinements;         ///< at most one of them is wanted, and runs in place of the effect's technique
   PlanRequest request;     ///< for what is called for
-  PlanRequest everywhere;  ///< for the same without looking at what the frame calls for
+  PlanRequest everywhere;  ///< for the same without probing what the frame calls for
 };
 
 /// Techniques that declare an effect by itself.
@@ -52,14 +52,14 @@ PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked
                             const std::vector<std::string>& available, const std::string& holds);
 
 /// The plans that may run for an effect: its own with its mask, and those of what refines it, as far as the frame has what they
-/// read. Together they read all that the effect and the glance at it take from a frame. Throws MissingPlanes, UsageError.
+/// read. Together they read all that the effect and its probe take from a frame. Throws MissingPlanes, UsageError.
 std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest& asked,
                                   const std::vector<std::string>& available, const std::string& holds);
 
-/// Looks at a frame, on the device, at a glance; where that finds nothing, by the mask itself. What refines an effect is looked
-/// for where the frame calls for that, and where it looks at one view, since layers may call for what nothing seen does. Throws what `make_plan`
-/// and `run` do.
-Decision decide(const Technique& technique, const Look& look);
+/// Probes a frame on the device (`Effect::probe`); where the probe finds nothing, by the mask itself. What refines an effect is
+/// probed where the frame calls for that effect, and where it reads one view, since layers may call for what nothing seen
+/// does. Throws what `make_plan` and `run` do.
+Decision decide(const Technique& technique, const EffectProbe& probe);
 
 /// Whether an effect is computed through its mask, where the decision has one, or everywhere: as said, or what takes less.
 enum class MaskUse { measured, always, never };
@@ -75,9 +75,9 @@ struct Computed {
 /// Runs what was decided, which has to be wanted. Where the mask's use is to be measured, both ways are run in turn, and the mask is
 /// kept where it saves 5 % or more: what it leaves out is then open, where everywhere finds next to nothing. Otherwise the decision
 /// becomes one for everywhere, and says so.
-Computed compute(Decision& decision, const Look& look, MaskUse use);
+Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use);
 
 /// The cells of an effect's mask, as `EffectChoice::seen`, with all that the mask has to tell.
-void look_closely(EffectChoice& choice, const Look& look);
+void probe_closely(EffectChoice& choice, const EffectProbe& probe);
 
 }  // namespace gloam

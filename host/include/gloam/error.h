@@ -10,13 +10,14 @@
 
 namespace gloam {
 
-/// Text from a file or the command line as a terminal may show it: control characters and bytes that are not UTF-8
-/// become \xNN. Text that has been through it stays as it is.
+/// Text from a file or the command line, safe on a terminal and on one line: control characters, line ends among them,
+/// characters that turn the direction of text, and bytes that are not UTF-8 become \xNN. Printable text stays as it is.
 std::string printable(std::string_view text);
 
 /// Something the user has to know, in one line that names the thing, the value, what is allowed and what to do.
-/// Thrown with the full message; only `main` catches it. Exit status 1. The message is made printable, whatever names
-/// are in it.
+/// The message is made printable, whatever names are in it. A program that uses the library catches it; in the command
+/// `gloam` it reaches `main`, which prints the message and exits with `exit_status`. In between it is caught where there
+/// is something else to do: name the file that the message is about, try the next input, list it with others.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(printable(message)) {}
@@ -36,9 +37,6 @@ class UsageError : public Error {
 /// The candidate that `name` abbreviates ("--rad" of "--radius"), else the one with the smallest edit distance, as
 /// " (did you mean 'x'?)"; empty when none is near, and for a name without letters.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
-
-/// Text that is safe on a terminal and stays on one line: line ends become "; ", other control bytes "\\x1b".
-std::string printable(std::string_view text);
 
 /// "a, b and c"
 std::string enumerate(const std::vector<std::string>& items);

@@ -46,15 +46,16 @@ struct ChannelSource {
   float scale = 1;   ///< what brings a value to gloam's meaning: -1 for the y of motion vectors that point up
 };
 
-/// What a channel's name already tells about its values.
-enum class Said { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
+/// What a channel's name declares about its values.
+enum class DeclaredConvention { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
+using Said = DeclaredConvention;  // for exr/read.cpp only
 
 /// A plane that could be decoded.
 struct PlaneSource {
   std::string plane;  ///< "depth", "normal", ... (planes.h)
   std::string view;
   std::vector<ChannelSource> channels;
-  Said said = Said::nothing;
+  DeclaredConvention said = DeclaredConvention::nothing;
 };
 
 /// An open EXR file: what it holds, as far as headers and the camera file beside it tell.
@@ -163,10 +164,5 @@ void check(const WriteOptions& options);
 /// and renamed, so that a failed or interrupted run leaves nothing half written.
 /// Throws Error naming the path when it cannot be written.
 void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options = {});
-
-/// The door that every frame passes, whether read from disk or made in memory: depth that is NaN, infinite, zero,
-/// negative, equal to a known `far`, or `background` (where given, else 1e10 and more) becomes +inf; normals become
-/// unit, or zero where they are NaN, infinite, zero or on background; padding is set to each plane's `outside` value.
-void normalise(Frame& frame, std::optional<float> background = {});
 
 }  // namespace gloam

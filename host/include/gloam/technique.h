@@ -120,9 +120,9 @@ struct Effect {
   bool for_displays =
       false;  ///< of frames of light-field displays, which techniques with `any_projection` take, and of no others
   std::string mask;  ///< technique whose mask says where it is called for
-  /// Settings and resolution with which the mask costs next to nothing, and still tells how much calls for it.
-  std::vector<std::pair<std::string, std::string>> glance;
-  int glance_resolution = 1;
+  /// The probe: settings and resolution with which the mask costs next to nothing, and still tells how much calls for it.
+  std::vector<std::pair<std::string, std::string>> probe;
+  int probe_resolution = 1;
   /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
   /// than it saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;

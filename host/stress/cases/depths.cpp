@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "normalise/conventions.h"
 #include "stress/case.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "stress/case.h"
 #include "stress/draw.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gloam/exr.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "stress/case.h"
 #include "stress/frames.h"

@@ -2,14 +2,14 @@
 // point only within the radius of it; elsewhere the second look is spared (Shi, Billeter, Eisemann 2022, section 5).
 //
 // Space is cut into cells as wide as the radius, and every cell that lies within it of something half-occluded is marked
-// in a table of floats, found by a hash: 1 where marked. Cells of one place in the table are marked together, which costs a
+// in a table of floats, found by a hash: 1 where marked. Cells of one slot in the table are marked together, which costs a
 // look too many and misses none. The table lies in a plane's memory, and is of the eye that sees what is half-occluded.
 #ifndef GLOAM_HALF_OCCLUSION_H
 #define GLOAM_HALF_OCCLUSION_H
 
 #include "shared/frame/neighbour.h"
 
-// Places in the table: a power of two that fits a plane.
+// Slots in the table: a power of two that fits a plane.
 #define MOST_CELLS (1 << 17)
 static inline int bits_of_cells(Frame f) {
   return 31 - (int)clz(min((uint)MOST_CELLS, (uint)f.pitch * (uint)f.height));
@@ -22,7 +22,7 @@ static inline void empty_cells(PLANE_OUT cells, Frame f, int here) {
 
 typedef struct {
   integer x, y, z;
-} Cell;
+} GridCell;
 
 // Along one axis. A radius of 0 or of no end puts everything into few cells: all of it is looked at.
 static inline integer cell_along(real coordinate, scalar radius) {
@@ -30,16 +30,16 @@ static inline integer cell_along(real coordinate, scalar radius) {
   return to_integer(smaller(larger(cell, -most), most));
 }
 
-static inline Cell cell_of(real3 p, scalar radius) {
-  Cell c;
+static inline GridCell grid_cell_of(real3 p, scalar radius) {
+  GridCell c;
   c.x = cell_along(p.x, radius);
   c.y = cell_along(p.y, radius);
   c.z = cell_along(p.z, radius);
   return c;
 }
 
-// Index in the table.
-static inline integer place_of(Frame f, Cell c) {
+// Slot in the table.
+static inline integer slot_of(Frame f, GridCell c) {
   const natural h = to_natural(c.x) * 0x8da6b343u + to_natural(c.y) * 0xd8163841u + to_natural(c.z) * 0xcb1ab31fu;
   return to_integer(h >> (uint)(32 - bits_of_cells(f))) + FRAME_GUARD;
 }
@@ -48,18 +48,18 @@ static inline integer place_of(Frame f, Cell c) {
 static inline void mark_around(PLANE_OUT cells, Frame f, int x, int y, int z) {
   for (int first = 0; first < 27; first += LANES) {
     const integer k = min((integer)(first) + IOTA, (integer)(26));
-    Cell c;
+    GridCell c;
     c.x = x + k % 3 - 1;
     c.y = y + k / 3 % 3 - 1;
     c.z = z + k / 9 - 1;
-    scatter((real)(1), cells, place_of(f, c));
+    scatter((real)(1), cells, slot_of(f, c));
   }
 }
 
 // The same around the points of a mask, once for each cell that they lie in.
 static inline void mark_around_all(PLANE_OUT cells, Frame f, real3 p, scalar radius, mask which) {
   if (!ANY(which)) return;
-  const Cell c = cell_of(p, radius);
+  const GridCell c = grid_cell_of(p, radius);
   const int *x = (const int*)&c.x, *y = (const int*)&c.y, *z = (const int*)&c.z;
   integer is_left = integer_of(which);
   const int* left = (const int*)&is_left;
@@ -72,7 +72,7 @@ static inline void mark_around_all(PLANE_OUT cells, Frame f, real3 p, scalar rad
 
 // Whether a point lies in a cell that is marked; `p`: in the space of the eye whose table it is.
 static inline mask is_near_marked(PLANE cells, Frame f, real3 p, scalar radius) {
-  return gather(cells, place_of(f, cell_of(p, radius))) > 0;
+  return gather(cells, slot_of(f, grid_cell_of(p, radius))) > 0;
 }
 
 // Fewer pixels of a row than this that one eye alone sees are left by rounding and by slopes; nothing of note hides there.

@@ -70,17 +70,4 @@ const std::vector<std::string>& capture_planes();
 /// camera without a pose, and for a second view where the first shows nothing.
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
 
-/// The ray through a point of the image, in pixels (centres at +0.5). Distances along it are planar view-space depths.
-/// Relative to Scene::origin. Throws Error where a light-field display shows nothing (`view_ray`).
-TracerRay camera_ray(const Camera& camera, const glm::dvec3& scene_origin, double x, double y);
-
-/// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with
-/// shadows) and of the sky (without occlusion, so that ambient occlusion can be multiplied in without counting it
-/// twice). Scene-linear. `seed` picks the points of the sun's disc, `sun_rays` of them: at most 16.
-inline constexpr int most_sun_rays = 16;
-glm::vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays = most_sun_rays);
-
-/// What a ray that meets nothing sees.
-glm::vec3 sky_radiance(const Scene& scene, const glm::dvec3& direction);
-
 }  // namespace gloam

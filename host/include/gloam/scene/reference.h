@@ -64,7 +64,7 @@ struct ReflectionReferenceOptions {
 
 /// Light that the visible surfaces reflect towards the eye: two bounces. The first is on the visible surface: GGX with
 /// height-correlated Smith and Schlick's Fresnel, about the frame's normal, with the frame's `roughness` and `reflectance` where
-/// it has them (else the scene's). The second is on what is met there: its `radiance` (capture.h), the same in every
+/// it has them (else the scene's). The second is on what is met there: its `radiance` (radiance.h), the same in every
 /// direction, as the captured color has it; or the sky. Directions under the surface bring nothing.
 ///
 /// Planes `reflection`, whose a is the share of the light's weight that comes from something that a view of the frame shows,

@@ -1,134 +1,21 @@
-#include "gloam/visualise.h"
+#include "gloam/difference_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "picture/differences.h"
 #include "picture/picture.h"
 
 namespace gloam {
 namespace {
 
-// ---------------------------------------------------------------------------------------------------------------------
 // Colours (blue, green, red, as OpenCV keeps them)
-
 const cv::Scalar grid(232, 232, 232), bar_fill(190, 175, 165);
 const cv::Scalar bias_ink(30, 120, 20), rmse_ink(150, 60, 130);
-
-/// One side of the difference map, from no difference to the end of the scale: equal steps of lightness in the OKLab
-/// space (0.975 to 0.4) at one hue each, so that equal differences look equally far apart and both signs weigh the
-/// same.
-constexpr std::array<std::array<int, 3>, 6> too_dark_colours{
-    // red, green, blue
-    {{247, 247, 247}, {191, 211, 239}, {134, 175, 232}, {81, 138, 217}, {40, 102, 185}, {17, 70, 137}}};
-constexpr std::array<std::array<int, 3>, 6> too_bright_colours{
-    {{247, 247, 247}, {237, 199, 192}, {226, 150, 137}, {206, 102, 86}, {171, 63, 49}, {125, 36, 26}}};
-
-/// Colour of a difference in units of the scale's end; beyond -1 and 1 the colour stays that of the end.
-cv::Vec3b difference_colour(double t) {
-  const auto& colours = t < 0 ? too_dark_colours : too_bright_colours;
-  const double position = std::min(std::abs(t), 1.0) * double(colours.size() - 1);
-  const size_t i = std::min(size_t(position), colours.size() - 2);
-  const double f = position - double(i);
-  cv::Vec3b colour;
-  for (int c = 0; c < 3; ++c)
-    colour[c] =
-        cv::saturate_cast<unsigned char>(colours[i][size_t(2 - c)] * (1 - f) + colours[i + 1][size_t(2 - c)] * f);
-  return colour;
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// Differences
-
-/// What the picture is made of. The drawn difference of a pixel is that of the component that differs most.
-struct Differences {
-  const Plane& test;
-  const Plane& truth;
-  const Mask& foreground;
-  int width, height;
-  size_t components;
-
-  bool counts(int x, int y) const { return foreground[size_t(y) * size_t(width) + size_t(x)] != 0; }
-  double of_component(size_t c, int x, int y) const {
-    const double d = double(test.channels[c].at(x, y)) - double(truth.channels[c].at(x, y));
-    return std::isfinite(d) ? d : 0;
-  }
-  double at(int x, int y) const {
-    double largest = 0;
-    for (size_t c = 0; c < components; ++c) {
-      const double d = of_component(c, x, y);
-      if (std::abs(d) > std::abs(largest)) largest = d;
-    }
-    return largest;
-  }
-};
-
-Differences differences(const Plane& test, const Plane& truth, const Mask& foreground) {
-  const bool same = !test.channels.empty() && test.channels.size() == truth.channels.size() &&
-                    test.channels[0].layout() == truth.channels[0].layout();
-  if (!same) throw Error("'{}': test and truth have different sizes or components: no picture of it", test.name);
-  const Layout& layout = test.channels[0].layout();
-  if (layout.width < 1 || layout.height < 1 || foreground.size() != size_t(layout.width) * size_t(layout.height))
-    throw Error("'{}': the mask does not have the {}x{} pixels of the images", test.name, layout.width, layout.height);
-  return {test, truth, foreground, layout.width, layout.height, test.channels.size()};
-}
-
-/// Ends of the scale to choose from: round numbers, so that two pictures are likely to share one and can be compared.
-constexpr std::array<float, 5> ranges{0.05f, 0.1f, 0.2f, 0.5f, 1.0f};
-
-/// The smallest range that covers 99 % of the counted pixels: a few outliers must not wash out all the rest.
-float fitting_range(const Differences& d) {
-  std::array<long long, ranges.size()> within{};
-  long long pixels = 0;
-  for (int y = 0; y < d.height; ++y)
-    for (int x = 0; x < d.width; ++x) {
-      if (!d.counts(x, y)) continue;
-      ++pixels;
-      const double size = std::abs(d.at(x, y));
-      for (size_t i = 0; i < ranges.size(); ++i) within[i] += size <= double(ranges[i]);
-    }
-  for (size_t i = 0; i < ranges.size(); ++i)
-    if (double(within[i]) >= 0.99 * double(pixels)) return ranges[i];
-  return ranges.back();
-}
-
-cv::Mat difference_image(const Differences& d, double range) {
-  cv::Mat image(d.height, d.width, CV_8UC3);
-  for (int y = 0; y < d.height; ++y)
-    for (int x = 0; x < d.width; ++x)
-      image.at<cv::Vec3b>(y, x) = difference_colour(d.counts(x, y) ? d.at(x, y) / range : 0);
-  return image;
-}
-
-struct Histogram {
-  std::vector<long long> bins;  ///< of equal width over -range .. range; an odd number: the middle one is about 0
-  long long largest = 0;
-  long long beyond = 0, all = 0;  ///< values outside the range (they are in the end bins too); all values
-};
-
-Histogram histogram_of(const Differences& d, double range, int bins) {
-  Histogram h{std::vector<long long>(size_t(bins), 0)};
-  for (int y = 0; y < d.height; ++y)
-    for (int x = 0; x < d.width; ++x) {
-      if (!d.counts(x, y)) continue;
-      for (size_t c = 0; c < d.components; ++c) {
-        const double t = d.of_component(c, x, y) / range;
-        const int bin = std::clamp(int(std::floor((std::clamp(t, -2.0, 2.0) + 1) / 2 * bins)), 0, bins - 1);
-        ++h.bins[size_t(bin)];
-        h.beyond += std::abs(t) > 1;
-        ++h.all;
-      }
-    }
-  h.largest = *std::max_element(h.bins.begin(), h.bins.end());
-  return h;
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// The sheet
 
 constexpr PanelLimits panel_limits{320, 1280, 2560};
 
@@ -147,11 +34,11 @@ struct Sheet {
   int panels_top() const { return px(98); }
   int lower_top() const { return panels_top() + panel.image.height + px(24); }
   int height() const { return lower_top() + px(248); }
-  Style title() const { return {14 * unit, ink, true}; }
-  Style text() const { return {9.5 * unit}; }
-  Style strong() const { return {9.5 * unit, ink, true}; }
-  Style small() const { return {8.5 * unit, faint}; }
-  Style tick() const { return {8.5 * unit, ink}; }
+  TextStyle title() const { return {14 * unit, ink, true}; }
+  TextStyle text() const { return {9.5 * unit}; }
+  TextStyle strong() const { return {9.5 * unit, ink, true}; }
+  TextStyle small() const { return {8.5 * unit, faint}; }
+  TextStyle tick() const { return {8.5 * unit, ink}; }
 };
 
 Sheet blank_sheet(const Differences& d) {
@@ -176,7 +63,7 @@ std::string with_sign(double v) { return v == 0 ? "0" : fmt::format("{:+.4g}", v
 std::string percent(double share) { return fmt::format("{:.2f} %", 100 * share); }
 
 void draw_title(Sheet& sheet, const Differences& d, const DifferencePicture& options) {
-  const Style style = sheet.title();
+  const TextStyle style = sheet.title();
   const std::string between = "  against  ";
   const double room = (sheet.width() - 2 * sheet.margin() - text_width(between, style)) / 2;
   const std::string title =
@@ -390,24 +277,6 @@ void write_difference_picture(const std::filesystem::path& path, const Plane& te
   draw_scale_bar(sheet, range, histogram);
   draw_table(sheet, metrics);
   write_png(path, sheet.canvas);
-}
-
-void write_picture(const std::filesystem::path& path, const Plane& plane, const Plane* depth) {
-  if (plane.channels.empty() || plane.channels[0].layout().count() <= 2 * size_t(Layout::guard))
-    throw Error("{}: '{}' has no pixels to write", path.string(), plane.name);
-  cv::Mat image = image_of(plane);
-  if (depth && depth->channels[0].layout() == plane.channels[0].layout()) {
-    cv::Mat background(image.rows, image.cols, CV_8UC1);
-    for (int y = 0; y < image.rows; ++y)
-      for (int x = 0; x < image.cols; ++x)
-        background.at<unsigned char>(y, x) = is_background(depth->channels[0].at(x, y)) ? 255 : 0;
-    if (cv::countNonZero(background) > 0) {
-      image = coloured(plane);
-      image.setTo(background_tone, background);
-      hatch(image, background, 1);
-    }
-  }
-  write_png(path, image);
 }
 
 }  // namespace gloam

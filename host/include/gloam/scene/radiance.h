@@ -1,0 +1,21 @@
+// The light of a scene, as captures show it.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "gloam/scene/scene.h"
+#include "gloam/scene/tracer.h"
+
+namespace gloam {
+
+/// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with
+/// shadows) and of the sky (without occlusion, so that ambient occlusion can be multiplied in without counting it
+/// twice). Scene-linear. `seed` picks the points of the sun's disc, `sun_rays` of them: at most 16.
+inline constexpr int most_sun_rays = 16;
+glm::vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays = most_sun_rays);
+
+/// What a ray that meets nothing sees.
+glm::vec3 sky_radiance(const Scene& scene, const glm::dvec3& direction);
+
+}  // namespace gloam

@@ -1,0 +1,38 @@
+// The head of the page, and the buttons of the scenes.
+
+function renderHead() {
+  const settings = unique(data.rows.map(keyOf)).length,
+        used = data.scenes.filter((scene) => rowsOf(scene.name).length).length;
+  byId('lead').textContent =
+      `${many(settings, 'setting')} of ${many(techniques.length, 'technique')} on ${many(used, 'scene')}: ` +
+      'how far each image is from a ray-traced truth, and what it took to compute.';
+  const facts = [
+    ['CPU', data.cpu], ['Cores', data.cores], ['Device', data.device], ['Driver', data.driver], ['Measured', data.date],
+    ['Commit', data.commit], ['Rounds', data.rounds], ['Rays per pixel of the truth', data.rays]
+  ];
+  byId('facts').replaceChildren(
+      ...facts.filter(([, value]) => is(value) && value !== '')
+          .map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, String(value)))));
+}
+
+function pressButton(text, pressed, action) {
+  return element('button', {type: 'button', 'aria-pressed': String(pressed), onclick: action}, text);
+}
+
+function renderScenes() {
+  const parts = [];
+  for (const name of unique(data.scenes.map((scene) => scene.class))) {
+    const scenes = data.scenes.filter((scene) => scene.class === name && rowsOf(scene.name).length);
+    const means = data.classes.find((each) => each.name === name);
+    if (name && scenes.length) parts.push(element('span', {class: 'class-name'}, name));
+    for (const scene of scenes)
+      parts.push(
+          pressButton(scene.name, state.mean === null && scene.name === state.scene, () => goTo(scene.name, null)));
+    if (means && means.scenes.length > 1)
+      parts.push(pressButton('mean of ' + means.scenes.length, state.mean === name, () => goTo(state.scene, name)));
+  }
+  for (const place of document.querySelectorAll('h2 .scene-name')) place.textContent = 'on ' + state.scene;
+  const bar = byId('scenes'), at = bar.scrollLeft;
+  bar.replaceChildren(...parts);
+  bar.scrollLeft = at;
+}

@@ -1,0 +1,60 @@
+#include "scene/capture_options.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/lists.h"
+#include "gloam/error.h"
+#include "shared/sampling/stochastic.h"
+
+namespace gloam {
+namespace {
+
+void check_stochastic(const StochasticOptions& options) {
+  if (options.samples < 0 || options.samples > STOCHASTIC_MOST)
+    throw UsageError("a stochastic depth map of {} samples cannot be made; 1 to {} can", options.samples,
+                     STOCHASTIC_MOST);
+  if (!(options.alpha >= 0 && options.alpha <= 1))
+    throw UsageError("alpha {:g} is no share of the samples; give 0 to 1", options.alpha);
+  if (options.seed < 0) throw UsageError("seed {} is negative; give 0 or more", options.seed);
+}
+
+/// `what` makes two views of the only one.
+void check_can_become_two(const CaptureOptions& options, const char* what, const char* how) {
+  if (options.second_view && options.stereo)
+    throw UsageError("a second view and a pair of eyes cannot be had together; leave out one of them");
+  if (options.views.size() != 1) throw UsageError("{} {} one view, and there are {}", what, how, options.views.size());
+  if (contains(options.planes, "motion")) throw UsageError("{} has no motion; leave out one of them", what);
+}
+
+void check_second_view(const CaptureOptions& options) {
+  const double degrees = *options.second_view;
+  if (!(std::abs(degrees) <= 90) || degrees == 0)
+    throw UsageError("a second view turned by {:g} degrees cannot be had; -90 to 90 can, but not 0", degrees);
+  check_can_become_two(options, "a second view", "goes beside");
+  if (options.views[0].name == second_view_name)
+    throw UsageError("the first view is called '{}', as the second would be; give it another name", second_view_name);
+}
+
+}  // namespace
+
+void check_options(const CaptureOptions& options) {
+  if (options.width < 1 || options.height < 1)
+    throw UsageError("a capture of {}x{} pixels has none; give a size such as 1920x1080", options.width,
+                     options.height);
+  if (options.peel < 0 || options.peel > 64) throw UsageError("{} layers cannot be peeled; 0 to 64 can", options.peel);
+  for (const std::string& plane : options.planes) {
+    if (contains(capture_planes(), plane)) continue;
+    throw UsageError("plane '{}' cannot be captured{}; {} can, and layers by their number", plane,
+                     suggestion(plane, capture_planes()), enumerate(capture_planes()));
+  }
+  check_stochastic(options.stochastic);
+  if (options.second_view) check_second_view(options);
+  if (options.stereo) check_can_become_two(options, "a pair of eyes", "takes the place of");
+  for (const CaptureView& view : options.views) {
+    if (!view.camera.pose) throw Error("view '{}' has a camera without a pose; give its camera_to_world", view.name);
+  }
+}
+
+}  // namespace gloam

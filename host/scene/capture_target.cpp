@@ -1,0 +1,54 @@
+#include "scene/capture_target.h"
+
+#include <iterator>
+#include <string>
+
+#include "base/lists.h"
+#include "gloam/planes.h"
+
+namespace gloam {
+namespace {
+
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  const PlaneKind kind = plane_kind(name);
+  Plane plane{name, {}};
+  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
+  return plane;
+}
+
+Channel* add_channel(View& view, const std::string& name, const Layout& layout) {
+  Plane& plane = view.planes.emplace(name, empty_plane(name, layout)).first->second;
+  return &plane.channels.front();
+}
+
+}  // namespace
+
+CaptureTarget capture_target(View& view, const CaptureOptions& options, const Layout& layout) {
+  CaptureTarget target;
+  const auto single = [&](const char* name, Channel*& channel) {
+    if (contains(options.planes, std::string(name))) channel = add_channel(view, name, layout);
+  };
+  const auto several = [&](const char* name, auto& channels) {
+    if (!contains(options.planes, std::string(name))) return;
+    Channel* first = add_channel(view, name, layout);
+    for (size_t i = 0; i < std::size(channels); ++i) channels[i] = first + i;
+  };
+  target.depth = add_channel(view, "depth", layout);
+  several("normal", target.normal);
+  several("albedo", target.albedo);
+  several("color", target.color);
+  several("reflectance", target.reflectance);
+  several("position", target.position);
+  several("motion", target.motion);
+  single("roughness", target.roughness);
+  single("back_depth", target.back_depth);
+  single("instance", target.instance);
+  if (options.peel > 0) target.peel_count = add_channel(view, "peel_count", layout);
+  if (options.outlines) target.outline_count = add_channel(view, "outline_count", layout);
+  for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, layer_name("peel", i), layout));
+  for (int i = 0; i < options.stochastic.samples; ++i)
+    target.stochastic.push_back(add_channel(view, layer_name("stochastic", i), layout));
+  return target;
+}
+
+}  // namespace gloam

@@ -1,0 +1,30 @@
+// The planes of a view that a capture fills.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gloam/scene/capture.h"
+
+namespace gloam {
+
+/// The planes of one view, found once instead of by name for every pixel.
+struct CaptureTarget {
+  Channel* depth = nullptr;
+  Channel *normal[3] = {}, *albedo[3] = {}, *color[3] = {}, *reflectance[3] = {}, *position[3] = {}, *motion[2] = {};
+  Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr,
+          *outline_count = nullptr;
+  std::vector<Channel*> peel, stochastic;
+};
+
+/// Adds the planes that are asked for to the view, each with the value of pixels without a surface.
+CaptureTarget capture_target(View& view, const CaptureOptions& options, const Layout& layout);
+
+/// Nothing where the channels are not captured.
+template <size_t n, typename Vector>
+void put(Channel* const (&channels)[n], int x, int y, const Vector& value) {
+  if (!channels[0]) return;
+  for (size_t i = 0; i < n; ++i) channels[i]->at(x, y) = float(value[int(i)]);
+}
+
+}  // namespace gloam

@@ -1,0 +1,56 @@
+// What rays pass through and what they gather: filters that Embree calls for each hit.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "gloam/scene/scene.h"
+
+namespace gloam {
+
+/// Weights of a triangle's vertices at a hit.
+glm::vec3 barycentric(float u, float v);
+
+/// Texture coordinates at a hit; 0 where the mesh has none.
+glm::vec2 uv_at(const Mesh& mesh, unsigned triangle, glm::vec3 weights);
+
+/// What a filter needs of a mesh whose texture has holes.
+struct Cutout {
+  const Scene* scene;
+  const Mesh* mesh;
+};
+
+/// Lets rays pass through holes.
+void pass_holes(const RTCFilterFunctionNArguments* arguments);
+
+/// A hit as Embree reports it.
+struct RawHit {
+  unsigned mesh, triangle;
+  double distance;
+  float u, v;
+};
+
+/// Embree's context with a list behind it, for `gather_hit`.
+struct GatheringContext {
+  RTCIntersectContext base;
+  std::vector<RawHit>* hits;
+};
+
+/// Takes every hit down and lets the ray go on.
+void gather_hit(const RTCFilterFunctionNArguments* arguments);
+
+/// Embree's context with the scene behind it, for `pass_what_is_behind`.
+struct SceneContext {
+  RTCIntersectContext base;
+  const Scene* scene;
+  float near;  ///< hits nearer than this are looked at again
+};
+
+/// Lets go on what has only been hit by rounding: a triangle that in double lies behind the ray's start, such as the one
+/// that the ray leaves.
+void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments);
+
+}  // namespace gloam

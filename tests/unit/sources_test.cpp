@@ -1,0 +1,147 @@
+// What the sources promise a reader: files of host/ are short or say why not, and the public headers show no library that
+// a program which uses gloam would have to have.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gloam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t most_lines = 400;
+/// What the first comment of a longer file says, and why.
+const std::string reason = "Long, because ";
+
+/// Longer files that are to be split yet, below host/.
+const std::set<std::string> to_be_split = {"camera/camera_io.cpp",     "cli/capture.cpp", "cli/compare.cpp",
+                                           "cli/options.cpp",          "cli/stress.cpp",  "exr/read.cpp",
+                                           "normalise/conventions.cpp"};
+
+std::vector<std::string> lines_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::string>& endings) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && endings.contains(entry.path().extension().string())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The first lines in a row that are comments.
+std::string first_comment(const std::vector<std::string>& lines) {
+  const auto is_comment = [](const std::string& line) { return line.starts_with("//"); };
+  const auto begin = std::find_if(lines.begin(), lines.end(), is_comment);
+  std::string text;
+  for (auto line = begin; line != lines.end() && is_comment(*line); ++line) text += *line + "\n";
+  return text;
+}
+
+/// Files of more than `most_lines` lines whose first comment gives no reason, below `host`.
+std::vector<std::string> long_without_reason(const fs::path& host) {
+  std::vector<std::string> found;
+  for (const fs::path& file : files_below(host, {".cpp", ".h", ".js", ".css", ".html"})) {
+    const std::vector<std::string> lines = lines_of(file);
+    if (lines.size() > most_lines && first_comment(lines).find(reason) == std::string::npos)
+      found.push_back(file.lexically_relative(host).generic_string());
+  }
+  return found;
+}
+
+/// "FILE:LINE: text" for each line of a public header that includes another than gloam's public headers, the standard's, those
+/// of glm and of fmt, or that names a type of OpenCV, Embree or OpenCL.
+std::vector<std::string> not_public(const fs::path& include) {
+  static const std::regex other_library(R"(#\s*include\s*<(?!glm/|fmt/)[^>]*/.*)");
+  static const std::regex internal_header(R"(#\s*include\s*"(?!gloam/).*)");
+  static const std::regex type(R"(\b(cv|cl)::|\bRTC[A-Z]\w*|\bcl_[a-z]\w*)");
+  std::vector<std::string> found;
+  for (const fs::path& file : files_below(include, {".h"})) {
+    const std::vector<std::string> lines = lines_of(file);
+    for (size_t i = 0; i < lines.size(); ++i) {
+      const std::string code = lines[i].substr(0, lines[i].find("//"));
+      if (!std::regex_match(code, other_library) && !std::regex_match(code, internal_header) &&
+          !std::regex_search(code, type))
+        continue;
+      found.push_back(file.lexically_relative(include).generic_string() + ":" + std::to_string(i + 1) + ": " +
+                      lines[i]);
+    }
+  }
+  return found;
+}
+
+const fs::path host = fs::path(GLOAM_SOURCE_DIR) / "host";
+
+TEST(Sources, FilesOfTheHostAreShortOrSayWhyNot) {
+  for (const std::string& file : long_without_reason(host))
+    EXPECT_TRUE(to_be_split.contains(file))
+        << "host/" << file << " has more than " << most_lines
+        << " lines: split it by its nouns, or let its first comment say '" << reason << "...'";
+}
+
+TEST(Sources, FilesThatAreToBeSplitAreListedWhileTheyAreLong) {
+  const std::vector<std::string> found = long_without_reason(host);
+  for (const std::string& file : to_be_split)
+    EXPECT_TRUE(std::find(found.begin(), found.end(), file) != found.end())
+        << "host/" << file << " is not long any more: take it off the list in sources_test.cpp";
+}
+
+TEST(Sources, PublicHeadersShowPublicHeadersOnly) {
+  for (const std::string& line : not_public(host / "include"))
+    ADD_FAILURE() << "host/include/" << line << "\nbelongs in a header of its room: programs that use gloam would need "
+                  << "what it names";
+}
+
+class MadeSources : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "gloam_sources_XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  static std::string lines(size_t count) {
+    std::string text;
+    for (size_t i = 0; i < count; ++i) text += "int a;\n";
+    return text;
+  }
+  fs::path folder_;
+};
+
+TEST_F(MadeSources, ALongFileIsFoundUnlessItsFirstCommentSaysWhy) {
+  write("room/short.cpp", lines(400));
+  write("room/long.cpp", lines(401));
+  write("room/reason.cpp", "#include \"x.h\"\n// A scene.\n// Long, because it is one.\n" + lines(401));
+  write("room/late.h", "// A header.\n" + lines(401) + "// Long, because it is late.\n");
+  EXPECT_EQ(long_without_reason(folder_), (std::vector<std::string>{"room/late.h", "room/long.cpp"}));
+}
+
+TEST_F(MadeSources, AHeaderThatShowsWhatIsNotPublicIsFound) {
+  write("gloam/good.h", "#include <vector>\n#include \"gloam/frame.h\"\nint opencv2;  // drawn with cv::Mat\n");
+  const std::vector<std::string> bad = {
+      "#include <opencv2/core.hpp>", "#include <embree3/rtcore.h>", "#include <CL/opencl.hpp>", "# include \"CL/cl.h\"",
+      "#include \"run/driver.h\"",   "void show(const cv::Mat&);",  "struct RTCDeviceTy;",      "cl_mem buffer;"};
+  std::string text;
+  for (const std::string& line : bad) text += line + "\n";
+  write("gloam/bad.h", text);
+  const std::vector<std::string> found = not_public(folder_);
+  ASSERT_EQ(found.size(), bad.size());
+  for (size_t i = 0; i < bad.size(); ++i) EXPECT_EQ(found[i], "gloam/bad.h:" + std::to_string(i + 1) + ": " + bad[i]);
+}
+
+}  // namespace
+}  // namespace gloam::test
