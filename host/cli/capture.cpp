@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "base/elapsed.h"
-#include "camera/camera_io.h"
+#include "camera/camera_json.h"
 #include "cli/scene_flags.h"
 #include "gloam/error.h"
 #include "gloam/radius.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "camera/camera_io.h"
+#include "camera/camera_json.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

@@ -23,7 +23,10 @@
 
 #include "base/files.h"
 #include "base/lists.h"
-#include "camera/camera_io.h"
+#include "camera/camera_json.h"
+#include "camera/camera_search.h"
+#include "camera/field_of_view.h"
+#include "camera/matrices.h"
 #include "exr/channel_names.h"
 #include "exr/decode.h"
 #include "exr/file.h"

@@ -16,7 +16,7 @@
 #include <map>
 
 #include "base/files.h"
-#include "camera/camera_io.h"
+#include "camera/matrices.h"
 #include "exr/stream.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"

@@ -1,5 +1,5 @@
 // Camera JSON: any text gives cameras that can be worked with, or is refused in one line.
-#include "camera/camera_io.h"
+#include "camera/camera_json.h"
 #include "fuzz/cameras.h"
 #include "fuzz/json_damage.h"
 #include "fuzz/memory_file.h"

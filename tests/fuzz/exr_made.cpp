@@ -24,7 +24,7 @@
 #include <list>
 #include <vector>
 
-#include "camera/camera_io.h"
+#include "camera/matrices.h"
 #include "fuzz/words.h"
 
 namespace gloam::fuzz {

@@ -12,7 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "camera/camera_io.h"
+#include "camera/camera_json.h"
+#include "camera/camera_search.h"
+#include "camera/field_of_view.h"
+#include "camera/matrices.h"
 #include "gloam/error.h"
 #include "unit/read_channel.h"
 

@@ -10,7 +10,9 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
-#include "camera/camera_io.h"
+#include "camera/camera_json.h"
+#include "camera/camera_search.h"
+#include "camera/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/normalise.h"
