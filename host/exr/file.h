@@ -18,7 +18,7 @@
 #include "exr/validation.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "normalise/conventions.h"
+#include "normalise/normals.h"
 
 namespace gloam {
 

@@ -38,7 +38,10 @@
 #include "gloam/exr.h"
 #include "gloam/light_field.h"
 #include "gloam/planes.h"
-#include "normalise/conventions.h"
+#include "normalise/depth.h"
+#include "normalise/normalise.h"
+#include "normalise/normals.h"
+#include "normalise/reflectance.h"
 
 namespace gloam {
 namespace {
@@ -669,9 +672,9 @@ void FrameFile::Impl::note_reflectance(double share, Frame& frame) const {
 void FrameFile::Impl::judge_reflectance(View& view, Frame& frame) const {
   const Plane* reflectance = view.find("reflectance");
   if (!reflectance || !is_reflectance_in_doubt(view)) return;
-  Ones ones;
-  ones.add(*reflectance, view.find("depth")->channels.front(), 0);
-  note_reflectance(ones.share(), frame);
+  WhitePixels white;
+  white.add(*reflectance, view.find("depth")->channels.front(), 0);
+  note_reflectance(white.share(), frame);
 }
 
 /// What the names of planes leave to be said, and which views lack what is asked for.
@@ -793,7 +796,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
     if (!impl_->options.as_stored) impl_->judge_positions(view, frame);
   }
   impl_->note_unseen_background(frame);
-  tidy(frame, impl_->options.background, impl_->options.as_stored);
+  normalise_planes(frame, impl_->options.background, impl_->options.as_stored);
   for (View& view : frame.views)
     std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
   for (std::string& sentence : frame.assumed) sentence = printable(sentence);

@@ -7,6 +7,8 @@
 #include "exr/file.h"
 #include "exr/view_planes.h"
 #include "gloam/planes.h"
+#include "normalise/normalise.h"
+#include "normalise/reflectance.h"
 
 namespace gloam {
 namespace {
@@ -18,7 +20,7 @@ struct Survey {
   explicit Survey(const Layout& image) : samples(image) {}
   NormalSamples samples;
   long long missing = 0, missing_where_encoded = 0;  ///< normals, as they stand and as they would be decoded
-  Ones ones;
+  WhitePixels white;
 };
 
 Plane decoded(const Plane& normal, const Camera& camera) {
@@ -38,7 +40,7 @@ void add_rows(Survey& survey, const View& rows, const View& whole, int first_row
     }
   }
   if (const Plane* reflectance = rows.find("reflectance"))
-    survey.ones.add(*reflectance, depth->channels.front(), first_row);
+    survey.white.add(*reflectance, depth->channels.front(), first_row);
 }
 
 }  // namespace
@@ -123,7 +125,7 @@ void FrameFile::Impl::survey(const std::vector<std::string>& planes, Frame& fram
       };
       normal_forms[view.name] = settle_normals(view, sums.samples, missing, frame);
     }
-    if (contains(surveyed, "reflectance") && is_reflectance_in_doubt(view)) note_reflectance(sums.ones.share(), frame);
+    if (contains(surveyed, "reflectance") && is_reflectance_in_doubt(view)) note_reflectance(sums.white.share(), frame);
   }
 }
 
@@ -143,7 +145,7 @@ Frame FrameFile::survey(const std::vector<std::string>& planes) {
   }
   impl_->survey(planes, frame);
   impl_->note_unseen_background(frame);
-  tidy(frame, impl_->options.background, impl_->options.as_stored);
+  normalise_planes(frame, impl_->options.background, impl_->options.as_stored);
   for (std::string& sentence : frame.assumed) sentence = printable(sentence);
   return frame;
 }
@@ -162,7 +164,7 @@ Frame FrameFile::read_rows(const std::vector<std::string>& planes, int first, in
     else
       view.planes.erase(normal);
   }
-  tidy(rows, impl_->options.background, impl_->options.as_stored);
+  normalise_planes(rows, impl_->options.background, impl_->options.as_stored);
   return rows;
 }
 

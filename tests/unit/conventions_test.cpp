@@ -1,6 +1,4 @@
-// Depth, background and normals brought to gloam's conventions; the door that every frame passes.
-#include "normalise/conventions.h"
-
+// Normalisation: depth, background, normals and planes brought to one convention.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,6 +14,8 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/normalise.h"
+#include "normalise/depth.h"
+#include "normalise/normals.h"
 #include "unit/read_channel.h"
 
 namespace {
@@ -477,7 +477,7 @@ TEST(Normals, ViewWhereNothingCanTell) {
             NormalSpace::view);
 }
 
-// --- The door
+// --- Normalisation
 
 Frame frame_of(const std::map<std::string, std::vector<std::vector<float>>>& planes) {
   Frame frame;

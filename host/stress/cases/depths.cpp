@@ -8,7 +8,7 @@
 #include "gloam/exr.h"
 #include "gloam/normalise.h"
 #include "gloam/planes.h"
-#include "normalise/conventions.h"
+#include "normalise/depth.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 

@@ -1,0 +1,179 @@
+#include "normalise/depth.h"
+
+#include <cmath>
+#include <limits>
+
+#include "gloam/error.h"
+#include "normalise/background.h"
+#include "normalise/each_row.h"
+
+namespace gloam {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Signs of the surfaces in a plane, as far as they had to be looked at.
+struct Signs {
+  bool positive = false, negative = false, over_one = false;
+};
+
+Signs signs_of(const Channel& depth, const Background& background) {
+  Signs signs;
+  const int width = depth.layout().width, height = depth.layout().height;
+  for (int y = 0; y < height && !signs.over_one; ++y) {
+    const float* row = depth.row(y);
+    int positive = 0, negative = 0, over_one = 0;
+    for (int x = 0; x < width; ++x) {
+      const bool surface = is_surface(row[x], background);
+      positive |= surface;
+      over_one |= surface & (row[x] > 1);
+      negative |= is_surface(-row[x], background) & (row[x] != background.value);
+    }
+    signs.positive |= positive != 0;
+    signs.negative |= negative != 0;
+    signs.over_one |= over_one != 0;
+  }
+  return signs;
+}
+
+/// How many pixels would be surfaces if they were not negative.
+long long count_negative(const Channel& depth, const Background& background) {
+  const int width = depth.layout().width, height = depth.layout().height;
+  long long total = 0;
+#pragma omp parallel for reduction(+ : total) if (size_t(width) * size_t(height) > 65536)
+  for (int y = 0; y < height; ++y) {
+    const float* row = depth.row(y);
+    int count = 0;
+    for (int x = 0; x < width; ++x) count += is_surface(-row[x], background) & (row[x] != background.value);
+    total += count;
+  }
+  return total;
+}
+
+void ray_row(float* row, const double* squares_x, int width, double square_y) {
+  for (int x = 0; x < width; ++x) {
+    const float z = float(row[x] / std::sqrt(1 + square_y + squares_x[x]));
+    row[x] = z >= nearest_depth ? z : infinity;
+  }
+}
+
+/// Distance from the eye to planar depth, at pixel centres. +inf stays.
+void ray_to_depth(Channel& depth, const Window& window, const Camera& camera) {
+  const int width = depth.layout().width;
+  std::vector<double> squares_x(static_cast<size_t>(width));
+  for (int x = 0; x < width; ++x) {
+    const double tangent = (window.x0 + x + 0.5 - camera.cx) / camera.fx;
+    squares_x[size_t(x)] = tangent * tangent;
+  }
+  for_each_row(depth.layout(), [&](int y) {
+    const double tangent = (window.y0 + y + 0.5 - camera.cy) / camera.fy;
+    ray_row(depth.row(y), squares_x.data(), width, tangent * tangent);
+  });
+}
+
+/// From window depth d to the reciprocal of view depth (perspective) or to view depth (orthographic): a + b d.
+struct WindowDepth {
+  double a, b;
+  float lowest, highest;  ///< d of a surface: lowest <= d <= highest; the far value is left out
+  float background;       ///< --background, NaN where none
+};
+
+void perspective_row(float* row, int width, const WindowDepth& map) {
+  for (int x = 0; x < width; ++x) {
+    const float d = row[x], z = float(1 / (map.a + map.b * d));
+    const bool surface =
+        (d >= map.lowest) & (d <= map.highest) & (d != map.background) & (z >= nearest_depth) & (z < farthest_depth);
+    row[x] = surface ? z : infinity;
+  }
+}
+
+void orthographic_row(float* row, int width, const WindowDepth& map) {
+  for (int x = 0; x < width; ++x) {
+    const float d = row[x], z = float(map.a + map.b * d);
+    const bool surface =
+        (d >= map.lowest) & (d <= map.highest) & (d != map.background) & (z >= nearest_depth) & (z < farthest_depth);
+    row[x] = surface ? z : infinity;
+  }
+}
+
+/// 0 is the near plane there, so a pixel that was never drawn can only be told by its alpha.
+void mark_missing(Channel& depth, const Channel& alpha) {
+  const int width = depth.layout().width;
+  for_each_row(depth.layout(), [&](int y) {
+    float* row = depth.row(y);
+    const float* cover = alpha.row(y);
+    for (int x = 0; x < width; ++x) row[x] = ((row[x] == 0) & (cover[x] == 0)) ? infinity : row[x];
+  });
+}
+
+/// The map from window depth, checked: near and far are needed, and flags take precedence over the camera.
+WindowDepth window_depth(const Camera& camera, const ReadOptions& options, std::vector<std::string>& assumed) {
+  const bool reversed = options.depth == DepthConvention::reversed;
+  const char* name = reversed ? "reversed" : "ndc";
+  const std::optional<double> near = options.near ? options.near : camera.near;
+  std::optional<double> far = options.far ? options.far : camera.far;
+  if (!near)
+    throw Error("--depth {}: needs the distance of the near plane; give --near, or a camera that has it", name);
+  if (!far && reversed && !camera.orthographic) {
+    assumed.push_back("depth: the far plane taken as infinite; --far says otherwise");
+    far = std::numeric_limits<double>::infinity();
+  }
+  if (!far) throw Error("--depth {}: needs the distance of the far plane; give --far, or a camera that has it", name);
+  if (!std::isfinite(*near) || (!camera.orthographic && !(*near > 0)))
+    throw Error("--depth {}: near is {:g}; expected a distance > 0", name, *near);
+  if (!(*far > *near)) throw Error("--depth {}: far is {:g}; expected more than near, {:g}", name, *far, *near);
+  if (camera.orthographic && !std::isfinite(*far))
+    throw Error("--depth {}: far is infinite; an orthographic camera needs a finite one", name);
+
+  const double at_near = camera.orthographic ? *near : 1 / *near, at_far = camera.orthographic ? *far : 1 / *far;
+  WindowDepth map;
+  map.a = reversed ? at_far : at_near;
+  map.b = reversed ? at_near - at_far : at_far - at_near;
+  map.lowest = reversed ? std::numeric_limits<float>::denorm_min() : 0.0f;
+  map.highest = reversed ? 1.0f : std::nextafter(1.0f, 0.0f);
+  map.background = options.background.value_or(std::numeric_limits<float>::quiet_NaN());
+  return map;
+}
+
+std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& camera, const ReadOptions& options,
+                            std::vector<std::string>& assumed) {
+  const bool reversed = options.depth == DepthConvention::reversed;
+  const WindowDepth map = window_depth(camera, options, assumed);
+  if (alpha && !reversed) mark_missing(depth, *alpha);
+  for_each_row(depth.layout(), [&](int y) {
+    const auto convert = camera.orthographic ? orthographic_row : perspective_row;
+    convert(depth.row(y), depth.layout().width, map);
+  });
+  return reversed ? "reversed" : "ndc";
+}
+
+}  // namespace
+
+std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
+                          const ReadOptions& options, std::vector<std::string>& assumed) {
+  if (camera.slits && options.depth != DepthConvention::automatic && options.depth != DepthConvention::z)
+    throw UsageError("--depth ray, ndc and reversed are of cameras with one eye; the depth of a display's module is z");
+  if (options.depth == DepthConvention::ndc || options.depth == DepthConvention::reversed)
+    return window_to_depth(depth, alpha, camera, options, assumed);
+
+  const Background background = background_of(options.background, options.far ? options.far : camera.far);
+  const Signs signs = signs_of(depth, background);
+  const bool negative = signs.negative && !signs.positive;
+  if (const long long count = negative ? 0 : count_negative(depth, background); count > 0)
+    assumed.push_back(fmt::format("depth: {} negative value{} among positive ones taken as background", count,
+                                  count == 1 ? "" : "s"));
+  clean_depth(depth, negative ? -1.0f : 1.0f, background);
+  if (negative) assumed.push_back("depth: all of it is negative, taken as the z of a camera that looks along -z");
+  if (options.depth == DepthConvention::ray) {
+    if (!camera.orthographic) ray_to_depth(depth, window, camera);
+    return "ray";
+  }
+  if (negative) return "negative z";
+  if (options.depth == DepthConvention::automatic)
+    assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis{}; --depth says otherwise",
+                                  signs.positive && !signs.over_one ? ", though all of it lies in 0..1" : ""));
+  return "z";
+}
+
+}  // namespace gloam

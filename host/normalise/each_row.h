@@ -1,0 +1,17 @@
+// Work on every row of an image, on all cores.
+#pragma once
+
+#include <cstddef>
+
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// `body(y)` for every row, on all cores unless the image is so small that waking them would cost more.
+template <typename Body>
+void for_each_row(const Layout& layout, const Body& body) {
+#pragma omp parallel for if (size_t(layout.width) * size_t(layout.height) > 65536)
+  for (int y = 0; y < layout.height; ++y) body(y);
+}
+
+}  // namespace gloam
