@@ -1,6 +1,9 @@
-# Takes the example of a page of docs apart: each block whose first line is a comment with a path below kernels/ becomes
+# Takes the example of a page of docs apart: each block whose first line is a comment with a path below FOLDER/ (kernels/) becomes
 # that file below OUTPUT.
-# Usage: cmake -DPAGE=docs/adding-a-technique.md -DOUTPUT=folder -P example_from_docs.cmake
+# Usage: cmake -DPAGE=docs/adding-a-technique.md [-DFOLDER=kernels] -DOUTPUT=folder -P example_from_docs.cmake
+if(NOT FOLDER)
+  set(FOLDER kernels)
+endif()
 file(READ "${PAGE}" page)
 string(REPLACE "\\" "<backslash>" page "${page}")
 string(REPLACE ";" "<semicolon>" page "${page}")
@@ -24,8 +27,8 @@ foreach(line IN LISTS lines)
     else()
       set(fence TRUE)
     endif()
-  elseif(fence AND line MATCHES "^// kernels/(.*)$")
-    set(file "${CMAKE_MATCH_1}")
+  elseif(fence AND line MATCHES "^(//|#) ${FOLDER}/(.*)$")
+    set(file "${CMAKE_MATCH_2}")
     set(text "")
   elseif(file)
     string(APPEND text "${line}\n")

@@ -1,5 +1,5 @@
 // gloam auto FRAME.exr -o OUT.exr
-#include "gloam/automatic.h"
+#include "plan/automatic.h"
 
 #include <algorithm>
 #include <array>

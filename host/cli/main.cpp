@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "cli/completion.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
@@ -91,7 +92,8 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extras = app.remaining(true);
   if (command.empty() && !extras.empty()) {
     std::vector<std::string> names;
-    for (const CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; })) names.push_back(sub->get_name());
+    for (const CLI::App* sub : app.get_subcommands([](CLI::App* shown) { return !shown->get_group().empty(); }))
+      names.push_back(sub->get_name());
     return fmt::format("no command '{}'{}; there are {} {}", extras.front(), suggestion(extras.front(), names),
                        enumerate(names), help);
   }
@@ -161,6 +163,7 @@ int run_command(int argc, char** argv) {
   add_auto(app);
   add_report(app);
   add_stress(app);
+  add_completion(app, settable_by);
   try {
     app.parse(with_parameter_flags(app, argc, argv));
   } catch (const CLI::Success& success) {

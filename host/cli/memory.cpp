@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/memory.h"
 #include "gloam/error.h"
-#include "gloam/memory.h"
 
 namespace gloam::cli {
 namespace {

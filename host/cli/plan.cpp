@@ -1,10 +1,10 @@
 // gloam plan OUTPUT[,OUTPUT] FRAME.exr: what would be read, compiled and run. Needs no device.
 #include <memory>
 
+#include "base/memory.h"
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
-#include "gloam/memory.h"
 
 namespace gloam::cli {
 namespace {

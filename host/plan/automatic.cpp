@@ -1,4 +1,4 @@
-#include "gloam/automatic.h"
+#include "plan/automatic.h"
 
 #include <algorithm>
 #include <limits>

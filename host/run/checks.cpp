@@ -1,9 +1,11 @@
 #include "run/checks.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "base/lists.h"
+#include "frame/check.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "plan/layouts.h"
@@ -102,15 +104,23 @@ void check_memory(const Plan& plan, const Layout& layout, size_t views, const De
   }
 }
 
-void check_real(const Plan& plan, const DeviceInfo& info, const RunOptions& options) {
+void check_options(const Plan& plan, const DeviceInfo& info, const RunOptions& options) {
+  constexpr std::array lanes = {0, 1, 4, 8, 16};
+  if (std::find(lanes.begin(), lanes.end(), options.lanes) == lanes.end())
+    throw UsageError("{}: {} lanes are not allowed; 1, 4, 8 and 16 are, and 0 for what suits the device",
+                     plan.technique, options.lanes);
+  if (options.repeat < 1)
+    throw UsageError("{}: {} runs are not allowed; 1 and more are", plan.technique, options.repeat);
   if (options.real == Real::float64 && !info.has_double) {
     throw Error("{}: {} has no double precision; use --real float or another --device", plan.technique, info.name);
   }
 }
 
 void check_views(const Plan& plan, const Frame& frame) {
+  check_window(frame);
   for (const View& view : frame.views) {
     if (!view.camera) throw Error("{}: view '{}' has no camera", plan.technique, view.name);
+    check(*view.camera);
   }
   check_projections(plan, frame);
   if (needs_two_views(plan)) check_two_views(plan, frame);

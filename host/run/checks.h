@@ -8,10 +8,10 @@ namespace gloam {
 /// Throws Error where the device's memory or its largest buffer is too small.
 void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info);
 
-/// Throws Error where double precision is asked for and the device has none.
-void check_real(const Plan& plan, const DeviceInfo& info, const RunOptions& options);
+/// Throws UsageError for lanes and repeats that are not allowed, Error where double precision is asked for and the device has none.
+void check_options(const Plan& plan, const DeviceInfo& info, const RunOptions& options);
 
-/// Throws Error where a view lacks the camera, the pose or the projection that the plan's passes need, or where views are
+/// Throws Error for a frame without views or pixels, and where a view lacks the camera, the pose or the projection that the plan's passes need, or where views are
 /// too few.
 void check_views(const Plan& plan, const Frame& frame);
 

@@ -246,7 +246,12 @@ Device::Device(const std::string& text) : impl_(std::make_unique<Impl>()) {
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 
-const DeviceInfo& Device::info() const { return impl_->info; }
+Device::Impl& Device::impl() {
+  if (!impl_) throw Error("this Device has been moved to another variable; use that one");
+  return *impl_;
+}
+
+const DeviceInfo& Device::info() const { return const_cast<Device*>(this)->impl().info; }
 
 cl::Program& Device::Impl::program(const std::string& source, const std::string& options) {
   const std::string key = source + " " + options;

@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 #include <map>
+#include <mutex>
 #include <string>
 
 #include "gloam/device.h"
@@ -13,6 +14,7 @@ namespace gloam {
 std::string cl_error_name(int code);
 
 struct Device::Impl {
+  std::recursive_mutex busy;  ///< held while anything runs or is compiled
   DeviceInfo info;
   cl::Device device;
   cl::Context context;

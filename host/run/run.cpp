@@ -34,13 +34,14 @@ unsigned long long bytes_beside_frame(const Plan& plan, const Layout& layout, si
 }
 
 void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options) {
-  check_real(plan, device.info(), options);
+  check_options(plan, device.info(), options);
   check_memory(plan, layout, views, device.info());
 }
 
 void prepare(const Plan& plan, Device& device, const RunOptions& options) {
-  const DriverAtWork driver;
   Device::Impl& impl = device.impl();
+  const std::lock_guard alone(impl.busy);
+  const DriverAtWork driver;
   const Layouts layouts(plan, Layout(1, 1));
   for (const PlannedPass& planned : plan.passes)
     build_kernel(planned, layouts, impl, options, lanes_for(impl.info, options));
@@ -48,6 +49,8 @@ void prepare(const Plan& plan, Device& device, const RunOptions& options) {
 
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {
   Device::Impl& impl = device.impl();
+  const std::lock_guard alone(impl.busy);
+  check_views(plan, frame);
   const Layout layout(frame.width(), frame.height());
   check(plan, layout, frame.views.size(), device, options);
   RunResult result;
@@ -57,7 +60,6 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   result.frame.window = frame.window;
   result.frame.pixel_aspect = frame.pixel_aspect;
   result.frame.assumed = frame.assumed;
-  check_views(plan, frame);
   Counted counted;
   const DriverAtWork driver;
   try {
@@ -69,7 +71,7 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
     result.skipped_share = counted.skipped / counted.of;
     result.rest_share = counted.rest / counted.of;
   }
-  result.total_ms.assign(size_t(std::max(options.repeat, 0)), 0.0);
+  result.total_ms.assign(size_t(options.repeat), 0.0);
   for (const PassTime& pass : result.passes) {
     for (size_t i = 0; i < pass.ms.size(); ++i) result.total_ms[i] += pass.ms[i];
   }

@@ -3,23 +3,23 @@
 #include <map>
 
 #include "base/lists.h"
+#include "frame/check.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 
 namespace gloam {
 namespace {
 
-const Plane& input_plane(const Plan& plan, const View& view, const std::string& name, const Layout& layout) {
+const Plane& input_plane(const Plan& plan, const Frame& frame, const View& view, const std::string& name) {
   const Plane* plane = view.find(name);
   if (!plane) throw Error("{}: view '{}' has no plane '{}'", plan.technique, view.name, name);
-  if (plane->channels.front().layout() != layout)
-    throw Error("{}: plane '{}' is not the size of the frame", plan.technique, name);
+  check(*plane, frame);
   return *plane;
 }
 
 void fill(ViewOnDevice& target, const Plan& plan) {
   std::map<std::string, const Plane*> inputs;
-  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, target.view, name, target.layout);
+  for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, target.frame, target.view, name);
   for (const std::string& name : planes_of(plan)) {
     if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) {
       std::vector<const Plane*> layers;

@@ -1,4 +1,4 @@
-#include "gloam/memory.h"
+#include "base/memory.h"
 
 #include <gtest/gtest.h>
 

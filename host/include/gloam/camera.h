@@ -53,4 +53,8 @@ struct Camera {
   std::string source;  ///< where it came from: "header", a file's name, "--fov", "assumed ..."
 };
 
+/// Throws Error for a camera that gives no pixel a place in space: fx or fy that is not a finite number above 0, a principal
+/// point or a pose that is not finite.
+void check(const Camera& camera);
+
 }  // namespace gloam

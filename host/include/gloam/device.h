@@ -25,7 +25,8 @@ void give_pocl_a_folder();
 /// All devices of all platforms. Throws Error when there is no platform (and says how to install one).
 std::vector<DeviceInfo> list_devices();
 
-/// An open device with its queue and its compiled programs. Move-only.
+/// An open device with its queue and its compiled programs, which it keeps: a kernel is compiled when it is first needed. Move-only.
+/// Threads may share one; what they run on it goes one after another. Devices of their own run side by side.
 class Device {
  public:
   /// `text` is part of the platform's or the device's name, any case; empty: the first GPU, else the device with
@@ -35,10 +36,11 @@ class Device {
   ~Device();
   Device(Device&&) noexcept;
 
+  /// Throws Error for a device that has been moved to another variable.
   const DeviceInfo& info() const;
 
   struct Impl;
-  Impl& impl() { return *impl_; }
+  Impl& impl();  ///< for the library
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -100,6 +100,10 @@ struct Frame {
   const View& view(const std::string& name) const;
 };
 
+/// Throws Error for a frame that nothing can be computed of: without views or pixels, with a view without a camera or with one that
+/// `check` (camera.h) refuses, with a plane whose channels have no memory or another size than the frame's.
+void check(const Frame& frame);
+
 /// Background is +inf; everything else is a surface.
 bool is_background(float depth);
 

@@ -59,8 +59,10 @@ void check(const Plan& plan, const Layout& layout, size_t views, const Device& d
 /// Compiles a plan's kernels ahead of `run`, so that this goes on while a frame is decoded. Throws what `run` would.
 void prepare(const Plan& plan, Device& device, const RunOptions& options = {});
 
-/// Runs a plan on every view of a frame that has passed the door (`normalise`).
-/// Throws Error: out of device memory (needed and available), double where the device has none, build errors with the
+/// Runs a plan on every view of a frame that has passed `normalise` (normalise.h). Runs on one device go one after another, whichever
+/// threads they come from; `RunOptions::progress` may itself use the device.
+/// Throws UsageError for options that are not allowed; Error for a frame without pixels, a camera that `check` (camera.h) refuses, a
+/// plane of the plan's inputs that a view lacks or has in another size; out of device memory (needed and available), double where the device has none, build errors with the
 /// kernel's log, kernel arguments that do not match the declaration (naming both sides).
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options = {});
 

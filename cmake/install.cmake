@@ -1,0 +1,82 @@
+# What `cmake --install` puts into a prefix, and the Debian packages made of it. Component `runtime` is the command with its pages and
+# completions (that of zsh is `zsh`, as packages have another folder for it), `development` the libraries, headers and what finds them.
+#
+# The libraries are static: a C++ interface of plain structs has no stable binary form before 1.0, and kernels, techniques and scenes
+# are linked in as data, so that a program made with gloam needs no file of it.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# --- First, so that it fails before a file is copied.
+install(CODE [[
+  set(prefix "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
+  set(probe "${prefix}/.gloam-install-probe")
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E make_directory "${prefix}" RESULT_VARIABLE failed ERROR_QUIET OUTPUT_QUIET)
+  if(NOT failed)
+    execute_process(COMMAND "${CMAKE_COMMAND}" -E touch "${probe}" RESULT_VARIABLE failed ERROR_QUIET OUTPUT_QUIET)
+  endif()
+  if(failed)
+    message(FATAL_ERROR "gloam cannot be installed into '${prefix}': the folder cannot be written; "
+      "name another one with --prefix, or install as a user who may write there")
+  endif()
+  file(REMOVE "${probe}")
+]] ALL_COMPONENTS)
+
+# --- Libraries and headers.
+install(TARGETS libgloam EXPORT gloamTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(TARGETS gloam_scene EXPORT gloamSceneTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/host/include/gloam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT development FILES_MATCHING PATTERN "*.h")
+
+# --- find_package(gloam CONFIG [COMPONENTS scene])
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gloam)
+install(EXPORT gloamTargets NAMESPACE gloam:: DESTINATION ${config_folder} COMPONENT development)
+install(EXPORT gloamSceneTargets NAMESPACE gloam:: DESTINATION ${config_folder} COMPONENT development)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gloamConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/generated/gloamConfig.cmake INSTALL_DESTINATION ${config_folder})
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/generated/gloamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/generated/gloamConfig.cmake ${PROJECT_BINARY_DIR}/generated/gloamConfigVersion.cmake
+  DESTINATION ${config_folder} COMPONENT development)
+
+# --- pkg-config --static gloam, gloam-scene. The prefix is where the file lies, wherever it is installed.
+set(pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_folder}
+  OUTPUT_VARIABLE pkgconfig_to_prefix)
+if(GLOAM_OPENMP)
+  set(pkgconfig_openmp "${OpenMP_CXX_FLAGS}")
+endif()
+foreach(name gloam gloam-scene)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/generated/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/generated/${name}.pc DESTINATION ${pkgconfig_folder} COMPONENT development)
+endforeach()
+
+# --- The command; its pages and completions are what it says of itself.
+install(TARGETS gloam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+find_program(HELP2MAN help2man DOC "makes man pages of --help")
+set(manual ${PROJECT_BINARY_DIR}/generated/man)
+set(completion ${PROJECT_BINARY_DIR}/generated/completion)
+if(HELP2MAN)
+  add_custom_command(
+    OUTPUT ${manual}/gloam.1
+    COMMAND ${CMAKE_COMMAND} -DGLOAM=$<TARGET_FILE:gloam> -DHELP2MAN=${HELP2MAN} -DVERSION=${PROJECT_VERSION} -DOUTPUT=${manual}
+            -P ${PROJECT_SOURCE_DIR}/cmake/manual.cmake
+    DEPENDS gloam ${PROJECT_SOURCE_DIR}/cmake/manual.cmake
+    COMMENT "Writing the man pages" VERBATIM)
+  add_custom_target(manual ALL DEPENDS ${manual}/gloam.1)
+  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime FILES_MATCHING PATTERN "*.1")
+else()
+  message(STATUS "no help2man: man pages are left out; apt install help2man")
+endif()
+add_custom_command(
+  OUTPUT ${completion}/gloam ${completion}/_gloam
+  COMMAND $<TARGET_FILE:gloam> completion bash > ${completion}/gloam
+  COMMAND $<TARGET_FILE:gloam> completion zsh > ${completion}/_gloam
+  DEPENDS gloam COMMENT "Writing what shells complete" VERBATIM)
+file(MAKE_DIRECTORY ${completion})
+add_custom_target(completion ALL DEPENDS ${completion}/gloam ${completion}/_gloam)
+install(FILES ${completion}/gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
+install(FILES ${completion}/_gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT zsh)
+
+include(${PROJECT_SOURCE_DIR}/cmake/package.cmake)

@@ -1,0 +1,48 @@
+// What a shell completes after `gloam`: read from the command's own table of commands and flags, and from the registry.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gloam::cli {
+
+/// What may stand as the value of a flag or argument.
+struct Completion {
+  std::vector<std::string> words;
+  bool has_files = false;
+  std::string ending;    ///< of the files, with the dot; empty: any
+  bool is_list = false;  ///< several words, separated by commas
+};
+
+struct CompletedFlag {
+  std::vector<std::string> names;  ///< "-o", "--output"
+  std::string help;                ///< one line without what brackets hold
+  std::string type;                ///< "OUT.exr"; empty for a switch, which takes no value
+  Completion value;
+};
+
+struct CompletedArgument {
+  std::string name;
+  Completion value;
+};
+
+struct CompletedCommand {
+  std::string name, help;
+  std::vector<CompletedFlag> flags;
+  std::vector<CompletedArgument> arguments;
+  /// Of techniques and built-in scenes, by name: the flags of their parameters.
+  std::vector<std::pair<std::string, std::vector<CompletedFlag>>> parameters;
+};
+
+std::string bash_completion(const std::vector<CompletedCommand>& commands);
+std::string zsh_completion(const std::vector<CompletedCommand>& commands);
+
+/// Names of parameters that a command takes as flags.
+using ParameterFlags = std::set<std::string> (*)(const CLI::App*);
+
+/// `gloam completion bash|zsh`, which `gloam --help` does not show.
+void add_completion(CLI::App& app, ParameterFlags parameter_flags);
+
+}  // namespace gloam::cli
