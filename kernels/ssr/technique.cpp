@@ -1,6 +1,7 @@
 #include "gloam/technique.h"
 
 #include <algorithm>
+#include <map>
 
 #include "ssr/params.h"
 
@@ -12,6 +13,15 @@ using Bindings = std::vector<Binding>;
 
 /// Levels of the hierarchy: the largest cells have 64 x 64 pixels.
 constexpr int hierarchy_levels = 7;
+
+/// The file of a kernel.
+const std::string& file_of(const std::string& kernel) {
+  static const std::map<std::string, std::string> files = {
+      {"ssr_nearness", "ssr/hierarchy.cl"}, {"ssr_level", "ssr/hierarchy.cl"},      {"ssr_rays", "ssr/rays.cl"},
+      {"ssr_march", "ssr/march.cl"},        {"ssr_found", "ssr/found.cl"},          {"ssr_see", "ssr/shade.cl"},
+      {"ssr_resolve", "ssr/resolve.cl"},    {"ssr_accumulate", "ssr/accumulate.cl"}};
+  return files.at(kernel);
+}
 
 /// What shapes passes, of whichever parameters.
 struct Choices {
@@ -215,7 +225,10 @@ class Passes {
                              {"FADE", c_.fade},
                              {"REPROJECTION", c_.reprojection},
                              {"OTHER_NEIGHBOURS", c_.other_neighbours}};
-    for (Pass& pass : passes) pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
+    for (Pass& pass : passes) {
+      pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
+      pass.source = file_of(pass.kernel);
+    }
     return passes;
   }
 
@@ -233,7 +246,6 @@ Technique plain() {
   t.name = "sssr";
   t.summary = "reflections by rays through the depth, chosen by roughness and shared among neighbours";
   t.paper = "Stachowiak, Uludag 2015";
-  t.source = "ssr/ssr.cl";
   t.reads = {"depth", "normal", "color", "roughness", "reflectance"};
   t.writes = t.outputs = {"reflection", "hit"};
   t.default_for = {"reflection", "hit"};
@@ -300,7 +312,6 @@ Technique where() {
   t.name = "reflection-mask";
   t.summary = "where a surface reflects something that the image shows";
   t.paper = "after Stachowiak, Uludag 2015";
-  t.source = "ssr/ssr.cl";
   t.reads = {"depth", "normal", "roughness", "reflectance"};
   t.writes = {"mask"};
   t.parameters = ReflectionMaskParams::table();

@@ -1,0 +1,66 @@
+// Reflections of a sequence: the mean over the frames that showed a surface (Stachowiak and Uludag 2015; Yang, Liu, Salvi 2020).
+//
+// in : depth, normal, roughness, reflectance  reflector.h
+//      motion     pixels, from this frame to the one before, y down
+//      reach, now of resolve.cl: length of the rays, and this frame's reflection
+//      history, history_depth, history_frames  of the frame before, which `neighbour` shows
+// out: reflection radiance towards the eye; a = share of it that was found in the image
+//      frames     how many frames the reflection is the mean of
+// -D MASKED
+#include "shared/frame/history.h"
+#include "shared/lanes/wanted.h"
+#include "ssr/params.h"
+#include "ssr/virtual_image.h"
+
+// Each surface's mean over the frames that showed it. What it reflects moves as its virtual image does, if that stands still; else,
+// and where it is rough, as the surface. Of the two places in the frame before, the one counts that is more like the neighbours
+// are now. Mirrors have no noise: they are of this frame alone.
+kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                           PLANE normal_z, PLANE roughness, PLANE reflectance_r, PLANE reflectance_g,
+                           PLANE reflectance_b, PLANE motion_x, PLANE motion_y, PLANE reach, PLANE now_r, PLANE now_g,
+                           PLANE now_b, PLANE now_a, PLANE history_r, PLANE history_g, PLANE history_b, PLANE history_a,
+                           PLANE history_depth, PLANE history_frames, WANTED_ARGUMENT PLANE_OUT reflection_r,
+                           PLANE_OUT reflection_g, PLANE_OUT reflection_b, PLANE_OUT reflection_a, PLANE_OUT frames) {
+  SKIP_UNWANTED(frame, no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here);
+                store((real)(0), frames, here))
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
+                                   reflectance_g, reflectance_b);
+  const mask counts = s.reflects & !s.is_mirror & is_wanted;
+  if (!ANY(s.reflects)) {
+    no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here);
+    store((real)(0), frames, here);
+    return;
+  }
+  const Past as_surface = past_at(frame, history_depth, history_frames, s.point.x + load(motion_x, here),
+                                  s.point.y + load(motion_y, here), s.depth, params.same_depth, counts);
+  const real length = load(reach, here);
+  const Projection there = same_virtual_image(frame, neighbour, s, length, counts & (length > 0));
+  const Past as_image = past_at(neighbour.frame, history_depth, history_frames, there.x, there.y, there.depth,
+                                params.same_depth, there.is_seen);
+  PLANE now[4] = {now_r, now_g, now_b, now_a};
+  PLANE history[4] = {history_r, history_g, history_b, history_a};
+  PLANE_OUT result[4] = {reflection_r, reflection_g, reflection_b, reflection_a};
+  const Alike alike = alike_around(frame, depth, s.depth, params.same_depth);
+  Around around_here[4];
+  real of_surface[4], of_image[4],
+      unlike = 0;  // by how much the surface's past is less like the neighbours than the image's
+  for (int c = 0; c < 4; ++c) {
+    around_here[c] = around_of(frame, alike, now[c]);
+    of_surface[c] = value_of(as_surface, history[c]);
+    of_image[c] = value_of(as_image, history[c]);
+    if (c < 3) unlike += fabs(of_surface[c] - around_here[c].mean) - fabs(of_image[c] - around_here[c].mean);
+  }
+  const mask takes_image = as_image.is_known & (!as_surface.is_known | (unlike >= 0));
+  const mask is_known = as_surface.is_known | as_image.is_known;
+  const real before =
+      clamp(choose(takes_image, value_of(as_image, history_frames), value_of(as_surface, history_frames)), (real)(0),
+            (real)((scalar)params.most_frames - 1));
+  const real share = (scalar)1 / (before + 1);
+  for (int c = 0; c < 4; ++c) {
+    const real own = choose(s.reflects & is_wanted, load(now[c], here), (real)(0));
+    const real kept = kept_near(around_here[c], choose(takes_image, of_image[c], of_surface[c]), params.kept_within);
+    store(choose(is_known, kept + (own - kept) * share, own), result[c], here);
+  }
+  store(choose(s.reflects & is_wanted, before + 1, (real)(0)), frames, here);
+}

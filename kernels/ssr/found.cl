@@ -1,0 +1,17 @@
+// Where a surface reflects something that the image shows (reflection-mask).
+//
+// in : roughness         perceptual
+//      ray_density, met  ray.h
+// out: found             1 or 0
+#include "ssr/params.h"
+#include "ssr/ray.h"
+
+// 1 where a surface reflects something that the image shows: its mirror's ray meets something, or it is so rough that this one does
+// not tell.
+kernel void ssr_found(Frame frame, Params params, PLANE roughness, PLANE ray_density, PLANE met, PLANE_OUT found) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real rough = load(roughness, here);
+  const mask reflects = load(ray_density, here) > 0;
+  const mask meets = to_mask(met_in_row(met, here) != MET_NOTHING);
+  store(choose(reflects & (meets | (rough > params.blurred)), (real)(1), (real)(0)), found, here);
+}
