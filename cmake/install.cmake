@@ -55,19 +55,20 @@ endforeach()
 # --- The command; its pages and completions are what it says of itself.
 install(TARGETS gloam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 find_program(HELP2MAN help2man DOC "makes man pages of --help")
+find_program(GZIP gzip)
 set(manual ${PROJECT_BINARY_DIR}/generated/man)
 set(completion ${PROJECT_BINARY_DIR}/generated/completion)
-if(HELP2MAN)
+if(HELP2MAN AND GZIP)
   add_custom_command(
-    OUTPUT ${manual}/gloam.1
-    COMMAND ${CMAKE_COMMAND} -DGLOAM=$<TARGET_FILE:gloam> -DHELP2MAN=${HELP2MAN} -DVERSION=${PROJECT_VERSION} -DOUTPUT=${manual}
+    OUTPUT ${manual}/gloam.1.gz
+    COMMAND ${CMAKE_COMMAND} -DGLOAM=$<TARGET_FILE:gloam> -DHELP2MAN=${HELP2MAN} -DGZIP=${GZIP} -DVERSION=${PROJECT_VERSION} -DOUTPUT=${manual}
             -P ${PROJECT_SOURCE_DIR}/cmake/manual.cmake
     DEPENDS gloam ${PROJECT_SOURCE_DIR}/cmake/manual.cmake
     COMMENT "Writing the man pages" VERBATIM)
-  add_custom_target(manual ALL DEPENDS ${manual}/gloam.1)
-  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime FILES_MATCHING PATTERN "*.1")
+  add_custom_target(manual ALL DEPENDS ${manual}/gloam.1.gz)
+  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime FILES_MATCHING PATTERN "*.1.gz")
 else()
-  message(STATUS "no help2man: man pages are left out; apt install help2man")
+  message(STATUS "no help2man or gzip: man pages are left out; apt install help2man gzip")
 endif()
 add_custom_command(
   OUTPUT ${completion}/gloam ${completion}/_gloam

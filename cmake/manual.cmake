@@ -1,5 +1,5 @@
 # A man page for the command and one for each of its commands, made of their --help.
-# Usage: cmake -DGLOAM=binary -DHELP2MAN=program -DVERSION=0.1.0 -DOUTPUT=folder -P manual.cmake
+# Usage: cmake -DGLOAM=binary -DHELP2MAN=program -DGZIP=program -DVERSION=0.1.0 -DOUTPUT=folder -P manual.cmake
 
 function(help_of command result)
   execute_process(COMMAND ${GLOAM} ${command} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
@@ -19,6 +19,7 @@ function(write_page invocation summary)
   # Examples stay lines of their own.
   string(REGEX REPLACE "\n\\.IP\n((gloam [^\n]*\n)+)" "\n.IP\n.nf\n\\1.fi\n" page "${page}")
   file(WRITE ${OUTPUT}/${name}.1 "${page}")
+  execute_process(COMMAND ${GZIP} -9nf ${OUTPUT}/${name}.1 COMMAND_ERROR_IS_FATAL ANY)  # as Debian wants them
 endfunction()
 
 file(REMOVE_RECURSE ${OUTPUT})

@@ -3,7 +3,6 @@ set(GLOAM_MAINTAINER "The gloam authors <gloam@users.noreply.github.com>" CACHE 
 set(packaging ${PROJECT_BINARY_DIR}/generated/debian)
 
 # --- What only packages have: /usr/share/doc/PACKAGE, and zsh's completions where Debian looks for those of packages.
-find_program(GZIP gzip)
 if(NOT GZIP)
   message(STATUS "no gzip: cpack makes no packages")
   return()
@@ -25,6 +24,7 @@ install(FILES ${completion}/_gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vend
 # --- Both packages.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME gloam)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGE_VENDOR "The gloam authors")
 set(CPACK_PACKAGE_CONTACT "${GLOAM_MAINTAINER}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
@@ -49,14 +49,14 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # A device: any OpenCL driver. PoCL is one for every CPU.
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd")
-set(CPACK_COMPONENT_GROUP_COMMAND_DESCRIPTION "ambient occlusion and reflections on captured G-buffers
- gloam computes ambient occlusion and other image-space effects on frames
- that renderers and engines have written as OpenEXR: depth, and normals and
- cameras where there are any. It says how near its images come to ray-traced
- truth, which it traces itself where the scene is at hand, and how long each
- technique takes on this computer.
- .
- It runs on any OpenCL device, a CPU among them.")
+set(CPACK_DEBIAN_COMMAND_DESCRIPTION "ambient occlusion and reflections on captured G-buffers
+gloam computes ambient occlusion and other image-space effects on frames
+that renderers and engines have written as OpenEXR: depth, and normals and
+cameras where there are any. It says how near its images come to ray-traced
+truth, which it traces itself where the scene is at hand, and how long each
+technique takes on this computer.
+
+It runs on any OpenCL device, a CPU among them.")
 
 # --- libgloam-dev
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libgloam-dev)
@@ -64,13 +64,13 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libopenexr-dev, libopencv-dev, libopencv-contrib-dev, \
 ocl-icd-opencl-dev, libpng-dev, libembree-dev, libassimp-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "gloam, pocl-opencl-icd | opencl-icd")
-set(CPACK_COMPONENT_GROUP_LIBRARY_DESCRIPTION "image-space effects on captured G-buffers - C++ library
- gloam computes ambient occlusion and other image-space effects on frames
- that renderers and engines have: depth, and normals and cameras where there
- are any, from OpenEXR files or from arrays in memory, on any OpenCL device.
- .
- This package has its static libraries and headers, and what CMake and
- pkg-config need to find them.")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "image-space effects on captured G-buffers - C++ library
+gloam computes ambient occlusion and other image-space effects on frames
+that renderers and engines have: depth, and normals and cameras where there
+are any, from OpenEXR files or from arrays in memory, on any OpenCL device.
+
+This package has its static libraries and headers, and what CMake and
+pkg-config need to find them.")
 
 include(CPack)
 cpack_add_component_group(command)
