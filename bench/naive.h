@@ -23,7 +23,7 @@ struct NaiveKernel {
   bool filters = false;  ///< reads the plane that the pass before has made
   int samples = 0;       ///< per pixel with which it is compared; 0: any
   double tolerance = 0;  ///< of an estimate: mean absolute difference from gloam above which it computes something else
-  std::vector<std::pair<std::string, std::string>> knows = {};  ///< settings that must have these values
+  Settings knows = {};   ///< settings that must have these values
 };
 
 const std::vector<NaiveKernel>& naive_kernels();

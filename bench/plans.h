@@ -11,8 +11,6 @@
 
 namespace gloam::bench {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 /// Whether it makes `ao` only from what another technique that puts out `ao` leaves to it.
 bool is_filter(const Technique& technique);
 

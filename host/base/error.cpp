@@ -30,6 +30,17 @@ std::string_view without_dashes(std::string_view name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
+/// Letters in lower case and without what separates words; "plus" and "+" are the same: "HBAO_plus" and "hbao+".
+std::string folded(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    if (c != '-' && c != '_' && c != ' ' && c != '.') text += lower(c);
+  }
+  for (size_t at = text.find("plus"); at != std::string::npos && at > 0; at = text.find("plus", at + 1))
+    text.replace(at, 4, "+");
+  return text;
+}
+
 bool abbreviates(std::string_view name, std::string_view candidate) {
   const std::string_view start = without_dashes(name), whole = without_dashes(candidate);
   return start.size() >= 2 && start.size() < whole.size() &&
@@ -75,10 +86,11 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   // A third of the letters wrong, or two swapped, is still a slip of the fingers; more is another word. What is only
   // cut short is as near as one slip.
   const size_t letters = without_dashes(name).size(), farthest = letters <= 3 ? 1 : std::max<size_t>(2, letters / 3);
+  const std::string plain = folded(name);
   std::tuple<size_t, bool, size_t> best = {farthest + 1, false, 0};
   const std::string* nearest = nullptr;
   for (const std::string& candidate : candidates) {
-    const size_t distance = edit_distance(name, candidate);
+    const size_t distance = std::min(edit_distance(name, candidate), edit_distance(plain, folded(candidate)));
     const bool cut_short = abbreviates(name, candidate);
     const std::tuple key(cut_short ? std::min<size_t>(distance, 1) : distance, !cut_short, distance);
     if (key >= best) continue;

@@ -1,271 +1,24 @@
 // gloam capture SCENE -o FRAME.exr
 #include "gloam/scene/capture.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "base/elapsed.h"
-#include "camera/camera_json.h"
-#include "cli/scene_flags.h"
+#include "cli/capture_flags.h"
+#include "cli/capture_result.h"
+#include "cli/capture_shots.h"
 #include "gloam/error.h"
+#include "gloam/light_field.h"
 #include "gloam/radius.h"
-#include "gloam/scene/light_field_capture.h"
 #include "gloam/visualise.h"
 
 namespace gloam::cli {
 namespace {
 
-struct CaptureCommand {
-  std::string out, size, planes, peel = "0", path, picture, compression = "zip";
-  std::string display, modules;
-  std::string stochastic, alpha, stochastic_seed, view2, stereo, convergence, outlines, outline_method, outline_angle;
-  bool half = false, toe_in = false, separate = false;
-  SceneFlags scene;
-  SceneCameraFlags camera;
-  JsonFlag json;
-};
-
-/// All planes but motion, which needs a path.
-std::vector<std::string> planes_of(const CaptureCommand& flags) {
-  std::vector<std::string> planes;
-  if (!flags.planes.empty()) planes = split_list(flags.planes, "--planes");
-  for (const std::string& plane : capture_planes()) {
-    if (flags.planes.empty() && plane != "motion") planes.push_back(plane);
-  }
-  if (contains(planes, "motion") && flags.path.empty())
-    throw UsageError("--planes motion needs cameras of two moments; give --camera-path FILE.json");
-  if (!flags.path.empty()) add_new(planes, "motion");
-  return planes;
-}
-
-StochasticOptions stochastic_of(const CaptureCommand& flags) {
-  StochasticOptions options;
-  if (flags.stochastic.empty()) {
-    if (!flags.alpha.empty()) throw UsageError("--alpha is of a stochastic depth map; give --stochastic S too");
-    if (!flags.stochastic_seed.empty())
-      throw UsageError("--stochastic-seed is of a stochastic depth map; give --stochastic S too");
-    return options;
-  }
-  options.samples = parse_whole_number(flags.stochastic, "--stochastic", 1, 16);
-  if (!flags.alpha.empty()) options.alpha = parse_number(flags.alpha, "--alpha", 0, 1);
-  if (!flags.stochastic_seed.empty())
-    options.seed = parse_whole_number(flags.stochastic_seed, "--stochastic-seed", 0, std::numeric_limits<int>::max());
-  return options;
-}
-
-/// None where none are wanted.
-std::optional<OutlineOptions> outlines_of(const CaptureCommand& flags) {
-  if (flags.outlines.empty()) {
-    if (!flags.outline_method.empty()) throw UsageError("--outline-method is of outlines; give --outlines EXTENT too");
-    if (!flags.outline_angle.empty()) throw UsageError("--outline-angle is of outlines; give --outlines EXTENT too");
-    return {};
-  }
-  OutlineOptions options;
-  options.extent = parse_number(flags.outlines, "--outlines", 1e-15, 1e15);
-  if (!flags.outline_method.empty()) {
-    const std::vector<std::string>& names = outline_methods();
-    const auto found = std::find(names.begin(), names.end(), flags.outline_method);
-    if (found == names.end())
-      throw UsageError("--outline-method {} is not allowed{}; {} are", flags.outline_method,
-                       suggestion(flags.outline_method, names), enumerate(names));
-    options.method = OutlineMethod(found - names.begin());
-  }
-  if (flags.outline_angle.empty()) return options;
-  if (options.method != OutlineMethod::integrated)
-    throw UsageError(
-        "--outline-angle tells apart the normals that --outline-method integrated takes the mean of; leave it out");
-  options.angle_degrees = parse_number(flags.outline_angle, "--outline-angle", 0, 90);
-  return options;
-}
-
-/// By how many degrees the second view is turned; none where none is wanted.
-std::optional<double> second_view_of(const CaptureCommand& flags) {
-  if (flags.view2.empty()) return {};
-  const double degrees = parse_number(flags.view2, "--view2", -90, 90);
-  if (degrees == 0) throw UsageError("--view2 0 would be the first view again; give -90 to 90 degrees, but not 0");
-  return degrees;
-}
-
-/// How two eyes stand to each other; none where one view is wanted.
-std::optional<StereoRig> stereo_of(const CaptureCommand& flags) {
-  if (flags.stereo.empty()) {
-    if (!flags.convergence.empty()) throw UsageError("--convergence is of two eyes; give --stereo IPD too");
-    if (flags.toe_in) throw UsageError("--toe-in is of two eyes; give --stereo IPD and --convergence D too");
-    return {};
-  }
-  StereoRig rig{parse_number(flags.stereo, "--stereo", 0, 1e30), {}, flags.toe_in};
-  if (!flags.convergence.empty()) rig.convergence = parse_number(flags.convergence, "--convergence", 1e-30, 1e30);
-  if (flags.toe_in && !rig.convergence)
-    throw UsageError("--toe-in turns the eyes towards a depth; give --convergence D too");
-  return rig;
-}
-
-/// Each says which views a frame has.
-void check_second_view_flags(const CaptureCommand& flags) {
-  std::vector<std::string> given;
-  if (!flags.view2.empty()) given.push_back("--view2");
-  if (!flags.stereo.empty()) given.push_back("--stereo");
-  if (!flags.path.empty()) given.push_back("--camera-path");
-  if (!flags.display.empty()) given.push_back("--display");
-  if (given.size() > 1)
-    throw UsageError("{} cannot be given together, as each says which views a frame has; give one of them",
-                     enumerate(given));
-}
-
-/// A camera file may hold more than the one view that two are made of.
-void check_single_view(const CaptureCommand& flags, const std::vector<CaptureView>& views) {
-  if ((flags.view2.empty() && flags.stereo.empty()) || views.size() == 1) return;
-  std::vector<std::string> names;
-  for (const CaptureView& view : views) names.push_back("'" + view.name + "'");
-  const char* flag = flags.view2.empty() ? "--stereo" : "--view2";
-  throw UsageError("{} makes two views of one, and {} has {}; leave out {}, or give a camera of one view", flag,
-                   flags.camera.camera, enumerate(names), flag);
-}
-
-/// "frame.exr" and 7 make "frame.0007.exr".
-std::string numbered(const std::string& path, int number) {
-  const std::filesystem::path p(path);
-  return (p.parent_path() / fmt::format("{}.{:04}{}", p.stem().string(), number, p.extension().string())).string();
-}
-
-/// One moment: what is captured, and the file it goes to.
-struct Shot {
-  std::string file, picture;
-  std::vector<CaptureView> views;
-};
-
-/// "frame.exr" and "module07" make "frame.module07.exr".
-std::string of_view(const std::string& path, const std::string& view) {
-  const std::filesystem::path p(path);
-  return (p.parent_path() / fmt::format("{}.{}{}", p.stem().string(), view, p.extension().string())).string();
-}
-
-/// The modules that --modules names, by number and from-to; all without it.
-std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
-  std::vector<size_t> chosen;
-  if (flags.modules.empty()) {
-    for (size_t i = 0; i < count; ++i) chosen.push_back(i);
-    return chosen;
-  }
-  for (const std::string& item : split_list(flags.modules, "--modules")) {
-    const size_t dash = item.find('-');
-    const int last_allowed = int(count) - 1;
-    const int from = parse_whole_number(item.substr(0, dash), "--modules", 0, last_allowed);
-    const int to =
-        dash == std::string::npos ? from : parse_whole_number(item.substr(dash + 1), "--modules", from, last_allowed);
-    for (int i = from; i <= to; ++i) {
-      if (std::find(chosen.begin(), chosen.end(), size_t(i)) != chosen.end())
-        throw UsageError("--modules {}: names module {} twice; name each once", flags.modules, i);
-      chosen.push_back(size_t(i));
-    }
-  }
-  return chosen;
-}
-
-/// The display, with the part of the world that it shows: its own, or what the scene's camera frames, whose middle depth comes
-/// to lie in the screen.
-LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer) {
-  LightFieldDisplay display = read_display(flags.display);
-  if (display.world) {
-    if (flags.camera.any())
-      throw UsageError(
-          "--display {}: says itself which part of the world it shows; leave out --camera, --eye, --target "
-          "and --fov",
-          flags.display);
-    return display;
-  }
-  const FittingSize size = fitting_size(display);
-  const auto cameras = flags.camera.cameras(tracer.scene(), size.width, size.height);
-  if (cameras.size() != 1)
-    throw UsageError("--display {}: shows what one camera frames, and {} has {}; give a camera of one view",
-                     flags.display, flags.camera.camera, cameras.size());
-  const auto fitted = fitted_to(display, tracer, cameras.begin()->second);
-  if (!fitted)
-    throw Error(
-        "--display {}: the camera shows nothing of the scene that the display could; another --camera or --eye may",
-        flags.display);
-  return *fitted;
-}
-
-/// One file with all modules, or one for each.
-std::vector<Shot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
-  const LightFieldDisplay display = display_for(flags, tracer);
-  if (flags.size.empty()) options.width = display.width, options.height = display.height;
-  const std::vector<CaptureView> views = module_views(display, options.width, options.height);
-  std::vector<Shot> shots;
-  if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});
-  for (const size_t i : chosen_modules(flags, views.size())) {
-    const std::string& name = views[i].name;
-    if (flags.separate)
-      shots.push_back({of_view(flags.out, name), flags.picture.empty() ? "" : of_view(flags.picture, name), {}});
-    shots.back().views.push_back(views[i]);
-  }
-  return shots;
-}
-
-std::vector<Shot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height) {
-  std::vector<Shot> shots;
-  if (flags.path.empty()) {
-    Shot shot{flags.out, flags.picture, {}};
-    for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
-      shot.views.push_back({name, camera, {}});
-    check_single_view(flags, shot.views);
-    return {shot};
-  }
-  std::vector<std::string> assumed;
-  const std::vector<Camera> cameras = read_camera_path(flags.path, {0, 0, width, height}, assumed);
-  note(assumed);
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    const int number = int(i) + 1;
-    shots.push_back({numbered(flags.out, number),
-                     flags.picture.empty() ? "" : numbered(flags.picture, number),
-                     {{"", cameras[i], cameras[i == 0 ? 0 : i - 1]}}});
-  }
-  return shots;
-}
-
-/// How many surfaces lie under a pixel that shows any.
-struct Layers {
-  long long pixels = 0, surfaces = 0;
-  int most = 0;
-  void add(const Frame& frame) {
-    for (const View& view : frame.views) {
-      const Plane* count = view.find("peel_count");
-      if (!count) continue;
-      for (int y = 0; y < frame.height(); ++y) {
-        for (int x = 0; x < frame.width(); ++x) {
-          const int n = int(count->channels[0].at(x, y));
-          pixels += n > 0;
-          surfaces += n;
-          most = std::max(most, n);
-        }
-      }
-    }
-  }
-  double mean() const { return pixels == 0 ? 0 : double(surfaces) / double(pixels); }
-};
-
-struct Figures {
-  size_t faces = 0, meshes = 0;
-  double load = 0, build = 0, trace = 0, stochastic = 0, outlines = 0, write = 0;
-  long long rays = 0;
-  Layers layers;
-  std::string camera;                    ///< where the first view's camera came from
-  long long surfaces = 0;                ///< pixels that show one
-  std::optional<VisibleDepths> visible;  ///< what the second view holds
-  std::optional<Camera> second;          ///< its camera
-  double shift = 0;                      ///< of each eye's principal point, pixels
-  std::optional<double> ao_radius;  ///< that suits the scene, else the first frame; none: nothing is in the picture
-  std::vector<std::string> files;
-};
-
 /// The scene's lit colour as a picture.
-void write_colour(const Shot& shot, const Frame& frame) {
+void write_colour(const CaptureShot& shot, const Frame& frame) {
   if (shot.picture.empty()) return;
   for (const View& view : frame.views) {
     write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1), view.planes.at("color"));
@@ -273,12 +26,13 @@ void write_colour(const Shot& shot, const Frame& frame) {
 }
 
 /// The radius is the same in all frames of a sequence.
-void state_radius(Frame& frame, Figures& figures) {
+void state_radius(Frame& frame, CaptureFigures& figures) {
   if (!figures.ao_radius) figures.ao_radius = radius_made_from(frame);
   if (figures.ao_radius) frame.numbers["aoRadius"] = *figures.ao_radius;
 }
 
-void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const WriteOptions& write, Figures& figures) {
+void take(const CaptureShot& shot, const Tracer& tracer, CaptureOptions options, const WriteOptions& write,
+          CaptureFigures& figures) {
   options.views = shot.views;
   CaptureResult result = capture(tracer, options);
   state_radius(result.frame, figures);
@@ -299,105 +53,6 @@ void take(const Shot& shot, const Tracer& tracer, CaptureOptions options, const 
   figures.files.push_back(shot.file);
 }
 
-/// What the image of a camera spans from its left to its right border: degrees, or scene units.
-double span_of(const Camera& camera, int width) {
-  const double left = camera.cx / camera.fx, right = (width - camera.cx) / camera.fx;
-  if (camera.orthographic) return left + right;
-  return (std::atan(left) + std::atan(right)) * 180 / std::numbers::pi;
-}
-
-Json stochastic_document(const StochasticOptions& options) {
-  if (options.samples == 0) return nullptr;
-  return {{"samples", options.samples}, {"alpha", options.alpha}, {"seed", options.seed}};
-}
-
-Json outlines_document(const CaptureOptions& options, const Figures& f) {
-  if (!options.outlines) return nullptr;
-  const OutlineOptions& made = options.outlines->options();
-  return {{"extent", made.extent},
-          {"method", outline_methods()[size_t(made.method)]},
-          {"angle", made.method == OutlineMethod::integrated ? Json(made.angle_degrees) : Json()},
-          {"triangles", options.outlines->scene().faces()},
-          {"triangles_of_scene", f.faces},
-          {"ms", {{"build", 1e3 * options.outlines->build_seconds()}, {"count", 1e3 * f.outlines}}}};
-}
-
-Json second_view_document(const CaptureOptions& options, const Figures& f) {
-  if (!f.visible) return nullptr;
-  return {{"degrees", *options.second_view},
-          {"nearest", f.visible->nearest},
-          {"median", f.visible->median},
-          {"farthest", f.visible->farthest},
-          {f.second->orthographic ? "units_across" : "degrees_across", span_of(*f.second, options.width)}};
-}
-
-Json stereo_document(const CaptureOptions& options, const Figures& f) {
-  if (!options.stereo) return nullptr;
-  const StereoRig& rig = *options.stereo;
-  return {{"interpupillary_distance", rig.interpupillary_distance},
-          {"convergence", rig.convergence ? Json(*rig.convergence) : Json()},
-          {"toe_in_degrees", toe_in_degrees(rig)},
-          {"shift_pixels", f.shift}};
-}
-
-/// "parallel", "converging at depth 2: images shifted by 6.9 pixels each"
-std::string convergence_in_words(const StereoRig& rig, double shift) {
-  if (!rig.convergence) return "parallel";
-  return fmt::format("converging at depth {:g}: {}", *rig.convergence,
-                     rig.toe_in ? fmt::format("each turned by {:.3g} degrees", toe_in_degrees(rig))
-                                : fmt::format("images shifted by {:.3g} pixels each", shift));
-}
-
-Json document(const Scene& scene, const CaptureOptions& options, const Figures& f) {
-  Json layers = nullptr;
-  if (options.peel > 0) layers = {{"stored", options.peel}, {"mean", f.layers.mean()}, {"max", f.layers.most}};
-  return {
-      {"scene", scene.name},
-      {"faces", f.faces},
-      {"meshes", f.meshes},
-      {"size", {options.width, options.height}},
-      {"files", f.files},
-      {"layers", layers},
-      {"stochastic", stochastic_document(options.stochastic)},
-      {"outlines", outlines_document(options, f)},
-      {"view2", second_view_document(options, f)},
-      {"stereo", stereo_document(options, f)},
-      {"ao_radius", f.ao_radius ? Json(*f.ao_radius) : Json()},
-      {"rays", f.rays},
-      {"rays_per_second", f.trace > 0 ? double(f.rays) / f.trace : 0},
-      {"seconds",
-       {{"load", f.load}, {"build", f.build}, {"trace", f.trace}, {"stochastic", f.stochastic}, {"write", f.write}}}};
-}
-
-void print(const Scene& scene, const CaptureOptions& options, const Figures& f) {
-  fmt::print("{}: {} faces in {} meshes, {}x{}\n", printable(scene.name), f.faces, f.meshes, options.width,
-             options.height);
-  fmt::print("{}{}\n", f.camera,
-             f.ao_radius ? fmt::format("; AO radius that suits: {:g} scene units", *f.ao_radius) : "");
-  if (options.peel > 0)
-    fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
-  if (options.stochastic.samples > 0)
-    fmt::print("stochastic depth: {} samples, alpha {:g}; choosing them took {:.3f} s of the tracing\n",
-               options.stochastic.samples, options.stochastic.alpha, f.stochastic);
-  if (options.outlines)
-    fmt::print("outlines: {:g} scene units away, {}; building them took {:.3f} s, counting {:.3f} s of the tracing\n",
-               options.outlines->options().extent, outline_methods()[size_t(options.outlines->options().method)],
-               options.outlines->build_seconds(), f.outlines);
-  if (f.visible)
-    fmt::print("view2: turned {:g} degrees about depth {:g}, holds depths {:g} to {:g}, {:.3g} {} across\n",
-               *options.second_view, f.visible->median, f.visible->nearest, f.visible->farthest,
-               span_of(*f.second, options.width), f.second->orthographic ? "scene units" : "degrees");
-  if (options.stereo)
-    fmt::print("stereo: eyes {:g} scene units apart, {}\n", options.stereo->interpupillary_distance,
-               convergence_in_words(*options.stereo, f.shift));
-  fmt::print("load {:.2f} s, build {:.2f} s, trace {:.2f} s ({:.1f} million rays per second), write {:.2f} s\n", f.load,
-             f.build, f.trace, f.trace > 0 ? double(f.rays) / f.trace * 1e-6 : 0.0, f.write);
-  if (f.files.size() == 1)
-    fmt::print("wrote {}\n", printable(f.files.front()));
-  else
-    fmt::print("wrote {} files, {} to {}\n", f.files.size(), printable(f.files.front()), printable(f.files.back()));
-}
-
 void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
   check(write);
   check_picture_name(flags.picture, "--picture");
@@ -416,9 +71,9 @@ void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
 }
 
 /// None of what is written may be what is read, or be written twice.
-void check_files(const CaptureCommand& flags, const std::vector<Shot>& shots) {
+void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& shots) {
   std::vector<NamedPath> outputs = {{"--json", flags.json.file()}};
-  for (const Shot& shot : shots) {
+  for (const CaptureShot& shot : shots) {
     outputs.emplace_back("-o", shot.file);
     outputs.emplace_back("--picture", shot.picture);
   }
@@ -442,13 +97,13 @@ void capture_command(const CaptureCommand& flags) {
   const std::optional<OutlineOptions> outline_options = outlines_of(flags);
   options.second_view = second_view_of(flags);
   options.stereo = stereo_of(flags);
-  Figures figures;
+  CaptureFigures figures;
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = flags.scene.load();
   figures.load = seconds_since(start);
   const Tracer tracer(scene);
-  const std::vector<Shot> shots = flags.display.empty() ? shots_of(flags, scene, options.width, options.height)
-                                                        : shots_of_display(flags, tracer, options);
+  const std::vector<CaptureShot> shots = flags.display.empty() ? shots_of(flags, scene, options.width, options.height)
+                                                               : shots_of_display(flags, tracer, options);
   check_files(flags, shots);
   figures.camera = shots.front().views.front().camera.source;
   figures.build = tracer.build_seconds();
@@ -462,13 +117,13 @@ void capture_command(const CaptureCommand& flags) {
   if (bar) {
     options.progress = [&](int done, int of) { bar(taken * 1000 + int(1000LL * done / of), int(shots.size()) * 1000); };
   }
-  for (const Shot& shot : shots) {
+  for (const CaptureShot& shot : shots) {
     take(shot, tracer, options, write, figures);
     ++taken;
   }
   if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
-  flags.json.write(document(scene, options, figures), figures.files);
-  if (!flags.json.only_json()) print(scene, options, figures);
+  flags.json.write(capture_document(scene, options, figures), figures.files);
+  if (!flags.json.only_json()) print_capture(scene, options, figures);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "cli/compare_stereo_inputs.h"
 #include "cli/memory.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -19,103 +20,11 @@ namespace {
 constexpr double smallest_angle = 0.1;
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Reading
-
-struct Input {
-  FrameFile file;
-  Frame frame;
-
-  std::string name() const { return file.path().string(); }
-  /// Those of the named planes that the file has.
-  void read(const std::vector<std::string>& wanted) {
-    std::vector<std::string> planes;
-    for (const std::string& plane : wanted) {
-      if (contains(file.common_planes(), plane)) planes.push_back(plane);
-    }
-    frame = file.read(planes);
-  }
-};
-
-Input opened(const std::string& path, const ReadOptions& options) { return {FrameFile(path, options), {}}; }
-
-/// The file with both views, or that of each eye.
-std::vector<Input> open_results(const CompareFlags& flags, const ReadOptions& options) {
-  std::vector<Input> results;
-  if (flags.reference.empty()) {
-    results.push_back(opened(flags.test, options));
-    const std::vector<std::string>& views = results[0].file.views();
-    if (views.size() == 1)
-      throw Error("{}: holds one view, and the stereo inconsistency is between two; give the file of the other eye too",
-                  flags.test);
-    if (views.size() > 2) throw Error("{}: has the views {}; --views A,B says which two", flags.test, enumerate(views));
-    return results;
-  }
-  for (const std::string& path : {flags.test, flags.reference}) {
-    ReadOptions own = options_beside(options, path);
-    own.channels = options.channels;
-    results.push_back(opened(path, own));
-    const std::vector<std::string>& views = results.back().file.views();
-    if (views.size() == 1) continue;
-    throw Error("{}: has the views {}; of two files each holds one view", path, enumerate(views));
-  }
-  return results;
-}
-
-/// That of --frame, if any.
-std::vector<Input> open_frame(const CompareFlags& flags, const ReadOptions& options) {
-  std::vector<Input> frames;
-  if (!flags.frame.empty()) frames.push_back(opened(flags.frame, options_beside(options, flags.frame)));
-  return frames;
-}
-
-/// Planes of both eyes as they are read, and once more as they are compared.
-unsigned long long bytes_of(const std::vector<Input>& results, const std::vector<Input>& frames,
-                            std::vector<std::string> geometry, const std::string& plane) {
-  unsigned long long bytes = 0;
-  for (const Input& frame : frames) bytes += frame.file.bytes_to_read(geometry);
-  add_new(geometry, plane);
-  for (const Input& result : results) bytes += result.file.bytes_to_read(geometry);
-  return process_bytes + 2 * bytes;
-}
-
-/// Reads of each file what it has of the geometry, and a plane.
-void read_all(std::vector<Input>& inputs, std::vector<std::string> geometry, const std::string& plane) {
-  add_new(geometry, plane);
-  for (Input& input : inputs) input.read(geometry);
-}
-
-/// The plane asked for. A point's depth is another for each eye, so that depths are not compared.
-std::string plane_asked_for(const std::vector<Input>& results, const std::string& asked) {
-  if (plane_kind(asked).meaning == PlaneKind::view_depth)
-    throw UsageError("--what {}: a point's depth is another for each eye; name a result", asked);
-  for (const Input& result : results) {
-    const std::vector<std::string> planes = result.file.common_planes();
-    if (!contains(planes, asked))
-      throw Error("{}: no plane '{}'{}; {}", result.name(), asked, suggestion(asked, planes), holdings(result.file));
-  }
-  return asked;
-}
-
-/// The first that all files have, results before inputs.
-std::string plane_to_compare(const std::vector<Input>& results) {
-  const FrameFile& first = results.front().file;
-  std::vector<std::string> order = results_among(first.common_planes());
-  for (const std::string& plane : inputs_among(first.common_planes())) order.push_back(plane);
-  for (const std::string& plane : order) {
-    const bool is_in_all = std::all_of(results.begin(), results.end(), [&](const Input& result) {
-      return contains(result.file.common_planes(), plane);
-    });
-    if (is_in_all && plane_kind(plane).meaning != PlaneKind::view_depth) return plane;
-  }
-  throw Error("{}: nothing that can be compared between two eyes; {}", results.front().name(), holdings(first));
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
 // Bringing together
 
 /// One view of a file, and the part of its pixels that lies under the images.
 struct Source {
-  const Input* input = nullptr;
+  const StereoInput* input = nullptr;
   const View* view = nullptr;
   Window window;
 };
@@ -123,7 +32,7 @@ struct Source {
 /// The same thing of both eyes.
 using Sources = std::array<Source, 2>;
 
-Sources sources_of(const std::vector<Input>& results) {
+Sources sources_of(const std::vector<StereoInput>& results) {
   const Frame& first = results.front().frame;
   if (results.size() == 1)
     return {Source{&results[0], &first.views[0], first.window}, Source{&results[0], &first.views[1], first.window}};
@@ -135,7 +44,7 @@ Sources sources_of(const std::vector<Input>& results) {
 }
 
 /// The views of --frame that go with those of the results: by name; in their order where each eye has a file.
-Sources sources_of(const Input& extra, const std::vector<Input>& results) {
+Sources sources_of(const StereoInput& extra, const std::vector<StereoInput>& results) {
   const Frame &frame = extra.frame, &first = results.front().frame;
   if (frame.views.size() < 2)
     throw Error("--frame {}: holds one view, and the results two; give the frame that they were made of", extra.name());
@@ -167,9 +76,9 @@ bool have_cameras(const Sources& sources) {
 
 /// --frame first, since the user named it. But what depth and normals mean may depend on the camera: files that have it
 /// go before one that had to do without.
-std::vector<Sources> sources_of(const std::vector<Input>& frames, const std::vector<Input>& results) {
+std::vector<Sources> sources_of(const std::vector<StereoInput>& frames, const std::vector<StereoInput>& results) {
   std::vector<Sources> sources;
-  for (const Input& frame : frames) sources.push_back(sources_of(frame, results));
+  for (const StereoInput& frame : frames) sources.push_back(sources_of(frame, results));
   sources.push_back(sources_of(results));
   std::stable_partition(sources.begin(), sources.end(), have_cameras);
   return sources;
@@ -392,7 +301,7 @@ void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   const double magnify = parse_number(stereo.magnify, "--magnify", 1e-3, 1e6);
   ReadOptions options = flags.frame_flags.read_options();
   options.as_stored = true;
-  std::vector<Input> results = open_results(flags, options), frames = open_frame(flags, options);
+  std::vector<StereoInput> results = open_results(flags, options), frames = open_frame(flags, options);
   const std::string plane = flags.plane.empty() ? plane_to_compare(results) : plane_asked_for(results, flags.plane);
   std::vector<std::string> geometry = {"depth"};
   if (check.normal_check) geometry.push_back("normal");

@@ -84,6 +84,8 @@ struct Abilities {
   std::vector<std::string> runs;
   Json lacks = Json::object();  ///< by technique: planes, of those that do as well the one that takes least; views
   std::map<std::string, std::string> words;  ///< the same for people
+  /// How many techniques lack each of them.
+  std::map<std::string, int> planes, views;
 };
 
 Abilities abilities_of(const FrameFile& file, const Frame& frame) {
@@ -92,17 +94,22 @@ Abilities abilities_of(const FrameFile& file, const Frame& frame) {
     std::vector<std::string> lacks, words;
     try {
       const Plan plan = make_plan({.outputs = {technique.name}}, file.common_planes(), holdings(file));
-      if (lacks_eye(plan, frame)) lacks = words = {"cameras with one eye"};
+      if (lacks_eye(plan, frame)) {
+        lacks = words = {"cameras with one eye"};
+        ++abilities.views[words.back()];
+      }
     } catch (const MissingPlanes& missing) {
       for (const std::string& plane : missing.planes) {
         const auto instead = missing.instead.find(plane);
         lacks.push_back(instead == missing.instead.end() ? plane : instead->second);
         words.push_back(instead == missing.instead.end() ? plane : instead->second + " or " + plane);
+        ++abilities.planes[words.back()];
       }
     }
     for (const std::string& what : lacking_views(technique, frame)) {
       lacks.push_back(what);
       words.push_back(what);
+      ++abilities.views[what];
     }
     if (lacks.empty()) {
       abilities.runs.push_back(technique.name);
@@ -148,8 +155,33 @@ std::vector<std::string> unread_channels(const FrameFile& file) {
   return unread;
 }
 
+/// "peel (10 techniques), roughness (4)": what most techniques lack first.
+std::string most_wanted(const std::map<std::string, int>& lacking) {
+  std::vector<std::pair<std::string, int>> sorted(lacking.begin(), lacking.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<std::string> words;
+  for (const auto& [what, count] : sorted)
+    words.push_back(fmt::format("{} ({}{})", what, count,
+                                !words.empty() ? ""
+                                : count == 1   ? " technique"
+                                               : " techniques"));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// At most three lines; with `by_technique` one for each technique.
+void print_lacks(const Abilities& abilities, bool by_technique) {
+  if (by_technique) {
+    for (const auto& [technique, words] : abilities.words) fmt::print("lacks  {}: {}\n", technique, words);
+    return;
+  }
+  if (!abilities.planes.empty()) fmt::print("lacks  planes: {}\n", most_wanted(abilities.planes));
+  if (!abilities.views.empty()) fmt::print("lacks  views: {}\n", most_wanted(abilities.views));
+  const size_t count = abilities.words.size();
+  if (count > 0) fmt::print("       --lacks says which of them each of {} techniques needs\n", count);
+}
+
 void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, const Json& document,
-                const std::vector<std::string>& assumed, const Abilities& abilities) {
+                const std::vector<std::string>& assumed, const Abilities& abilities, bool lacks_by_technique) {
   const Window display = file.display(), window = file.window();
   fmt::print("{}: {} x {}", printable(file.path().string()), display.width(), display.height());
   if (window != display)
@@ -181,7 +213,7 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   for (const std::string& note : assumed) fmt::print("assumed: {}\n", printable(note));
   const std::vector<std::string>& runs = abilities.runs;
   fmt::print("\nruns   {}\n", runs.empty() ? "nothing" : fmt::format("{}", fmt::join(runs, ", ")));
-  for (const auto& [technique, words] : abilities.words) fmt::print("lacks  {}: {}\n", technique, words);
+  print_lacks(abilities, lacks_by_technique);
 }
 
 Json planes_document(const std::vector<PlaneFacts>& facts) {
@@ -213,6 +245,7 @@ void write_planes_picture(const std::string& picture, const std::string& path, c
 
 struct InfoFlags {
   std::string frame, picture;
+  bool lacks = false;
   ViewPictureFlags views;
   FrameFlags frame_flags;
   JsonFlag json;
@@ -287,7 +320,7 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   if (!picture.empty()) pictures.push_back(picture);
   flags.json.write(document, pictures);
   if (flags.json.only_json()) return;
-  print_info(file, facts, document, frame.assumed, abilities);
+  print_info(file, facts, document, frame.assumed, abilities, flags.lacks);
   if (pixels_at_median_depth(frame)) radius.print();
   print_written(pictures);
 }
@@ -308,6 +341,7 @@ void add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "what a frame holds, what is assumed, what can run on it");
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
   command->add_option("--picture", flags->picture, "also all planes as a contact sheet")->type_name("PLANES.png");
+  command->add_flag("--lacks", flags->lacks, "what each technique lacks, one a line");
   flags->views.add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);

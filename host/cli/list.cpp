@@ -1,171 +1,29 @@
 // gloam list techniques|devices|metrics|scenes|cases
 #include <memory>
 
+#include "cli/list_techniques.h"
 #include "cli/options.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
-#include "gloam/planes.h"
-#include "gloam/radius.h"
 #include "gloam/scene/scene.h"
 #include "stress/case.h"
 
 namespace gloam::cli {
 namespace {
 
-Json parameter_document(const Parameter& p) {
-  Json document = {{"name", p.name}, {"type", type_name(p)}};
-  const ParameterValues initial({p});
-  const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "-inf"); };
-  const bool numeric = p.type == Parameter::Type::floating || p.type == Parameter::Type::integer;
-  if (p.type == Parameter::Type::integer) {
-    document["default"] = int(p.initial);
-    document["min"] = int(p.min);
-    document["max"] = int(p.max);
-  } else if (numeric) {
-    // Through float, as the kernel sees it, then in its shortest decimal form.
-    document["default"] = is_radius(p) ? Json() : Json(std::stod(initial.text(p.name)));
-    if (is_radius(p)) document["default_from"] = "frame";
-    document["min"] = bound(p.min);
-    document["max"] = bound(p.max);
-  } else {
-    document["default"] = p.type == Parameter::Type::boolean ? Json(p.initial != 0) : Json(initial.text(p.name));
-    document["min"] = nullptr;
-    document["max"] = nullptr;
-  }
-  document["choices"] = p.choices;
-  document["unit"] = p.unit;
-  document["help"] = p.help;
-  return document;
-}
-
-/// The default of a parameter for people.
-std::string default_in_words(const Parameter& p) {
-  return is_radius(p) ? "from the frame" : ParameterValues({p}).text(p.name);
-}
-
-Json techniques_document() {
-  Json document = Json::array();
-  for (const Technique& t : registry()) {
-    Json parameters = Json::array();
-    for (const Parameter& p : t.parameters) parameters.push_back(parameter_document(p));
-    Json presets = Json::object();
-    for (const Preset& preset : t.presets) {
-      for (const auto& [name, value] : preset.settings) presets[preset.name][name] = value;
-    }
-    document.push_back({{"name", t.name},
-                        {"summary", t.summary},
-                        {"paper", t.paper},
-                        {"reads", t.reads},
-                        {"optional", Json::array()},
-                        {"writes", t.writes},
-                        {"then", t.then},
-                        {"extras", t.extras},
-                        {"parameters", parameters},
-                        {"presets", presets},
-                        {"default_for", t.default_for},
-                        {"caution", t.caution}});
-  }
-  return document;
-}
-
-void print_techniques() {
-  for (const Technique& t : registry()) {
-    fmt::print("{}: {}\n", t.name, t.summary);
-    if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
-    fmt::print("  reads   {}\n  writes  {}\n", fmt::join(t.reads, ", "), fmt::join(t.writes, ", "));
-    if (!t.then.empty()) fmt::print("  then    {}\n", t.then);
-    for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
-    for (const Parameter& p : t.parameters) {
-      fmt::print("  {} = {}  ({}) {}\n", p.name, default_in_words(p), allowed_values(p), p.help);
-    }
-    for (const Preset& preset : t.presets) {
-      std::vector<std::string> settings;
-      for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
-      fmt::print("  preset {}: {}\n", preset.name, fmt::join(settings, " "));
-    }
-    if (!t.caution.empty()) fmt::print("  caution {}\n", t.caution);
-    if (contains(t.default_for, "ao_raw")) fmt::print("  default for ao: gloam run ao, plan ao and auto take it\n");
-    fmt::print("\n");
-  }
-}
-
-/// "more samples ..." as a sentence.
-std::string sentence(std::string text) {
-  text[0] = char(std::toupper((unsigned char)text[0]));
-  return text + ".";
-}
-
-/// How a page that shows Markdown spells the anchor of a heading: letters, digits and hyphens.
-std::string anchor(const std::string& heading) {
-  std::string text;
-  for (const char c : heading) {
-    if (std::isalnum((unsigned char)c) || c == '-' || c == '_') text += char(std::tolower((unsigned char)c));
-  }
-  return text;
-}
-
-/// Anchors of headings in their order. One that is taken is numbered: hbao, and hbao-1 for hbao+.
-std::vector<std::string> anchors_of(const std::vector<std::string>& headings) {
-  std::vector<std::string> anchors;
-  for (const std::string& heading : headings) {
-    std::string unique = anchor(heading);
-    for (int number = 1; contains(anchors, unique); ++number) unique = fmt::format("{}-{}", anchor(heading), number);
-    anchors.push_back(unique);
-  }
-  return anchors;
-}
-
-/// "ao_raw; --with: bent_normal, cone"
-std::string all_writes(const Technique& t) {
-  const std::string own = fmt::format("{}", fmt::join(t.writes, ", "));
-  return t.extras.empty() ? own : fmt::format("{}; `--with`: {}", own, fmt::join(t.extras, ", "));
-}
-
-void print_extras_markdown(const Technique& t) {
-  if (t.extras.empty()) return;
-  std::vector<std::string> extras;
-  for (const std::string& plane : t.extras) extras.push_back(fmt::format("`{}` ({})", plane, plane_kind(plane).help));
-  fmt::print("\nMade where `--with` asks for it: {}.\n", enumerate(extras));
-}
-
-/// docs/techniques.md: one section per technique.
-void print_techniques_markdown() {
-  fmt::print(
-      "# Techniques\n\nWritten by `gloam list techniques --markdown` from the folders of `kernels/`; do not edit.\n\n");
-  fmt::print("| technique | what it does | reads | writes |\n|---|---|---|---|\n");
-  const std::vector<std::string> names = technique_names(), anchors = anchors_of(names);
-  for (size_t i = 0; i < names.size(); ++i) {
-    const Technique& t = registry()[i];
-    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchors[i], t.summary, fmt::join(t.reads, ", "),
-               all_writes(t));
-  }
-  for (const Technique& t : registry()) {
-    fmt::print("\n## `{}`\n\n{}.{}\n", t.name, t.summary, t.paper.empty() ? "" : " Source: " + t.paper + ".");
-    if (!t.then.empty()) fmt::print("Followed by `{}` unless `--filter` says otherwise.\n", t.then);
-    if (t.views > 1)
-      fmt::print("Needs a frame of two views{}.\n", makes_first_view_only(t) ? "; it works on the first" : "");
-    print_extras_markdown(t);
-    if (!t.parameters.empty()) fmt::print("\n| parameter | default | allowed | meaning |\n|---|---|---|---|\n");
-    for (const Parameter& p : t.parameters) {
-      fmt::print("| `{}` | {} | {} | {} |\n", p.name, default_in_words(p), allowed_values(p), p.help);
-    }
-    for (const Preset& preset : t.presets) {
-      std::vector<std::string> settings;
-      for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
-      fmt::print("{}Preset `{}`: {}.\n", &preset == &t.presets.front() ? "\n" : "", preset.name,
-                 fmt::join(settings, ", "));
-    }
-    if (!t.caution.empty()) fmt::print("{}\n", sentence(t.caution));
-  }
-}
-
-void list_techniques(const JsonFlag& json, bool markdown) {
-  json.write(techniques_document());
+/// All, or the one that is named.
+void list_techniques(const std::string& name, const JsonFlag& json, bool markdown) {
+  std::vector<const Technique*> wanted;
+  if (!name.empty()) wanted = {&find_technique(technique_for(name))};
+  for (const Technique& t : registry())
+    if (name.empty()) wanted.push_back(&t);
+  json.write(techniques_document(wanted));
   if (json.only_json()) return;
-  if (markdown)
-    print_techniques_markdown();
-  else
-    print_techniques();
+  if (markdown) return print_techniques_markdown();
+  if (name.empty()) return print_techniques();
+  std::set<std::string> names;
+  for (const Parameter& p : wanted.front()->parameters) names.insert(p.name);
+  print_technique(*wanted.front(), names);
 }
 
 void list_devices_command(const JsonFlag& json) {
@@ -246,18 +104,22 @@ void list_cases(const JsonFlag& json) {
 
 void add_list(CLI::App& app) {
   struct Flags {
-    std::string what;
+    std::string what, name;
     bool markdown = false;
     JsonFlag json;
   };
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes or hard cases");
   command->add_option("what", flags->what, "techniques, devices, metrics, scenes or cases")->required();
+  command->add_option("name", flags->name, "a technique: all about it")->type_name("NAME");
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
   flags->json.add_to(*command);
-  command->footer("Examples:\n  gloam list techniques\n  gloam list devices --json -");
+  command->footer("Examples:\n  gloam list techniques\n  gloam list techniques gtao\n  gloam list devices --json -");
   command->callback([flags] {
-    if (flags->what == "techniques") return list_techniques(flags->json, flags->markdown);
+    if (!flags->name.empty() && (flags->what != "techniques" || flags->markdown))
+      throw UsageError("list {}{}: shows all; leave out '{}', or write gloam list techniques {}", flags->what,
+                       flags->markdown ? " --markdown" : "", flags->name, flags->name);
+    if (flags->what == "techniques") return list_techniques(flags->name, flags->json, flags->markdown);
     if (flags->what == "devices") return list_devices_command(flags->json);
     if (flags->what == "metrics") return list_metrics(flags->json);
     if (flags->what == "scenes") return list_scenes(flags->json);

@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "cli/completion.h"
+#include "cli/list_techniques.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
@@ -127,8 +128,11 @@ void print_parameters_of(CLI::App& app, int argc, char** argv) {
   const std::set<std::string> settable = settable_by(command_of(app, argc, argv));
   for (int i = 1; i < argc; ++i) {
     const std::vector<std::string> names = technique_names();
-    if (std::find(names.begin(), names.end(), argv[i]) != names.end())
-      print_parameters(argv[i], find_technique(argv[i]).parameters, settable);
+    const std::string name = technique_for(argv[i]);
+    if (contains(names, name)) {
+      fmt::print("\n");
+      print_technique(find_technique(name), settable);
+    }
     if (const SceneRecipe* recipe = find_builtin_scene(argv[i]))
       print_parameters(recipe->name, recipe->parameters, settable);
   }
@@ -148,7 +152,7 @@ int run_command(int argc, char** argv) {
       "  gloam report out/bench\n"
       "  gloam stress hbao+\n"
       "gloam COMMAND --help shows a command's flags.");
-  app.set_version_flag("--version", "gloam " GLOAM_VERSION);
+  app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION);
   app.require_subcommand(1);
   app.name("gloam");
   add_info(app);
@@ -164,6 +168,13 @@ int run_command(int argc, char** argv) {
   add_report(app);
   add_stress(app);
   add_completion(app, settable_by);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);
+  // Help for a person who wants to know what there is. The exit status is that of wrong usage, as git's is not 0 either: a
+  // script whose command came out empty has not done what it was to do.
+  if (argc < 2) {
+    fmt::print("{}", app.help());
+    return UsageError("").exit_status();
+  }
   try {
     app.parse(with_parameter_flags(app, argc, argv));
   } catch (const CLI::Success& success) {

@@ -2,61 +2,20 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/lists.h"
-#include "gloam/exr.h"
-#include "gloam/frame_files.h"
-#include "gloam/plan.h"
-#include "gloam/run.h"
+#include "cli/frame_flags.h"
+#include "cli/notes.h"
+#include "cli/technique_flags.h"
+#include "gloam/error.h"
 
 namespace gloam::cli {
 
 using Json = nlohmann::ordered_json;
-
-/// A path with what it is on the command line: {"-o", "out.exr"}.
-using NamedPath = std::pair<std::string, std::string>;
-
-/// How to read a frame.
-struct FrameFlags {
-  std::string camera, depth = "auto", normal_space = "auto", view, views;
-  std::vector<std::string> planes;
-  std::string fov, near, far, background, limit_memory;
-  void add_to(CLI::App& app);
-  /// Throws UsageError for values out of range.
-  ReadOptions read_options() const;
-};
-
-/// The arguments of a command that takes a frame in one file, or its two eyes in two.
-struct FrameArguments {
-  std::string frame, other_eye, history;
-  void add_to(CLI::App& app);
-  /// What they name, history included.
-  FrameFiles open(const ReadOptions& options) const;
-  /// For `check_paths`.
-  std::vector<NamedPath> inputs() const {
-    return {{"the frame", frame}, {"the frame", other_eye}, {"--history", history}};
-  }
-};
-
-/// Which techniques, and with which parameters.
-struct TechniqueFlags {
-  std::vector<std::string> settings;
-  std::string preset, then, with, resolution = "full", adaptive, only, elsewhere;
-  /// `with_mask`: --only and --elsewhere too.
-  void add_to(CLI::App& app, bool with_mask = true);
-  PlanRequest request(const std::vector<std::string>& outputs) const;
-};
-
-/// Where and how to compute.
-struct RunFlags {
-  std::string device, lanes = "auto", math = "fast", real = "float", seed, repeat = "1";
-  void add_to(CLI::App& app);
-  RunOptions run_options() const;
-};
 
 /// The value that a word stands for; UsageError with the words that do.
 template <typename Value>
@@ -124,9 +83,6 @@ std::filesystem::path picture_path(const std::string& path, const std::string& v
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
 
-/// Draws a bar on standard error once the work has taken a second; empty unless that is a terminal.
-std::function<void(int done, int of)> progress_bar();
-
 /// "1920x1080"; throws UsageError. 1 to 65536 each way, and `max_pixels` at most.
 std::pair<int, int> parse_size(const std::string& text, const std::string& flag);
 
@@ -136,13 +92,7 @@ double parse_number(const std::string& text, const std::string& flag, double min
 int parse_whole_number(const std::string& text, const std::string& flag, int min, int max);
 
 /// name=value items as pairs; throws UsageError for what is not of that form.
-std::vector<std::pair<std::string, std::string>> parse_settings(const std::vector<std::string>& items,
-                                                                const std::string& flag);
-
-/// Keeps notes (what was assumed) for the end of the command; a command that fails says why it failed and nothing else.
-void note(const std::vector<std::string>& notes);
-/// The notes on standard error, one line each.
-void print_notes();
+Settings parse_settings(const std::vector<std::string>& items, const std::string& flag);
 
 // One function per command: adds it to the app.
 void add_list(CLI::App& app);

@@ -45,8 +45,7 @@ const Technique* falloff_technique(const std::string& name) {
 }
 
 /// `settings`: of the falloff's technique, --set hbao+.bias=0.2.
-void set_falloff(AoReferenceOptions& options, const std::string& name,
-                 const std::vector<std::pair<std::string, std::string>>& settings) {
+void set_falloff(AoReferenceOptions& options, const std::string& name, const Settings& settings) {
   const Technique* technique = falloff_technique(name);
   options.falloff = name;
   ParameterValues values(technique ? technique->parameters : ParameterList());

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/statistics.h"
+#include "cli/list_techniques.h"
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
@@ -198,14 +199,6 @@ int seed_after(const History& history) {
   return before < std::numeric_limits<int>::max() ? before + 1 : 0;
 }
 
-/// A plane stands for the technique that makes it by default: "ao".
-std::string technique_for(const std::string& name) {
-  for (const Technique& technique : registry()) {
-    if (contains(technique.default_for, name) || contains(technique.default_for, name + "_raw")) return technique.name;
-  }
-  return name;
-}
-
 void run_command(const RunCommand& given) {
   RunCommand flags = given;
   flags.technique = technique_for(given.technique);
@@ -318,7 +311,7 @@ void add_run(CLI::App& app) {
       "  gloam run gtao frame.exr -o ao.exr --only corner-mask\n"
       "  gloam run temporal-sssr frame.0002.exr --history reflection.0001.exr -o reflection.0002.exr\n"
       "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
-      "Every parameter of the technique is a flag (gloam list techniques).");
+      "Every parameter of the technique is a flag: gloam run TECHNIQUE --help shows them.");
   command->callback([flags] { run_command(*flags); });
 }
 

@@ -47,8 +47,8 @@ Scene SceneFlags::load() const {
   return loaded;
 }
 
-std::vector<std::pair<std::string, std::string>> SceneFlags::take_dotted_settings() {
-  std::vector<std::pair<std::string, std::string>> dotted;
+Settings SceneFlags::take_dotted_settings() {
+  Settings dotted;
   const auto parsed = parse_settings(settings, "--set");
   std::vector<std::string> own;
   for (size_t i = 0; i < parsed.size(); ++i) {

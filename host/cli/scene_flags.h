@@ -19,7 +19,7 @@ struct SceneFlags {
   /// Loads it; what was mended goes to the notes.
   Scene load() const;
   /// Takes out settings of others than the scene, which have a dot in the name: {"hbao+.bias", "0.2"}.
-  std::vector<std::pair<std::string, std::string>> take_dotted_settings();
+  Settings take_dotted_settings();
 };
 
 /// The scene that a frame's header names (gloamScene), as a name and settings; empty where it names none.

@@ -1,10 +1,6 @@
 // gloam stress TECHNIQUE|all: hard cases, on any device
-#include <sys/prctl.h>
-
 #include <algorithm>
 #include <atomic>
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,8 +9,8 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "cli/children.h"
-#include "cli/options.h"
+#include "cli/stress_child.h"
+#include "cli/stress_request.h"
 #include "gloam/error.h"
 #include "stress/document.h"
 #include "stress/page.h"
@@ -22,197 +18,9 @@
 namespace gloam::cli {
 namespace {
 
-using stress::Case;
 using stress::CaseResult;
 using stress::Finding;
 using stress::StressRun;
-
-struct StressCommand {
-  std::string technique, cases, trial, frames, seed, device, against = "all", jobs, patience = "600", out, markdown;
-  std::vector<std::string> from;
-  bool quick = false, is_child = false;
-  JsonFlag json;
-};
-
-/// What is examined, as the flags have it.
-struct Request {
-  std::vector<std::string> techniques;
-  std::vector<int> cases;
-  std::optional<int> trial;
-  int frames = 0;
-  unsigned seed = 1;
-  stress::Extent extent = stress::Extent::full;
-};
-
-std::vector<int> cases_of(const StressCommand& flags) {
-  std::vector<int> numbers;
-  for (const Case& one : stress::cases()) numbers.push_back(one.number);
-  if (flags.cases.empty()) return numbers;
-  std::vector<int> wanted;
-  for (const std::string& text : split_list(flags.cases, "--case")) {
-    const int number = stress::find_case(parse_whole_number(text, "--case", 1, 999)).number;
-    if (std::find(wanted.begin(), wanted.end(), number) == wanted.end()) wanted.push_back(number);
-  }
-  return wanted;
-}
-
-Request request_of(const StressCommand& flags) {
-  Request request;
-  if (flags.technique == "all")
-    request.techniques = technique_names();
-  else
-    request.techniques = {find_technique(flags.technique).name};
-  request.cases = cases_of(flags);
-  request.extent = flags.quick ? stress::Extent::quick : stress::Extent::full;
-  if (!flags.frames.empty()) {
-    request.frames = parse_whole_number(flags.frames, "--frames", 1, 1000000000);
-    if (std::find(request.cases.begin(), request.cases.end(), 1) == request.cases.end())
-      throw UsageError("--frames {} is how many random frames case 1 draws, and --case {} leaves it out", flags.frames,
-                       flags.cases);
-  }
-  if (!flags.seed.empty()) request.seed = unsigned(parse_whole_number(flags.seed, "--seed", 0, 2147483647));
-  if (!flags.trial.empty()) {
-    request.trial = parse_whole_number(flags.trial, "--trial", 1, 2147483647);
-    if (request.techniques.size() != 1 || request.cases.size() != 1)
-      throw UsageError("--trial {} is a trial of one case on one technique; name both, such as hbao+ --case 3",
-                       flags.trial);
-  }
-  if (!flags.out.empty() && !request.trial)
-    throw UsageError("-o {} is where the frames of one trial are written; say which with --case and --trial",
-                     flags.out);
-  return request;
-}
-
-// --- In a process of its own
-
-struct OtherDevices {
-  std::vector<std::unique_ptr<Device>> opened;
-  std::vector<std::string> names;  ///< also of those that could not be opened, and why
-};
-
-/// Every device but the one at hand; those whose name holds `text`. Throws UsageError where one is asked for and there is none.
-OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
-  OtherDevices others;
-  if (text == "none") return others;
-  for (const DeviceInfo& info : list_devices()) {
-    if (info.name == own.name && info.platform == own.platform) continue;
-    if (text != "all" && (info.name + " " + info.platform).find(text) == std::string::npos) continue;
-    others.names.push_back(info.name + ", " + info.platform);
-    try {
-      // By both: a platform has several devices, and one device has the same name on several platforms.
-      others.opened.push_back(std::make_unique<Device>(info.platform + ": " + info.name));
-    } catch (const Error& error) {
-      others.names.back() += fmt::format(" (not compared: {})", error.what());
-    }
-  }
-  if (others.names.empty() && text != "all")
-    throw UsageError(
-        "--against {}: no device but {} has this in its name (gloam list devices); all and none are allowed", text,
-        own.name);
-  return others;
-}
-
-/// On a line of its own, whatever a driver may have written before.
-void say(const stress::Json& line) {
-  fmt::print("\n{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
-  std::fflush(stdout);
-}
-
-/// Examines and tells on standard output, a line for each trial that begins and for each case that is done.
-void examine_here(const StressCommand& flags) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // a second implementation for CPUs, if it is installed
-  const Request request = request_of(flags);
-  Device device(flags.device);
-  const auto others = other_devices(device.info(), flags.against);
-  stress::Subject subject{.technique = &find_technique(request.techniques.front()),
-                          .device = &device,
-                          .extent = request.extent,
-                          .frames = request.frames,
-                          .seed = request.seed,
-                          .trial = request.trial,
-                          .folder = flags.out};
-  for (const auto& other : others.opened) subject.others.push_back(other.get());
-  say({{"device", device.info().name},
-       {"driver", device.info().platform + " " + device.info().driver},
-       {"against", others.names}});
-  for (const int number : request.cases) {
-    subject.begins = [&](int trial, const std::string& conditions) {
-      say({{"case", number}, {"trial", trial}, {"conditions", conditions}});
-    };
-    say({{"result", document_of(examine(stress::find_case(number), subject))}});
-  }
-}
-
-// --- Here
-
-/// One technique in a process of its own, again with the cases that are left where one ends it.
-class Examination {
- public:
-  Examination(const StressCommand& flags, const Request& request, std::string technique)
-      : flags_(flags), technique_(std::move(technique)), left_(request.cases), patience_(std::stod(flags.patience)) {}
-
-  std::vector<CaseResult> results;
-  stress::Json device;
-
-  void run() {
-    while (!left_.empty()) {
-      case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
-      const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
-      if (left_.empty()) return;  // all has been told, however it ended
-      if (end.ended_by.empty() && trial_ == 0) {
-        if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end.said));
-        throw Error("{}", why(end.said));
-      }
-      CaseResult broken{.technique = technique_, .number = case_, .trials = trial_, .broken_on = conditions_};
-      broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
-                                  end.ended_by.empty() ? why(end.said) : "ended by " + end.ended_by);
-      results.push_back(broken);
-      std::erase(left_, case_);
-    }
-  }
-
- private:
-  std::vector<std::string> arguments() const {
-    std::vector<std::string> all = {"stress", technique_, "--child", "--against", flags_.against};
-    const auto add = [&](const char* flag, const std::string& value) {
-      if (!value.empty()) all.insert(all.end(), {flag, value});
-    };
-    add("--case", fmt::format("{}", fmt::join(left_, ",")));
-    add("--trial", flags_.trial);
-    add("--frames", flags_.frames);
-    add("--seed", flags_.seed);
-    add("--device", flags_.device);
-    add("-o", flags_.out);
-    if (flags_.quick) all.push_back("--quick");
-    return all;
-  }
-  void take(const std::string& text) {
-    const stress::Json line = stress::Json::parse(text, nullptr, false);
-    if (line.contains("device")) {
-      device = line;
-    } else if (line.contains("result")) {
-      results.push_back(stress::case_result_of(line.at("result")));
-      std::erase(left_, results.back().number);
-      if (!left_.empty()) case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
-    } else if (line.contains("conditions")) {  // else it is a driver's own chatter
-      case_ = line.at("case"), trial_ = line.at("trial"), conditions_ = line.at("conditions");
-    }
-  }
-  /// What an ordinary failure has said, without our name.
-  static std::string why(std::string said) {
-    while (!said.empty() && said.back() == '\n') said.pop_back();
-    said.erase(0, said.rfind('\n') + 1);
-    return said.starts_with("gloam: ") ? said.substr(7) : said.empty() ? "it ended without a word" : said;
-  }
-
-  const StressCommand& flags_;
-  std::string technique_;
-  std::vector<int> left_;
-  double patience_;
-  int case_ = 0, trial_ = 0;
-  std::string conditions_;
-};
 
 std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "inf"; }
 
@@ -271,7 +79,7 @@ void print_done(const std::string& technique, const std::vector<CaseResult>& res
 using ResultsByTechnique = std::map<std::string, std::vector<CaseResult>>;
 
 /// Puts what is known into the run, by technique.
-void gather(const Request& request, const ResultsByTechnique& known, StressRun& run) {
+void gather(const StressRequest& request, const ResultsByTechnique& known, StressRun& run) {
   run.results.clear();
   run.left.clear();
   for (const std::string& technique : request.techniques) {
@@ -292,7 +100,7 @@ std::string device_flags(const StressCommand& flags) {
 
 /// All techniques, several at a time. What ends one of them by an ordinary error, such as a device that is not there, ends all.
 /// The file of --json holds all that is known after each: a run of an hour that is interrupted has not been in vain.
-void examine_all(const StressCommand& flags, const Request& request, StressRun& run) {
+void examine_all(const StressCommand& flags, const StressRequest& request, StressRun& run) {
   const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
   const int jobs = flags.jobs.empty() ? cores : parse_whole_number(flags.jobs, "--jobs", 1, 1024);
   ResultsByTechnique known;
@@ -332,7 +140,7 @@ void examine_all(const StressCommand& flags, const Request& request, StressRun& 
         thrown = std::current_exception();
       }
       if (thrown) failure = thrown, next = request.techniques.size();
-      if (request.techniques.size() > 1 && !thrown && !flags.json.only_json())
+      if (request.techniques.size() > 1 && !thrown && !flags.json.only_json() && !is_quiet())
         print_done(technique, examination.results);
       if (progress) progress(int(known.size()), int(request.techniques.size()));
     }
@@ -375,7 +183,7 @@ void page_from_files(const StressCommand& flags) {
 }
 
 /// Throws UsageError where a trial was asked for that there is not.
-void check_trial(const StressCommand& flags, const Request& request, const StressRun& run) {
+void check_trial(const StressCommand& flags, const StressRequest& request, const StressRun& run) {
   if (!request.trial || run.results.empty()) return;
   const CaseResult& result = run.results[0];
   if (!result.broken.empty() || result.trials >= *request.trial) return;
@@ -395,7 +203,7 @@ void stress_command(const StressCommand& flags) {
   if (flags.is_child) return examine_here(flags);
   if (!flags.from.empty()) return page_from_files(flags);
   if (flags.technique.empty()) throw UsageError("stress: which technique? name one, or all (gloam list techniques)");
-  const Request request = request_of(flags);
+  const StressRequest request = request_of(flags);
   parse_number(flags.patience, "--patience", 1, 1e6);
   check_paths({}, {{"--json", flags.json.file()}, {"--markdown", flags.markdown}});
   if (!flags.out.empty()) make_folder(flags.out);

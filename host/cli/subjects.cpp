@@ -1,10 +1,9 @@
 #include "cli/subjects.h"
 
-#include <unistd.h>
-
 #include <cmath>
 
 #include "cli/memory.h"
+#include "cli/notes.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
@@ -14,12 +13,12 @@ namespace gloam::cli {
 using namespace gloam::bench;
 
 void erase_status() {
-  if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
+  if (shows_progress()) fmt::print(stderr, "\r\033[K");
 }
 
 /// On a terminal, what is being done; it is written over.
 void show_status(const std::string& what, double share) {
-  if (!isatty(STDERR_FILENO)) return;
+  if (!shows_progress()) return;
   fmt::print(stderr, "\r\033[K{} {:.0f} %", printable(what), 100 * share);
   std::fflush(stderr);
 }

@@ -9,8 +9,6 @@
 namespace gloam {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 std::vector<const Technique*> refinements_of(const Technique& technique) {
   std::vector<const Technique*> found;
   for (const Technique& t : registry()) {

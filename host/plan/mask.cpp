@@ -16,8 +16,7 @@ std::string grown(int scale) { return scale == 1 ? "wanted.grown" : fmt::format(
 
 std::string wanted_around(int scale) { return fmt::format("wanted.around{}", scale); }
 
-PlannedPass mask_pass(std::string name, std::string kernel, Binding read, Binding written,
-                      std::vector<std::pair<std::string, int>> defines, int scale) {
+PlannedPass mask_pass(std::string name, std::string kernel, Binding read, Binding written, Defines defines, int scale) {
   if (scale > 1) name += fmt::format(" at 1/{}", scale);
   Pass pass{.name = std::move(name), .kernel = std::move(kernel), .defines = std::move(defines), .scale = scale};
   pass.reads = {std::move(read)};

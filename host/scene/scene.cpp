@@ -116,7 +116,7 @@ const SceneRecipe* find_builtin_scene(const std::string& name) {
   return nullptr;
 }
 
-Scene load_scene(const std::string& name, const std::vector<std::pair<std::string, std::string>>& settings) {
+Scene load_scene(const std::string& name, const Settings& settings) {
   const SceneRecipe* recipe = find_builtin_scene(name);
   if (!recipe) {
     const bool is_path = name.find_first_of("./\\") != std::string::npos || std::filesystem::exists(name);

@@ -13,8 +13,6 @@
 
 namespace gloam::stress {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 Settings operator+(Settings a, const Settings& b);
 /// "directions = 4, jitter = off"; "defaults" where there are none.
 std::string text_of(const Settings& settings);

@@ -28,7 +28,7 @@ int directions_times_steps(const ParameterValues& values);
 
 /// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/sampling/ambient_occlusion.h) beside `defines`.
 template <typename Params>
-Pass ambient_occlusion_estimate(const Params& p, std::string kernel, std::vector<std::pair<std::string, int>> defines) {
+Pass ambient_occlusion_estimate(const Params& p, std::string kernel, Defines defines) {
   defines.insert(defines.end(), {{"JITTER", p.jitter}, {"OUTSIDE_OPEN", p.outside == Params::outside_values::open}});
   return {.name = "estimate",
           .kernel = std::move(kernel),

@@ -5,7 +5,7 @@ namespace gloam::techniques {
 namespace {
 
 template <typename Params>
-std::vector<std::pair<std::string, int>> defines_of(const Params& p) {
+Defines defines_of(const Params& p) {
   return {{"SCALE", p.cell},
           {"DIRECTIONS", p.search_directions},
           {"STEPS", p.search_steps},
@@ -13,7 +13,7 @@ std::vector<std::pair<std::string, int>> defines_of(const Params& p) {
           {"OUTSIDE_OPEN", p.outside == Params::outside_values::open}};
 }
 
-std::vector<Pass> passes_in_cells(int cell, const std::vector<std::pair<std::string, int>>& defines) {
+std::vector<Pass> passes_in_cells(int cell, const Defines& defines) {
   return mask_of_cells({{.name = "subsample",
                          .kernel = "corner_subsample",
                          .reads = {"depth", "normal"},
@@ -33,7 +33,7 @@ std::vector<Pass> corner_passes(const CornerMaskParams& p) { return passes_in_ce
 
 /// The same among the depths behind the first.
 std::vector<Pass> hidden_passes(const HiddenMaskParams& p) {
-  std::vector<std::pair<std::string, int>> defines = defines_of(p);
+  Defines defines = defines_of(p);
   defines.insert(defines.end(), {{"STOCHASTIC", 1}, {"OCCLUDERS_LAYERS", p.samples}});
   std::vector<Pass> passes = passes_in_cells(p.cell, defines);
   Binding hidden("hidden", "hidden@cells", p.samples);

@@ -6,7 +6,7 @@ namespace gloam::techniques {
 namespace {
 
 std::vector<Pass> passes(const GaussianParams& p) {
-  const std::vector<std::pair<std::string, int>> defines = {{"HALF_WIDTH", p.half_width}};
+  const Defines defines = {{"HALF_WIDTH", p.half_width}};
   return {{.name = "horizontal",
            .kernel = "gaussian_horizontal",
            .reads = {{"source", "ao_raw"}, "depth"},

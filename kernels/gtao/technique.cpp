@@ -6,7 +6,7 @@ namespace gloam::techniques {
 namespace {
 
 template <typename Params>
-Pass estimate_of(const Params& p, std::vector<std::pair<std::string, int>> defines) {
+Pass estimate_of(const Params& p, Defines defines) {
   defines.insert(defines.end(), {{"DIRECTIONS", p.directions}, {"STEPS", p.steps}});
   Pass estimate = ambient_occlusion_estimate(p, "gtao_estimate", std::move(defines));
   estimate.extras = {"bent_normal", "cone"};

@@ -152,13 +152,12 @@ Technique hbao_plus() {
 }
 
 std::vector<Pass> mask_passes(const LightfieldMaskParams& p) {
-  const std::vector<std::pair<std::string, int>> defines = {
-      {"ESTIMATE", 3},
-      {"SCALE", p.cell},
-      {"DIRECTIONS", p.search_directions},
-      {"STEPS", p.search_steps},
-      {"JITTER", p.jitter},
-      {"OUTSIDE_OPEN", p.outside == LightfieldMaskParams::outside_values::open}};
+  const Defines defines = {{"ESTIMATE", 3},
+                           {"SCALE", p.cell},
+                           {"DIRECTIONS", p.search_directions},
+                           {"STEPS", p.search_steps},
+                           {"JITTER", p.jitter},
+                           {"OUTSIDE_OPEN", p.outside == LightfieldMaskParams::outside_values::open}};
   Pass subsample{
       .name = "subsample",
       .kernel = "lightfield_subsample",

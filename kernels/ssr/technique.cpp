@@ -8,7 +8,6 @@
 namespace gloam::techniques {
 namespace {
 
-using Defines = std::vector<std::pair<std::string, int>>;
 using Bindings = std::vector<Binding>;
 
 /// Levels of the hierarchy: the largest cells have 64 x 64 pixels.

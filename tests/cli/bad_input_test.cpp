@@ -20,7 +20,6 @@ void expect_refused(const Result& result, int status, const std::vector<std::str
 
 TEST_F(Cli, WrongUsage) {
   const std::string out = path("ao.exr");
-  expect_refused(gloam({}), 2, {"--help"});
   expect_refused(gloam({"rnu", "hbao+", loggia}), 2, {"'rnu'", "did you mean 'run'"});
   expect_refused(gloam({"run", "hbaos", loggia, "-o", out}), 2, {"'hbaos'", "did you mean 'hbao"});
   expect_refused(gloam({"run", "hbao+", loggia}), 2, {"run", "--output"});
@@ -49,6 +48,23 @@ TEST_F(Cli, WrongUsage) {
   expect_refused(far, 2, {"no flag '--tol'"});
   EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
   EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Cli, NamesSpeltAnotherWayAreSuggested) {
+  const std::string out = path("ao.exr");
+  const auto run = [&](const Arguments& more) {
+    Arguments arguments = {"run", "hbao+", loggia, "-o", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  };
+  for (const char* name : {"hbaoplus", "hbao_plus", "HBAO+", "hbao-plus", "HBAOPlus"})
+    expect_refused(gloam({"run", name, loggia, "-o", out}), 2, {"did you mean 'hbao+'"});
+  expect_refused(gloam({"run", "stereoao", loggia, "-o", out}), 2, {"did you mean 'stereo-ao'"});
+  expect_refused(gloam({"run", "dp_hbao_plus", loggia, "-o", out}), 2, {"did you mean 'dp-hbao+'"});
+  expect_refused(gloam({"plan", "bentnormal", loggia}), 2, {"did you mean 'bent_normal'"});
+  expect_refused(run({"--set", "maxreach=1"}), 2, {"did you mean 'max_reach'"});
+  expect_refused(run({"--preset", "HIGH"}), 2, {"did you mean 'high'"});
+  expect_refused(gloam({"capture", "Colonade", "-o", out}), 2, {"did you mean 'colonnade'"});
 }
 
 TEST_F(Cli, FramesAreWrittenUnderTheNamesOfFrames) {

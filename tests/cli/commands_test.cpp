@@ -28,11 +28,70 @@ TEST_F(Cli, HelpAndVersion) {
   const Result help = gloam({"--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_NE(help.out.find("gloam run hbao+ frame.exr"), std::string::npos) << help.out;
-  EXPECT_EQ(gloam({"--version"}).status, 0);
+  const Result version = gloam({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(gloam({"-V"}).out, version.out);
   for (const char* command : {"info", "run", "compare", "plan", "list"}) {
     const Result result = gloam({command, "--help"});
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.out.find("Examples:"), std::string::npos) << command;
+  }
+}
+
+TEST_F(Cli, AloneTheCommandShowsItsHelp) {
+  const Result alone = gloam({});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_EQ(alone.out, gloam({"--help"}).out);
+  EXPECT_TRUE(alone.err.empty()) << alone.err;
+}
+
+TEST_F(Cli, ListTechniquesHasOneLineForEach) {
+  const Json techniques = gloam({"list", "techniques", "--json", "-"}).json();
+  const std::string list = gloam({"list", "techniques"}).out;
+  for (const Json& technique : techniques) {
+    const std::string begin = "\n  " + technique["name"].get<std::string>() + " ";
+    const size_t at = list.find(begin);
+    ASSERT_NE(at, std::string::npos) << begin;
+    EXPECT_EQ(list.find(begin, at + 1), std::string::npos) << begin;
+    const std::string line = list.substr(at + 1, list.find('\n', at + 1) - at - 1);
+    EXPECT_NE(line.find(technique["summary"].get<std::string>()), std::string::npos) << line;
+  }
+  EXPECT_LT(std::count(list.begin(), list.end(), '\n'), long(techniques.size()) + 24);
+}
+
+TEST_F(Cli, OneTechniqueIsShownInFull) {
+  const Json all = gloam({"list", "techniques", "--json", "-"}).json();
+  for (const Json& technique : all) {
+    const std::string name = technique["name"], shown = gloam({"list", "techniques", name}).out,
+                      help = gloam({"run", name, "--help"}).out;
+    for (const std::string& text : {shown, help}) {
+      const std::string page = text.substr(text.find(name + ": " + technique["summary"].get<std::string>()));
+      EXPECT_NE(page.find("  reads   "), std::string::npos) << name;
+      EXPECT_NE(page.find("  writes  "), std::string::npos) << name;
+      for (const Json& p : technique["parameters"])
+        EXPECT_NE(page.find(p["name"].get<std::string>() + " "), std::string::npos) << name << ": " << p["name"];
+      for (const auto& [preset, settings] : technique["presets"].items())
+        EXPECT_NE(page.find("  --preset " + preset + " "), std::string::npos) << name << ": " << preset;
+      EXPECT_NE(page.find(technique["caution"].get<std::string>()), std::string::npos) << name;
+    }
+  }
+  EXPECT_EQ(gloam({"list", "techniques", "gtao", "--json", "-"}).json().size(), 1u);
+  EXPECT_EQ(gloam({"list", "scenes", "gtao"}).status, 2);
+  EXPECT_EQ(gloam({"list", "techniques", "gtoa"}).status, 2);
+}
+
+TEST_F(Cli, QuietTellsErrorsButNoNotes) {
+  write_frame(path("f.exr"), small_frame(32, 24, {"depth"}));
+  const Arguments away = {"capture", "plane", "-o",    path("p.exr"), "--size",
+                          "8x8",     "--eye", "0,5,0", "--target",    "0,9,1"};
+  EXPECT_NE(gloam(away).err.find("note: "), std::string::npos);
+  for (const char* flag : {"-q", "--quiet"}) {
+    Arguments quiet = away;
+    quiet.push_back(flag);
+    const Result result = gloam(quiet);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_TRUE(result.err.empty()) << result.err;
+    EXPECT_EQ(gloam({"info", path("none.exr"), flag}).lines_of_error(), 1);
   }
 }
 
@@ -65,8 +124,8 @@ TEST_F(Cli, ListTechniquesTellsAllThatAProgramNeeds) {
 
 TEST_F(Cli, WhatTechniquesMakeWhenAskedIsTold) {
   const Json techniques = gloam({"list", "techniques", "--json", "-"}).json();
-  const std::string list = gloam({"list", "techniques"}).out, page = gloam({"list", "techniques", "--markdown"}).out,
-                    help = gloam({"run", "--help"}).out;
+  const std::string one = gloam({"list", "techniques", "gtao"}).out,
+                    page = gloam({"list", "techniques", "--markdown"}).out, help = gloam({"run", "--help"}).out;
   int makers = 0;
   for (const Json& technique : techniques) {
     if (technique["extras"] != Json({"bent_normal", "cone"})) continue;
@@ -76,7 +135,7 @@ TEST_F(Cli, WhatTechniquesMakeWhenAskedIsTold) {
     EXPECT_NE(help.substr(help.find("--with")).find(name), std::string::npos) << name;
   }
   EXPECT_GE(makers, 4);
-  EXPECT_NE(list.find("  --with  cone: cosine of the half angle"), std::string::npos);
+  EXPECT_NE(one.find("  --with  cone: cosine of the half angle"), std::string::npos);
   EXPECT_NE(help.find("cosine of the half angle"), std::string::npos) << help;
 }
 
@@ -135,6 +194,25 @@ TEST_F(Cli, InfoSaysWhatIsLacking) {
   EXPECT_TRUE(info["runs"].empty());
   EXPECT_EQ(info["lacks"]["hbao+"], Json({"depth"}));
   EXPECT_TRUE(info["background_share"].is_null());
+}
+
+TEST_F(Cli, WhatIsLackingTakesThreeLinesUnlessEachTechniqueIsAskedFor) {
+  const auto lines = [](const std::string& text) {
+    std::vector<std::string> found;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+      if (line.find("lacks") != std::string::npos) found.push_back(line);
+    return found;
+  };
+  const Json info = gloam({"info", loggia, "--json", "-"}).json();
+  const std::vector<std::string> few = lines(gloam({"info", loggia}).out),
+                                 all = lines(gloam({"info", loggia, "--lacks"}).out);
+  ASSERT_EQ(few.size(), 3u);
+  EXPECT_NE(few[0].find("lacks  planes: peel ("), std::string::npos) << few[0];
+  EXPECT_NE(few[0].find("roughness ("), std::string::npos) << few[0];
+  EXPECT_NE(few[1].find("lacks  views: a second view ("), std::string::npos) << few[1];
+  EXPECT_NE(few[2].find("--lacks"), std::string::npos) << few[2];
+  EXPECT_EQ(all.size(), info["lacks"].size());
 }
 
 TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {

@@ -16,8 +16,6 @@
 namespace gloam {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 const Mesh& mesh_named(const Scene& scene, const std::string& name) {
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.name == name) return mesh;

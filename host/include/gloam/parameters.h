@@ -13,6 +13,9 @@ namespace gloam {
 /// Defaults of bool parameters in parameter lists.
 inline constexpr int off = 0, on = 1;
 
+/// Values for parameters as a user writes them, by name: {"radius", "0.5"}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 /// One parameter; its place in the kernel's struct is its place in the table.
 struct Parameter {
   enum class Type { floating, integer, boolean, choice };

@@ -23,7 +23,7 @@ struct PlanRequest {
   std::string then;
   std::string preset;
   /// name = value, or technique.name = value. A bare name reaches every planned technique that has it.
-  std::vector<std::pair<std::string, std::string>> settings;
+  Settings settings;
   /// Radius in scene units of every technique that has one and gets none by `settings`; none: the parameter's own default, which
   /// knows nothing of the frame's unit (radius.h makes one from the frame).
   std::optional<double> radius;

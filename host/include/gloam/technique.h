@@ -10,6 +10,9 @@
 
 namespace gloam {
 
+/// Numbers that a kernel is compiled with, by name: {"STEPS", 8}.
+using Defines = std::vector<std::pair<std::string, int>>;
+
 /// Where the plane behind a kernel argument comes from.
 enum class From {
   this_view,
@@ -79,11 +82,11 @@ struct Footprint {
 /// their frame; `neighbour` (frame.h) only where planes of the other view or of the frame before are bound. Of a frame before
 /// whose camera is not known, the neighbour sees nothing.
 struct Pass {
-  std::string name;                                  ///< "estimate": shown as "hbao+/estimate"
-  std::string kernel;                                ///< function in `source`
-  std::vector<Binding> reads, writes;                ///< planes that no technique declares are intermediate
-  std::vector<std::pair<std::string, int>> defines;  ///< counts that shape loops, and choices
-  std::string source;                                ///< kernel file below kernels/; empty: the technique's
+  std::string name;                    ///< "estimate": shown as "hbao+/estimate"
+  std::string kernel;                  ///< function in `source`
+  std::vector<Binding> reads, writes;  ///< planes that no technique declares are intermediate
+  Defines defines;                     ///< counts that shape loops, and choices
+  std::string source;                  ///< kernel file below kernels/; empty: the technique's
   /// Of the technique's `extras` those that this pass can make. Of these the ones asked for join `writes`, with a define
   /// each: WITH_BENT_NORMAL.
   std::vector<Binding> extras;
@@ -108,7 +111,7 @@ struct Pass {
 /// A named set of parameter values.
 struct Preset {
   std::string name;  ///< low, medium, high or ultra
-  std::vector<std::pair<std::string, std::string>> settings;
+  Settings settings;
 };
 
 /// What `gloam auto` has to know of a technique, to tell whether a frame calls for it, and where.
@@ -121,13 +124,12 @@ struct Effect {
       false;  ///< of frames of light-field displays, which techniques with `any_projection` take, and of no others
   std::string mask;  ///< technique whose mask says where it is called for
   /// The probe: settings and resolution with which the mask costs next to nothing, and still tells how much calls for it.
-  std::vector<std::pair<std::string, std::string>> probe;
+  Settings probe;
   int probe_resolution = 1;
   /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
   /// than it saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;
-  std::vector<std::pair<std::string, std::string>>
-      settings;                    ///< of the technique in `gloam auto`, under the user's own
+  Settings settings;               ///< of the technique in `gloam auto`, under the user's own
   std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
 };
 
@@ -141,7 +143,7 @@ struct Technique {
                                      ///< by the technique that `then` names
   std::string then;                  ///< technique that follows by default, such as a filter; inherits parameters of
                                      ///< the same name
-  std::vector<std::pair<std::string, std::string>> then_with;  ///< settings that the follower has by default
+  Settings then_with;                ///< settings that the follower has by default
   std::vector<std::string> default_for;  ///< planes that it makes where they are asked for by name and several could
   int views = 1;                         ///< that a frame needs: 2 where passes read the other view's planes
   /// Its passes ask for the projection and for nothing else that only a camera with an eye has: it runs on the views of
@@ -155,7 +157,7 @@ struct Technique {
   std::string caution;  ///< what to know before choosing a preset; may be empty
   /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant
   /// to be fast. Empty where there is no such thing.
-  std::vector<std::pair<std::string, std::string>> converged;
+  Settings converged;
   std::function<std::vector<Pass>(const ParameterValues&)> passes;
   Effect effect;  ///< what `gloam auto` makes with it, if anything
   /// Samples per pixel over one layer. Empty where the technique has not said.

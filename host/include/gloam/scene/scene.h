@@ -112,7 +112,7 @@ const SceneRecipe* find_builtin_scene(const std::string& name);
 /// A scene by what a user typed: a built-in name, else a file. `settings`: name = value, for built-in scenes.
 /// Throws UsageError for a name that is neither (with the nearest built-in name), for unknown settings and for values
 /// out of range; Error as `import_scene` does.
-Scene load_scene(const std::string& name_or_path, const std::vector<std::pair<std::string, std::string>>& settings);
+Scene load_scene(const std::string& name_or_path, const Settings& settings);
 
 /// How far from a scene's origin, along each axis, vertices and the starts of rays may lie: Embree computes in float, and ends the
 /// program beyond.

@@ -1,0 +1,120 @@
+#include "cli/capture_shots.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "camera/camera_json.h"
+#include "gloam/error.h"
+#include "gloam/scene/light_field_capture.h"
+
+namespace gloam::cli {
+namespace {
+
+/// A camera file may hold more than the one view that two are made of.
+void check_single_view(const CaptureCommand& flags, const std::vector<CaptureView>& views) {
+  if ((flags.view2.empty() && flags.stereo.empty()) || views.size() == 1) return;
+  std::vector<std::string> names;
+  for (const CaptureView& view : views) names.push_back("'" + view.name + "'");
+  const char* flag = flags.view2.empty() ? "--stereo" : "--view2";
+  throw UsageError("{} makes two views of one, and {} has {}; leave out {}, or give a camera of one view", flag,
+                   flags.camera.camera, enumerate(names), flag);
+}
+
+/// "frame.exr" and 7 make "frame.0007.exr".
+std::string numbered(const std::string& path, int number) {
+  const std::filesystem::path p(path);
+  return (p.parent_path() / fmt::format("{}.{:04}{}", p.stem().string(), number, p.extension().string())).string();
+}
+
+/// "frame.exr" and "module07" make "frame.module07.exr".
+std::string of_view(const std::string& path, const std::string& view) {
+  const std::filesystem::path p(path);
+  return (p.parent_path() / fmt::format("{}.{}{}", p.stem().string(), view, p.extension().string())).string();
+}
+
+/// The modules that --modules names, by number and from-to; all without it.
+std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
+  std::vector<size_t> chosen;
+  if (flags.modules.empty()) {
+    for (size_t i = 0; i < count; ++i) chosen.push_back(i);
+    return chosen;
+  }
+  for (const std::string& item : split_list(flags.modules, "--modules")) {
+    const size_t dash = item.find('-');
+    const int last_allowed = int(count) - 1;
+    const int from = parse_whole_number(item.substr(0, dash), "--modules", 0, last_allowed);
+    const int to =
+        dash == std::string::npos ? from : parse_whole_number(item.substr(dash + 1), "--modules", from, last_allowed);
+    for (int i = from; i <= to; ++i) {
+      if (std::find(chosen.begin(), chosen.end(), size_t(i)) != chosen.end())
+        throw UsageError("--modules {}: names module {} twice; name each once", flags.modules, i);
+      chosen.push_back(size_t(i));
+    }
+  }
+  return chosen;
+}
+
+/// The display, with the part of the world that it shows: its own, or what the scene's camera frames, whose middle depth comes
+/// to lie in the screen.
+LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer) {
+  LightFieldDisplay display = read_display(flags.display);
+  if (display.world) {
+    if (flags.camera.any())
+      throw UsageError(
+          "--display {}: says itself which part of the world it shows; leave out --camera, --eye, --target "
+          "and --fov",
+          flags.display);
+    return display;
+  }
+  const FittingSize size = fitting_size(display);
+  const auto cameras = flags.camera.cameras(tracer.scene(), size.width, size.height);
+  if (cameras.size() != 1)
+    throw UsageError("--display {}: shows what one camera frames, and {} has {}; give a camera of one view",
+                     flags.display, flags.camera.camera, cameras.size());
+  const auto fitted = fitted_to(display, tracer, cameras.begin()->second);
+  if (!fitted)
+    throw Error(
+        "--display {}: the camera shows nothing of the scene that the display could; another --camera or --eye may",
+        flags.display);
+  return *fitted;
+}
+
+}  // namespace
+
+std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
+  const LightFieldDisplay display = display_for(flags, tracer);
+  if (flags.size.empty()) options.width = display.width, options.height = display.height;
+  const std::vector<CaptureView> views = module_views(display, options.width, options.height);
+  std::vector<CaptureShot> shots;
+  if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});
+  for (const size_t i : chosen_modules(flags, views.size())) {
+    const std::string& name = views[i].name;
+    if (flags.separate)
+      shots.push_back({of_view(flags.out, name), flags.picture.empty() ? "" : of_view(flags.picture, name), {}});
+    shots.back().views.push_back(views[i]);
+  }
+  return shots;
+}
+
+std::vector<CaptureShot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height) {
+  std::vector<CaptureShot> shots;
+  if (flags.path.empty()) {
+    CaptureShot shot{flags.out, flags.picture, {}};
+    for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
+      shot.views.push_back({name, camera, {}});
+    check_single_view(flags, shot.views);
+    return {shot};
+  }
+  std::vector<std::string> assumed;
+  const std::vector<Camera> cameras = read_camera_path(flags.path, {0, 0, width, height}, assumed);
+  note(assumed);
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const int number = int(i) + 1;
+    shots.push_back({numbered(flags.out, number),
+                     flags.picture.empty() ? "" : numbered(flags.picture, number),
+                     {{"", cameras[i], cameras[i == 0 ? 0 : i - 1]}}});
+  }
+  return shots;
+}
+
+}  // namespace gloam::cli

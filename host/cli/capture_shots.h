@@ -1,0 +1,15 @@
+// Which frames a capture takes, from which cameras: one, one of each moment of a path, or those of a light-field display.
+#pragma once
+
+#include <vector>
+
+#include "cli/capture_command.h"
+
+namespace gloam::cli {
+
+/// One file with all modules, or one for each. The size is the display's where none is given.
+std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options);
+/// One file, or one for each camera of a path.
+std::vector<CaptureShot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height);
+
+}  // namespace gloam::cli

@@ -1,0 +1,130 @@
+#include "cli/stress_child.h"
+
+#include <sys/prctl.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+
+#include "cli/children.h"
+#include "gloam/error.h"
+
+namespace gloam::cli {
+namespace {
+
+struct OtherDevices {
+  std::vector<std::unique_ptr<Device>> opened;
+  std::vector<std::string> names;  ///< also of those that could not be opened, and why
+};
+
+/// Every device but the one at hand; those whose name holds `text`. Throws UsageError where one is asked for and there is none.
+OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
+  OtherDevices others;
+  if (text == "none") return others;
+  for (const DeviceInfo& info : list_devices()) {
+    if (info.name == own.name && info.platform == own.platform) continue;
+    if (text != "all" && (info.name + " " + info.platform).find(text) == std::string::npos) continue;
+    others.names.push_back(info.name + ", " + info.platform);
+    try {
+      // By both: a platform has several devices, and one device has the same name on several platforms.
+      others.opened.push_back(std::make_unique<Device>(info.platform + ": " + info.name));
+    } catch (const Error& error) {
+      others.names.back() += fmt::format(" (not compared: {})", error.what());
+    }
+  }
+  if (others.names.empty() && text != "all")
+    throw UsageError(
+        "--against {}: no device but {} has this in its name (gloam list devices); all and none are allowed", text,
+        own.name);
+  return others;
+}
+
+/// On a line of its own, whatever a driver may have written before.
+void say(const stress::Json& line) {
+  fmt::print("\n{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+/// What an ordinary failure has said, without our name.
+std::string why(std::string said) {
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  said.erase(0, said.rfind('\n') + 1);
+  return said.starts_with("gloam: ") ? said.substr(7) : said.empty() ? "it ended without a word" : said;
+}
+
+}  // namespace
+
+void examine_here(const StressCommand& flags) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // a second implementation for CPUs, if it is installed
+  const StressRequest request = request_of(flags);
+  Device device(flags.device);
+  const auto others = other_devices(device.info(), flags.against);
+  stress::Subject subject{.technique = &find_technique(request.techniques.front()),
+                          .device = &device,
+                          .extent = request.extent,
+                          .frames = request.frames,
+                          .seed = request.seed,
+                          .trial = request.trial,
+                          .folder = flags.out};
+  for (const auto& other : others.opened) subject.others.push_back(other.get());
+  say({{"device", device.info().name},
+       {"driver", device.info().platform + " " + device.info().driver},
+       {"against", others.names}});
+  for (const int number : request.cases) {
+    subject.begins = [&](int trial, const std::string& conditions) {
+      say({{"case", number}, {"trial", trial}, {"conditions", conditions}});
+    };
+    say({{"result", document_of(examine(stress::find_case(number), subject))}});
+  }
+}
+
+Examination::Examination(const StressCommand& flags, const StressRequest& request, std::string technique)
+    : flags_(flags), technique_(std::move(technique)), left_(request.cases), patience_(std::stod(flags.patience)) {}
+
+void Examination::run() {
+  while (!left_.empty()) {
+    case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
+    const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
+    if (left_.empty()) return;  // all has been told, however it ended
+    if (end.ended_by.empty() && trial_ == 0) {
+      if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end.said));
+      throw Error("{}", why(end.said));
+    }
+    stress::CaseResult broken{.technique = technique_, .number = case_, .trials = trial_, .broken_on = conditions_};
+    broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
+                                end.ended_by.empty() ? why(end.said) : "ended by " + end.ended_by);
+    results.push_back(broken);
+    std::erase(left_, case_);
+  }
+}
+
+std::vector<std::string> Examination::arguments() const {
+  std::vector<std::string> all = {"stress", technique_, "--child", "--against", flags_.against};
+  const auto add = [&](const char* flag, const std::string& value) {
+    if (!value.empty()) all.insert(all.end(), {flag, value});
+  };
+  add("--case", fmt::format("{}", fmt::join(left_, ",")));
+  add("--trial", flags_.trial);
+  add("--frames", flags_.frames);
+  add("--seed", flags_.seed);
+  add("--device", flags_.device);
+  add("-o", flags_.out);
+  if (flags_.quick) all.push_back("--quick");
+  return all;
+}
+
+void Examination::take(const std::string& text) {
+  const stress::Json line = stress::Json::parse(text, nullptr, false);
+  if (line.contains("device")) {
+    device = line;
+  } else if (line.contains("result")) {
+    results.push_back(stress::case_result_of(line.at("result")));
+    std::erase(left_, results.back().number);
+    if (!left_.empty()) case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
+  } else if (line.contains("conditions")) {  // else it is a driver's own chatter
+    case_ = line.at("case"), trial_ = line.at("trial"), conditions_ = line.at("conditions");
+  }
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,101 @@
+#include "cli/technique_flags.h"
+
+#include <limits>
+#include <map>
+
+#include "cli/options.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+
+namespace gloam::cli {
+namespace {
+
+/// "bent_normal (mean unoccluded direction, view space), by bitmask, gtao; cone (...), by the same"
+std::string extras_in_words() {
+  std::map<std::string, std::vector<std::string>> makers;
+  for (const Technique& t : registry()) {
+    for (const std::string& plane : t.extras) makers[plane].push_back(t.name);
+  }
+  std::vector<std::string> words;
+  std::string last;
+  for (const auto& [plane, names] : makers) {
+    const std::string by = enumerate(names);
+    words.push_back(fmt::format("{} ({}), by {}", plane, plane_kind(plane).help, by == last ? "the same" : by));
+    last = by;
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+}  // namespace
+
+void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
+  app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->group("Technique")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")
+      ->type_name("NAME")
+      ->group("Technique");
+  app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
+      ->type_name("NAME")
+      ->group("Technique");
+  app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
+      ->type_name("A,B")
+      ->group("Technique");
+  app.add_option(
+         "--resolution", resolution,
+         "full, half or quarter: estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
+      ->type_name("NAME")
+      ->group("Technique");
+  app.add_option("--adaptive", adaptive,
+                 "preset for tiles where AO hardly varies, by a base pass: --preset ultra --adaptive medium")
+      ->type_name("NAME")
+      ->group("Technique");
+  if (!with_mask) return;
+  app.add_option("--only", only,
+                 "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
+                 "technique that makes a mask, such as corner-mask")
+      ->type_name("MASK")
+      ->group("Technique");
+  app.add_option("--elsewhere", elsewhere,
+                 "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao")
+      ->type_name("TECHNIQUE")
+      ->group("Technique");
+}
+
+PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
+  PlanRequest request{.outputs = outputs, .then = then, .preset = preset};
+  request.settings = parse_settings(settings, "--set");
+  request.mask = only;
+  request.elsewhere = elsewhere;
+  request.adaptive = adaptive;
+  if (!with.empty()) request.with = split_list(with, "--with");
+  request.resolution = one_of<int>(resolution, "--resolution", {{"full", 1}, {"half", 2}, {"quarter", 4}});
+  return request;
+}
+
+void RunFlags::add_to(CLI::App& app) {
+  app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")
+      ->type_name("TEXT")
+      ->group("Device");
+  app.add_option("--lanes", lanes, "pixels per work-item: auto, 1, 4, 8 or 16")->type_name("N")->group("Device");
+  app.add_option("--math", math, "precise (same bits at every lane width) or fast")->type_name("MODE")->group("Device");
+  app.add_option("--real", real, "float or double")->type_name("TYPE")->group("Device");
+  app.add_option("--seed", seed, "of the random numbers; default: 0, or one more than --history had")
+      ->type_name("N")
+      ->group("Device");
+  app.add_option("--repeat", repeat, "timed runs; more than one: after a warm-up")->type_name("N")->group("Device");
+}
+
+RunOptions RunFlags::run_options() const {
+  RunOptions options;
+  options.lanes = one_of<int>(lanes, "--lanes", {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}});
+  options.math = one_of<Math>(math, "--math", {{"precise", Math::precise}, {"fast", Math::fast}});
+  options.real = one_of<Real>(real, "--real", {{"float", Real::float32}, {"double", Real::float64}});
+  if (!seed.empty()) options.seed = parse_whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
+  options.repeat = parse_whole_number(repeat, "--repeat", 1, 10000);
+  return options;
+}
+
+}  // namespace gloam::cli
