@@ -245,6 +245,7 @@ Technique plain() {
   t.name = "sssr";
   t.summary = "reflections by rays through the depth, chosen by roughness and shared among neighbours";
   t.paper = "Stachowiak, Uludag 2015";
+  t.source = "ssr/rays.cl";
   t.reads = {"depth", "normal", "color", "roughness", "reflectance"};
   t.writes = t.outputs = {"reflection", "hit"};
   t.default_for = {"reflection", "hit"};
@@ -311,6 +312,7 @@ Technique where() {
   t.name = "reflection-mask";
   t.summary = "where a surface reflects something that the image shows";
   t.paper = "after Stachowiak, Uludag 2015";
+  t.source = "ssr/rays.cl";
   t.reads = {"depth", "normal", "roughness", "reflectance"};
   t.writes = {"mask"};
   t.parameters = ReflectionMaskParams::table();
