@@ -66,7 +66,8 @@ TEST_F(Cli, WithoutLayersStochasticDepthIsAskedForByItsOwnName) {
   EXPECT_EQ(lacks["sd-hbao+"], Json({"stochastic"}));
   EXPECT_EQ(lacks["stochastic-depth"], Json({"peel"}));
   EXPECT_EQ(lacks["multiview"], Json({"stochastic", "a second view"}));
-  EXPECT_NE(gloam({"info", path("frame.exr")}).out.find("lacks  sd-hbao+: stochastic or peel\n"), std::string::npos);
+  EXPECT_NE(gloam({"info", path("frame.exr"), "--lacks"}).out.find("lacks  sd-hbao+: stochastic or peel\n"),
+            std::string::npos);
 }
 
 TEST_F(Cli, AMapOfStochasticDepthIsNotMadeOfItself) {
