@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "base/lists.h"
 #include "bench/bench_frame.h"
@@ -27,12 +28,19 @@ std::vector<std::string> planes_read(const Technique& technique, int layers) {
   return planes;
 }
 
-/// The technique alone: all it reads is there, nothing follows.
-Plan plan_alone(const Technique& technique, float radius, int layers) {
-  PlanRequest request{.outputs = {technique.name}, .only = technique.writes, .then = "none"};
+/// The technique alone: all it reads is there, nothing follows. None where it reads more layers than there are.
+std::optional<Plan> plan_alone(const Technique& technique, float radius, int layers) {
+  PlanRequest request{.outputs = {technique.name}, .then = "none"};
+  for (const std::string& plane : technique.writes) {
+    if (contains(outputs_of(technique), plane)) request.only.push_back(plane);
+  }
   if (ParameterValues(technique.parameters).has("radius"))
     request.settings.emplace_back("radius", fmt::format("{}", radius));
-  return make_plan(request, planes_read(technique, layers), "the benchmark's frame");
+  try {
+    return make_plan(request, planes_read(technique, layers), "the benchmark's frame");
+  } catch (const MissingPlanes&) {
+    return {};
+  }
 }
 
 /// One pass of it, with all that the pass reads as inputs.
@@ -83,9 +91,10 @@ void add_benchmarks(const Technique& technique, Frame& frame, Device& device, fl
   std::vector<int> widths = {1};
   if (device.info().lanes != 1) widths.push_back(device.info().lanes);
   for (const int layers : layer_counts(technique)) {
-    const Plan plan = plan_alone(technique, radius, layers);
-    for (const PlannedPass& pass : plan.passes) {
-      for (const int lanes : widths) add_benchmark(pass_alone(plan, pass), frame, device, lanes, layers);
+    const std::optional<Plan> plan = plan_alone(technique, radius, layers);
+    if (!plan) continue;
+    for (const PlannedPass& pass : plan->passes) {
+      for (const int lanes : widths) add_benchmark(pass_alone(*plan, pass), frame, device, lanes, layers);
     }
   }
 }
