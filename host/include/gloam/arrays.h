@@ -13,7 +13,7 @@ namespace gloam {
 /// What a renderer has in memory of one view. The arrays are read while `frame_from` runs, and no longer.
 struct Arrays {
   int width = 0, height = 0;  ///< pixels, 1 to 65536 each way, 2^28 in all
-  Camera camera;              ///< of an image whose top left corner is (0, 0); `camera_with_fov` makes a plain one
+  Camera camera = {};         ///< of an image whose top left corner is (0, 0); `camera_with_fov` makes a plain one
   /// By the names of planes.h: "depth", "normal", "color" ... Rows from the top, without padding, the components of a pixel
   /// side by side: width * height * components values.
   ///
@@ -21,7 +21,7 @@ struct Arrays {
   ///   camera's far plane.
   /// normal: x to the right, y up, z towards the eye (view space), of any length; (0, 0, 0) where it is not known.
   /// Without normals, techniques that read them make them from depth.
-  std::map<std::string, std::span<const float>> planes;
+  std::map<std::string, std::span<const float>> planes = {};
 };
 
 /// A camera of square pixels that looks through the middle of the image; `degrees`: its horizontal field of view, 1 to 179.

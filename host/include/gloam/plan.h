@@ -14,24 +14,24 @@ namespace gloam {
 
 struct PlanRequest {
   /// Planes to be made; a technique's name stands for its outputs.
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs = {};
   /// Of these, only the planes named here (all when empty); may name a technique's extras.
-  std::vector<std::string> only;
+  std::vector<std::string> only = {};
   /// Extras of the techniques asked for to be made as well: "bent_normal".
-  std::vector<std::string> with;
+  std::vector<std::string> with = {};
   /// Replaces every technique's `then`: a technique, "none", or empty for the default.
-  std::string then;
-  std::string preset;
+  std::string then = {};
+  std::string preset = {};
   /// name = value, or technique.name = value. A bare name reaches every planned technique that has it.
-  Settings settings;
+  Settings settings = {};
   /// Radius in scene units of every technique that has one and gets none by `settings`; none: the parameter's own default, which
   /// knows nothing of the frame's unit (radius.h makes one from the frame).
-  std::optional<double> radius;
+  std::optional<double> radius = {};
   /// Restricts the techniques asked for and their filters to where it is above 0: a plane, or a technique that makes one.
   /// Filters cover the mask, estimates what these read of them. What is left out is open. Empty: everywhere.
-  std::string mask;
+  std::string mask = {};
   /// Technique that estimates where the mask is not above 0, instead of leaving that open. Filters cover the image then.
-  std::string elsewhere;
+  std::string elsewhere = {};
   /// Masks asked for are put out as the cells that they are made of, one pixel for each (`Pass::repeats_cells`), under the
   /// cells' own name; at a lower resolution, all outputs as that resolution has them ("seen_by_both@4").
   bool as_cells = false;
@@ -40,7 +40,7 @@ struct PlanRequest {
   int resolution = 1;
   /// Preset of the first technique asked for where AO hardly varies, by a base pass of a fourth of the columns and rows and
   /// the preset low (kernels/adaptive). Empty or none: all of the image alike.
-  std::string adaptive;
+  std::string adaptive = {};
 };
 
 struct PlannedPass {

@@ -24,7 +24,7 @@ struct RunOptions {
   /// Instead of what samples contribute, adds up what is read: what a kernel's addresses and reads cost by themselves. The
   /// result means nothing.
   bool gathers_only = false;
-  std::function<void(int done, int of)> progress;  ///< called after each launch of a pass
+  std::function<void(int done, int of)> progress = {};  ///< called after each launch of a pass
 };
 
 struct PassTime {

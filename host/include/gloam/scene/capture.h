@@ -16,9 +16,9 @@ namespace gloam {
 
 /// One eye.
 struct CaptureView {
-  std::string name;                       ///< "" for the only view
-  Camera camera;                          ///< with a pose
-  std::optional<Camera> previous_camera;  ///< of the frame before, for motion vectors
+  std::string name = {};                       ///< "" for the only view
+  Camera camera = {};                          ///< with a pose
+  std::optional<Camera> previous_camera = {};  ///< of the frame before, for motion vectors
 };
 
 /// A stochastic depth map of all surfaces under the pixel centre (kernels/shared/sampling/stochastic.h).
@@ -30,17 +30,17 @@ struct StochasticOptions {
 
 struct CaptureOptions {
   int width = 1920, height = 1080;
-  std::vector<std::string> planes;     ///< of `capture_planes()`; depth is always there
-  int peel = 0;                        ///< depth layers per pixel, 0 to 64: planes peel.00 ... and peel_count
-  StochasticOptions stochastic;        ///< of every view
-  const Outlines* outlines = nullptr;  ///< of the tracer's scene: plane outline_count of every view; none where null
-  std::vector<CaptureView> views;
+  std::vector<std::string> planes = {};  ///< of `capture_planes()`; depth is always there
+  int peel = 0;                          ///< depth layers per pixel, 0 to 64: planes peel.00 ... and peel_count
+  StochasticOptions stochastic = {};     ///< of every view
+  const Outlines* outlines = nullptr;    ///< of the tracer's scene: plane outline_count of every view; none where null
+  std::vector<CaptureView> views = {};
   /// Beside the only view a second one, "view2", by `secondary_camera`: degrees, -90 to 90, not 0. A view without a name
   /// becomes "main" then.
-  std::optional<double> second_view;
+  std::optional<double> second_view = {};
   /// In place of the only view two, "left" and "right", by `stereo_cameras`; the view's camera is the middle between them.
-  std::optional<StereoRig> stereo;
-  std::function<void(int done, int of)> progress;
+  std::optional<StereoRig> stereo = {};
+  std::function<void(int done, int of)> progress = {};
 };
 
 struct CaptureResult {

@@ -18,14 +18,14 @@ struct AoReferenceOptions {
   uint32_t seed = 0;
   /// What an occluder at `distance` (in radii, below 1) and at an angle with cosine `cosine` to the normal takes away,
   /// in relation to the cosine-weighted integral: 1 for the plain one. Empty: 1, and only visibility is traced.
-  std::function<double(double cosine, double distance)> contribution;
-  std::string falloff = "none";    ///< its name, for the header
-  std::string falloff_parameters;  ///< "bias=0.1 ...", for the header; part of what a computation is known by
+  std::function<double(double cosine, double distance)> contribution = {};
+  std::string falloff = "none";         ///< its name, for the header
+  std::string falloff_parameters = {};  ///< "bias=0.1 ...", for the header; part of what a computation is known by
   /// Where a long computation is kept now and then, to go on after an interruption; empty: nowhere. It stays until the
   /// caller, who has the result in safety then, removes it.
-  std::filesystem::path checkpoint;
+  std::filesystem::path checkpoint = {};
   double checkpoint_seconds = 15;  ///< between two of them, and before the first
-  std::function<void(double share_done)> progress;
+  std::function<void(double share_done)> progress = {};
 };
 
 /// What was traced, and how well.
@@ -57,9 +57,9 @@ AoReference ao_reference(const Tracer& tracer, const Frame& frame, const AoRefer
 struct ReflectionReferenceOptions {
   int samples = 1024;  ///< rays per pixel, rounded up to a multiple of 32; mirrors take 32
   uint32_t seed = 0;
-  std::filesystem::path checkpoint;  ///< and the rest as for `ao_reference`
+  std::filesystem::path checkpoint = {};  ///< and the rest as for `ao_reference`
   double checkpoint_seconds = 15;
-  std::function<void(double share_done)> progress;
+  std::function<void(double share_done)> progress = {};
 };
 
 /// Light that the visible surfaces reflect towards the eye: two bounces. The first is on the visible surface: GGX with
