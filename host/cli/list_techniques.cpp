@@ -76,11 +76,6 @@ Json techniques_document(const std::vector<const Technique*>& techniques) {
 
 namespace {
 
-bool reads_layers(const Technique& t) {
-  return std::any_of(t.reads.begin(), t.reads.end(),
-                     [](const std::string& plane) { return is_stack(plane) || plane == "outline_count"; });
-}
-
 /// What techniques are listed under: what `gloam run` writes with them, from how many views.
 struct Group {
   std::string heading;
@@ -95,7 +90,10 @@ bool makes(const Technique& t, const std::string& plane) {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"ambient occlusion from depth",
-       [](const Technique& t) { return makes(t, "ao") && t.views == 1 && !t.any_projection && !reads_layers(t); }},
+       [](const Technique& t) {
+         return makes(t, "ao") && t.views == 1 && !t.any_projection && !bench::reads_layers(t) &&
+                !contains(t.reads, "outline_count");
+       }},
       {"ambient occlusion from layers of depth, or outlines, too",
        [](const Technique& t) { return makes(t, "ao") && t.views == 1 && !t.any_projection; }},
       {"ambient occlusion of two views", [](const Technique& t) { return makes(t, "ao") && t.views > 1; }},
@@ -111,10 +109,10 @@ const Group& group_of(const Technique& t) {
   return *std::find_if(groups().begin(), groups().end(), [&](const Group& group) { return group.holds(t); });
 }
 
-std::string preset_in_words(const Preset& preset) {
+std::string preset_in_words(const Preset& preset, const char* separator) {
   std::vector<std::string> settings;
   for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
-  return fmt::format("{}", fmt::join(settings, " "));
+  return fmt::format("{}", fmt::join(settings, separator));
 }
 
 }  // namespace
@@ -149,7 +147,8 @@ void print_technique(const Technique& t, const std::set<std::string>& settable) 
                     "(" + allowed_values(p) + ")", p.help});
   print_table(rows, 4);
   if (!t.presets.empty()) fmt::print("\nPresets of {}:\n", t.name);
-  for (const Preset& preset : t.presets) fmt::print("  --preset {:<6}  {}\n", preset.name, preset_in_words(preset));
+  for (const Preset& preset : t.presets)
+    fmt::print("  --preset {:<6}  {}\n", preset.name, preset_in_words(preset, " "));
 }
 
 namespace {
@@ -205,10 +204,8 @@ void print_section(const Technique& t) {
     fmt::print("| `{}` | {} | {} | {} |\n", p.name, default_in_words(p), allowed_values(p), p.help);
   }
   for (const Preset& preset : t.presets) {
-    std::vector<std::string> settings;
-    for (const auto& [name, value] : preset.settings) settings.push_back(name + "=" + value);
     fmt::print("{}Preset `{}`: {}.\n", &preset == &t.presets.front() ? "\n" : "", preset.name,
-               fmt::join(settings, ", "));
+               preset_in_words(preset, ", "));
   }
   if (!t.caution.empty()) fmt::print("{}\n", sentence(t.caution));
 }

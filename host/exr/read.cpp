@@ -258,7 +258,7 @@ void FrameFile::Impl::find_planes() {
   // Mitsuba's depth is the length of the ray, whatever the user called it.
   if (any_text("generatedBy").find("Mitsuba") == std::string::npos) return;
   for (PlaneSource& plane : names.planes)
-    if (plane.plane == "depth") plane.said = Said::ray_distance;
+    if (plane.plane == "depth") plane.said = DeclaredConvention::ray_distance;
 }
 
 void FrameFile::Impl::find_window() {
@@ -543,9 +543,10 @@ void FrameFile::Impl::convert_depth(View& view, Frame& frame) {
   if (depth == view.planes.end()) return;
   ReadOptions as_named = options;
   const bool automatic = options.depth == DepthConvention::automatic;
-  const bool known_planar = source("depth", view.name)->said == Said::planar || any_attribute("gloamOrigin");
+  const bool known_planar =
+      source("depth", view.name)->said == DeclaredConvention::planar || any_attribute("gloamOrigin");
   if (automatic && known_planar) as_named.depth = DepthConvention::z;
-  if (automatic && source("depth", view.name)->said == Said::ray_distance) {
+  if (automatic && source("depth", view.name)->said == DeclaredConvention::ray_distance) {
     as_named.depth = DepthConvention::ray;
     append_new(frame.assumed,
                {fmt::format("depth: '{}' is taken as the distance along the ray, as its renderer writes it (--depth z "
@@ -589,8 +590,8 @@ NormalSpace FrameFile::Impl::said_space(const PlaneSource& normal) const {
   const std::string written = any_text("gloamNormalSpace");
   if (written == "view") return NormalSpace::view;
   if (written == "world") return NormalSpace::world;
-  if (normal.said == Said::view_space) return NormalSpace::view;
-  if (normal.said == Said::world_space) return NormalSpace::world;
+  if (normal.said == DeclaredConvention::view_space) return NormalSpace::view;
+  if (normal.said == DeclaredConvention::world_space) return NormalSpace::world;
   return any_text("BlenderMultiChannel").empty() ? NormalSpace::automatic : NormalSpace::world;
 }
 
@@ -777,7 +778,7 @@ std::string FrameFile::depth_convention() const {
     case DepthConvention::z:
       return "z";
     default:
-      return depth->said == Said::ray_distance ? "ray" : "z";
+      return depth->said == DeclaredConvention::ray_distance ? "ray" : "z";
   }
 }
 

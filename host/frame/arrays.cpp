@@ -1,10 +1,9 @@
 #include "gloam/arrays.h"
 
-#include <cmath>
 #include <new>
-#include <numbers>
 #include <utility>
 
+#include "camera/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/normalise.h"
@@ -61,14 +60,7 @@ View view_from(const Arrays& arrays) {
 
 Camera camera_with_fov(int width, int height, double degrees) {
   check_size(width, height);
-  if (!(degrees >= 1 && degrees <= 179))
-    throw Error("a horizontal field of view of {} degrees is not allowed; 1 to 179 are", degrees);
-  Camera camera;
-  camera.fx = camera.fy = width / 2.0 / std::tan(degrees / 2 * std::numbers::pi / 180);
-  camera.cx = width / 2.0;
-  camera.cy = height / 2.0;
-  camera.source = "field of view";
-  return camera;
+  return camera_from_fov(degrees, {0, 0, width, height}, 1, "field of view");
 }
 
 Frame frame_from(const Arrays& arrays) {

@@ -57,13 +57,23 @@ bool needs_two_views(const Plan& plan) {
                      [](const PlannedPass& planned) { return planned.technique->views == 2; });
 }
 
-int key_view_spacing(const Plan& plan, size_t views) {
-  if (views < 2) return 1;
+namespace {
+
+/// The first pass that runs on key views, or on those between them; null where there is none.
+const PlannedPass* pass_of_key_views(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
-    if (planned.pass.on == On::key_views || planned.pass.on == On::views_between)
-      return planned.technique->key_views(planned.values);
+    if (planned.pass.on == On::key_views || planned.pass.on == On::views_between) return &planned;
   }
-  return 1;
+  return nullptr;
+}
+
+}  // namespace
+
+bool looks_into_key_views(const Plan& plan) { return pass_of_key_views(plan) != nullptr; }
+
+int key_view_spacing(const Plan& plan, size_t views) {
+  const PlannedPass* const planned = views < 2 ? nullptr : pass_of_key_views(plan);
+  return planned ? planned->technique->key_views(planned->values) : 1;
 }
 
 size_t views_at_once(const Plan& plan, size_t views) {

@@ -39,6 +39,9 @@ unsigned long long bytes_of(const Plan& plan, const Layouts& layouts, const std:
 /// Whether passes look from one of two views into the other.
 bool needs_two_views(const Plan& plan);
 
+/// Whether some views are key views that others look into.
+bool looks_into_key_views(const Plan& plan);
+
 /// Every how many views of a frame of so many one is a key view; 1 where all are alike.
 int key_view_spacing(const Plan& plan, size_t views);
 

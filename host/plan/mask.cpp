@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "gloam/planes.h"
+#include "plan/layouts.h"
 #include "plan/resample.h"
 
 namespace gloam {
@@ -23,11 +24,6 @@ PlannedPass mask_pass(std::string name, std::string kernel, Binding read, Bindin
   pass.writes = {std::move(written)};
   return {&masking(), std::move(pass), ParameterValues(masking().parameters)};
 }
-
-struct Reach {
-  int x = 0, y = 0;
-  bool is_none() const { return x == 0 && y == 0; }
-};
 
 const char* const rest = "wanted.rest";
 
@@ -58,7 +54,8 @@ class Restriction {
       PlannedPass planned = plan_.passes[i];
       if (is_restricted_[i]) {
         const int scale = planned.pass.scale;
-        const bool is_read_around = !reach_after(i + 1, scale).is_none();
+        const Footprint after = footprint_after(i + 1, scale);
+        const bool is_read_around = after.columns > 0 || after.rows > 0;
         need_wanted(scale);
         if (is_read_around) need_grown(scale);
         const std::string bits = is_read_around ? grown(scale) : wanted(scale);
@@ -75,14 +72,14 @@ class Restriction {
 
  private:
   /// How far later passes of the same resolution read around a pixel, from pass `from` on.
-  Reach reach_after(size_t from, int scale) const {
-    Reach reach;
+  Footprint footprint_after(size_t from, int scale) const {
+    Footprint all;
     for (size_t i = from; i < plan_.passes.size(); ++i) {
       if (!is_restricted_[i] || plan_.passes[i].pass.scale != scale) continue;
-      reach.x += plan_.passes[i].pass.footprint.columns;
-      reach.y += plan_.passes[i].pass.footprint.rows;
+      all.columns += plan_.passes[i].pass.footprint.columns;
+      all.rows += plan_.passes[i].pass.footprint.rows;
     }
-    return reach;
+    return all;
   }
 
   void need_wanted(int scale) {
@@ -101,12 +98,12 @@ class Restriction {
   /// As far as all filters together read: those between have the same.
   void need_grown(int scale) {
     if (!grown_.insert(scale).second) return;
-    add_grown(wanted(scale), grown(scale), reach_after(0, scale), scale);
+    add_grown(wanted(scale), grown(scale), footprint_after(0, scale), scale);
   }
 
-  void add_grown(const std::string& from, const std::string& to, Reach reach, int scale) {
+  void add_grown(const std::string& from, const std::string& to, Footprint by, int scale) {
     passes.push_back(mask_pass("grown", "mask_grown", {"wanted", from}, {"grown", to},
-                               {{"REACH_X", reach.x}, {"REACH_Y", reach.y}}, scale));
+                               {{"REACH_X", by.columns}, {"REACH_Y", by.rows}}, scale));
   }
 
   const Plan& plan_;
@@ -152,10 +149,7 @@ void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& technique
       throw UsageError("--only: restricts techniques that look at one view, and {} looks at two; leave it out",
                        technique->name);
   }
-  const bool looks_into_key_views = std::any_of(plan.passes.begin(), plan.passes.end(), [](const PlannedPass& planned) {
-    return planned.pass.on == On::key_views || planned.pass.on == On::views_between;
-  });
-  if (elsewhere && looks_into_key_views)
+  if (elsewhere && looks_into_key_views(plan))
     throw UsageError(
         "--elsewhere {}: what views take over from one another (reuse=on) is one technique's; leave out one of both",
         elsewhere->name);

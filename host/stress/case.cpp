@@ -57,8 +57,7 @@ const Case& find_case(int number) {
 }
 
 std::vector<OptOut> opt_outs(const Technique& technique) {
-  const auto folder = std::filesystem::path(technique.source).parent_path();
-  const auto page = technique_pages().find((folder / "README.md").string());
+  const auto page = technique_pages().find(folder_of(technique) + "/README.md");
   std::vector<OptOut> all;
   if (page == technique_pages().end()) return all;
   std::istringstream lines(page->second);

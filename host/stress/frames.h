@@ -32,7 +32,7 @@ Shot orthographic(int width, int height, double units_across);
 
 /// 80x60, through a perspective and an orthographic camera.
 std::vector<Shot> usual_shots();
-/// 144x108: as fine as fits into what a CPU compiles for small images (`group_size` in run.cpp).
+/// 144x108: as fine as fits into what a CPU compiles for small images (`group_size` in run/launch.cpp).
 Shot fine_shot();
 /// 93x61: no multiple of any number of lanes.
 std::vector<Shot> odd_shots();

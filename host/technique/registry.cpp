@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include "base/lists.h"
 #include "gloam/error.h"
@@ -43,6 +44,11 @@ bool takes(const Pass& pass, From where) {
 
 const std::string& source_of(const Technique& technique, const Pass& pass) {
   return pass.source.empty() ? technique.source : pass.source;
+}
+
+std::string folder_of(const Technique& technique) {
+  const std::vector<Pass> passes = technique.passes(ParameterValues(technique.parameters));
+  return std::filesystem::path(source_of(technique, passes.front())).parent_path().string();
 }
 
 const Technique& find_technique(const std::string& name) {

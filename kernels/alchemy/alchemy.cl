@@ -6,7 +6,7 @@
 //
 // in : depth         view-space z, scene units, +inf = background
 //      normal        unit, view space
-//      occluders     further depth layers (ambient_occlusion.h); without them the depth is the only one
+//      occluders     further depth layers (layers.h); without them the depth is the only one
 //      depth_levels  what sao_level makes, for levels 1 to LEVELS (LEVELS > 0, without occluders)
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED; LEVEL (sao_level)
@@ -125,8 +125,9 @@ static inline real obscurance_near(Frame frame, Params params, DepthLayers layer
   return sum;
 #endif
   real largest = obscurance(towards_depth(frame, r, x, y, depth), r.normal, params, falloff);
-  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest)
-  largest = larger(obscurance(towards_depth(frame, r, x, y, behind.next), r.normal, params, falloff), largest);
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) {
+    largest = larger(obscurance(towards_depth(frame, r, x, y, behind.next), r.normal, params, falloff), largest);
+  }
   return largest;
 }
 

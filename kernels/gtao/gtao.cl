@@ -4,8 +4,8 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
-//      other_depth  of the other eye (gtao_stereo); both with the sign of stereo.h
+//      occluders  further depth layers (layers.h); without them the depth is the only one
+//      other_depth  of the other eye (gtao_stereo); both with the sign of visibility.h
 //      newly_visible  which pixels gtao_stereo_list computes
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background

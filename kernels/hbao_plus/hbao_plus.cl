@@ -4,7 +4,7 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
+//      occluders  further depth layers (layers.h); without them the depth is the only one
 //      other_depth, occluders  of the other view, at a resolution of their own (hbao_plus_other_view)
 //      own        what hbao_plus_estimate found
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background

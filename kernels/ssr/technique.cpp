@@ -1,7 +1,6 @@
 #include "gloam/technique.h"
 
 #include <algorithm>
-#include <map>
 
 #include "ssr/params.h"
 
@@ -12,15 +11,6 @@ using Bindings = std::vector<Binding>;
 
 /// Levels of the hierarchy: the largest cells have 64 x 64 pixels.
 constexpr int hierarchy_levels = 7;
-
-/// The file of a kernel.
-const std::string& file_of(const std::string& kernel) {
-  static const std::map<std::string, std::string> files = {
-      {"ssr_nearness", "ssr/hierarchy.cl"}, {"ssr_level", "ssr/hierarchy.cl"},      {"ssr_rays", "ssr/rays.cl"},
-      {"ssr_march", "ssr/march.cl"},        {"ssr_found", "ssr/found.cl"},          {"ssr_see", "ssr/shade.cl"},
-      {"ssr_resolve", "ssr/resolve.cl"},    {"ssr_accumulate", "ssr/accumulate.cl"}};
-  return files.at(kernel);
-}
 
 /// What shapes passes, of whichever parameters.
 struct Choices {
@@ -75,6 +65,7 @@ class Passes {
     std::vector<Pass> passes = until_met();
     passes.push_back({.name = "found",
                       .kernel = "ssr_found",
+                      .source = "ssr/found.cl",
                       .reads = Bindings{"roughness"} + of_rays({"ray_density"}) + met(),
                       .writes = {{"found", "mask"}}});
     return with_defines(std::move(passes));
@@ -118,8 +109,11 @@ class Passes {
   Bindings seen() const { return of_rays({"ray_r", "ray_g", "ray_b", "ray_length", "ray_confidence"}); }
 
   std::vector<Pass> hierarchy() const {
-    std::vector<Pass> passes = {
-        {.name = "nearness", .kernel = "ssr_nearness", .reads = {"depth"}, .writes = Bindings{nearness()} + list()}};
+    std::vector<Pass> passes = {{.name = "nearness",
+                                 .kernel = "ssr_nearness",
+                                 .source = "ssr/hierarchy.cl",
+                                 .reads = {"depth"},
+                                 .writes = Bindings{nearness()} + list()}};
     if (c_.traversal) {
       passes.back().reads.push_back("back_depth");
       passes.back().writes = passes.back().writes + Bindings{farness(), plane_of_rays("others")};
@@ -127,6 +121,7 @@ class Passes {
     for (int level = 1; level < levels(); ++level) {
       passes.push_back({.name = "level " + std::to_string(level),
                         .kernel = "ssr_level",
+                        .source = "ssr/hierarchy.cl",
                         .writes = {nearness(), farness()},
                         .defines = {{"LEVEL", level}},
                         .scale = 1 << level});
@@ -144,6 +139,7 @@ class Passes {
   Pass choose_rays() const {
     return {.name = "rays",
             .kernel = "ssr_rays",
+            .source = "ssr/rays.cl",
             .reads = reflector(),
             .writes = list() + rays() + met(),
             .can_skip = true};
@@ -152,6 +148,7 @@ class Passes {
   Pass march() const {
     Pass pass{.name = "march",
               .kernel = "ssr_march",
+              .source = "ssr/march.cl",
               .reads = Bindings{"depth", "normal"} + cells(has_both_depths()) + list() + directions(),
               .writes = {plane_of_rays("met")},
               .defines = {{"BOTH_DEPTHS", has_both_depths()}}};
@@ -168,6 +165,7 @@ class Passes {
     for (Binding& cell : cells_of_other) cell.from = From::other_view;
     return {.name = "march on",
             .kernel = "ssr_march",
+            .source = "ssr/march.cl",
             .reads = Bindings{"depth", "normal"} + cells_of_other + Bindings{{"list", "ssr_others", c_.rays}} +
                      directions() + of_rays({"left_at"}) + of_other_eye({"normal"}) +
                      Bindings{from(From::other_view, "back_depth")},
@@ -178,6 +176,7 @@ class Passes {
   Pass see() const {
     Pass pass{.name = "see",
               .kernel = "ssr_see",
+              .source = "ssr/shade.cl",
               .reads = image() + rays() + met(),
               .writes = Bindings{{"hit_length", "hit"}} + seen()};
     if (c_.traversal) pass.reads.push_back(plane_of_rays("left_at"));
@@ -188,6 +187,7 @@ class Passes {
   Pass resolve() const {
     Pass pass{.name = "resolve",
               .kernel = "ssr_resolve",
+              .source = "ssr/resolve.cl",
               .reads = reflector() + rays() + seen(),
               .writes = {{"reflection", c_.accumulates ? "reflection_raw" : "reflection"}},
               .footprint = {.columns = 2, .rows = 2},
@@ -201,6 +201,7 @@ class Passes {
   Pass accumulate() const {
     return {.name = "accumulate",
             .kernel = "ssr_accumulate",
+            .source = "ssr/accumulate.cl",
             .reads = reflector() + Bindings{"motion",
                                             {"reach", "ssr_reach"},
                                             {"now", "reflection_raw"},
@@ -224,10 +225,7 @@ class Passes {
                              {"FADE", c_.fade},
                              {"REPROJECTION", c_.reprojection},
                              {"OTHER_NEIGHBOURS", c_.other_neighbours}};
-    for (Pass& pass : passes) {
-      pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
-      pass.source = file_of(pass.kernel);
-    }
+    for (Pass& pass : passes) pass.defines.insert(pass.defines.end(), defines.begin(), defines.end());
     return passes;
   }
 
@@ -245,7 +243,6 @@ Technique plain() {
   t.name = "sssr";
   t.summary = "reflections by rays through the depth, chosen by roughness and shared among neighbours";
   t.paper = "Stachowiak, Uludag 2015";
-  t.source = "ssr/rays.cl";
   t.reads = {"depth", "normal", "color", "roughness", "reflectance"};
   t.writes = t.outputs = {"reflection", "hit"};
   t.default_for = {"reflection", "hit"};
@@ -312,7 +309,6 @@ Technique where() {
   t.name = "reflection-mask";
   t.summary = "where a surface reflects something that the image shows";
   t.paper = "after Stachowiak, Uludag 2015";
-  t.source = "ssr/rays.cl";
   t.reads = {"depth", "normal", "roughness", "reflectance"};
   t.writes = {"mask"};
   t.parameters = ReflectionMaskParams::table();

@@ -3,7 +3,7 @@
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (ambient_occlusion.h); without them the depth is the only one
+//      occluders  further depth layers (layers.h); without them the depth is the only one
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED
 #include "estimators/column.h"
@@ -38,9 +38,9 @@ static inline Search search_of(Frame frame, VolumetricParams params, Receiver r,
 }
 
 // How much of a column something at a depth occludes.
-static inline real occlusion_by(Search s, Column column, real depth, real fall, real counted) {
+static inline real occlusion_by(Search s, Column column, real depth, real fall, real counts_from) {
   const real e = relative_depth(s.receiver.point, s.receiver.depth, depth);
-  return below(column, surface_height(e, fall, counted, s.heights)) * range_weight(e, s.per_range);
+  return below(column, surface_height(e, fall, counts_from, s.heights)) * range_weight(e, s.per_range);
 }
 
 // How much of a column is occluded: of all layers at its pixel the largest.
@@ -52,10 +52,11 @@ static inline real occlusion_at(Frame frame, DepthLayers layers, Search s, integ
   return sum_of_depths(layers, frame, r.here, index, r.farthest);
 #endif
   const real there = height_there(s.heights, to_real(dx), to_real(dy)), fall = fall_there(frame, s.heights, there);
-  const real counted = there - bias - s.heights.rounding;
-  real largest = larger(occlusion_by(s, column, gather(layers.first + r.here, index), fall, counted), (real)(0));
-  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest)
-  largest = larger(occlusion_by(s, column, behind.next, fall, counted), largest);
+  const real counts_from = there - bias - s.heights.rounding;
+  real largest = larger(occlusion_by(s, column, gather(layers.first + r.here, index), fall, counts_from), (real)(0));
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) {
+    largest = larger(occlusion_by(s, column, behind.next, fall, counts_from), largest);
+  }
   return largest;
 }
 

@@ -233,7 +233,7 @@ TEST(OptOuts, NameACaseAPartAndATechnique) {
     asked += slurp(entry.path());
   int lines = 0;
   for (const Technique& technique : registry()) {
-    const fs::path folder = fs::path(technique.source).parent_path();
+    const fs::path folder = folder_of(technique);
     std::istringstream page(slurp(fs::path(GLOAM_SOURCE_DIR) / "kernels" / folder / "README.md"));
     for (std::string line; std::getline(page, line);) {
       if (line.rfind("hard case", 0) != 0) continue;
@@ -245,7 +245,7 @@ TEST(OptOuts, NameACaseAPartAndATechnique) {
       EXPECT_TRUE(number >= 1 && number <= 20) << line;
       const bool is_part = found[2].matched, is_of_one = found[3].matched;
       EXPECT_TRUE(!is_part || asked.find("opt_out(\"" + found[2].str() + "\")") != std::string::npos) << line;
-      EXPECT_TRUE(!is_of_one || fs::path(find_technique(found[3]).source).parent_path() == folder) << line;
+      EXPECT_TRUE(!is_of_one || folder_of(find_technique(found[3])) == folder) << line;
       ++lines;
     }
   }

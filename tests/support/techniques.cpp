@@ -6,7 +6,6 @@
 #include <map>
 
 #include "gloam/error.h"
-#include "run/kernel_sources.h"
 
 namespace gloam::test {
 namespace {
@@ -55,7 +54,5 @@ std::string identifier(const std::string& name) {
   }
   return text;
 }
-
-std::string kernel_text(const Technique& technique) { return kernel_sources().at(technique.source); }
 
 }  // namespace gloam::test

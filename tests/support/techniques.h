@@ -20,7 +20,4 @@ Frame outputs_of(const Technique& technique, Frame& frame, const Settings& setti
 /// Name for a test: letters, digits and underscores, "hbao_plus".
 std::string identifier(const std::string& name);
 
-/// The text of a kernel file.
-std::string kernel_text(const Technique& technique);
-
 }  // namespace gloam::test

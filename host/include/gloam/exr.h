@@ -48,7 +48,6 @@ struct ChannelSource {
 
 /// What a channel's name declares about its values.
 enum class DeclaredConvention { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
-using Said = DeclaredConvention;  // for exr/read.cpp only
 
 /// A plane that could be decoded.
 struct PlaneSource {

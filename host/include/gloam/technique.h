@@ -84,9 +84,9 @@ struct Footprint {
 struct Pass {
   std::string name;                    ///< "estimate": shown as "hbao+/estimate"
   std::string kernel;                  ///< function in `source`
+  std::string source;                  ///< kernel file below kernels/; empty: the technique's
   std::vector<Binding> reads, writes;  ///< planes that no technique declares are intermediate
   Defines defines;                     ///< counts that shape loops, and choices
-  std::string source;                  ///< kernel file below kernels/; empty: the technique's
   /// Of the technique's `extras` those that this pass can make. Of these the ones asked for join `writes`, with a define
   /// each: WITH_BENT_NORMAL.
   std::vector<Binding> extras;
@@ -184,6 +184,9 @@ std::function<double(const ParameterValues&, double, double)> contribution_of(do
     return contribution(values.as<Params>(), cosine, distance);
   };
 }
+
+/// The folder of a technique, below kernels/: that of its first pass with default parameters.
+std::string folder_of(const Technique& technique);
 
 /// Whether a pass reads any plane from there.
 bool takes(const Pass& pass, From where);

@@ -1,5 +1,5 @@
 // What an estimate has to look at of a pixel's stochastic depths, in the order in which it is soonest done: each depth once,
-// without the pixel's own, the nearest first, GROUP of them side by side (ambient_occlusion.h). An estimate that takes the
+// without the pixel's own, the nearest first, GROUP of them side by side (layers.h). An estimate that takes the
 // largest of all finds the same in them.
 //
 // in : depth          view-space z, scene units, +inf = background

@@ -49,7 +49,7 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 #define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, depth)
 #endif
 
-// A depth of the first layer. `by_both`: whether two eyes see it, where the sign of the depth says so (stereo.h).
+// A depth of the first layer. `by_both`: whether two eyes see it, where the sign of the depth says so (visibility.h).
 static inline real depth_seen(real stored_depth, mask* by_both) {
 #if STEREO
   *by_both = stored_depth < 0;

@@ -11,7 +11,7 @@ static inline real3 position_of(Frame f, Receiver r) {
   return position_at(f, r.point.x, r.point.y, choose(r.point.background, (real)(1), r.depth));
 }
 
-// One pixel for each lane, by its index from the plane's start; `depth`: with the sign of stereo.h.
+// One pixel for each lane, by its index from the plane's start; `depth`: with the sign of visibility.h.
 static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_reach, integer index, PLANE depth,
                                          PLANE normal_x, PLANE normal_y, PLANE normal_z) {
   const integer x = column_of(frame, index), y = row_of(frame, index);

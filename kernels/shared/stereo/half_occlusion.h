@@ -78,7 +78,7 @@ static inline mask is_near_marked(PLANE cells, Frame f, real3 p, scalar radius) 
 // Fewer pixels of a row than this that one eye alone sees are left by rounding and by slopes; nothing of note hides there.
 #define LEAST_WIDTH 2
 
-// Whether each pixel of the row belongs to so many, side by side, that one eye alone sees. `stereo_depth`: stereo.h.
+// Whether each pixel of the row belongs to so many, side by side, that one eye alone sees. `stereo_depth`: visibility.h.
 static inline mask is_half_occluded(PLANE stereo_depth, Frame f) {
   mask alone[2 * LEAST_WIDTH - 1];
   const int here = index_of(f, FIRST_X, ROW_Y);

@@ -1,4 +1,4 @@
-// Passes of two eyes (stereo.h), whatever is estimated.
+// Passes of two eyes (visibility.h), whatever is estimated.
 //
 // stereo_visibility   in : depth, other_depth  view-space z of either eye, scene units, +inf = background
 //                     out: stereo_depth        negative where both eyes see the surface

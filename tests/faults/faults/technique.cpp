@@ -8,7 +8,11 @@ const char* const names[] = {"faultless",        "absolute-epsilon", "background
                              "does-not-end",     "one-camera",       "squares-depth",      "brightens"};
 
 std::vector<Pass> passes(int fault) {
-  return {{"estimate", "faults", {"depth", "normal"}, {"ao"}, {{"FAULT", fault}}}};
+  return {{.name = "estimate",
+           .kernel = "faults",
+           .reads = {"depth", "normal"},
+           .writes = {"ao"},
+           .defines = {{"FAULT", fault}}}};
 }
 
 }  // namespace
