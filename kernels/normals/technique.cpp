@@ -11,7 +11,7 @@ std::vector<Technique> normals() {
       .reads = {"depth"},
       .writes = {"normal"},
       .passes = [](const ParameterValues&) -> std::vector<Pass> {
-        return {{"differences", "normals", {"depth"}, {"normal"}}};
+        return {{.name = "differences", .kernel = "normals", .reads = {"depth"}, .writes = {"normal"}}};
       },
   }};
 }
