@@ -11,6 +11,7 @@
 #include "bench/papers/study.h"
 #include "bench/papers/timed_table.h"
 #include "gloam/metrics.h"
+#include "gloam/scene/reflection_reference.h"
 
 namespace gloam::bench {
 namespace {

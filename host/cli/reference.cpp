@@ -8,6 +8,7 @@
 #include "cli/radius.h"
 #include "cli/scene_flags.h"
 #include "gloam/error.h"
+#include "gloam/scene/reflection_reference.h"
 #include "gloam/visualise.h"
 
 namespace gloam::cli {

@@ -16,7 +16,7 @@ struct SceneFlags {
   std::vector<std::string> settings;
   /// The scene itself is an argument of `capture` and a flag of other commands: added there.
   void add_settings_to(CLI::App& app);
-  /// Loads it; what was mended goes to the notes.
+  /// Loads it; what was repaired goes to the notes.
   Scene load() const;
   /// Takes out settings of others than the scene, which have a dot in the name: {"hbao+.bias", "0.2"}.
   Settings take_dotted_settings();

@@ -8,8 +8,11 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "report/markdown_text.h"
+#include "report/material.h"
 #include "report/pictures.h"
-#include "report/sections.h"
+#include "report/sections_choice.h"
+#include "report/sections_errors.h"
+#include "report/sections_time.h"
 
 namespace gloam::report {
 namespace {
@@ -195,32 +198,6 @@ class Sheets {
 };
 
 }  // namespace
-
-std::string setting_text(const std::string& technique, const std::string& preset, const std::string& variant) {
-  std::string text = technique + (preset.empty() ? "" : " " + preset);
-  if (!variant.empty()) text += ", " + variant;
-  return plain_text(text);
-}
-
-std::vector<std::string> techniques_of(const std::vector<Row>& rows) {
-  std::vector<std::string> others, peeled;
-  for (const Row& row : rows) add_new(reads_peeled_layers(row.reads) ? peeled : others, row.technique);
-  others.insert(others.end(), peeled.begin(), peeled.end());
-  return others;
-}
-
-std::vector<Row> default_rows(const std::vector<Row>& rows, const std::string& technique) {
-  std::optional<std::string> preset;
-  for (const Row& row : rows) {
-    if (row.technique != technique || !row.variant.empty()) continue;
-    if (!preset || row.preset == "medium") preset = row.preset;
-  }
-  std::vector<Row> found;
-  for (const Row& row : rows) {
-    if (row.technique == technique && row.variant.empty() && row.preset == preset) found.push_back(row);
-  }
-  return found;
-}
 
 MarkdownPage make_markdown(const std::vector<Source>& sources, const MarkdownOptions& options) {
   const Material material = material_of(sources);

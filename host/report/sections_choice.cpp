@@ -1,4 +1,6 @@
 // What to take: needs, fronts, and every figure of each scene.
+#include "report/sections_choice.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,16 +8,9 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "report/markdown_text.h"
-#include "report/sections.h"
 
 namespace gloam::report {
 namespace {
-
-std::vector<Row> plain_rows_over_one_layer(const std::vector<Row>& rows) {
-  std::vector<Row> plain;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(plain), is_plain_over_one_layer);
-  return plain;
-}
 
 std::string setting_text(const ClassPoint& p) { return gloam::report::setting_text(p.technique, p.preset, p.variant); }
 
@@ -159,15 +154,6 @@ WorsePreset compared_presets(const Material& material, const std::string& techni
 }
 
 }  // namespace
-
-Material material_of(const std::vector<Source>& sources) {
-  Material material{sources, joined(sources), {}, {}};
-  Measurements groups = by_group(material.all, sources);
-  material.measured = fronts_of_classes(groups);
-  groups.rows = plain_rows_over_one_layer(groups.rows);
-  material.fronts = fronts_of_classes(groups);
-  return material;
-}
 
 std::string needs_section(const Material& material) {
   if (material.measured.empty()) return "";

@@ -1,4 +1,6 @@
 // How near to the truth, and what keeps it from being nearer.
+#include "report/sections_errors.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "base/statistics.h"
 #include "gloam/error.h"
 #include "report/markdown_text.h"
-#include "report/sections.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam::report {

@@ -1,4 +1,6 @@
 // What the time is spent on, and how it compares with other ways to compute the same.
+#include "report/sections_time.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include "base/statistics.h"
 #include "gloam/error.h"
 #include "report/markdown_text.h"
-#include "report/sections.h"
 
 namespace gloam::report {
 namespace {

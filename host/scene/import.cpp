@@ -1,30 +1,19 @@
-// Scenes from files, by assimp: meshes in place, cameras, and what was mended or left out.
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
-#include <assimp/postprocess.h>
+// By assimp: meshes in place, cameras, and what was repaired or left out.
+#include "gloam/scene/import.h"
+
 #include <assimp/scene.h>
 
-#include <algorithm>
-#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
-#include <cctype>
-#include <cmath>
-#include <fstream>
-#include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <glm/mat4x4.hpp>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <set>
 
-#include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/scene/scene.h"
+#include "scene/assimp_files.h"
+#include "scene/assimp_scene.h"
 #include "scene/gltf_json.h"
+#include "scene/import_cameras.h"
 #include "scene/import_materials.h"
 #include "scene/import_meshes.h"
-#include "scene/obj_text.h"
 
 namespace gloam {
 namespace {
@@ -36,228 +25,6 @@ constexpr size_t most_triangles = 100'000'000;
 
 std::string counted(size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
 
-// --- Reading the file
-
-/// A file that ends: some of assimp's readers (PLY) ask for more for ever where a file is cut short.
-class EndingStream : public Assimp::IOStream {
- public:
-  explicit EndingStream(Assimp::IOStream* from) : from_(from) {}
-  size_t Read(void* to, size_t size, size_t count) override {
-    const size_t n = from_->Read(to, size, count);
-    if (n == 0 && count > 0 && ++reads_past_end_ > 1000) throw std::runtime_error("it ends too early");
-    return n;
-  }
-  size_t Write(const void*, size_t, size_t) override { return 0; }
-  aiReturn Seek(size_t offset, aiOrigin origin) override { return from_->Seek(offset, origin); }
-  size_t Tell() const override { return from_->Tell(); }
-  size_t FileSize() const override { return from_->FileSize(); }
-  void Flush() override {}
-
- private:
-  std::unique_ptr<Assimp::IOStream> from_;
-  int reads_past_end_ = 0;
-};
-
-/// assimp ends the program where a property of a material comes before any material.
-bool begins_with_material(const fs::path& mtl) {
-  std::ifstream file(mtl);
-  std::string first;
-  while (file >> first && first.starts_with("#")) std::getline(file, first);
-  return !file || first == "newmtl";
-}
-
-std::string ending_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return ending;
-}
-
-/// Text that assimp reads in place of a file's.
-class TextStream : public Assimp::MemoryIOStream {
- public:
-  static TextStream* of(const std::string& text) {
-    auto* bytes = new uint8_t[text.size()];
-    std::copy(text.begin(), text.end(), bytes);
-    return new TextStream(bytes, text.size());
-  }
-
- private:
-  TextStream(uint8_t* bytes, size_t size) : MemoryIOStream(bytes, size, true) {}
-};
-
-/// Opens files for assimp: OBJ and MTL in a form that it reads right, and buffers whose names have escapes. Remembers which .mtl
-/// files were of use, as assimp goes on without and says nothing, and what an OBJ holds.
-class Files : public Assimp::DefaultIOSystem {
- public:
-  bool Exists(const char* file) const override {
-    return fs::exists(file) || fs::exists(percent_decoded(file));  // assimp's own opens it, and waits for a pipe
-  }
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    const fs::path path = fs::exists(file) ? std::string(file) : percent_decoded(file);
-    if (!fs::is_directory(path)) check_regular(path);
-    const std::string ending = ending_of(path);
-    if (ending == ".mtl") return open_mtl(path);
-    Assimp::IOStream* stream = ending == ".obj" ? open_obj(path) : DefaultIOSystem::Open(path.c_str(), mode);
-    return stream ? new EndingStream(stream) : nullptr;
-  }
-  std::vector<std::string> found, missing, left_out;
-  std::optional<size_t> faces;  ///< of an OBJ file
-  std::string why_not;          ///< an OBJ file cannot be read
-
- private:
-  Assimp::IOStream* open_obj(const fs::path& path) {
-    if (!fs::exists(path)) return nullptr;
-    try {
-      const ObjText obj = readable_obj(read_text(path), path.string());
-      faces = obj.faces;
-      return obj.text.empty() ? nullptr : TextStream::of(obj.text);
-    } catch (const Error& error) {  // assimp would keep it to itself
-      why_not = error.what();
-      return nullptr;
-    }
-  }
-  Assimp::IOStream* open_mtl(const fs::path& path) {
-    const bool is_usable = begins_with_material(path) && fs::exists(path);
-    (is_usable ? found : missing).push_back(path.filename().string());
-    if (!is_usable) return nullptr;
-    const MtlText mtl = readable_mtl(read_text(path));
-    left_out.insert(left_out.end(), mtl.left_out.begin(), mtl.left_out.end());
-    return mtl.text.empty() ? nullptr : new EndingStream(TextStream::of(mtl.text));
-  }
-};
-
-void check_file(const fs::path& path) {
-  std::error_code failed;
-  const fs::file_status status = fs::status(path, failed);
-  if (!fs::exists(status)) throw Error("{}: no such file", path.string());
-  if (fs::is_directory(status)) throw Error("{}: is a folder; a scene is a file (OBJ, glTF, GLB)", path.string());
-  check_regular(path);
-  if (!std::ifstream(path)) throw Error("{}: cannot be opened for reading", path.string());
-  if (fs::is_regular_file(status) && fs::file_size(path) == 0) throw Error("{}: is empty (0 bytes)", path.string());
-}
-
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) != 0; }, ' ');
-  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text;
-}
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
-  if (reason.find("No suitable reader") != std::string::npos)
-    throw Error("{}: is no scene; OBJ, glTF 2 and GLB are read, and what else assimp knows (PLY, STL, FBX, ...)",
-                path.string());
-  throw Error("{}: cannot be read as a scene: {}", path.string(), reason.empty() ? "no reason given" : reason);
-}
-
-/// assimp checks the indices of some formats only, and its triangulation trusts them; and it ends the program where a
-/// mesh says that it has polygons and has none.
-void check_faces(const aiScene& scene, const fs::path& path) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    aiMesh& mesh = *scene.mMeshes[m];
-    mesh.mPrimitiveTypes = 0;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(std::max(face.mNumIndices, 1u));
-      for (unsigned i = 0; i < face.mNumIndices; ++i) {
-        if (face.mIndices[i] >= mesh.mNumVertices)
-          throw Error("{}: mesh '{}' has a face with vertex {}, and there are {}", path.string(), mesh.mName.C_Str(),
-                      face.mIndices[i], mesh.mNumVertices);
-      }
-    }
-  }
-}
-
-/// What assimp does not understand of an OBJ file it passes over without a word.
-void check_understood(const aiScene& scene, size_t expected, const fs::path& path) {
-  size_t found = 0;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    found += size_t(std::count_if(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
-                                  [](const aiFace& face) { return face.mNumIndices > 2; }));
-  }
-  if (found != expected)
-    throw Error("{}: has {} faces, and {} were understood; write it again as glTF or GLB", path.string(), expected,
-                found);
-}
-
-/// No smooth normals are made (missing ones mean flat faces) and no vertices joined.
-const aiScene& read(Assimp::Importer& importer, const fs::path& path, bool is_gltf, const Files& files) {
-  const aiScene* scene = importer.ReadFile(path.string(), 0);
-  if (!files.why_not.empty()) throw Error("{}", files.why_not);
-  if (!scene || !scene->mRootNode) refuse(path, one_line(importer.GetErrorString()));
-  check_faces(*scene, path);
-  if (files.faces) check_understood(*scene, *files.faces, path);
-  // Of glTF it gets texture transforms with a rotation wrong: import_materials takes care of those.
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | (is_gltf ? 0u : aiProcess_TransformUVCoords));
-  if (!scene) refuse(path, one_line(importer.GetErrorString()));
-  return *scene;
-}
-
-// --- Cameras
-
-/// "name", or "name 2" and so on where there is one.
-std::string unique_name(const Scene& scene, const std::string& wanted) {
-  const std::string base = wanted.empty() ? "camera" : wanted;
-  std::string name = base;
-  const auto taken = [&](const SceneCamera& camera) { return camera.name == name; };
-  for (int i = 2; std::any_of(scene.cameras.begin(), scene.cameras.end(), taken); ++i)
-    name = fmt::format("{} {}", base, i);
-  return name;
-}
-
-/// The transform of the node with a name; identity where there is none.
-glm::dmat4 to_world_of(const aiNode* node) {
-  glm::dmat4 m(1.0);
-  for (; node; node = node->mParent) m = matrix_of(node->mTransformation) * m;
-  return m;
-}
-
-/// assimp's cameras stand at a place and look along a direction within their node. The field of view is the whole
-/// horizontal angle, whatever assimp's header says of half of it.
-void add_cameras(const aiScene& from, Scene& scene) {
-  for (unsigned i = 0; i < from.mNumCameras; ++i) {
-    const aiCamera& camera = *from.mCameras[i];
-    const glm::dmat4 m = to_world_of(from.mRootNode->FindNode(camera.mName));
-    const glm::dvec3 eye(m * glm::dvec4(vector_of(camera.mPosition), 1.0));
-    const glm::dvec3 forward = glm::dmat3(m) * vector_of(camera.mLookAt), up = glm::dmat3(m) * vector_of(camera.mUp);
-    const double fov = double(camera.mHorizontalFOV) * 180 / glm::pi<double>(), width = 2.0 * camera.mOrthographicWidth;
-    const bool orthographic = width > 0, lens = orthographic ? std::isfinite(width) : fov > 0 && fov < 179.9;
-    const double area = glm::length(glm::cross(forward, up));
-    if (!lens || !finite(eye) || !std::isfinite(area) || !(area > 0)) {
-      scene.notes.push_back(
-          fmt::format("camera '{}' has no usable field of view or transform and was left out", camera.mName.C_Str()));
-      continue;
-    }
-    SceneCamera made = looking_at(unique_name(scene, camera.mName.C_Str()), glm::dvec3(0), glm::normalize(forward),
-                                  orthographic ? 60 : fov, glm::normalize(up));
-    made.pose.position = eye;
-    made.orthographic = orthographic;
-    if (orthographic) made.width = width;
-    scene.cameras.push_back(made);
-  }
-}
-
-/// From a corner above, so near that all of the bounding box is in an image of up to 16:9.
-SceneCamera overview(const Bounds& bounds, const Scene& scene) {
-  constexpr double fov_degrees = 50, margin = 1.05;
-  const glm::dvec3 side = std::abs(scene.up.x) > 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-  const glm::dvec3 out = glm::normalize(1.0 * glm::cross(side, scene.up) + 0.6 * side + 0.6 * scene.up);
-  SceneCamera camera = looking_at(unique_name(scene, "overview"), out, glm::dvec3(0), fov_degrees, scene.up);
-  const double across = std::tan(fov_degrees * glm::pi<double>() / 360), down = across * 9 / 16;
-  double distance = 0;
-  for (int i = 0; i < 8; ++i) {
-    const glm::dvec3 sign(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
-    const glm::dvec3 corner = camera.pose.world_to_view * (sign * (bounds.high - bounds.low));
-    distance = std::max(distance, corner.z + margin * std::max(std::abs(corner.x) / across, std::abs(corner.y) / down));
-  }
-  camera.pose.position = scene.origin + distance * out;
-  return camera;
-}
-
-// --- The whole
-
 /// As the file says (FBX); assimp keeps its axes, and turns others to y up.
 glm::dvec3 up_of(const aiScene& from) {
   int axis = 1, sign = 1;
@@ -267,20 +34,20 @@ glm::dvec3 up_of(const aiScene& from) {
   return up;
 }
 
-void add_notes(const Mended& mended, const Bounds& bounds, const aiScene& from, Scene& scene) {
+void add_notes(const Repairs& repairs, const Bounds& bounds, const aiScene& from, Scene& scene) {
   const auto note = [&](size_t n, const char* one, const char* many) {
     if (n > 0) scene.notes.push_back(n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many));
   };
-  note(mended.not_finite, "triangle was left out, with a vertex that is not finite",
+  note(repairs.not_finite, "triangle was left out, with a vertex that is not finite",
        "triangles were left out, with vertices that are not finite");
-  note(mended.degenerate, "triangle was left out, without an area", "triangles were left out, without an area");
-  note(mended.not_surfaces, "point or line was left out", "points and lines were left out");
-  note(mended.normals, "vertex normal was zero or not finite, and is made from the faces around it",
+  note(repairs.degenerate, "triangle was left out, without an area", "triangles were left out, without an area");
+  note(repairs.not_surfaces, "point or line was left out", "points and lines were left out");
+  note(repairs.normals, "vertex normal was zero or not finite, and is made from the faces around it",
        "vertex normals were zero or not finite, and are made from the faces around them");
-  note(mended.uvs, "texture coordinate was not finite, and is 0", "texture coordinates were not finite, and are 0");
-  note(mended.coloured, "mesh has vertex colours, which are left out",
+  note(repairs.uvs, "texture coordinate was not finite, and is 0", "texture coordinates were not finite, and are 0");
+  note(repairs.coloured, "mesh has vertex colours, which are left out",
        "meshes have vertex colours, which are left out");
-  note(mended.moving, "mesh has bones or morph targets, and stands as modelled",
+  note(repairs.moving, "mesh has bones or morph targets, and stands as modelled",
        "meshes have bones or morph targets, and stand as modelled");
   note(from.mNumLights, "light of the file was left out", "lights of the file were left out");
   const double step = bounds.largest_local * std::numeric_limits<float>::epsilon();
@@ -291,6 +58,20 @@ void add_notes(const Mended& mended, const Bounds& bounds, const aiScene& from, 
                     bounds.largest_local, step));
 }
 
+/// Of material files.
+void add_notes(const AssimpFiles& files, Scene& scene) {
+  if (files.found.empty()) {
+    for (const std::string& name : std::set(files.missing.begin(), files.missing.end()))
+      scene.notes.push_back(
+          fmt::format("material file '{}' is not there or does not begin with newmtl; its materials are plain", name));
+  }
+  if (!files.left_out.empty())
+    scene.notes.push_back(
+        fmt::format("{} of the material files {} left out, as {} no number: {}",
+                    counted(files.left_out.size(), "statement"), files.left_out.size() == 1 ? "was" : "were",
+                    files.left_out.size() == 1 ? "its value is" : "their values are", enumerate(files.left_out)));
+}
+
 void check_count(const std::vector<Instance>& instances, const fs::path& path) {
   size_t count = 0;
   for (const Instance& instance : instances) count += instance.mesh->mNumFaces;
@@ -298,22 +79,23 @@ void check_count(const std::vector<Instance>& instances, const fs::path& path) {
     throw Error("{}: has {} triangles with all instances; up to {} are read", path.string(), count, most_triangles);
 }
 
-[[noreturn]] void refuse_empty(const Mended& mended, const fs::path& path) {
+[[noreturn]] void refuse_empty(const Repairs& repairs, const fs::path& path) {
   std::vector<std::string> found;
-  if (mended.not_surfaces) found.push_back(counted(mended.not_surfaces, "point or line"));
-  if (mended.degenerate) found.push_back(counted(mended.degenerate, "triangle") + " without an area");
-  if (mended.not_finite) found.push_back(counted(mended.not_finite, "triangle") + " with vertices that are not finite");
+  if (repairs.not_surfaces) found.push_back(counted(repairs.not_surfaces, "point or line"));
+  if (repairs.degenerate) found.push_back(counted(repairs.degenerate, "triangle") + " without an area");
+  if (repairs.not_finite)
+    found.push_back(counted(repairs.not_finite, "triangle") + " with vertices that are not finite");
   throw Error("{}: has no triangles{}{}", path.string(), found.empty() ? "" : ", only ", enumerate(found));
 }
 
 Scene imported(const fs::path& path) {
-  check_file(path);
+  check_scene_file(path);
   const bool is_gltf = has_gltf_ending(path);
   const GltfJson gltf = is_gltf ? read_gltf_json(path) : GltfJson{};
   Assimp::Importer importer;
-  Files* files = new Files;
+  AssimpFiles* files = new AssimpFiles;
   importer.SetIOHandler(files);  // which owns it
-  const aiScene& from = read(importer, path, is_gltf, *files);
+  const aiScene& from = read_assimp_scene(importer, path, is_gltf, *files);
 
   Scene scene;
   scene.name = path.filename().string();
@@ -322,32 +104,19 @@ Scene imported(const fs::path& path) {
   check_count(instances, path);
   const Bounds bounds = bounds_of(instances, path);
   if (!bounds.empty()) scene.origin = 0.5 * (bounds.low + bounds.high);
-  if (files->found.empty()) {
-    for (const std::string& name : std::set(files->missing.begin(), files->missing.end()))
-      scene.notes.push_back(
-          fmt::format("material file '{}' is not there or does not begin with newmtl; its materials are plain", name));
-  }
-  if (!files->left_out.empty())
-    scene.notes.push_back(
-        fmt::format("{} of the material files {} left out, as {} no number: {}",
-                    counted(files->left_out.size(), "statement"), files->left_out.size() == 1 ? "was" : "were",
-                    files->left_out.size() == 1 ? "its value is" : "their values are", enumerate(files->left_out)));
+  add_notes(*files, scene);
   const std::vector<UvUse> uv_uses = import_materials(from, path.parent_path(), gltf.emissive_strength, scene);
-  Mended mended;
-  add_meshes(instances, uv_uses, scene, mended);
-  if (scene.faces() == 0) refuse_empty(mended, path);
-  add_notes(mended, bounds, from, scene);
+  Repairs repairs;
+  add_meshes(instances, uv_uses, scene, repairs);
+  if (scene.faces() == 0) refuse_empty(repairs, path);
+  add_notes(repairs, bounds, from, scene);
 
   scene.notes.insert(scene.notes.end(), gltf.notes.begin(), gltf.notes.end());
-  if (is_gltf) {
-    for (SceneCamera camera : gltf.cameras) {
-      camera.name = unique_name(scene, camera.name);
-      scene.cameras.push_back(camera);
-    }
-  } else {
-    add_cameras(from, scene);
-  }
-  scene.cameras.push_back(overview(bounds, scene));
+  if (is_gltf)
+    add_cameras(gltf.cameras, scene);
+  else
+    add_assimp_cameras(from, scene);
+  add_overview(bounds, scene);
   return scene;
 }
 
@@ -361,7 +130,7 @@ Scene import_scene(const fs::path& path) {
   } catch (const std::bad_alloc&) {
     throw Error("{}: not enough memory to read it", path.string());
   } catch (const std::exception& e) {
-    throw Error("{}: cannot be read as a scene: {}", path.string(), one_line(e.what()));
+    throw Error("{}: cannot be read as a scene: {}", path.string(), reason_on_one_line(e.what()));
   }
 }
 

@@ -33,8 +33,8 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
 
 class Placing {
  public:
-  Placing(const Instance& instance, const glm::dvec3& origin, Mended& mended)
-      : instance_(instance), from_(*instance.mesh), origin_(origin), mended_(mended) {
+  Placing(const Instance& instance, const glm::dvec3& origin, Repairs& repairs)
+      : instance_(instance), from_(*instance.mesh), origin_(origin), repairs_(repairs) {
     mirrored_ = glm::determinant(glm::dmat3(instance.to_world)) < 0;
   }
 
@@ -53,15 +53,15 @@ class Placing {
 
   void add(const aiFace& face) {
     if (face.mNumIndices != 3) {
-      ++mended_.not_surfaces;
+      ++repairs_.not_surfaces;
       return;
     }
     std::array<glm::vec3, 3> p;
     for (unsigned i = 0; i < 3; ++i) p[i] = glm::vec3(instance_.vertex(face.mIndices[i]) - origin_);
     if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) {
-      ++mended_.not_finite;
+      ++repairs_.not_finite;
     } else if (degenerate(p)) {
-      ++mended_.degenerate;
+      ++repairs_.degenerate;
     } else {
       glm::uvec3 t;
       for (int i = 0; i < 3; ++i) t[i] = vertex(face.mIndices[i], p[size_t(i)]);
@@ -89,7 +89,7 @@ class Placing {
       if (!usable) broken.push_back(unsigned(mesh_.normals.size()));
       mesh_.normals.push_back(usable ? glm::vec3(n / length) : glm::vec3(0));
     }
-    mended_.normals += broken.size();
+    repairs_.normals += broken.size();
     if (broken.size() == mesh_.normals.size())
       mesh_.normals.clear();
     else if (!broken.empty())
@@ -118,7 +118,7 @@ class Placing {
       const aiVector3D& uv = from_.mTextureCoords[set][from];
       const glm::vec2 used = use({uv.x, 1.0 - uv.y});
       const bool usable = std::isfinite(used.x) && std::isfinite(used.y);
-      if (!usable) ++mended_.uvs;
+      if (!usable) ++repairs_.uvs;
       mesh_.uvs.push_back(usable ? used : glm::vec2(0));
     }
   }
@@ -126,7 +126,7 @@ class Placing {
   const Instance& instance_;
   const aiMesh& from_;
   glm::dvec3 origin_;
-  Mended& mended_;
+  Repairs& repairs_;
   bool mirrored_ = false;
   Mesh mesh_;
   std::vector<unsigned> index_, source_;  // from the file's vertices to ours, and back
@@ -174,15 +174,15 @@ Bounds bounds_of(const std::vector<Instance>& instances, const std::filesystem::
 }
 
 void add_meshes(const std::vector<Instance>& instances, const std::vector<UvUse>& uv_uses, Scene& scene,
-                Mended& mended) {
+                Repairs& repairs) {
   const unsigned plain = unsigned(scene.materials.size()) - 1;
   for (const Instance& instance : instances) {
     const unsigned material = std::min(instance.mesh->mMaterialIndex, plain);
-    Mesh mesh = Placing(instance, scene.origin, mended).place(uv_uses[material]);
+    Mesh mesh = Placing(instance, scene.origin, repairs).place(uv_uses[material]);
     if (mesh.triangles.empty()) continue;
     mesh.material = int(material);
-    mended.coloured += instance.mesh->HasVertexColors(0);
-    mended.moving += instance.mesh->HasBones() || instance.mesh->mNumAnimMeshes > 0;
+    repairs.coloured += instance.mesh->HasVertexColors(0);
+    repairs.moving += instance.mesh->HasBones() || instance.mesh->mNumAnimMeshes > 0;
     scene.meshes.push_back(std::move(mesh));
   }
 }

@@ -47,8 +47,8 @@ struct Bounds {
 /// Throws Error for a coordinate too large for float.
 Bounds bounds_of(const std::vector<Instance>& instances, const std::filesystem::path& path);
 
-/// What was put right or left out.
-struct Mended {
+/// What was repaired or left out.
+struct Repairs {
   size_t degenerate = 0, not_finite = 0;  ///< triangles
   size_t not_surfaces = 0;                ///< points and lines
   size_t normals = 0, uvs = 0;            ///< of vertices
@@ -58,6 +58,6 @@ struct Mended {
 /// Adds the instances that have a triangle to `scene`, relative to its origin, with triangles turned round where the
 /// transform mirrors. The last of the scene's materials is for meshes without one. `uv_uses`: by material.
 void add_meshes(const std::vector<Instance>& instances, const std::vector<UvUse>& uv_uses, Scene& scene,
-                Mended& mended);
+                Repairs& repairs);
 
 }  // namespace gloam

@@ -1,3 +1,5 @@
+#include "gloam/scene/outline_mesh.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <tuple>
 
 #include "gloam/error.h"
-#include "gloam/scene/outlines.h"
 
 namespace gloam {
 namespace {

@@ -1,3 +1,5 @@
+#include "gloam/scene/reflection_reference.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -7,7 +9,6 @@
 #include "gloam/error.h"
 #include "gloam/projection.h"
 #include "gloam/scene/radiance.h"
-#include "gloam/scene/reference.h"
 #include "scene/fingerprint.h"
 #include "scene/reference_rows.h"
 

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "gloam/error.h"
+#include "gloam/scene/import.h"
 
 namespace gloam {
 

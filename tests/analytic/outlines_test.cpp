@@ -16,6 +16,7 @@
 #include "gloam/error.h"
 #include "gloam/scene/camera_ray.h"
 #include "gloam/scene/capture.h"
+#include "gloam/scene/import.h"
 #include "scene/built_in/mesh_builder.h"
 
 namespace gloam::test {

@@ -15,6 +15,7 @@
 #include "gloam/planes.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/reference.h"
+#include "gloam/scene/reflection_reference.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"

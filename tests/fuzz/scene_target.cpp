@@ -10,6 +10,7 @@
 #include "fuzz/target.h"
 #include "fuzz/words.h"
 #include "gloam/scene/capture.h"
+#include "gloam/scene/import.h"
 #include "gloam/scene/scene.h"
 #include "gloam/scene/tracer.h"
 

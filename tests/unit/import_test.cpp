@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "gloam/error.h"
+#include "gloam/scene/import.h"
 #include "gloam/scene/scene.h"
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "gloam/error.h"
 #include "gloam/scene/capture.h"
+#include "gloam/scene/import.h"
 #include "gloam/scene/scene.h"
 #include "gloam/scene/tracer.h"
 

@@ -84,16 +84,9 @@ struct Scene {
   glm::dvec3 up{0, 1, 0};
   Light light;
   double ao_radius = 0;            ///< the radius of ambient occlusion that suits it, scene units; 0: not known
-  std::vector<std::string> notes;  ///< what was mended or left out, one sentence each
+  std::vector<std::string> notes;  ///< what was repaired or left out, one sentence each
   size_t faces() const;
 };
-
-/// Reads OBJ, glTF 2, GLB and whatever else assimp knows (docs/scenes-from-files.md); every instance becomes a mesh, in
-/// place. Without normals a mesh is flat; normals that are zero or not finite are made from the faces around them.
-/// Triangles without an area or with vertices that are not finite are left out. Of a texture that cannot be read the
-/// factor alone is used. `notes` says so, with counts. The last camera is "overview", which sees everything.
-/// Throws Error: no such file, not a scene (with the reason), cut short, no triangles, coordinates over 1e15.
-Scene import_scene(const std::filesystem::path& path);
 
 /// A built-in scene.
 struct SceneRecipe {
@@ -111,7 +104,7 @@ const SceneRecipe* find_builtin_scene(const std::string& name);
 
 /// A scene by what a user typed: a built-in name, else a file. `settings`: name = value, for built-in scenes.
 /// Throws UsageError for a name that is neither (with the nearest built-in name), for unknown settings and for values
-/// out of range; Error as `import_scene` does.
+/// out of range; Error as `import_scene` (import.h) does.
 Scene load_scene(const std::string& name_or_path, const Settings& settings);
 
 /// How far from a scene's origin, along each axis, vertices and the starts of rays may lie: Embree computes in float, and ends the

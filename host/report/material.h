@@ -1,4 +1,4 @@
-// The parts of the generated page. Each is Markdown with its heading, or empty where nothing was measured for it.
+// What the sections of the generated page are made of.
 #pragma once
 
 #include <string>
@@ -9,7 +9,6 @@
 
 namespace gloam::report {
 
-/// What the sections are made of.
 struct Material {
   const std::vector<Source>& sources;
   Measurements all;                  ///< `joined`
@@ -19,19 +18,8 @@ struct Material {
 
 Material material_of(const std::vector<Source>& sources);
 
-std::string needs_section(const Material& material);
-std::string fronts_section(const Material& material);
-std::string scenes_section(const Material& material);
-/// Presets that take more time than a smaller one and are farther from the truth.
-std::string presets_section(const Material& material);
-std::string converged_section(const Material& material);
-std::string ladder_section(const Material& material);
-std::string floor_section(const Material& material);
-std::string scales_section(const Material& material);
-std::string planes_section(const Material& material);
-std::string others_section(const Material& material);
-
-// --- What several of them need
+/// Plain settings of techniques that read one layer of depth.
+std::vector<Row> plain_rows_over_one_layer(const std::vector<Row>& rows);
 
 /// "gtao medium, half"
 std::string setting_text(const std::string& technique, const std::string& preset, const std::string& variant = "");

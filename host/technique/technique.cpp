@@ -1,9 +1,10 @@
+#include "gloam/technique.h"
+
 #include <algorithm>
 #include <filesystem>
 
 #include "base/lists.h"
 #include "gloam/error.h"
-#include "gloam/technique.h"
 
 namespace gloam {
 

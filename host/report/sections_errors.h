@@ -1,0 +1,16 @@
+// Sections of the page on how near to the truth techniques are, and what keeps them from being nearer.
+#pragma once
+
+#include <string>
+
+#include "report/material.h"
+
+namespace gloam::report {
+
+/// Each is Markdown with its heading, or empty where nothing was measured for it.
+std::string converged_section(const Material& material);
+std::string ladder_section(const Material& material);
+std::string scales_section(const Material& material);
+std::string planes_section(const Material& material);
+
+}  // namespace gloam::report
