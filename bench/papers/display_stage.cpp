@@ -1,5 +1,6 @@
 #include "bench/papers/display_stage.h"
 
+#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/scene/light_field_capture.h"
 

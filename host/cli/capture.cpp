@@ -9,6 +9,7 @@
 #include "cli/capture_flags.h"
 #include "cli/capture_result.h"
 #include "cli/capture_shots.h"
+#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
 #include "gloam/radius.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "camera/camera_json.h"
+#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/scene/light_field_capture.h"
 

@@ -9,6 +9,7 @@
 #include "cli/options.h"
 #include "cli/plane_facts.h"
 #include "cli/radius.h"
+#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
 #include "gloam/planes.h"

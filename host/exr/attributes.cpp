@@ -1,115 +1,34 @@
 #include "exr/attributes.h"
 
-#include <map>
-#include <string>
-
-#include "gloam/error.h"
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVecAttribute.h>
 
 namespace gloam {
-namespace {
 
-namespace fs = std::filesystem;
-
-/// An attribute of a header, and where its value lies.
-struct Claim {
-  std::string name, type;
-  uint64_t begin = 0, end = 0;
-  uint64_t size() const { return end - begin; }
-};
-
-[[noreturn]] void refuse(const fs::path& path, const Claim& claim) {
-  throw Error("{}: truncated or corrupted EXR (attribute {} of type {} claims {} bytes); render or copy it again",
-              path.string(), claim.name, claim.type, claim.size());
+std::optional<Imath::M44d> matrix_attribute(const Imf::Header& header, const std::string& name) {
+  if (const auto* found = header.findTypedAttribute<Imf::M44dAttribute>(name)) return found->value();
+  if (const auto* found = header.findTypedAttribute<Imf::M44fAttribute>(name)) return Imath::M44d(found->value());
+  return {};
 }
 
-/// Up to the 0 behind it.
-std::string read_name(ExrInput& stream) {
-  std::string name;
-  for (char c = 0; stream.read(&c, 1), c != 0;) name += c;
-  return name;
+std::optional<double> number_attribute(const Imf::Header& header, const std::string& name) {
+  if (const auto* found = header.findTypedAttribute<Imf::FloatAttribute>(name)) return found->value();
+  if (const auto* found = header.findTypedAttribute<Imf::DoubleAttribute>(name)) return found->value();
+  return {};
 }
 
-uint32_t read_number(ExrInput& stream) {
-  uint8_t bytes[4];
-  stream.read(reinterpret_cast<char*>(bytes), 4);
-  return bytes[0] | uint32_t(bytes[1]) << 8 | uint32_t(bytes[2]) << 16 | uint32_t(bytes[3]) << 24;
+std::string text_attribute(const Imf::Header& header, const std::string& name) {
+  const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
+  return found ? found->value() : "";
 }
 
-/// Names with 16 bytes each, up to an empty one.
-uint64_t end_of_channels(ExrInput& stream, const Claim& claim) {
-  while (stream.tellg() < claim.end && !read_name(stream).empty()) stream.seekg(stream.tellg() + 16);
-  return stream.tellg();
-}
-
-/// Lengths with as many bytes each.
-uint64_t end_of_texts(ExrInput& stream, const Claim& claim) {
-  while (stream.tellg() < claim.end) {
-    const uint64_t length = read_number(stream);
-    stream.seekg(stream.tellg() + length);
-  }
-  return stream.tellg();
-}
-
-/// Width, height, and four bytes for each pixel.
-uint64_t end_of_preview(ExrInput& stream) {
-  const uint64_t width = read_number(stream), height = read_number(stream);
-  return width <= 1 << 16 && height <= 1 << 16 ? stream.tellg() + 4 * width * height : 0;
-}
-
-/// Where OpenEXR would be when it has read the value, for the types that it does not read by the claimed size.
-uint64_t end_of_value(ExrInput& stream, const Claim& claim) {
-  static const std::map<std::string, uint64_t> sizes = {{"box2f", 16},
-                                                        {"box2i", 16},
-                                                        {"chromaticities", 32},
-                                                        {"compression", 1},
-                                                        {"deepImageState", 1},
-                                                        {"double", 8},
-                                                        {"envmap", 1},
-                                                        {"float", 4},
-                                                        {"int", 4},
-                                                        {"keycode", 28},
-                                                        {"lineOrder", 1},
-                                                        {"m33d", 72},
-                                                        {"m33f", 36},
-                                                        {"m44d", 128},
-                                                        {"m44f", 64},
-                                                        {"rational", 8},
-                                                        {"tiledesc", 9},
-                                                        {"timecode", 8},
-                                                        {"v2d", 16},
-                                                        {"v2f", 8},
-                                                        {"v2i", 8},
-                                                        {"v3d", 24},
-                                                        {"v3f", 12},
-                                                        {"v3i", 12}};
-  if (const auto fixed = sizes.find(claim.type); fixed != sizes.end()) return claim.begin + fixed->second;
-  if (claim.type == "chlist") return end_of_channels(stream, claim);
-  if (claim.type == "stringvector") return end_of_texts(stream, claim);
-  if (claim.type == "preview") return end_of_preview(stream);
-  return claim.end;
-}
-
-/// False where the header has no attributes, which ends the headers of several parts.
-bool check_header(const fs::path& path, ExrInput& stream) {
-  bool any = false;
-  for (Claim claim; !(claim.name = read_name(stream)).empty(); any = true) {
-    claim.type = read_name(stream);
-    const uint32_t size = read_number(stream);
-    claim.begin = stream.tellg();
-    claim.end = claim.begin + size;
-    if (claim.end > stream.size() || end_of_value(stream, claim) != claim.end) refuse(path, claim);
-    stream.seekg(claim.end);
-  }
-  return any;
-}
-
-}  // namespace
-
-void check_attributes(const fs::path& path, ExrInput& stream, bool is_multipart) {
-  const uint64_t begin = stream.tellg();
-  while (check_header(path, stream) && is_multipart) {
-  }
-  stream.seekg(begin);
+std::optional<glm::dvec3> origin_attribute(const Imf::Header& header, const std::string& prefix) {
+  const auto* found = header.findTypedAttribute<Imf::V3dAttribute>(prefix + "gloamOrigin");
+  if (!found) return {};
+  return glm::dvec3(found->value().x, found->value().y, found->value().z);
 }
 
 }  // namespace gloam

@@ -1,16 +1,25 @@
-// The attributes of EXR headers, looked at before OpenEXR reads them.
+// Attributes of one EXR header, by name.
 #pragma once
 
-#include <filesystem>
+#include <Imath/ImathMatrix.h>
+#include <OpenEXR/ImfHeader.h>
 
-#include "exr/stream.h"
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
 
 namespace gloam {
 
-/// OpenEXR makes room for what an attribute claims before it reads it, and reads types that it knows by their own size,
-/// whatever the file says, so that the next attribute may be any bytes. Goes through the headers from where the stream
-/// stands, and back there. Throws Error naming the file and the attribute for one that claims more than the file has or
-/// other than its type takes, and what the stream throws at its end.
-void check_attributes(const std::filesystem::path& path, ExrInput& stream, bool is_multipart);
+/// A matrix of floats or doubles; none where the header has none of this name.
+std::optional<Imath::M44d> matrix_attribute(const Imf::Header& header, const std::string& name);
+
+/// A float or a double.
+std::optional<double> number_attribute(const Imf::Header& header, const std::string& name);
+
+/// Empty where the header has no text of this name.
+std::string text_attribute(const Imf::Header& header, const std::string& name);
+
+/// `gloamOrigin`, the place in the world that matrices and positions are relative to; none where the header does not have it.
+std::optional<glm::dvec3> origin_attribute(const Imf::Header& header, const std::string& prefix);
 
 }  // namespace gloam

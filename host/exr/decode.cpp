@@ -2,8 +2,8 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
-#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledInputPart.h>
 
 #include <algorithm>
@@ -113,11 +113,6 @@ long long count_nonfinite(const Channel& channel, const Box& data, const Window&
     for (int64_t x = data.x0 - window.x0; x < data.x1 - window.x0; ++x)
       count += !std::isfinite(channel.at(int(x), int(y)));
   return count;
-}
-
-uint64_t decoder_bytes(const Imf::Header& header) {
-  const uint64_t chunks = uint64_t(std::max(2 * Imf::globalThreadCount(), 1));
-  return chunks * 2 * uint64_t(pixels_per_chunk(header) * bytes_per_pixel(header));
 }
 
 }  // namespace gloam

@@ -3,12 +3,11 @@
 
 #include <OpenEXR/ImfMultiPartInputFile.h>
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "exr/validation.h"
+#include "exr/box.h"
 #include "gloam/frame.h"
 
 namespace gloam {
@@ -29,8 +28,5 @@ void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding
 
 /// NaN and infinite values of a channel that covers `window`, inside the data window: the rest is not in the file.
 long long count_nonfinite(const Channel& channel, const Box& data, const Window& window);
-
-/// What OpenEXR holds beside the frame while it decodes a part: chunks packed and unpacked, two for each thread.
-uint64_t decoder_bytes(const Imf::Header& header);
 
 }  // namespace gloam

@@ -1,23 +1,24 @@
-// FrameFile by rows: figures of a frame that is never in memory as a whole.
+#include "exr/rows.h"
+
 #include <algorithm>
-#include <set>
 
 #include "base/lists.h"
-#include "exr/decode.h"
-#include "exr/file.h"
-#include "exr/view_planes.h"
-#include "gloam/planes.h"
+#include "exr/assumed_camera.h"
+#include "exr/decode_planes.h"
+#include "exr/depth.h"
+#include "exr/memory.h"
+#include "exr/reflectance.h"
+#include "gloam/error.h"
 #include "normalise/normalise.h"
+#include "normalise/normals.h"
 #include "normalise/reflectance.h"
 
 namespace gloam {
 namespace {
 
-constexpr uint64_t bytes_at_once = 4 << 20;
-
-/// Sums over a view's rows.
-struct Survey {
-  explicit Survey(const Layout& image) : samples(image) {}
+/// Over a view's rows.
+struct ViewSums {
+  explicit ViewSums(const Layout& image) : samples(image) {}
   NormalSamples samples;
   long long missing = 0, missing_where_encoded = 0;  ///< normals, as they stand and as they would be decoded
   WhitePixels white;
@@ -29,167 +30,120 @@ Plane decoded(const Plane& normal, const Camera& camera) {
   return out;
 }
 
-void add_rows(Survey& survey, const View& rows, const View& whole, int first_row) {
+void add_rows(ViewSums& sums, const View& rows, const View& whole, int first_row) {
   const Plane* depth = whole.find("depth");
   if (const Plane* normal = rows.find("normal")) {
-    survey.samples.take(*normal, first_row);
+    sums.samples.take(*normal, first_row);
     if (depth) {
       const Channel& z = depth->channels.front();
-      survey.missing += count_missing_normals(*normal, z, first_row);
-      survey.missing_where_encoded += count_missing_normals(decoded(*normal, *whole.camera), z, first_row);
+      sums.missing += count_missing_normals(*normal, z, first_row);
+      sums.missing_where_encoded += count_missing_normals(decoded(*normal, *whole.camera), z, first_row);
     }
   }
   if (const Plane* reflectance = rows.find("reflectance"))
-    survey.white.add(*reflectance, depth->channels.front(), first_row);
+    sums.white.add(*reflectance, depth->channels.front(), first_row);
+}
+
+/// Planes of which something has to be known before they can be used.
+std::vector<std::string> planes_to_survey(const ExrFile& file, const Frame& frame,
+                                          const std::vector<std::string>& asked) {
+  std::vector<std::string> planes;
+  if (contains(asked, "normal")) planes.push_back("normal");
+  const auto may_be_white = [&](const View& view) { return may_be_white_by_default(file, view); };
+  if (contains(asked, "reflectance") && std::any_of(frame.views.begin(), frame.views.end(), may_be_white))
+    planes.push_back("reflectance");
+  return planes;
+}
+
+/// By the frame's views.
+std::vector<ViewSums> sums_of(const ExrFile& file, const FileCameras& cameras, const Frame& frame,
+                              const std::vector<std::string>& planes) {
+  const Layout image(file.window.width(), file.window.height());
+  std::vector<ViewSums> sums(frame.views.size(), ViewSums(image));
+  const int step = rows_at_once(file, planes);
+  for (int first = 0; !planes.empty() && first < image.height; first += step) {
+    const Frame rows = decode_rows(file, cameras, planes, first, std::min(first + step, image.height));
+    for (size_t i = 0; i < sums.size(); ++i) add_rows(sums[i], rows.views[i], frame.views[i], first);
+  }
+  return sums;
+}
+
+/// Converts the depth of all views. Returns whether some view has the background that --background names.
+bool convert_depths(const ExrFile& file, const FileCameras& cameras, Survey& survey) {
+  bool has_background = false;
+  for (View& view : survey.frame.views) {
+    assume_missing_camera(file, cameras, view, survey.frame);
+    has_background |= has_named_background(file, view);
+    survey.conventions.take(convert_depth(file, view, survey.frame));
+    view.planes.erase("alpha");
+  }
+  return has_background;
+}
+
+void settle_normals(const ExrFile& file, const View& view, const ViewSums& sums, Survey& survey) {
+  const auto count_missing = [&](const NormalForm& form) {
+    return form.is_encoded ? sums.missing_where_encoded : sums.missing;
+  };
+  const auto form = find_normal_form(file, view, sums.samples, count_missing, survey.frame);
+  survey.normal_forms[view.name] = form;
+  survey.conventions.take(form);
 }
 
 }  // namespace
 
-/// Of planes with so many rows, of all views.
-uint64_t FrameFile::Impl::bytes_of(const std::vector<std::string>& planes, int rows) const {
-  uint64_t channels = 0;
-  for (const std::string& view : names.views)
-    for (const std::string& plane : planes)
-      if (const PlaneSource* from = source(plane, view))
-        channels += from->channels.size();
-      else
-        channels += has(plane, view);
-  return channels * Layout(window.width(), rows).bytes();
+std::vector<std::string> planes_surveyed_whole(const std::vector<std::string>& asked) {
+  std::vector<std::string> planes;
+  if (!contains(planes_to_decode(asked), "depth")) return planes;
+  planes.push_back("depth");
+  if (contains(asked, "alpha")) planes.push_back("alpha");
+  return planes;
 }
 
-/// What the decoder holds beside the planes, of the part that takes most.
-uint64_t FrameFile::Impl::bytes_to_decode(const std::vector<std::string>& planes) const {
-  uint64_t most = 0;
-  for (const PlaneSource& plane : names.planes)
-    for (const ChannelSource& channel : plane.channels)
-      if (contains(planes, plane.plane)) most = std::max(most, decoder_bytes(file->header(channel.part)));
-  return most;
+std::vector<std::string> planes_by_rows(const std::vector<std::string>& asked) {
+  std::vector<std::string> planes = asked;
+  std::erase(planes, "depth");
+  return planes;
 }
 
-/// Those decoded whole: the depth, and alpha where it may tell what a depth means.
-std::vector<std::string> FrameFile::Impl::whole_planes(const std::vector<std::string>& planes) const {
-  std::vector<std::string> whole;
-  if (!contains(needed(planes), "depth")) return whole;
-  whole.push_back("depth");
-  if (contains(planes, "alpha")) whole.push_back("alpha");
-  return whole;
-}
-
-/// Those of which something has to be known before they can be used.
-std::vector<std::string> FrameFile::Impl::surveyed_planes(const Frame& frame,
-                                                          const std::vector<std::string>& planes) const {
-  std::vector<std::string> surveyed;
-  if (contains(planes, "normal")) surveyed.push_back("normal");
-  const auto in_doubt = [&](const View& view) { return is_reflectance_in_doubt(view); };
-  if (contains(planes, "reflectance") && std::any_of(frame.views.begin(), frame.views.end(), in_doubt))
-    surveyed.push_back("reflectance");
-  return surveyed;
-}
-
-Frame FrameFile::Impl::decode_rows(const std::vector<std::string>& planes, int first, int last) {
-  const Window rows{window.x0, window.y0 + first, window.x1, window.y0 + last};
-  Frame frame = guarded(path, [&] { return allocate(planes, rows); });
-  decode(frame);
+Frame decode_rows(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& planes, int first,
+                  int last) {
+  const Window& all = file.window;
+  Frame frame = allocate_planes(file, cameras, planes, {all.x0, all.y0 + first, all.x1, all.y0 + last});
+  decode_planes(file, frame);
   return frame;
 }
 
-int FrameFile::Impl::rows_at_once(const std::vector<std::string>& planes) const {
-  int64_t chunk = 1;
-  for (const PlaneSource& plane : names.planes)
-    for (const ChannelSource& channel : plane.channels)
-      if (contains(planes, plane.plane)) chunk = std::max(chunk, rows_per_chunk(file->header(channel.part)));
-  const uint64_t row = std::max<uint64_t>(bytes_of(planes, 1), 1);
-  const int64_t chunks = std::max<int64_t>(int64_t(bytes_at_once / row) / chunk, 1);
-  return int(std::min<int64_t>(chunks * chunk, window.height()));
+Survey survey_planes(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& asked,
+                     Frame frame) {
+  Survey survey{std::move(frame), {}, {}};
+  note_assumptions(file, cameras, asked, survey.frame);
+  const bool has_background = convert_depths(file, cameras, survey);
+  const std::vector<std::string> planes = planes_to_survey(file, survey.frame, asked);
+  const std::vector<ViewSums> sums = sums_of(file, cameras, survey.frame, planes);
+  for (size_t i = 0; i < sums.size(); ++i) {
+    const View& view = survey.frame.views[i];
+    if (contains(planes, "normal") && file.source("normal", view.name)) settle_normals(file, view, sums[i], survey);
+    if (contains(planes, "reflectance") && may_be_white_by_default(file, view))
+      note_white_reflectance(sums[i].white.share(), survey.frame);
+  }
+  if (!has_background) note_missing_background(file, survey.frame);
+  finish_frame(file, survey.frame);
+  return survey;
 }
 
-/// `frame`: the depth, as far as it is needed.
-void FrameFile::Impl::survey(const std::vector<std::string>& planes, Frame& frame) {
-  normal_forms.clear();
-  const std::vector<std::string> surveyed = surveyed_planes(frame, planes);
-  const Layout image(window.width(), window.height());
-  std::vector<Survey> surveys(frame.views.size(), Survey(image));
-  const int step = rows_at_once(surveyed);
-  is_surveying = true;
-  for (int first = 0; !surveyed.empty() && first < image.height; first += step) {
-    const Frame rows = decode_rows(surveyed, first, std::min(first + step, image.height));
-    for (size_t i = 0; i < surveys.size(); ++i) add_rows(surveys[i], rows.views[i], frame.views[i], first);
-  }
-  is_surveying = false;
-  for (size_t i = 0; i < surveys.size(); ++i) {
-    const View& view = frame.views[i];
-    const Survey& sums = surveys[i];
-    if (contains(surveyed, "normal") && source("normal", view.name)) {
-      const auto missing = [&](const NormalForm& form) {
-        return form.is_encoded ? sums.missing_where_encoded : sums.missing;
-      };
-      normal_forms[view.name] = settle_normals(view, sums.samples, missing, frame);
-    }
-    if (contains(surveyed, "reflectance") && is_reflectance_in_doubt(view)) note_reflectance(sums.white.share(), frame);
-  }
-}
-
-Frame FrameFile::survey(const std::vector<std::string>& planes) {
-  const std::vector<std::string> whole = impl_->whole_planes(planes);
-  Frame frame = guarded(impl_->path, [&] { return impl_->allocate(whole, impl_->window); });
-  impl_->nonfinite.clear();
-  impl_->background_seen = false;
-  // Alpha comes once more, with the rows.
-  impl_->decode(frame);
-  for (const std::string& view : views()) impl_->nonfinite.erase({"alpha", view});
-  impl_->note_names(planes, impl_->needed(planes), frame);
-  for (View& view : frame.views) {
-    impl_->settle_camera(view, frame);
-    impl_->convert_depth(view, frame);
-    view.planes.erase("alpha");
-  }
-  impl_->survey(planes, frame);
-  impl_->note_unseen_background(frame);
-  normalise_planes(frame, impl_->options.background, impl_->options.as_stored);
-  for (std::string& sentence : frame.assumed) sentence = printable(sentence);
-  return frame;
-}
-
-Frame FrameFile::read_rows(const std::vector<std::string>& planes, int first, int last) {
-  std::vector<std::string> by_rows = planes;
-  std::erase(by_rows, "depth");
-  Frame rows = impl_->decode_rows(by_rows, first, last);
+void convert_rows(const ExrFile& file, const FileCameras& cameras,
+                  const std::map<std::string, std::optional<NormalForm>>& normal_forms, Frame& rows) {
   for (View& view : rows.views) {
-    impl_->settle_camera(view, rows);
+    assume_missing_camera(file, cameras, view, rows);
     const auto normal = view.planes.find("normal");
     if (normal == view.planes.end()) continue;
-    const std::optional<NormalForm>& form = impl_->normal_forms.at(view.name);
+    const std::optional<NormalForm>& form = normal_forms.at(view.name);
     if (form)
       bring_to_view_space(normal->second, *form, *view.camera);
     else
       view.planes.erase(normal);
   }
-  normalise_planes(rows, impl_->options.background, impl_->options.as_stored);
-  return rows;
-}
-
-int FrameFile::rows_at_once(const std::vector<std::string>& planes) const {
-  std::vector<std::string> by_rows = planes;
-  std::erase(by_rows, "depth");
-  return impl_->rows_at_once(by_rows);
-}
-
-unsigned long long FrameFile::bytes_to_read(const std::vector<std::string>& planes) const {
-  const std::vector<std::string> needed = impl_->needed(planes);
-  return impl_->bytes_of(needed, window().height()) + impl_->bytes_to_decode(needed);
-}
-
-unsigned long long FrameFile::bytes_to_read_by_rows(const std::vector<std::string>& planes) const {
-  const std::vector<std::string> whole = impl_->whole_planes(planes);
-  const int rows = rows_at_once(planes);
-  std::vector<std::string> by_rows = planes;
-  std::erase(by_rows, "depth");
-  // Alpha is whole only while the depth is understood; tiles lie beside the rows that they are cut to.
-  const uint64_t at_once = std::max(2 * impl_->bytes_of(by_rows, rows),
-                                    impl_->bytes_of({"alpha"}, window().height()) * (contains(whole, "alpha") ? 1 : 0));
-  return impl_->bytes_of(contains(whole, "depth") ? std::vector<std::string>{"depth"} : std::vector<std::string>{},
-                         window().height()) +
-         at_once + impl_->bytes_to_decode(planes);
+  normalise_planes(rows, file.options.background, file.options.as_stored);
 }
 
 }  // namespace gloam

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/projection.h"
 

@@ -7,6 +7,7 @@
 #include "fuzz/json_damage.h"
 #include "fuzz/promise.h"
 #include "fuzz/target.h"
+#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
 

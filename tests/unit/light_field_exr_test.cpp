@@ -5,6 +5,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
+#include "gloam/display_json.h"
 #include "gloam/exr.h"
 #include "gloam/projection.h"
 #include "support/light_field.h"

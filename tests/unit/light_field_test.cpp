@@ -14,6 +14,7 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
+#include "gloam/display_json.h"
 #include "gloam/projection.h"
 #include "plan/key_views.h"
 #include "unit/message_of.h"

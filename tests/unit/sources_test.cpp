@@ -1,5 +1,5 @@
-// What the sources promise a reader: files of host/ are short or say why not, and the public headers show no library that
-// a program which uses gloam would have to have.
+// What the sources promise a reader: files of host/ are short or say why not, a .cpp has its own header, and the public headers
+// show no library that a program which uses gloam would have to have.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -20,8 +20,8 @@ constexpr size_t most_lines = 400;
 /// What the first comment of a longer file says, and why.
 const std::string reason = "Long, because ";
 
-/// Longer files that are to be split yet, below host/.
-const std::set<std::string> to_be_split = {"exr/read.cpp"};
+/// Folders below host/ whose files are entries of one list, and so have no header of their own.
+const std::vector<std::string> without_headers = {"cli/", "stress/cases/", "scene/built_in/"};
 
 std::vector<std::string> lines_of(const fs::path& path) {
   std::ifstream file(path);
@@ -58,6 +58,21 @@ std::vector<std::string> long_without_reason(const fs::path& host) {
   return found;
 }
 
+/// Files .cpp below `host` that have no header of their name: neither beside them nor among the public headers.
+std::vector<std::string> without_own_header(const fs::path& host) {
+  std::vector<std::string> found;
+  for (const fs::path& file : files_below(host, {".cpp"})) {
+    const std::string name = file.lexically_relative(host).generic_string();
+    const auto is_above = [&](const std::string& folder) { return name.starts_with(folder); };
+    if (std::any_of(without_headers.begin(), without_headers.end(), is_above)) continue;
+    const std::string header = file.stem().string() + ".h";
+    const fs::path folders[] = {file.parent_path(), host / "include/gloam", host / "include/gloam/scene"};
+    const auto has_header = [&](const fs::path& folder) { return fs::exists(folder / header); };
+    if (std::none_of(std::begin(folders), std::end(folders), has_header)) found.push_back(name);
+  }
+  return found;
+}
+
 /// "FILE:LINE: text" for each line of a public header that includes another than gloam's public headers, the standard's, those
 /// of glm and of fmt, or that names a type of OpenCV, Embree or OpenCL.
 std::vector<std::string> not_public(const fs::path& include) {
@@ -83,16 +98,14 @@ const fs::path host = fs::path(GLOAM_SOURCE_DIR) / "host";
 
 TEST(Sources, FilesOfTheHostAreShortOrSayWhyNot) {
   for (const std::string& file : long_without_reason(host))
-    EXPECT_TRUE(to_be_split.contains(file))
-        << "host/" << file << " has more than " << most_lines
-        << " lines: split it by its nouns, or let its first comment say '" << reason << "...'";
+    ADD_FAILURE() << "host/" << file << " has more than " << most_lines
+                  << " lines: split it by its nouns, or let its first comment say '" << reason << "...'";
 }
 
-TEST(Sources, FilesThatAreToBeSplitAreListedWhileTheyAreLong) {
-  const std::vector<std::string> found = long_without_reason(host);
-  for (const std::string& file : to_be_split)
-    EXPECT_TRUE(std::find(found.begin(), found.end(), file) != found.end())
-        << "host/" << file << " is not long any more: take it off the list in sources_test.cpp";
+TEST(Sources, ASourceFileHasItsOwnHeader) {
+  for (const std::string& file : without_own_header(host))
+    ADD_FAILURE() << "host/" << file << " has no header of its name, neither beside it nor in host/include/gloam: name "
+                  << "both alike, or declare what it defines in a header of its own";
 }
 
 TEST(Sources, PublicHeadersShowPublicHeadersOnly) {
@@ -126,6 +139,15 @@ TEST_F(MadeSources, ALongFileIsFoundUnlessItsFirstCommentSaysWhy) {
   write("room/reason.cpp", "#include \"x.h\"\n// A scene.\n// Long, because it is one.\n" + lines(401));
   write("room/late.h", "// A header.\n" + lines(401) + "// Long, because it is late.\n");
   EXPECT_EQ(long_without_reason(folder_), (std::vector<std::string>{"room/late.h", "room/long.cpp"}));
+}
+
+TEST_F(MadeSources, ASourceFileWithoutAHeaderOfItsNameIsFound) {
+  for (const char* name : {"room/beside.cpp", "room/beside.h", "room/public.cpp", "include/gloam/public.h",
+                           "scene/rays.cpp", "include/gloam/scene/rays.h", "cli/run.cpp", "stress/cases/sizes.cpp",
+                           "scene/built_in/hall.cpp", "room/lost.cpp", "other/beside.cpp", "stress/cases.cpp"})
+    write(name, lines(1));
+  EXPECT_EQ(without_own_header(folder_),
+            (std::vector<std::string>{"other/beside.cpp", "room/lost.cpp", "stress/cases.cpp"}));
 }
 
 TEST_F(MadeSources, AHeaderThatShowsWhatIsNotPublicIsFound) {

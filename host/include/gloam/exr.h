@@ -122,7 +122,7 @@ class FrameFile {
   /// looking at a file (`gloam info`), not for work on it. Throws as `read` does.
   void verify();
 
-  /// NaN and infinite values that `read` found in a plane, inside the data window, before anything was mended; 0 unless `count_nonfinite`.
+  /// NaN and infinite values that `read` found in a plane, inside the data window, before anything was repaired; 0 unless `count_nonfinite`.
   long long nonfinite(const std::string& plane, const std::string& view) const;
 
   /// How the depth will be or was understood: "z", "ray", "ndc", "reversed", "negative z"; empty without depth.

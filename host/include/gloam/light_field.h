@@ -2,7 +2,6 @@
 // moves sideways along the observer line sees another picture (Balogh et al. 2007; Doronin, Kara, Barsi, Martini 2017).
 #pragma once
 
-#include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -27,7 +26,7 @@ struct WorldToPhysical {
   glm::dvec3 origin{0.0};  ///< in double: it may be far from the world's own origin
 };
 
-/// What a display JSON says (docs/light-field.md). Lengths in the display's units.
+/// What a display JSON says (display_json.h). Lengths in the display's units.
 struct LightFieldDisplay {
   std::string name;
   double observer_distance = 1, observer_height = 0;  ///< of the observer line, from the screen's middle
@@ -37,20 +36,6 @@ struct LightFieldDisplay {
   std::vector<OpticalModule> modules;
   std::optional<WorldToPhysical> world;  ///< without it a capture chooses one
 };
-
-/// Reads a display JSON. Throws Error naming the file, the field and what is expected for what is missing, of the wrong type or
-/// not finite, and for a display that cannot be: without modules, with a screen behind its observers, with modules before the
-/// screen, with a transform that is singular or mirrors.
-LightFieldDisplay read_display(const std::filesystem::path& file);
-
-/// The same from text; `name`: of where it is from, for messages.
-LightFieldDisplay display_from_text(const std::string& text, const std::string& name);
-
-/// JSON of a display, its modules one by one: what `display_from_text` reads as the same display.
-std::string text_of(const LightFieldDisplay& display);
-
-/// Whether a JSON text is an object with modules, as a display's is and a camera's is not.
-bool is_display_text(const std::string& text);
 
 /// "module00", "module01", ...: names of views, with as many digits as the last one needs, two at least.
 std::vector<std::string> module_names(const LightFieldDisplay& display);

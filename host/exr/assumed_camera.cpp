@@ -1,0 +1,30 @@
+#include "exr/assumed_camera.h"
+
+#include "base/lists.h"
+#include "camera/field_of_view.h"
+#include "gloam/error.h"
+
+namespace gloam {
+namespace {
+
+constexpr double assumed_fov = 60;
+
+}  // namespace
+
+void assume_missing_camera(const ExrFile& file, const FileCameras& known, View& view, Frame& frame) {
+  if (view.camera) return;
+  view.camera = camera_from_fov(assumed_fov, file.display, file.pixel_aspect, "assumed 60 degrees");
+  view.camera->near = file.options.near;
+  view.camera->far = file.options.far;
+  const auto pose = known.poses.find(view.name);
+  if (pose != known.poses.end()) view.camera->pose = pose->second;
+  if (!view.find("depth") && !view.find("normal")) return;
+  // Why a JSON or half a header was of no use is said by its own sentence.
+  const bool is_explained = !known.json_misfit.empty() || pose != known.poses.end();
+  const char* none = is_explained ? "" : "none by flag, header or a JSON beside the file; ";
+  add_new(frame.assumed,
+          fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed (--fov, --camera)", none,
+                      assumed_fov));
+}
+
+}  // namespace gloam

@@ -1,0 +1,70 @@
+#include "exr/conversion.h"
+
+#include "base/lists.h"
+#include "exr/assumed_camera.h"
+#include "exr/depth.h"
+#include "exr/reflectance.h"
+#include "exr/view_planes.h"
+#include "gloam/error.h"
+#include "normalise/normalise.h"
+
+namespace gloam {
+namespace {
+
+void add_all_new(std::vector<std::string>& list, const std::vector<std::string>& items) {
+  for (const std::string& item : items) add_new(list, item);
+}
+
+/// Positions are the world's.
+void drop_positions_without_pose(View& view, Frame& frame) {
+  if (view.camera->pose || view.planes.erase("position") == 0) return;
+  add_new(frame.assumed, "positions: not used, as where the camera stands is not known (--camera tells)");
+}
+
+}  // namespace
+
+void Conventions::take(const std::string& depth_convention) {
+  if (!depth_convention.empty()) depth = depth_convention;
+}
+
+void Conventions::take(const std::optional<NormalForm>& form) {
+  if (form) normal_space = form->space == NormalSpace::world ? "world" : "view";
+}
+
+std::vector<std::string> planes_to_decode(const std::vector<std::string>& asked) {
+  std::vector<std::string> planes;
+  add_all_new(planes, asked);
+  if (contains(planes, "normal")) add_new(planes, "depth");
+  return planes;
+}
+
+void note_assumptions(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& asked,
+                      Frame& frame) {
+  const auto& by_plane = file.names.assumed;
+  if (const auto general = by_plane.find(""); general != by_plane.end()) add_all_new(frame.assumed, general->second);
+  for (const std::string& plane : planes_to_decode(asked))
+    if (const auto notes = by_plane.find(plane); notes != by_plane.end()) add_all_new(frame.assumed, notes->second);
+  add_all_new(frame.assumed, unused_planes(file.names.planes, file.names.views, asked, "--view chooses one"));
+  add_all_new(frame.assumed, file.notes);
+  add_all_new(frame.assumed, cameras.notes);
+}
+
+void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& frame, Conventions& conventions) {
+  bool has_background = false;
+  for (View& view : frame.views) {
+    assume_missing_camera(file, cameras, view, frame);
+    has_background |= has_named_background(file, view);
+    conventions.take(convert_depth(file, view, frame));
+    conventions.take(convert_normals(file, view, frame));
+    check_reflectance(file, view, frame);
+    if (!file.options.as_stored) drop_positions_without_pose(view, frame);
+  }
+  if (!has_background) note_missing_background(file, frame);
+}
+
+void finish_frame(const ExrFile& file, Frame& frame) {
+  normalise_planes(frame, file.options.background, file.options.as_stored);
+  for (std::string& sentence : frame.assumed) sentence = printable(sentence);
+}
+
+}  // namespace gloam

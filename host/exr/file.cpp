@@ -1,0 +1,106 @@
+#include "exr/file.h"
+
+#include <cstring>
+#include <limits>
+
+#include "exr/errors.h"
+#include "exr/validation.h"
+#include "exr/view_planes.h"
+#include "gloam/error.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Width over height: beyond, a header's pixelAspectRatio is no statement about pixels.
+constexpr float narrowest_pixel = 0.01f;
+
+void check_magic(ExrInput& stream, const fs::path& path) {
+  char magic[4] = {};
+  if (stream.size() >= 4) stream.read(magic, 4);
+  stream.seekg(0);
+  if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) != 0) throw Error("{}: is not an EXR file", path.string());
+}
+
+void open_parts(ExrFile& file) {
+  file.stream = std::make_unique<ExrInput>(file.path);
+  check_magic(*file.stream, file.path);
+  use_all_threads();
+  guarded(file.path, [&] {
+    check_headers(file.path, *file.stream, file.options.most_pixels);
+    file.parts = std::make_unique<Imf::MultiPartInputFile>(*file.stream);
+  });
+  check_parts(file.path, *file.parts, file.options.most_pixels);
+}
+
+void find_planes(ExrFile& file) {
+  named(file.path, [&] {
+    file.names =
+        name_planes(file.headers.channels(), file.headers.listed_views(), {file.options.views, file.options.channels});
+  });
+  // Mitsuba's depth is the length of the ray, whatever the user called the channel.
+  if (file.headers.text("generatedBy").find("Mitsuba") == std::string::npos) return;
+  for (PlaneSource& plane : file.names.planes)
+    if (plane.plane == "depth") plane.said = DeclaredConvention::ray_distance;
+}
+
+void find_pixel_aspect(ExrFile& file) {
+  const float aspect = file.headers.of_part(0).pixelAspectRatio();
+  if (aspect >= narrowest_pixel && aspect <= 1 / narrowest_pixel)
+    file.pixel_aspect = double(aspect);
+  else
+    file.notes.push_back(fmt::format("camera: pixelAspectRatio {:g} in the header cannot be; 1 is taken", aspect));
+}
+
+void find_windows(ExrFile& file) {
+  Box box = box_of(file.headers.of_part(0).displayWindow());
+  file.display = window_of(box);
+  for (const PlaneSource& plane : file.names.planes)
+    for (const ChannelSource& channel : plane.channels)
+      box = united(box, box_of(file.headers.of_part(channel.part).dataWindow()));
+  set_window(file, box);
+}
+
+}  // namespace
+
+const PlaneSource* ExrFile::source(const std::string& plane, const std::string& view) const {
+  return find_source(names.planes, plane, view);
+}
+
+bool ExrFile::has(const std::string& plane, const std::string& view) const {
+  return has_plane(names.planes, plane, view);
+}
+
+ExrFile open_exr(const fs::path& path, const ReadOptions& options) {
+  ExrFile file;
+  file.path = path;
+  file.options = options;
+  open_parts(file);
+  guarded(path, [&] {
+    file.headers = Headers(*file.parts);
+    if (file.headers.has_views_by_part_names())
+      file.notes.push_back("views: left and right are taken from the names of the parts");
+    find_planes(file);
+    find_pixel_aspect(file);
+    find_windows(file);
+  });
+  return file;
+}
+
+void choose_view(ExrFile& file, const std::string& view) {
+  file.options.views = {view};
+  guarded(file.path, [&] { find_planes(file); });
+}
+
+void set_window(ExrFile& file, const Box& window) {
+  check_size(file.path, window, "display and data", file.options.most_pixels);
+  // Rows are padded: a frame of one column takes sixteen.
+  const Layout layout(int(window.x1 - window.x0), int(window.y1 - window.y0));
+  if (layout.count() > size_t(std::numeric_limits<int>::max()))
+    throw Error("{}: {} x {} pixels take {} x {} with their padding, more than 2^31", file.path.string(), layout.width,
+                layout.height, layout.pitch, layout.height);
+  file.window = window_of(window);
+}
+
+}  // namespace gloam

@@ -1,0 +1,35 @@
+// The channels that a frame is written as.
+#pragma once
+
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfPixelType.h>
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <list>
+#include <string>
+#include <vector>
+
+#include "gloam/exr.h"
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// A channel on its way into the file: straight from the frame, or from a copy in another type.
+struct WrittenChannel {
+  std::string name;
+  Imf::PixelType type;
+  const Channel* channel;
+  double shift = 0;  ///< added on the way: positions move to the written origin
+};
+
+/// gloam's channel names, in OpenEXR's multi-view form.
+std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOptions& options);
+
+/// Copies of channels, which have to live until the file is written.
+using ChannelCopies = std::list<std::vector<uint32_t>>;
+
+/// Where OpenEXR finds a channel's values, packed into `copies` where their type differs.
+Imf::Slice slice_for(ChannelCopies& copies, const WrittenChannel& written, const Window& window);
+
+}  // namespace gloam

@@ -1,0 +1,21 @@
+// The header that a frame is written with.
+#pragma once
+
+#include <OpenEXR/ImfHeader.h>
+
+#include <string>
+#include <vector>
+
+#include "exr/written_channels.h"
+#include "gloam/exr.h"
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// Throws UsageError for a compression that is unknown or loses bits.
+void check_compression(const std::string& name);
+
+/// Windows, channels, views, cameras and attributes.
+Imf::Header header_of(const Frame& frame, const std::vector<WrittenChannel>& channels, const WriteOptions& options);
+
+}  // namespace gloam
