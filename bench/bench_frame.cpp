@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 
+#include "base/lists.h"
 #include "base/low_discrepancy.h"
 #include "bench/measures.h"
 #include "bench/native.h"
+#include "cli/typed.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "loggia.h"
@@ -99,31 +100,29 @@ float radius_reaching(const Frame& frame, double pixels) { return float(pixels /
 
 std::string size_name(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
 
-std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv, std::pair<int, int> usual) {
-  std::vector<std::pair<int, int>> sizes;
-  const std::string prefix = "--size=";
-  const auto taken = [&](const char* argument) {
-    if (std::strncmp(argument, prefix.c_str(), prefix.size()) != 0) return false;
-    int width = 0, height = 0;
-    const char* value = argument + prefix.size();
-    if (std::sscanf(value, "%dx%d", &width, &height) != 2 || width < 1 || height < 1 || width > 16384 ||
-        height > 16384) {
-      throw UsageError("--size={}: WIDTHxHEIGHT, 1x1 to 16384x16384", value);
-    }
-    sizes.emplace_back(width, height);
+void add_sizes(CLI::App& flags, std::vector<std::pair<int, int>>& sizes) {
+  const CLI::callback_t take = [&sizes](const CLI::results_t& texts) {
+    sizes.clear();
+    for (const std::string& text : texts) sizes.push_back(cli::parse_size(text, "--size"));
     return true;
   };
-  argc = int(std::remove_if(argv + 1, argv + argc, taken) - argv);
-  if (sizes.empty()) sizes.push_back(usual);
-  return sizes;
+  flags.add_option("--size", take)
+      ->expected(1)
+      ->take_all()
+      ->check(cli::accepted_by(cli::parse_size, "--size"))
+      ->type_name("WIDTHxHEIGHT");
 }
 
-bool take_flag(int& argc, char** argv, const std::string& name) {
-  const auto is_flag = [&](const char* argument) { return argument == "--" + name; };
-  char** end = std::remove_if(argv + 1, argv + argc, is_flag);
-  const bool found = end != argv + argc;
-  argc = int(end - argv);
-  return found;
+void take_flags(CLI::App& flags, int& argc, char** argv) {
+  flags.set_help_flag();  // Google Benchmark has one
+  flags.allow_extras();
+  try {
+    flags.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError("{}", error.what());
+  }
+  const std::vector<std::string> others = flags.remaining();
+  argc = int(std::remove_if(argv + 1, argv + argc, [&](const char* text) { return !contains(others, text); }) - argv);
 }
 
 int run_program(const char* name, int argc, char** argv, int (*main)(int, char**)) {

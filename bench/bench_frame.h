@@ -1,6 +1,7 @@
 // What the benchmarks run on, and what every benchmark program does first.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,11 +29,11 @@ float radius_reaching(const Frame& frame, double pixels);
 /// "1920x1080"
 std::string size_name(const Frame& frame);
 
-/// Takes --size=WIDTHxHEIGHT (repeatable) out of the command line; `usual` where there is none. Throws UsageError.
-std::vector<std::pair<int, int>> take_sizes(int& argc, char** argv, std::pair<int, int> usual = {1920, 1080});
+/// --size=WIDTHxHEIGHT, repeatable. `sizes` holds what is measured without it.
+void add_sizes(CLI::App& flags, std::vector<std::pair<int, int>>& sizes);
 
-/// Takes --NAME out of the command line; whether it was there.
-bool take_flag(int& argc, char** argv, const std::string& name);
+/// Takes flags out of the command line, and leaves in it what is none of them: names, Google Benchmark's flags. Throws UsageError.
+void take_flags(CLI::App& flags, int& argc, char** argv);
 
 /// Runs a program's main function; an error is one line that begins with the program's name. Returns the exit status.
 int run_program(const char* name, int argc, char** argv, int (*main)(int argc, char** argv));

@@ -67,7 +67,10 @@ std::vector<const Technique*> chosen(int argc, char** argv) {
 }
 
 int bench_main(int argc, char** argv) {
-  std::vector<std::pair<int, int>> sizes = take_sizes(argc, argv, {960, 540});
+  std::vector<std::pair<int, int>> sizes = {{960, 540}};
+  CLI::App flags;
+  add_sizes(flags, sizes);
+  take_flags(flags, argc, argv);
   const std::vector<const Technique*> techniques = chosen(argc, argv);
   Device device;
   for (const auto& [width, height] : sizes) {

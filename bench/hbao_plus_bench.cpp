@@ -140,20 +140,24 @@ bool writes_data_to_stdout(int argc, char** argv) {
 }
 
 int bench_main(int argc, char** argv) {
-  const bool table = !take_flag(argc, argv, "no_table");
-  const bool with_naive = !take_flag(argc, argv, "no_naive");
+  bool no_table = false, no_naive = false;
+  std::vector<std::pair<int, int>> sizes = {{1920, 1080}};
+  CLI::App flags;
+  flags.add_flag("--no_table", no_table);
+  flags.add_flag("--no_naive", no_naive);
+  add_sizes(flags, sizes);
+  take_flags(flags, argc, argv);
   std::FILE* const table_out = writes_data_to_stdout(argc, argv) ? stderr : stdout;
-  const auto sizes = take_sizes(argc, argv);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   Device device;
   std::vector<std::unique_ptr<Arena>> arenas;
   for (const auto& [width, height] : sizes) {
-    arenas.push_back(std::make_unique<Arena>(device, width, height, with_naive));
+    arenas.push_back(std::make_unique<Arena>(device, width, height, !no_naive));
   }
   for (const auto& arena : arenas) add_benchmarks(*arena);
   benchmark::RunSpecifiedBenchmarks();
-  if (table) {
+  if (!no_table) {
     for (const auto& arena : arenas) print_table(table_out, *arena);
   }
   return 0;

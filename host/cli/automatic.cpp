@@ -24,7 +24,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct AutoCommand {
   std::string out, explain, compression = "zip";
-  std::string mask = "measured";
+  MaskUse mask = MaskUse::measured;
   bool half = false, measure = false;
   FrameArguments frame;
   FrameFlags frame_flags;
@@ -75,11 +75,6 @@ void probe_closely_for_picture(EffectChoice& choice, const EffectProbe& probe) {
   if (choice.is_wanted && !choice.is_everywhere) probe_closely(choice, probe);
 }
 
-MaskUse mask_use(const std::string& word) {
-  return one_of<MaskUse>(word, "--mask",
-                         {{"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}});
-}
-
 Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const EffectProbe& probe, Frame& out) {
   Outcome outcome{.decision = decide(technique, probe)};
   EffectChoice& effect = outcome.decision.effect;
@@ -89,7 +84,7 @@ Outcome outcome_of(const Technique& technique, const AutoCommand& flags, const E
   }
   outcome.ms = effect.classify_ms;
   if (effect.is_wanted) {
-    Computed computed = compute(outcome.decision, probe, mask_use(flags.mask));
+    Computed computed = compute(outcome.decision, probe, flags.mask);
     outcome.ms += computed.ms;
     outcome.is_masked = computed.is_masked;
     outcome.ms_masked = computed.ms_masked;
@@ -275,11 +270,9 @@ unsigned long long bytes_of_auto(const FrameFiles& files, const std::vector<std:
 
 void auto_command(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
-  mask_use(flags.mask);
   // What is compared is not to hold what a device does once.
   if (flags.measure) options.repeat = std::max(options.repeat, 3);
   const WriteOptions writing{flags.half, flags.compression};
-  check(writing);
   check_frame_name(flags.out, "-o");
   check_picture_name(flags.explain, "--explain");
   std::vector<NamedPath> inputs = flags.frame.inputs();
@@ -362,17 +355,14 @@ void add_auto(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
   command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
       ->type_name("OUT.png");
-  command
-      ->add_option(
-          "--mask", flags->mask,
-          "whether an effect is computed only where the frame calls for it: measured (the default: both ways are "
-          "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more), always or never")
-      ->type_name("WHEN");
+  add_choice(*command, "--mask", flags->mask,
+             {{"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}},
+             "whether an effect is computed only where the frame calls for it; measured (the default): both ways are "
+             "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more");
   command->add_flag("--measure", flags->measure,
                     "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
   command->add_flag("--half", flags->half, "write results as half instead of float");
-  command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")
-      ->type_name("NAME");
+  add_compression(*command, flags->compression);
   flags->technique_flags.add_to(*command, false);
   flags->run_flags.add_to(*command);
   flags->frame_flags.add_to(*command);

@@ -24,9 +24,13 @@ constexpr size_t most_swept = 1000;
 
 struct BenchCommand {
   std::vector<std::string> truths;
-  std::string paper, folder, techniques, scenes, presets, frame, size, rays, radius, rounds = "9", device, variants,
-                                                                                     ladder = "presets";
+  std::string paper, folder, techniques, scenes, presets, frame, device, variants;
   std::vector<std::string> sweeps;
+  std::optional<Size> size;
+  std::optional<int> rays;
+  std::optional<double> radius;
+  int rounds = 9;
+  LadderFor ladder = LadderFor::presets;
   bool no_growth = false, no_checks = false, no_images = false;
   FrameFlags frame_flags;
   JsonFlag json;
@@ -153,14 +157,6 @@ void choose_sweeps(Options& options, const std::vector<std::string>& items, Meas
   for (const Sweep& sweep : options.sweeps) check_sweep(options, sweep, swept, result);
 }
 
-LadderFor parse_ladder(const std::string& text) {
-  if (text == "none") return LadderFor::none;
-  if (text == "presets") return LadderFor::presets;
-  if (text == "all") return LadderFor::all;
-  const std::vector<std::string> known = {"none", "presets", "all"};
-  throw UsageError("--ladder {} is not allowed{}; {} are", text, suggestion(text, known), enumerate(known));
-}
-
 /// The techniques asked for; else those over one depth, since layers take several times as long.
 void choose_growth(Options& options, const BenchCommand& flags) {
   if (flags.no_growth) return;
@@ -179,15 +175,14 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   options.checks = !flags.no_checks;
   options.layers_in_full = !flags.techniques.empty();
   if (flags.frame.empty()) choose_scenes(options, flags.scenes);
-  std::tie(options.scene.width, options.scene.height) =
-      parse_size(flags.size.empty() ? "960x540" : flags.size, "--size");
+  if (flags.size) std::tie(options.scene.width, options.scene.height) = *flags.size;
   options.scene.layers = peeled_layers;
-  if (!flags.rays.empty()) options.scene.rays = parse_rays(flags.rays);
-  if (!flags.radius.empty()) options.scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
+  options.scene.rays = flags.rays.value_or(options.scene.rays);
+  options.scene.radius = flags.radius;
   options.scene.folder = std::filesystem::path(flags.folder) / "scenes";
   options.scene.progress = options.progress = show_status;
-  options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
-  options.ladder = parse_ladder(flags.ladder);
+  options.rounds = flags.rounds;
+  options.ladder = flags.ladder;
   if (!flags.no_images) options.folder = flags.folder;
   return options;
 }
@@ -252,7 +247,7 @@ void print(const Measurement& result, const Options& options, const DeviceInfo& 
 
 void bench_command(const BenchCommand& flags) {
   if (!flags.paper.empty()) {
-    bench_paper({flags.paper, flags.folder, flags.size, flags.rounds, flags.rays, flags.device}, flags.json);
+    bench_paper({flags.paper, flags.folder, flags.device, flags.size, flags.rays, flags.rounds}, flags.json);
     return;
   }
   if (!make_openmp_wait_passively())
@@ -321,17 +316,15 @@ void add_bench(CLI::App& app) {
       ->take_all()
       ->type_name("REF.exr")
       ->needs(frame);
-  CLI::Option* size =
-      command->add_option("--size", flags->size, "of the scenes' images; default 960x540, with --paper 1920x1080")
-          ->type_name("WxH");
+  CLI::Option* size = add_parsed(*command, "--size", flags->size, parse_size,
+                                 "of the scenes' images; default 960x540, with --paper 1920x1080")
+                          ->type_name("WxH");
   frame->excludes(scenes)->excludes(size);
-  command
-      ->add_option("--rays", flags->rays,
-                   "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need")
+  add_number(*command, "--rays", flags->rays, allowed_rays,
+             "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need")
       ->type_name("N");
-  command
-      ->add_option("--radius", flags->radius,
-                   "scene units; default: the truth's, else the scene's own, else made from the frame")
+  add_number(*command, "--radius", flags->radius, allowed_radii,
+             "scene units; default: the truth's, else the scene's own, else made from the frame")
       ->type_name("R");
   command
       ->add_option("--variants", flags->variants,
@@ -345,11 +338,11 @@ void add_bench(CLI::App& app) {
       ->type_name("NAME=V1,V2")
       ->expected(1)
       ->take_all();
-  command
-      ->add_option("--ladder", flags->ladder,
-                   "where errors come from, step by step, of none, presets or all (variants too); default presets")
-      ->type_name("WHICH");
-  command->add_option("--rounds", flags->rounds, "each runs everything once, in turn; default 9")->type_name("N");
+  add_choice(*command, "--ladder", flags->ladder,
+             {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
+             "where errors come from, step by step; all: of variants too; default presets");
+  add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each runs everything once, in turn; default 9")
+      ->type_name("N");
   command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");
   command->add_flag("--no-checks", flags->no_checks,
                     "leave out what changes with the resolution and what bare planes read");

@@ -40,9 +40,9 @@ void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
                        .height = paper.height,
                        .rays = paper.rays,
                        .progress = show_status};
-  if (!flags.size.empty()) std::tie(options.width, options.height) = parse_size(flags.size, "--size");
-  options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
-  if (!flags.rays.empty()) options.rays = parse_rays(flags.rays);
+  if (flags.size) std::tie(options.width, options.height) = *flags.size;
+  options.rounds = flags.rounds;
+  options.rays = flags.rays.value_or(options.rays);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
   if (error) throw Error("-o {}: cannot be made ({})", options.folder.string(), error.message());

@@ -1,6 +1,7 @@
 // gloam bench --paper NAME
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,10 @@
 namespace gloam::cli {
 
 struct PaperFlags {
-  std::string paper, folder, size, rounds, rays, device;
+  std::string paper, folder, device;
+  std::optional<Size> size;
+  std::optional<int> rays;
+  int rounds = 0;
 };
 
 std::vector<std::string> paper_names();

@@ -54,8 +54,7 @@ void take(const CaptureShot& shot, const Tracer& tracer, CaptureOptions options,
   figures.files.push_back(shot.file);
 }
 
-void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
-  check(write);
+void check_flags(const CaptureCommand& flags) {
   check_picture_name(flags.picture, "--picture");
   check_frame_name(flags.out, "-o");
   check_second_view_flags(flags);
@@ -69,6 +68,12 @@ void check_flags(const CaptureCommand& flags, const WriteOptions& write) {
         "--fov");
   if (!flags.picture.empty() && !flags.planes.empty() && !contains(split_list(flags.planes, "--planes"), "color"))
     throw UsageError("--picture shows the plane color; add it to --planes");
+}
+
+Choices<OutlineMethod> methods_by_name() {
+  Choices<OutlineMethod> choices;
+  for (const std::string& name : outline_methods()) choices.emplace_back(name, OutlineMethod(choices.size()));
+  return choices;
 }
 
 /// None of what is written may be what is read, or be written twice.
@@ -87,13 +92,13 @@ void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& sh
 
 void capture_command(const CaptureCommand& flags) {
   const WriteOptions write{flags.half, flags.compression};
-  check_flags(flags, write);
+  check_flags(flags);
   if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
   if (!flags.display.empty()) read_display(flags.display);                       // what is wrong with it is said first
   CaptureOptions options;
-  if (!flags.size.empty()) std::tie(options.width, options.height) = parse_size(flags.size, "--size");
+  if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.planes = planes_of(flags);
-  options.peel = parse_whole_number(flags.peel, "--peel", 0, 64);
+  options.peel = flags.peel;
   options.stochastic = stochastic_of(flags);
   const std::optional<OutlineOptions> outline_options = outlines_of(flags);
   options.second_view = second_view_of(flags);
@@ -136,35 +141,33 @@ void add_capture(CLI::App& app) {
       ->required()
       ->type_name("SCENE");
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("FRAME.exr");
-  command->add_option("--size", flags->size, "of the image; default 1920x1080")->type_name("WxH");
+  add_parsed(*command, "--size", flags->size, parse_size, "of the image; default 1920x1080")->type_name("WxH");
   command->add_option("--planes", flags->planes, "these planes and depth only: " + enumerate(capture_planes()))
       ->type_name("A,B");
-  command->add_option("--peel", flags->peel, "depth layers to store per pixel, 0 to 64")->type_name("N");
-  command->add_option("--stochastic", flags->stochastic, "samples of a stochastic depth map of all surfaces, 1 to 16")
+  add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64")->type_name("N");
+  add_number(*command, "--stochastic", flags->stochastic, {1, 16},
+             "samples of a stochastic depth map of all surfaces, 1 to 16")
       ->type_name("S");
-  command->add_option("--alpha", flags->alpha, "share of the samples that a surface is offered to; default 0.2")
+  add_number(*command, "--alpha", flags->alpha, {0, 1},
+             "share of the samples that a surface is offered to; default 0.2")
       ->type_name("A");
-  command->add_option("--stochastic-seed", flags->stochastic_seed, "of its random choices; default 0")->type_name("N");
-  command
-      ->add_option("--outlines", flags->outlines,
-                   "count per pixel the outlines, that many scene units around the objects, that it is in")
+  add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds, "of its random choices; default 0")
+      ->type_name("N");
+  add_number(*command, "--outlines", flags->outlines, {1e-15, 1e15},
+             "count per pixel the outlines, that many scene units around the objects, that it is in")
       ->type_name("EXTENT");
-  command
-      ->add_option("--outline-method", flags->outline_method,
-                   "how outlines are made: " + enumerate(outline_methods()) + "; default integrated")
-      ->type_name("NAME");
-  command
-      ->add_option("--outline-angle", flags->outline_angle,
-                   "degrees between face normals that count as one, 0 to 90; default 1")
+  add_choice(*command, "--outline-method", flags->outline_method, methods_by_name(),
+             "how outlines are made; default integrated");
+  add_number(*command, "--outline-angle", flags->outline_angle, {0, 90},
+             "degrees between face normals that count as one, 0 to 90; default 1")
       ->type_name("DEGREES");
-  command->add_option("--view2", flags->view2, "also a second view, turned by that many degrees, -90 to 90")
+  add_number(*command, "--view2", flags->view2, {-90, 90}, "also a second view, turned by that many degrees, -90 to 90")
       ->type_name("ANGLE");
-  command
-      ->add_option("--stereo", flags->stereo,
-                   "two views, left and right: eyes that many scene units apart, the camera between")
+  add_number(*command, "--stereo", flags->stereo, {0, 1e30},
+             "two views, left and right: eyes that many scene units apart, the camera between")
       ->type_name("IPD");
-  command
-      ->add_option("--convergence", flags->convergence, "with --stereo: depth of no disparity; default: parallel eyes")
+  add_number(*command, "--convergence", flags->convergence, {1e-30, 1e30},
+             "with --stereo: depth of no disparity; default: parallel eyes")
       ->type_name("D");
   command->add_flag("--toe-in", flags->toe_in, "with --convergence: turn the eyes, instead of shifting their frusta");
   command
@@ -172,13 +175,14 @@ void add_capture(CLI::App& app) {
                    "the views of all optical modules of a light-field display (docs/light-field.md), in its size")
       ->type_name("FILE.json");
   command->add_option("--modules", flags->modules, "with --display: these only, by number: 0,5,10-19")
+      ->check(accepted_by(parse_modules, "--modules"))  // stays text: how many there are the display says
       ->type_name("N,N-N");
   command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
   command->add_flag("--half", flags->half, "store bounded planes as half");
-  command->add_option("--compression", flags->compression, "zip, zips, piz, rle or none")->type_name("NAME");
+  add_compression(*command, flags->compression);
   flags->camera.add_to(*command);
   flags->scene.add_settings_to(*command);
   flags->json.add_to(*command);

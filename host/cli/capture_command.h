@@ -12,9 +12,13 @@
 namespace gloam::cli {
 
 struct CaptureCommand {
-  std::string out, size, planes, peel = "0", path, picture, compression = "zip";
+  std::string out, planes, path, picture, compression = "zip";
   std::string display, modules;
-  std::string stochastic, alpha, stochastic_seed, view2, stereo, convergence, outlines, outline_method, outline_angle;
+  std::optional<Size> size;
+  int peel = 0;
+  std::optional<int> stochastic, stochastic_seed;
+  std::optional<double> alpha, view2, stereo, convergence, outlines, outline_angle;
+  std::optional<OutlineMethod> outline_method;
   bool half = false, toe_in = false, separate = false;
   SceneFlags scene;
   SceneCameraFlags camera;

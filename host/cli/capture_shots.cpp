@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "camera/camera_json.h"
 #include "gloam/display_json.h"
@@ -13,10 +14,10 @@ namespace {
 
 /// A camera file may hold more than the one view that two are made of.
 void check_single_view(const CaptureCommand& flags, const std::vector<CaptureView>& views) {
-  if ((flags.view2.empty() && flags.stereo.empty()) || views.size() == 1) return;
+  if ((!flags.view2 && !flags.stereo) || views.size() == 1) return;
   std::vector<std::string> names;
   for (const CaptureView& view : views) names.push_back("'" + view.name + "'");
-  const char* flag = flags.view2.empty() ? "--stereo" : "--view2";
+  const char* flag = flags.view2 ? "--view2" : "--stereo";
   throw UsageError("{} makes two views of one, and {} has {}; leave out {}, or give a camera of one view", flag,
                    flags.camera.camera, enumerate(names), flag);
 }
@@ -40,12 +41,9 @@ std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
     for (size_t i = 0; i < count; ++i) chosen.push_back(i);
     return chosen;
   }
-  for (const std::string& item : split_list(flags.modules, "--modules")) {
-    const size_t dash = item.find('-');
-    const int last_allowed = int(count) - 1;
-    const int from = parse_whole_number(item.substr(0, dash), "--modules", 0, last_allowed);
-    const int to =
-        dash == std::string::npos ? from : parse_whole_number(item.substr(dash + 1), "--modules", from, last_allowed);
+  for (const auto& [from, to] : parse_modules(flags.modules, "--modules")) {
+    check_number(from, "--modules", {0, int(count) - 1});
+    check_number(to, "--modules", {from, int(count) - 1});
     for (int i = from; i <= to; ++i) {
       if (std::find(chosen.begin(), chosen.end(), size_t(i)) != chosen.end())
         throw UsageError("--modules {}: names module {} twice; name each once", flags.modules, i);
@@ -82,9 +80,27 @@ LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer)
 
 }  // namespace
 
+std::vector<std::pair<int, int>> parse_modules(const std::string& text, const std::string& flag) {
+  constexpr int most = std::numeric_limits<int>::max();
+  std::vector<std::pair<int, int>> items;
+  try {
+    for (const std::string& item : split_list(text, flag)) {
+      const size_t dash = item.find('-');
+      const int first = parse_number(item.substr(0, dash), flag, Range<int>{0, most});
+      items.emplace_back(first, dash == std::string::npos
+                                    ? first
+                                    : parse_number(item.substr(dash + 1), flag, Range<int>{first, most}));
+    }
+  } catch (const UsageError&) {
+    throw UsageError("{} {} is not allowed; numbers and what lies between two of them are, such as 0,5,10-19", flag,
+                     text);
+  }
+  return items;
+}
+
 std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
   const LightFieldDisplay display = display_for(flags, tracer);
-  if (flags.size.empty()) options.width = display.width, options.height = display.height;
+  if (!flags.size) options.width = display.width, options.height = display.height;
   const std::vector<CaptureView> views = module_views(display, options.width, options.height);
   std::vector<CaptureShot> shots;
   if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});

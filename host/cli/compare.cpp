@@ -83,7 +83,7 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_
 
 /// By the flag, else by what the reference says.
 double exposure_of(const CompareFlags& flags, const FrameFile& reference, const std::string& plane) {
-  if (!flags.exposure.empty()) return parse_number(flags.exposure, "--exposure", 1e-30, 1e30);
+  if (flags.exposure) return *flags.exposure;
   return plane == "reflection" ? reference.number_attribute("gloamExposure").value_or(0) : 0;
 }
 
@@ -351,11 +351,10 @@ void add_compare(CLI::App& app) {
       ->add_option("--frame", flags->frame,
                    "frame whose depth tells the background; with --stereo also its normals and cameras count")
       ->type_name("FRAME.exr");
-  command
-      ->add_option(
-          "--exposure", flags->exposure,
-          "of radiance, before SSIM, GMSD and FLIP; default: what the truth of a reflection says, else the values as "
-          "they are")
+  add_number(
+      *command, "--exposure", flags->exposure, {1e-30, 1e30},
+      "of radiance, before SSIM, GMSD and FLIP; default: what the truth of a reflection says, else the values as "
+      "they are")
       ->type_name("FACTOR");
   stereo->add_to(*command);
   flags->frame_flags.add_to(*command);
@@ -370,8 +369,8 @@ void add_compare(CLI::App& app) {
       "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
   command->callback([flags, stereo] {
     flags->take_plane_names();
-    if (stereo->is_asked_for && !flags->exposure.empty())
-      throw UsageError("--exposure {}: two views are compared as they are; leave it out", flags->exposure);
+    if (stereo->is_asked_for && flags->exposure)
+      throw UsageError("--exposure {}: two views are compared as they are; leave it out", *flags->exposure);
     if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
     if (flags->reference.empty())
       throw UsageError(

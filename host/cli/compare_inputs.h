@@ -1,6 +1,7 @@
 // What the forms of `gloam compare` share: flags, which planes are worth comparing, what lies under what.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace gloam::cli {
 
 /// Flags of both forms.
 struct CompareFlags {
-  std::string test, reference, picture, frame, plane, exposure;
+  std::string test, reference, picture, frame, plane;
+  std::optional<double> exposure;
   FrameFlags frame_flags;
   JsonFlag json;
 

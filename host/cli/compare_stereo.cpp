@@ -196,15 +196,15 @@ void write_errors(const std::string& path, Frame& pair, const StereoInconsistenc
 bool is_frame_name(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
 
 /// Returns the files written.
-std::vector<std::string> write_pictures(const CompareFlags& flags, const StereoFlags& stereo, double magnify,
-                                        Frame& pair, const std::string& plane, const StereoInconsistency& result) {
+std::vector<std::string> write_pictures(const CompareFlags& flags, const StereoFlags& stereo, Frame& pair,
+                                        const std::string& plane, const StereoInconsistency& result) {
   const Plane &left = *pair.views[0].find(plane), &right = *pair.views[1].find(plane);
   std::vector<std::string> written;
   if (is_frame_name(flags.picture)) {
     write_errors(flags.picture, pair, result);
     written.push_back(flags.picture);
   } else if (!flags.picture.empty()) {
-    write_inconsistency_picture(flags.picture, left, result.views[0], magnify);
+    write_inconsistency_picture(flags.picture, left, result.views[0], stereo.magnify);
     written.push_back(flags.picture);
   }
   if (!stereo.anaglyph.empty()) {
@@ -247,7 +247,7 @@ void check_names(const CompareFlags& flags, const StereoFlags& stereo) {
 
 StereoOptions options_of(const StereoFlags& stereo) {
   StereoOptions options;
-  options.normal_check = parse_number(stereo.normal_check, "--normal-check", smallest_angle, 180);
+  options.normal_check = stereo.normal_check;
   if (stereo.no_normal_check) options.normal_check.reset();
   return options;
 }
@@ -261,9 +261,9 @@ void StereoFlags::add_to(CLI::App& app) {
                    "how far the two views of the test are from each other where both see the same surface (Shi, "
                    "Billeter, Eisemann 2022, section 4.1)")
           ->group(group);
-  CLI::Option* angle = app.add_option("--normal-check", normal_check,
-                                      "a pixel counts where its normal is within this angle of those of its "
-                                      "neighbours in the other view; default 6")
+  CLI::Option* angle = add_number(app, "--normal-check", normal_check, {smallest_angle, 180},
+                                  "a pixel counts where its normal is within this angle of those of its neighbours in "
+                                  "the other view; default 6")
                            ->type_name("DEGREES")
                            ->group(group)
                            ->needs(on);
@@ -271,7 +271,8 @@ void StereoFlags::add_to(CLI::App& app) {
       ->group(group)
       ->needs(on)
       ->excludes(angle);
-  app.add_option("--magnify", magnify, "errors in the picture are shown this many times as large; default 20")
+  add_number(app, "--magnify", magnify, {1e-3, 1e6},
+             "errors in the picture are shown this many times as large; default 20")
       ->type_name("N")
       ->group(group)
       ->needs(on);
@@ -298,7 +299,6 @@ StereoInconsistency inconsistency_of(const CompareFlags& flags, const Frame& pai
 void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   check_names(flags, stereo);
   const StereoOptions check = options_of(stereo);
-  const double magnify = parse_number(stereo.magnify, "--magnify", 1e-3, 1e6);
   ReadOptions options = flags.frame_flags.read_options();
   options.as_stored = true;
   std::vector<StereoInput> results = open_results(flags, options), frames = open_frame(flags, options);
@@ -314,7 +314,7 @@ void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
   Frame pair = pair_of(sources_of(results), sources, plane);
   const StereoInconsistency result = inconsistency_of(flags, pair, plane, check);
   note_assumptions(sources, check.normal_check && !result.normal_check);
-  const std::vector<std::string> written = write_pictures(flags, stereo, magnify, pair, plane, result);
+  const std::vector<std::string> written = write_pictures(flags, stereo, pair, plane, result);
   Json document = document_of(result, pair, plane);
   document["memory_bytes"] = memory;
   flags.json.write(document, written);

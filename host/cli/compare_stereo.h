@@ -9,7 +9,8 @@ namespace gloam::cli {
 
 struct StereoFlags {
   bool is_asked_for = false, no_normal_check = false;
-  std::string normal_check = "6", magnify = "20", anaglyph, side_by_side;
+  double normal_check = 6, magnify = 20;
+  std::string anaglyph, side_by_side;
   void add_to(CLI::App& app);
 };
 

@@ -47,9 +47,8 @@ Words with(Words words, const std::string& word) {
   return words;
 }
 
-/// What a value of that name may be, whichever command it belongs to; empty where nothing is known of it.
+/// What the registry knows of a value of that name, whichever command it belongs to; empty for others.
 Words words_for(const std::string& command, const std::string& name) {
-  if (command == "list" && name == "what") return {"techniques", "devices", "metrics", "scenes", "cases"};
   if (command == "stress" && name == "technique") return with(technique_names(), "all");
   if (name == "technique") return with(technique_names(), "ao");
   if (name == "outputs" && command == "plan") return planes_and_techniques();
@@ -59,18 +58,7 @@ Words words_for(const std::string& command, const std::string& name) {
   if (name == "--preset" || name == "--presets" || name == "--adaptive") return preset_names();
   if (name == "--with") return extra_names();
   if (name == "scene" || name == "--scene" || name == "--scenes") return scene_names();
-  static const std::map<std::string, Words> fixed = {{"--resolution", {"full", "half", "quarter"}},
-                                                     {"--depth", {"auto", "z", "ray", "ndc", "reversed"}},
-                                                     {"--normal-space", {"auto", "view", "world"}},
-                                                     {"--lanes", {"auto", "1", "4", "8", "16"}},
-                                                     {"--math", {"precise", "fast"}},
-                                                     {"--real", {"float", "double"}},
-                                                     {"--compression", {"none", "rle", "zips", "zip", "piz"}},
-                                                     {"--by", {"rmse", "ssim", "flip"}},
-                                                     {"--mask", {"measured", "always", "never"}},
-                                                     {"--outline-method", {"integrated", "scaling", "normal"}}};
-  const auto found = fixed.find(name);
-  return found == fixed.end() ? Words() : found->second;
+  return {};
 }
 
 Words split(const std::string& text, char separator) {
@@ -82,7 +70,7 @@ Words split(const std::string& text, char separator) {
   return parts;
 }
 
-/// A type such as "ao|reflection", "none|NAME", "OUT.exr" or "FILE|-" tells words and files by itself.
+/// A type such as "full|half|quarter" (typed.h), "none|NAME", "OUT.exr" or "FILE|-" tells words and files by itself.
 void add_from_type(const std::string& type, Completion& value) {
   const Words parts = split(type, '|');
   for (const std::string& part : parts) {
@@ -172,21 +160,21 @@ CompletedCommand completed(const CLI::App& command, const std::set<std::string>&
 }  // namespace
 
 void add_completion(CLI::App& app, ParameterFlags parameter_flags) {
-  auto shell = std::make_shared<std::string>();
+  using Writer = std::string (*)(const std::vector<CompletedCommand>&);
+  auto writer = std::make_shared<Writer>();
   CLI::App* command = app.add_subcommand("completion", "what a shell completes, as a script for that shell");
   command->group("");  // not shown
-  command->add_option("shell", *shell, "bash or zsh")->required()->type_name("bash|zsh");
+  add_choice<Writer>(*command, "shell", *writer, {{"bash", bash_completion}, {"zsh", zsh_completion}}, "which shell")
+      ->required();
   command->footer(
       "Examples:\n"
       "  source <(gloam completion bash)\n"
       "  gloam completion zsh > ~/.zfunc/_gloam");
-  command->callback([&app, shell, parameter_flags] {
-    using Writer = std::string (*)(const std::vector<CompletedCommand>&);
-    const Writer writer = one_of<Writer>(*shell, "completion", {{"bash", bash_completion}, {"zsh", zsh_completion}});
+  command->callback([&app, writer, parameter_flags] {
     std::vector<CompletedCommand> commands;
     for (const CLI::App* sub : app.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); }))
       commands.push_back(completed(*sub, parameter_flags(sub)));
-    fmt::print("{}", writer(commands));
+    fmt::print("{}", (*writer)(commands));
   });
 }
 

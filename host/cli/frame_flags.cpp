@@ -1,12 +1,23 @@
 #include "cli/frame_flags.h"
 
-#include <cmath>
 #include <limits>
 
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
+namespace {
+
+const Choices<DepthConvention> depth_conventions = {{"auto", DepthConvention::automatic},
+                                                    {"z", DepthConvention::z},
+                                                    {"ray", DepthConvention::ray},
+                                                    {"ndc", DepthConvention::ndc},
+                                                    {"reversed", DepthConvention::reversed}};
+const Choices<NormalSpace> normal_spaces = {
+    {"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}};
+
+}  // namespace
 
 void FrameArguments::add_to(CLI::App& app) {
   app.add_option("frame", frame, "EXR file")->required()->type_name("FRAME.exr");
@@ -26,27 +37,24 @@ FrameFiles FrameArguments::open(const ReadOptions& options) const {
 }
 
 void FrameFlags::add_to(CLI::App& app) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), most_float = std::numeric_limits<float>::max();
   app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")
       ->type_name("FILE")
       ->group("Reading the frame");
-  app.add_option("--fov", fov, "horizontal field of view, 1 to 179 degrees, over every other camera")
+  add_number(app, "--fov", fov, {1, 179}, "horizontal field of view, 1 to 179 degrees, over every other camera")
       ->type_name("DEG")
       ->group("Reading the frame");
-  app.add_option("--depth", depth, "what depth values mean: auto, z, ray, ndc or reversed")
-      ->type_name("CONVENTION")
-      ->group("Reading the frame");
-  app.add_option("--near", near, "near plane, scene units (for ndc and reversed)")
+  add_choice(app, "--depth", depth, depth_conventions, "what depth values mean")->group("Reading the frame");
+  add_number(app, "--near", near, {0, infinity}, "near plane, scene units (for ndc and reversed)")
       ->type_name("Z")
       ->group("Reading the frame");
-  app.add_option("--far", far, "far plane, scene units; depth there is background")
+  add_number(app, "--far", far, {0, infinity}, "far plane, scene units; depth there is background")
       ->type_name("Z")
       ->group("Reading the frame");
-  app.add_option("--background", background, "the depth value that means background")
+  add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background")
       ->type_name("VALUE")
       ->group("Reading the frame");
-  app.add_option("--normal-space", normal_space, "space of the normals: auto, view or world")
-      ->type_name("SPACE")
-      ->group("Reading the frame");
+  add_choice(app, "--normal-space", normal_space, normal_spaces, "space of the normals")->group("Reading the frame");
   app.add_option("--plane", planes,
                  "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
       ->type_name("PLANE=CHANNELS")
@@ -61,36 +69,20 @@ void FrameFlags::add_to(CLI::App& app) {
       ->excludes(one);
   app.add_option("--limit-memory", limit_memory,
                  "refuse, before anything is decoded, what would take more; default: what is available")
+      ->check(accepted_by(parse_memory, "--limit-memory"))  // stays text, for messages; CLI11's sizes know no 1.5G
       ->type_name("4G|512M")
       ->group("Reading the frame");
-}
-
-/// What a float holds, or an infinity.
-static float parse_depth_value(const std::string& text, const std::string& flag) {
-  const double infinity = std::numeric_limits<double>::infinity(), most = std::numeric_limits<float>::max();
-  const double value = parse_number(text, flag, -infinity, infinity);
-  if (std::isfinite(value) && std::abs(value) > most)
-    throw UsageError("{} {} is not allowed; a number from {:g} to {:g}, inf or -inf is", flag, text, -most, most);
-  return float(value);
 }
 
 ReadOptions FrameFlags::read_options() const {
   ReadOptions options;
   options.camera_file = camera;
-  if (!fov.empty()) options.fov_degrees = parse_number(fov, "--fov", 1, 179);
-  const double most = std::numeric_limits<double>::infinity();
-  if (!near.empty()) options.near = parse_number(near, "--near", 0, most);
-  if (!far.empty()) options.far = parse_number(far, "--far", 0, most);
-  if (!background.empty()) options.background = parse_depth_value(background, "--background");
-  options.depth = one_of<DepthConvention>(depth, "--depth",
-                                          {{"auto", DepthConvention::automatic},
-                                           {"z", DepthConvention::z},
-                                           {"ray", DepthConvention::ray},
-                                           {"ndc", DepthConvention::ndc},
-                                           {"reversed", DepthConvention::reversed}});
-  options.normal_space = one_of<NormalSpace>(
-      normal_space, "--normal-space",
-      {{"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}});
+  options.fov_degrees = fov;
+  options.near = near;
+  options.far = far;
+  if (background) options.background = float(*background);
+  options.depth = depth;
+  options.normal_space = normal_space;
   if (!view.empty()) options.views = {view};
   if (!views.empty()) options.views = split_list(views, "--views");
   for (const std::string& plane : planes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,11 +17,13 @@ using NamedPath = std::pair<std::string, std::string>;
 
 /// How to read a frame.
 struct FrameFlags {
-  std::string camera, depth = "auto", normal_space = "auto", view, views;
+  std::string camera, view, views, limit_memory;
   std::vector<std::string> planes;
-  std::string fov, near, far, background, limit_memory;
+  std::optional<double> fov, near, far, background;
+  DepthConvention depth = DepthConvention::automatic;
+  NormalSpace normal_space = NormalSpace::automatic;
   void add_to(CLI::App& app);
-  /// Throws UsageError for values out of range.
+  /// Throws UsageError for planes and views that are not of their form.
   ReadOptions read_options() const;
 };
 

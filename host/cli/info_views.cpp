@@ -65,14 +65,16 @@ void ViewPictureFlags::add_to(CLI::App& app) {
   option("--sheet", sheet, "a plane of every view as small pictures; then nothing else is read or said", "VIEWS.png");
   option("--scan-line", scan_line,
          "a row of every view, one below the other: an epipolar image of cameras side by side", "LINE.png");
-  option("--row", row, "which row --scan-line shows, 0 on top; default: the middle", "N");
+  add_number(app, "--row", row, {0, 65535}, "which row --scan-line shows, 0 on top; default: the middle")
+      ->type_name("N")
+      ->group("One plane of all views");
   option("--what", what, "which plane; default: the first result, else color, else normal, else depth", "PLANE");
 }
 
 void ViewPictureFlags::check() const {
   check_picture_name(sheet, "--sheet");
   check_picture_name(scan_line, "--scan-line");
-  if (!row.empty() && scan_line.empty()) throw UsageError("--row {}: needs --scan-line LINE.png", row);
+  if (row && scan_line.empty()) throw UsageError("--row {}: needs --scan-line LINE.png", *row);
   if (!what.empty() && !any()) throw UsageError("--what {}: needs --sheet VIEWS.png or --scan-line LINE.png", what);
 }
 
@@ -83,7 +85,8 @@ std::vector<std::string> write_view_pictures(const std::string& path, const View
   options.as_stored = true;
   FrameFile file(path, options);
   const int height = file.display().height();
-  const int row = flags.row.empty() ? height / 2 : parse_whole_number(flags.row, "--row", 0, height - 1);
+  const int row = flags.row.value_or(height / 2);
+  check_number(row, "--row", {0, height - 1});
   const Drawing drawing = read_drawing(file, flags.what);
   note(drawing.frame.assumed);
   const std::string title = file.path().filename().string();

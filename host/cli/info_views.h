@@ -1,6 +1,7 @@
 // gloam info --sheet and --scan-line: one plane of all views as a picture.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@
 namespace gloam::cli {
 
 struct ViewPictureFlags {
-  std::string sheet, scan_line, row, what;
+  std::string sheet, scan_line, what;
+  std::optional<int> row;
 
   void add_to(CLI::App& app);
   bool any() const { return !sheet.empty() || !scan_line.empty(); }

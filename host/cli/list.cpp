@@ -100,6 +100,8 @@ void list_cases(const JsonFlag& json) {
   if (!json.only_json()) print_table(rows, 3);
 }
 
+const std::vector<std::string> listed = {"techniques", "devices", "metrics", "scenes", "cases"};
+
 }  // namespace
 
 void add_list(CLI::App& app) {
@@ -110,7 +112,7 @@ void add_list(CLI::App& app) {
   };
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes or hard cases");
-  command->add_option("what", flags->what, "techniques, devices, metrics, scenes or cases")->required();
+  command->add_option("what", flags->what, "what is listed")->required()->type_name(type_of_words(listed));
   command->add_option("name", flags->name, "a technique: all about it")->type_name("NAME");
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
   flags->json.add_to(*command);
@@ -124,9 +126,8 @@ void add_list(CLI::App& app) {
     if (flags->what == "metrics") return list_metrics(flags->json);
     if (flags->what == "scenes") return list_scenes(flags->json);
     if (flags->what == "cases") return list_cases(flags->json);
-    const std::vector<std::string> known = {"techniques", "devices", "metrics", "scenes", "cases"};
-    throw UsageError("list: no '{}'{}; {} can be listed", flags->what, suggestion(flags->what, known),
-                     enumerate(known));
+    throw UsageError("list: no '{}'{}; {} can be listed", flags->what, suggestion(flags->what, listed),
+                     enumerate(listed));
   });
 }
 

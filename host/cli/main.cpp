@@ -138,6 +138,14 @@ void print_parameters_of(CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// Whether --help was given, whatever else there is.
+bool asks_for_help(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (command->get_help_ptr()->count() > 0) return true;
+  }
+  return app.get_help_ptr()->count() > 0;
+}
+
 int run_command(int argc, char** argv) {
   CLI::App app{
       "gloam: ambient occlusion and other image-space effects on captured G-buffers, and how near to truth they are."};
@@ -175,12 +183,18 @@ int run_command(int argc, char** argv) {
     fmt::print("{}", app.help());
     return UsageError("").exit_status();
   }
+  const auto show = [&](const CLI::Success& what) {
+    const int status = app.exit(what);  // --help, --version
+    print_parameters_of(app, argc, argv);
+    return status;
+  };
   try {
     app.parse(with_parameter_flags(app, argc, argv));
   } catch (const CLI::Success& success) {
-    const int status = app.exit(success);  // --help, --version
-    print_parameters_of(app, argc, argv);
-    return status;
+    return show(success);
+  } catch (const UsageError&) {  // a value that is not allowed
+    if (!asks_for_help(app)) throw;
+    return show(CLI::CallForHelp());
   } catch (const CLI::ParseError& error) {
     throw UsageError("{}", usage_message(app, error));
   }

@@ -14,20 +14,6 @@ using Bytes = unsigned long long;
 /// Less is not worth a line.
 constexpr Bytes worth_telling = 1ull << 30;
 
-/// "4G", "512M" or "1.5G": powers of 1024.
-Bytes parse_memory(const std::string& text, const std::string& flag) {
-  constexpr Bytes least = 1ull << 20, most = 1ull << 50;
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  const std::string units = "KMGT";
-  const size_t unit = stop + 1 == end ? units.find(*stop) : std::string::npos;
-  const double bytes = unit == std::string::npos ? 0 : number * double(1ull << 10 * (unit + 1));
-  if (error != std::errc() || !(bytes >= double(least) && bytes <= double(most)))
-    throw UsageError("{} {} is not allowed; a size such as 4G or 512M is, from 1M to 1024T", flag, text);
-  return Bytes(bytes);
-}
-
 struct Limit {
   Bytes bytes;
   std::string words;  ///< "--limit-memory 4G allows 4.0 GiB"
@@ -52,6 +38,19 @@ Bytes checked(Bytes need, const Limit& limit, const std::string& name, const std
 }
 
 }  // namespace
+
+unsigned long long parse_memory(const std::string& text, const std::string& flag) {
+  constexpr Bytes least = 1ull << 20, most = 1ull << 50;
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  const std::string units = "KMGT";
+  const size_t unit = stop + 1 == end ? units.find(*stop) : std::string::npos;
+  const double bytes = unit == std::string::npos ? 0 : number * double(1ull << 10 * (unit + 1));
+  if (error != std::errc() || !(bytes >= double(least) && bytes <= double(most)))
+    throw UsageError("{} {} is not allowed; a size such as 4G or 512M is, from 1M to 1024T", flag, text);
+  return Bytes(bytes);
+}
 
 unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, const std::string& device,
                                   const MemoryNeed& need, const std::string& ways_out) {

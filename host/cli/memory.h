@@ -25,6 +25,9 @@ unsigned long long planned_memory(const FrameFlags& flags, const std::string& na
 /// What a process takes for itself, code and the libraries' own: without a device, and with one that has compiled kernels.
 inline constexpr unsigned long long process_bytes = 48ull << 20, process_bytes_with_device = 160ull << 20;
 
+/// "4G", "512M" or "1.5G": powers of 1024, from 1M to 1024T. Throws UsageError.
+unsigned long long parse_memory(const std::string& text, const std::string& flag);
+
 /// To read planes of a frame of one file or two, and of its history.
 unsigned long long bytes_to_read(const FrameFiles& files, const std::vector<std::string>& planes);
 

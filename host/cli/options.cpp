@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
-#include <sstream>
 
 #include "base/files.h"
 #include "base/lists.h"
@@ -43,26 +41,6 @@ void write_document(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-double parse_number(const std::string& text, const std::string& flag, double min, double max,
-                    const std::string& or_else) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || !(value >= min && value <= max)) {
-    throw UsageError("{} {} is not allowed; a number from {:g} to {:g}{} is", flag, text, min, max,
-                     or_else.empty() ? "" : ", or " + or_else + ",");
-  }
-  return value;
-}
-
-int parse_whole_number(const std::string& text, const std::string& flag, int min, int max) {
-  int value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || value < min || value > max) {
-    throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, min, max);
-  }
-  return value;
-}
-
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
   for (size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].second.empty()) continue;
@@ -74,16 +52,6 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
     }
     check_writable(outputs[i]);
   }
-}
-
-std::pair<int, int> parse_size(const std::string& text, const std::string& flag) {
-  const size_t cross = text.find('x');
-  if (cross == std::string::npos) throw UsageError("{} {} is not WIDTHxHEIGHT; write 1920x1080", flag, text);
-  const int width = parse_whole_number(text.substr(0, cross), flag + " " + text + ": width", 1, 65536);
-  const int height = parse_whole_number(text.substr(cross + 1), flag + " " + text + ": height", 1, 65536);
-  if ((long long)width * height > max_pixels)
-    throw UsageError("{} {} has more than {} pixels; take a smaller one", flag, text, max_pixels);
-  return {width, height};
 }
 
 Settings parse_settings(const std::vector<std::string>& items, const std::string& flag) {
@@ -107,14 +75,8 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
-  std::vector<std::string> items;
-  std::istringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');) items.push_back(item);
-  if (items.empty() || std::find(items.begin(), items.end(), "") != items.end() || text.back() == ',') {
-    throw UsageError("{} '{}' has an empty item; write a,b", flag, text);
-  }
-  return items;
+void add_compression(CLI::App& app, std::string& name) {
+  add_word(app, "--compression", name, compressions(), "lossless; default zip, and none is fastest");
 }
 
 void JsonFlag::add_to(CLI::App& app) {

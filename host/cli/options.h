@@ -11,23 +11,15 @@
 #include "cli/frame_flags.h"
 #include "cli/notes.h"
 #include "cli/technique_flags.h"
+#include "cli/typed.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// The value that a word stands for; UsageError with the words that do.
-template <typename Value>
-Value one_of(const std::string& text, const std::string& flag,
-             const std::vector<std::pair<std::string, Value>>& table) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : table) {
-    if (name == text) return value;
-    names.push_back(name);
-  }
-  throw UsageError("{} {} is not allowed{}; {} are", flag, text, suggestion(text, names), enumerate(names));
-}
+/// "--compression zip": of the EXR file that a command writes.
+void add_compression(CLI::App& app, std::string& name);
 
 /// "--json FILE|-"
 struct JsonFlag {
@@ -47,9 +39,6 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
 
 /// A word as a shell takes it.
 std::string quoted(const std::string& word);
-
-/// "a,b" -> a b; throws UsageError for an empty item.
-std::vector<std::string> split_list(const std::string& text, const std::string& flag);
 
 /// median, min, max
 Json milliseconds(std::vector<double> ms);
@@ -82,14 +71,6 @@ std::filesystem::path picture_path(const std::string& path, const std::string& v
 
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
-
-/// "1920x1080"; throws UsageError. 1 to 65536 each way, and `max_pixels` at most.
-std::pair<int, int> parse_size(const std::string& text, const std::string& flag);
-
-/// A number within bounds; throws UsageError that names the flag. `or_else`: a word that the caller takes as well.
-double parse_number(const std::string& text, const std::string& flag, double min, double max,
-                    const std::string& or_else = "");
-int parse_whole_number(const std::string& text, const std::string& flag, int min, int max);
 
 /// name=value items as pairs; throws UsageError for what is not of that form.
 Settings parse_settings(const std::vector<std::string>& items, const std::string& flag);

@@ -20,14 +20,19 @@ using namespace gloam::bench;
 
 struct PickCommand {
   std::vector<std::string> truths;
-  std::string frame, budget, error, by = "rmse", techniques, radius, rays = "256", rounds = "9", device;
+  std::string frame, techniques, device;
+  std::optional<double> budget, error, radius;  ///< budget: milliseconds
+  PickBy by = PickBy::rmse;
+  int rays = 256, rounds = 9;
   FrameFlags frame_flags;
   JsonFlag json;
   const CLI::App* app = nullptr;
 };
 
+const Choices<PickBy> figures = {{"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}};
+
 /// "20ms", "0.02s" or "20", which is in milliseconds.
-double parse_budget(const std::string& text) {
+double parse_budget(const std::string& text, const std::string& flag) {
   std::string number = text;
   double per_unit = 1;
   if (number.ends_with("ms")) {
@@ -37,22 +42,21 @@ double parse_budget(const std::string& text) {
     per_unit = 1000;
   }
   try {
-    return per_unit * parse_number(number, "--budget", 1e-6, 1e9);
+    return per_unit * parse_number(number, flag, Range<double>{1e-6, 1e9});
   } catch (const UsageError&) {
-    throw UsageError("--budget {} is not allowed; a time above 0 such as 20ms or 0.02s is", text);
+    throw UsageError("{} {} is not allowed; a time above 0 such as 20ms or 0.02s is", flag, text);
   }
 }
 
 /// `left_out`: what is tried only where it is named.
 PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out) {
-  if (flags.budget.empty() == flags.error.empty())
+  if (flags.budget.has_value() == flags.error.has_value())
     throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
   PickOptions options;
-  if (!flags.budget.empty()) options.budget = parse_budget(flags.budget);
-  options.by =
-      one_of<PickBy>(flags.by, "--by", {{"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}});
-  if (!flags.error.empty()) options.error = parse_number(flags.error, "--error", 0, 1);
-  options.rounds = parse_whole_number(flags.rounds, "--rounds", 1, 10000);
+  options.budget = flags.budget;
+  options.by = flags.by;
+  options.error = flags.error;
+  options.rounds = flags.rounds;
   options.progress = show_status;
   const bool all = flags.techniques.empty();
   for (const std::string& name : all ? techniques_with_ao() : split_list(flags.techniques, "--techniques")) {
@@ -155,8 +159,8 @@ void pick_command(const PickCommand& flags) {
   const ScratchFolder scratch;
   SceneOptions scene;
   scene.folder = scratch.path();
-  scene.rays = parse_rays(flags.rays);
-  if (!flags.radius.empty()) scene.radius = parse_number(flags.radius, "--radius", 1e-30, 1e30);
+  scene.rays = flags.rays;
+  scene.radius = flags.radius;
   scene.progress = show_status;
   Device device(flags.device);
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, scene);
@@ -165,7 +169,7 @@ void pick_command(const PickCommand& flags) {
   picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
   erase_status();
   const std::string command = run_line(flags, picked.finalists[picked.best].variation);
-  Json document = document_of(picked, command, flags.by, device.info());
+  Json document = document_of(picked, command, word_for(flags.by, figures), device.info());
   radius.add_to(document);
   document["memory_bytes"] = subject.memory_bytes;
   flags.json.write(document);
@@ -183,15 +187,14 @@ void add_pick(CLI::App& app) {
       "pick", "the most accurate setting within a time on this device, or the cheapest within an error");
   flags->app = command;
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
-  command->add_option("--budget", flags->budget, "time for the whole of ao, its filter included")->type_name("20ms");
-  command->add_option("--error", flags->error, "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
+  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of ao, its filter included")
+      ->type_name("20ms");
+  add_number(*command, "--error", flags->error, {0, 1},
+             "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
       ->type_name("ERROR");
-  command
-      ->add_option(
-          "--by", flags->by,
-          "what decides which image is nearer: rmse (the default), ssim, which minds noise and lost edges, or flip, "
-          "which minds what an eye sees")
-      ->type_name("FIGURE");
+  add_choice(
+      *command, "--by", flags->by, figures,
+      "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye sees");
   command
       ->add_option("--truth", flags->truths,
                    "ambient occlusion as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
@@ -201,12 +204,13 @@ void add_pick(CLI::App& app) {
       ->type_name("REF.exr");
   command->add_option("--techniques", flags->techniques, "these only; default: all that make ao of every view")
       ->type_name("A,B");
-  command
-      ->add_option("--radius", flags->radius,
-                   "scene units; default: the truth's, else the scene's own, else made from the frame")
+  add_number(*command, "--radius", flags->radius, allowed_radii,
+             "scene units; default: the truth's, else the scene's own, else made from the frame")
       ->type_name("R");
-  command->add_option("--rays", flags->rays, "per pixel, for a truth that is traced; default 256")->type_name("N");
-  command->add_option("--rounds", flags->rounds, "each times every finalist once, in turn; default 9")->type_name("N");
+  add_number(*command, "--rays", flags->rays, allowed_rays, "per pixel, for a truth that is traced; default 256")
+      ->type_name("N");
+  add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9")
+      ->type_name("N");
   command->add_option("--device", flags->device, "part of a device's or platform's name (gloam list devices)")
       ->type_name("TEXT");
   flags->frame_flags.add_to(*command);

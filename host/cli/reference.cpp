@@ -15,7 +15,10 @@ namespace gloam::cli {
 namespace {
 
 struct ReferenceCommand {
-  std::string what, frame, out, samples, radius, falloff = "none", seed = "0", picture, compression = "zip";
+  std::string what, frame, out, falloff = "none", picture, compression = "zip";
+  std::optional<int> samples;
+  std::optional<double> radius;
+  int seed = 0;
   bool half = false;
   SceneFlags scene;
   FrameFlags frame_flags;
@@ -78,9 +81,7 @@ void note_other_scene(const FrameFile& file, const Scene& scene) {
 /// The radius that the flag gives; else the one that the frame's header states, or the scene has; else none, and it is made
 /// from the frame.
 std::optional<Radius> known_radius(const ReferenceCommand& flags, const FrameFile& file, const Scene& scene) {
-  if (flags.radius == "inf") return Radius{std::numeric_limits<double>::infinity(), RadiusSource::flag};
-  if (!flags.radius.empty())
-    return Radius{parse_number(flags.radius, "--radius", 1e-30, 1e30, "inf"), RadiusSource::flag};
+  if (flags.radius) return Radius{*flags.radius, RadiusSource::flag};
   if (const std::optional<double> stated = stated_radius(file)) return Radius{*stated, RadiusSource::scene};
   if (scene.ao_radius > 0) return Radius{scene.ao_radius, RadiusSource::scene};
   return {};
@@ -99,9 +100,8 @@ struct Job {
 template <typename Options>
 void set_common(Options& options, const ReferenceCommand& flags, const std::string& checkpoint,
                 const std::function<void(double)>& progress) {
-  options.samples = parse_whole_number(flags.samples.empty() ? std::to_string(options.samples) : flags.samples,
-                                       "--samples", 1, 1 << 24);
-  options.seed = uint32_t(parse_whole_number(flags.seed, "--seed", 0, 1 << 30));
+  options.samples = flags.samples.value_or(options.samples);
+  options.seed = uint32_t(flags.seed);
   options.checkpoint = checkpoint;
   options.progress = progress;
 }
@@ -138,7 +138,7 @@ Job reflection_job(const ReflectionReferenceOptions& options) {
 
 /// Flags that mean something for ambient occlusion alone.
 void check_reflection(const ReferenceCommand& flags) {
-  if (!flags.radius.empty()) throw UsageError("--radius {}: a reflection has no radius; leave it out", flags.radius);
+  if (flags.radius) throw UsageError("--radius {}: a reflection has no radius; leave it out", *flags.radius);
   if (flags.falloff != "none")
     throw UsageError("--falloff {}: a reflection has no falloff; leave it out", flags.falloff);
 }
@@ -184,7 +184,6 @@ void reference_command(ReferenceCommand flags) {
   const bool is_ao = flags.what == "ao";
   if (!is_ao) check_reflection(flags);
   const WriteOptions write{flags.half, flags.compression};
-  check(write);
   check_frame_name(flags.out, "-o");
   check_picture_name(flags.picture, "--picture");
   const std::string checkpoint = flags.out + ".partial";
@@ -243,7 +242,7 @@ void reference_command(ReferenceCommand flags) {
 void add_reference(CLI::App& app) {
   auto flags = std::make_shared<ReferenceCommand>();
   CLI::App* command = app.add_subcommand("reference", "ray-traced truth for a frame whose scene is at hand");
-  command->add_option("what", flags->what, "ao or reflection")->required()->type_name("ao|reflection");
+  command->add_option("what", flags->what, "what is traced")->required()->type_name(type_of_words(kinds()));
   command
       ->add_option("frame", flags->frame,
                    "EXR file with depth, a camera and perhaps normals, roughness and reflectance")
@@ -254,22 +253,20 @@ void add_reference(CLI::App& app) {
                    "OBJ or glTF file, or a built-in name; default: the built-in one that the frame names")
       ->type_name("SCENE");
   command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("REF.exr");
-  command
-      ->add_option("--samples", flags->samples,
-                   "rays per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
+  add_number(*command, "--samples", flags->samples, allowed_rays,
+             "rays per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
       ->type_name("N");
-  command
-      ->add_option("--radius", flags->radius,
-                   "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame")
+  add_number(*command, "--radius", flags->radius, {allowed_radii.least, allowed_radii.most, true},
+             "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame")
       ->type_name("R");
   command
       ->add_option("--falloff", flags->falloff,
                    "none, or a technique: its contribution at the true first hit (--set hbao+.bias=0.2)")
       ->type_name("none|NAME");
-  command->add_option("--seed", flags->seed, "of the sample set")->type_name("N");
+  add_number(*command, "--seed", flags->seed, {0, 1 << 30}, "of the sample set")->type_name("N");
   command->add_option("--picture", flags->picture, "also as a picture")->type_name("AO.png");
   command->add_flag("--half", flags->half, "store as half");
-  command->add_option("--compression", flags->compression, "zip, zips, piz, rle or none")->type_name("NAME");
+  add_compression(*command, flags->compression);
   flags->scene.add_settings_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);

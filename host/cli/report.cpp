@@ -15,7 +15,8 @@ namespace {
 
 struct ReportCommand {
   std::vector<std::string> sources;
-  std::string picture_width, markdown, pictures;
+  std::string markdown, pictures;
+  std::optional<int> picture_width;
   JsonFlag json;
 };
 
@@ -56,8 +57,7 @@ std::string counted(size_t count, const char* what) {
 void write_page(const ReportCommand& flags) {
   const std::filesystem::path folder = flags.sources.front(), path = folder / "report.html";
   report::PageOptions options;
-  if (!flags.picture_width.empty())
-    options.picture_width = parse_whole_number(flags.picture_width, "--picture-width", 0, 65536);
+  options.picture_width = flags.picture_width.value_or(options.picture_width);
   const report::Measurements measurements = report::read_measurements(folder);
   check_paths({{"bench.json", (folder / "bench.json").string()}},
               {{"report.html", path.string()}, {"--json", flags.json.file()}});
@@ -132,9 +132,9 @@ Json document_of(const report::MarkdownPage& page, const std::string& path) {
 }
 
 void write_markdown(const ReportCommand& flags) {
-  if (!flags.picture_width.empty())
+  if (flags.picture_width)
     throw UsageError("--picture-width {}: is for report.html and not allowed beside --markdown; leave it out",
-                     flags.picture_width);
+                     *flags.picture_width);
   std::error_code unknown;
   if (!flags.pictures.empty() && !std::filesystem::is_directory(flags.pictures, unknown))
     throw Error("--pictures {}: is not a folder; make it first", flags.pictures);
@@ -179,8 +179,8 @@ void add_report(CLI::App& app) {
           "folder that gloam bench -o wrote; with --markdown also a bench.json by itself, and several of either")
       ->required()
       ->type_name("DIR|JSON");
-  command
-      ->add_option("--picture-width", flags->picture_width, "reduce wider pictures to this; 0: as stored; default: 480")
+  add_number(*command, "--picture-width", flags->picture_width, {0, 65536},
+             "reduce wider pictures to this; 0: as stored; default: 480")
       ->type_name("PIXELS");
   command
       ->add_option("--markdown", flags->markdown,

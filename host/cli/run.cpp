@@ -127,8 +127,8 @@ Json document(const RunCommand& flags, const Plan& plan, const RunResult& result
   return {{"technique", plan.technique},
           {"device", device.name},
           {"lanes", result.lanes},
-          {"math", flags.run_flags.math},
-          {"real", flags.run_flags.real},
+          {"math", word_for(flags.run_flags.math, math_words)},
+          {"real", word_for(flags.run_flags.real, real_words)},
           {"passes", passes},
           {"total_ms", milliseconds(result.total_ms)},
           {"plan", plan_document(plan, decoded)},
@@ -208,7 +208,6 @@ void run_command(const RunCommand& given) {
   PlanRequest request = flags.technique_flags.request({flags.technique});
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
   const WriteOptions writing{flags.half, flags.compression};
-  check(writing);
   check_frame_name(flags.out, "-o");
   check_picture_name(flags.picture, "--picture");
   std::vector<NamedPath> inputs = flags.frame.inputs();
@@ -216,7 +215,7 @@ void run_command(const RunCommand& given) {
   check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
   FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
   Plan plan = plan_for(files, request);
-  if (reads_history(plan) && flags.run_flags.seed.empty()) options.seed = seed_after(*files.history());
+  if (reads_history(plan) && !flags.run_flags.seed) options.seed = seed_after(*files.history());
   std::vector<std::string> planes = plan.inputs;
   const std::vector<std::string> available = files.common_planes();
   if (!flags.bare && contains(available, "depth") && !contains(planes, "depth")) planes.push_back("depth");
@@ -296,8 +295,7 @@ void add_run(CLI::App& app) {
   command->add_option("--picture", flags->picture, "the first output as a picture for people")->type_name("OUT.png");
   command->add_flag("--bare", flags->bare, "leave depth, normals and cameras out of OUT.exr");
   command->add_flag("--half", flags->half, "write AO as half instead of float");
-  command->add_option("--compression", flags->compression, "none, rle, zips, zip or piz; none is fastest")
-      ->type_name("NAME");
+  add_compression(*command, flags->compression);
   flags->technique_flags.add_to(*command);
   flags->run_flags.add_to(*command);
   flags->frame_flags.add_to(*command);

@@ -13,7 +13,7 @@ glm::dvec3 parse_point(const std::string& text, const std::string& flag) {
   const std::vector<std::string> items = split_list(text, flag);
   if (items.size() != 3) throw UsageError("{} {} is not a point; write {} 1,2,3", flag, text, flag);
   glm::dvec3 point;
-  for (int i = 0; i < 3; ++i) point[i] = parse_number(items[size_t(i)], flag, -1e12, 1e12);
+  for (int i = 0; i < 3; ++i) point[i] = parse_number(items[size_t(i)], flag, Range<double>{-1e12, 1e12});
   return point;
 }
 
@@ -75,17 +75,19 @@ void SceneCameraFlags::add_to(CLI::App& app) {
   app.add_option("--camera", camera, "a camera of the scene by its name, or a camera JSON; default: the scene's first")
       ->type_name("NAME|FILE")
       ->group("Camera");
-  app.add_option("--eye", eye, "place of the camera, scene units; with --target")->type_name("X,Y,Z")->group("Camera");
-  app.add_option("--target", target, "what it looks at")->type_name("X,Y,Z")->group("Camera");
-  app.add_option("--fov", fov, "horizontal field of view in degrees, over the camera's own")
+  add_parsed(app, "--eye", eye, parse_point, "place of the camera, scene units; with --target")
+      ->type_name("X,Y,Z")
+      ->group("Camera");
+  add_parsed(app, "--target", target, parse_point, "what it looks at")->type_name("X,Y,Z")->group("Camera");
+  add_number(app, "--fov", fov, {1, 179}, "horizontal field of view in degrees, over the camera's own")
       ->type_name("DEG")
       ->group("Camera");
 }
 
 std::vector<std::pair<std::string, Camera>> SceneCameraFlags::cameras(const Scene& scene, int width, int height) const {
-  if (eye.empty() != target.empty()) throw UsageError("--eye and --target go together; give both or neither");
-  if (!eye.empty() && !camera.empty()) throw UsageError("--camera and --eye both place the camera; give one of them");
-  const double degrees = fov.empty() ? 0 : parse_number(fov, "--fov", 1, 179);
+  if (eye.has_value() != target.has_value()) throw UsageError("--eye and --target go together; give both or neither");
+  if (eye && !camera.empty()) throw UsageError("--camera and --eye both place the camera; give one of them");
+  const double degrees = fov.value_or(0);
   if (!camera.empty() && is_file_name(camera)) {
     if (degrees > 0) throw UsageError("--fov cannot be given with a camera file; change the file's focal length");
     std::vector<std::string> assumed;
@@ -98,10 +100,9 @@ std::vector<std::pair<std::string, Camera>> SceneCameraFlags::cameras(const Scen
     return cameras;
   }
   SceneCamera chosen = named_camera(scene, camera);
-  if (!eye.empty()) {
-    const glm::dvec3 from = parse_point(eye, "--eye"), to = parse_point(target, "--target");
-    if (from == to) throw UsageError("--eye and --target are the same point");
-    chosen = looking_at("--eye", from, to, chosen.orthographic ? 60 : chosen.fov_degrees, scene.up);
+  if (eye) {
+    if (*eye == *target) throw UsageError("--eye and --target are the same point");
+    chosen = looking_at("--eye", *eye, *target, chosen.orthographic ? 60 : chosen.fov_degrees, scene.up);
   }
   if (degrees > 0) {
     if (chosen.orthographic) throw UsageError("--fov: camera '{}' is orthographic and has none", chosen.name);

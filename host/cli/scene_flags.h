@@ -1,6 +1,7 @@
 // Flags of the commands that load a scene.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,9 +28,11 @@ SceneFlags scene_named_by(const std::string& attribute);
 
 /// From where a scene is seen.
 struct SceneCameraFlags {
-  std::string camera, fov, eye, target;
+  std::string camera;
+  std::optional<glm::dvec3> eye, target;
+  std::optional<double> fov;
   void add_to(CLI::App& app);
-  bool any() const { return !(camera.empty() && fov.empty() && eye.empty() && target.empty()); }
+  bool any() const { return !camera.empty() || fov || eye || target; }
   /// Cameras by view. Throws UsageError for a camera that the scene lacks (with the nearest name).
   std::vector<std::pair<std::string, Camera>> cameras(const Scene& scene, int width, int height) const;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -102,7 +103,7 @@ std::string device_flags(const StressCommand& flags) {
 /// The file of --json holds all that is known after each: a run of an hour that is interrupted has not been in vain.
 void examine_all(const StressCommand& flags, const StressRequest& request, StressRun& run) {
   const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
-  const int jobs = flags.jobs.empty() ? cores : parse_whole_number(flags.jobs, "--jobs", 1, 1024);
+  const int jobs = flags.jobs.value_or(cores);
   ResultsByTechnique known;
   std::atomic<size_t> next{0};
   std::mutex mutex;
@@ -204,7 +205,6 @@ void stress_command(const StressCommand& flags) {
   if (!flags.from.empty()) return page_from_files(flags);
   if (flags.technique.empty()) throw UsageError("stress: which technique? name one, or all (gloam list techniques)");
   const StressRequest request = request_of(flags);
-  parse_number(flags.patience, "--patience", 1, 1e6);
   check_paths({}, {{"--json", flags.json.file()}, {"--markdown", flags.markdown}});
   if (!flags.out.empty()) make_folder(flags.out);
   StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
@@ -232,22 +232,33 @@ void add_stress(CLI::App& app) {
   auto flags = std::make_shared<StressCommand>();
   CLI::App* command =
       app.add_subcommand("stress", "go through frames that are hard to get right, and say how stable a technique is");
-  command->add_option("technique", flags->technique, "a technique (gloam list techniques), or all");
-  command->add_option("--case", flags->cases, "only these, by number: 3 or 1,7 (gloam list cases)");
-  command->add_option("--trial", flags->trial, "only this trial of one case, to see what was found");
+  command->add_option("technique", flags->technique, "a technique (gloam list techniques), or all")
+      ->type_name("TECHNIQUE");
+  command->add_option("--case", flags->cases, "only these, by number: 3 or 1,7 (gloam list cases)")
+      ->check(accepted_by(parse_cases, "--case"))  // stays text, for messages
+      ->type_name("N,N");
+  add_number(*command, "--trial", flags->trial, {1, std::numeric_limits<int>::max()},
+             "only this trial of one case, to see what was found")
+      ->type_name("N");
   command->add_flag("--quick", flags->quick, "a few of each kind: what a build can afford each time");
-  command->add_option("--frames", flags->frames, "random frames of case 1 (quick 60, else 1000)");
-  command->add_option("--seed", flags->seed, "of the random frames (1)");
-  command->add_option("--device", flags->device, "part of the device's or platform's name (gloam list devices)");
+  add_number(*command, "--frames", flags->frames, {1, 1000000000}, "random frames of case 1 (quick 60, else 1000)")
+      ->type_name("N");
+  add_number(*command, "--seed", flags->seed, allowed_seeds, "of the random frames (1)")->type_name("N");
+  command->add_option("--device", flags->device, "part of the device's or platform's name (gloam list devices)")
+      ->type_name("TEXT");
   command->add_option("--against", flags->against, "devices to compare with: part of a name, all, or none")
       ->capture_default_str();
-  command->add_option("--jobs", flags->jobs, "techniques at a time (as many as there are cores)");
-  command->add_option("--patience", flags->patience, "seconds without a sign of life after which a trial is given up")
-      ->capture_default_str();
-  command->add_option("-o,--output", flags->out, "folder for the frames of a --trial and what was made of them");
-  command->add_option("--markdown", flags->markdown, "write a page with all figures");
+  add_number(*command, "--jobs", flags->jobs, {1, 1024}, "techniques at a time (as many as there are cores)")
+      ->type_name("N");
+  add_number(*command, "--patience", flags->patience, {1, 1e6},
+             "seconds without a sign of life after which a trial is given up (600)")
+      ->type_name("SECONDS");
+  command->add_option("-o,--output", flags->out, "folder for the frames of a --trial and what was made of them")
+      ->type_name("DIR");
+  command->add_option("--markdown", flags->markdown, "write a page with all figures")->type_name("FILE.md");
   command->add_option("--from", flags->from, "with --markdown: the page of what earlier runs wrote with --json")
-      ->take_all();
+      ->take_all()
+      ->type_name("FILE.json");
   command->add_flag("--child", flags->is_child)->group("");
   flags->json.add_to(*command);
   command->footer(

@@ -80,7 +80,7 @@ void examine_here(const StressCommand& flags) {
 }
 
 Examination::Examination(const StressCommand& flags, const StressRequest& request, std::string technique)
-    : flags_(flags), technique_(std::move(technique)), left_(request.cases), patience_(std::stod(flags.patience)) {}
+    : flags_(flags), technique_(std::move(technique)), left_(request.cases), patience_(flags.patience) {}
 
 void Examination::run() {
   while (!left_.empty()) {
@@ -105,9 +105,12 @@ std::vector<std::string> Examination::arguments() const {
     if (!value.empty()) all.insert(all.end(), {flag, value});
   };
   add("--case", fmt::format("{}", fmt::join(left_, ",")));
-  add("--trial", flags_.trial);
-  add("--frames", flags_.frames);
-  add("--seed", flags_.seed);
+  const auto add_whole = [&](const char* flag, const std::optional<int>& value) {
+    if (value) add(flag, std::to_string(*value));
+  };
+  add_whole("--trial", flags_.trial);
+  add_whole("--frames", flags_.frames);
+  add_whole("--seed", flags_.seed);
   add("--device", flags_.device);
   add("-o", flags_.out);
   if (flags_.quick) all.push_back("--quick");

@@ -5,21 +5,21 @@
 #include "gloam/error.h"
 
 namespace gloam::cli {
-namespace {
 
-std::vector<int> cases_of(const StressCommand& flags) {
+std::vector<int> parse_cases(const std::string& text, const std::string& flag) {
   std::vector<int> numbers;
   for (const stress::Case& one : stress::cases()) numbers.push_back(one.number);
-  if (flags.cases.empty()) return numbers;
+  if (text.empty()) return numbers;
   std::vector<int> wanted;
-  for (const std::string& text : split_list(flags.cases, "--case")) {
-    const int number = stress::find_case(parse_whole_number(text, "--case", 1, 999)).number;
+  for (const std::string& item : split_list(text, flag)) {
+    const int number = parse_number(item, flag, Range<int>{1, 999});
+    if (std::find(numbers.begin(), numbers.end(), number) == numbers.end())
+      throw UsageError("{} {}: no hard case {}; there are {} (gloam list cases)", flag, text, number,
+                       fmt::join(numbers, ", "));
     if (std::find(wanted.begin(), wanted.end(), number) == wanted.end()) wanted.push_back(number);
   }
   return wanted;
 }
-
-}  // namespace
 
 StressRequest request_of(const StressCommand& flags) {
   StressRequest request;
@@ -27,20 +27,20 @@ StressRequest request_of(const StressCommand& flags) {
     request.techniques = technique_names();
   else
     request.techniques = {find_technique(flags.technique).name};
-  request.cases = cases_of(flags);
+  request.cases = parse_cases(flags.cases, "--case");
   request.extent = flags.quick ? stress::Extent::quick : stress::Extent::full;
-  if (!flags.frames.empty()) {
-    request.frames = parse_whole_number(flags.frames, "--frames", 1, 1000000000);
+  if (flags.frames) {
+    request.frames = *flags.frames;
     if (std::find(request.cases.begin(), request.cases.end(), 1) == request.cases.end())
-      throw UsageError("--frames {} is how many random frames case 1 draws, and --case {} leaves it out", flags.frames,
+      throw UsageError("--frames {} is how many random frames case 1 draws, and --case {} leaves it out", *flags.frames,
                        flags.cases);
   }
-  if (!flags.seed.empty()) request.seed = unsigned(parse_whole_number(flags.seed, "--seed", 0, 2147483647));
-  if (!flags.trial.empty()) {
-    request.trial = parse_whole_number(flags.trial, "--trial", 1, 2147483647);
+  if (flags.seed) request.seed = unsigned(*flags.seed);
+  if (flags.trial) {
+    request.trial = flags.trial;
     if (request.techniques.size() != 1 || request.cases.size() != 1)
       throw UsageError("--trial {} is a trial of one case on one technique; name both, such as hbao+ --case 3",
-                       flags.trial);
+                       *flags.trial);
   }
   if (!flags.out.empty() && !request.trial)
     throw UsageError("-o {} is where the frames of one trial are written; say which with --case and --trial",

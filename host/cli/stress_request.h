@@ -11,7 +11,9 @@
 namespace gloam::cli {
 
 struct StressCommand {
-  std::string technique, cases, trial, frames, seed, device, against = "all", jobs, patience = "600", out, markdown;
+  std::string technique, cases, device, against = "all", out, markdown;
+  std::optional<int> trial, frames, seed, jobs;
+  double patience = 600;  ///< seconds
   std::vector<std::string> from;
   bool quick = false, is_child = false;
   JsonFlag json;
@@ -26,6 +28,9 @@ struct StressRequest {
   unsigned seed = 1;
   stress::Extent extent = stress::Extent::full;
 };
+
+/// The numbers of hard cases in "3" or "1,7", each once; all where the text is empty. Throws UsageError.
+std::vector<int> parse_cases(const std::string& text, const std::string& flag);
 
 /// Throws UsageError where the flags do not go together.
 StressRequest request_of(const StressCommand& flags);

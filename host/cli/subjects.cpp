@@ -136,8 +136,6 @@ RadiusReport report_of(const Subject& subject, const std::vector<const Technique
   return RadiusReport(subject.radius, subject.frame, default_cap(techniques));
 }
 
-int parse_rays(const std::string& text) { return parse_whole_number(text, "--rays", 1, 1 << 24); }
-
 Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                         const SceneOptions& options) {
   Subject subject;

@@ -25,9 +25,6 @@ std::string needs_naming(const Technique& technique);
 /// The radius that techniques are measured with on a frame.
 RadiusReport report_of(const bench::Subject& subject, const std::vector<const Technique*>& techniques);
 
-/// --rays of the commands that measure. Throws UsageError.
-int parse_rays(const std::string& text);
-
 /// A built-in scene from its first camera, with its truth.
 bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                                const bench::SceneOptions& options);

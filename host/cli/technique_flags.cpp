@@ -1,6 +1,5 @@
 #include "cli/technique_flags.h"
 
-#include <limits>
 #include <map>
 
 #include "cli/options.h"
@@ -43,10 +42,8 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
   app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
       ->type_name("A,B")
       ->group("Technique");
-  app.add_option(
-         "--resolution", resolution,
-         "full, half or quarter: estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
-      ->type_name("NAME")
+  add_choice(app, "--resolution", resolution, {{"full", 1}, {"half", 2}, {"quarter", 4}},
+             "estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
       ->group("Technique");
   app.add_option("--adaptive", adaptive,
                  "preset for tiles where AO hardly varies, by a base pass: --preset ultra --adaptive medium")
@@ -71,7 +68,7 @@ PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) con
   request.elsewhere = elsewhere;
   request.adaptive = adaptive;
   if (!with.empty()) request.with = split_list(with, "--with");
-  request.resolution = one_of<int>(resolution, "--resolution", {{"full", 1}, {"half", 2}, {"quarter", 4}});
+  request.resolution = resolution;
   return request;
 }
 
@@ -79,22 +76,26 @@ void RunFlags::add_to(CLI::App& app) {
   app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")
       ->type_name("TEXT")
       ->group("Device");
-  app.add_option("--lanes", lanes, "pixels per work-item: auto, 1, 4, 8 or 16")->type_name("N")->group("Device");
-  app.add_option("--math", math, "precise (same bits at every lane width) or fast")->type_name("MODE")->group("Device");
-  app.add_option("--real", real, "float or double")->type_name("TYPE")->group("Device");
-  app.add_option("--seed", seed, "of the random numbers; default: 0, or one more than --history had")
+  add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item")
+      ->group("Device");
+  add_choice(app, "--math", math, math_words, "precise: the same bits at every lane width; default fast")
+      ->group("Device");
+  add_choice(app, "--real", real, real_words, "what kernels compute in; default float")->group("Device");
+  add_number(app, "--seed", seed, allowed_seeds, "of the random numbers; default: 0, or one more than --history had")
       ->type_name("N")
       ->group("Device");
-  app.add_option("--repeat", repeat, "timed runs; more than one: after a warm-up")->type_name("N")->group("Device");
+  add_number(app, "--repeat", repeat, {1, 10000}, "timed runs; more than one: after a warm-up")
+      ->type_name("N")
+      ->group("Device");
 }
 
 RunOptions RunFlags::run_options() const {
   RunOptions options;
-  options.lanes = one_of<int>(lanes, "--lanes", {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}});
-  options.math = one_of<Math>(math, "--math", {{"precise", Math::precise}, {"fast", Math::fast}});
-  options.real = one_of<Real>(real, "--real", {{"float", Real::float32}, {"double", Real::float64}});
-  if (!seed.empty()) options.seed = parse_whole_number(seed, "--seed", 0, std::numeric_limits<int>::max());
-  options.repeat = parse_whole_number(repeat, "--repeat", 1, 10000);
+  options.lanes = lanes;
+  options.math = math;
+  options.real = real;
+  options.seed = seed.value_or(options.seed);
+  options.repeat = repeat;
   return options;
 }
 

@@ -21,16 +21,15 @@ namespace {
 /// 2.6 times and 7 %.
 constexpr int zip_level = 1;
 
+const std::map<std::string, Imf::Compression> known_compressions = {{"none", Imf::NO_COMPRESSION},
+                                                                    {"rle", Imf::RLE_COMPRESSION},
+                                                                    {"zips", Imf::ZIPS_COMPRESSION},
+                                                                    {"zip", Imf::ZIP_COMPRESSION},
+                                                                    {"piz", Imf::PIZ_COMPRESSION}};
+
 Imf::Compression compression_of(const std::string& name) {
-  static const std::map<std::string, Imf::Compression> known = {{"none", Imf::NO_COMPRESSION},
-                                                                {"rle", Imf::RLE_COMPRESSION},
-                                                                {"zips", Imf::ZIPS_COMPRESSION},
-                                                                {"zip", Imf::ZIP_COMPRESSION},
-                                                                {"piz", Imf::PIZ_COMPRESSION}};
-  if (const auto found = known.find(name); found != known.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& [spelled, unused] : known) names.push_back(spelled);
-  throw UsageError("compression '{}' is not one of the lossless ones, {}", name, enumerate(names));
+  if (const auto found = known_compressions.find(name); found != known_compressions.end()) return found->second;
+  throw UsageError("compression '{}' is not one of the lossless ones, {}", name, enumerate(compressions()));
 }
 
 void insert_camera(Imf::Header& header, const Camera& camera, const Window& display, const std::string& prefix) {
@@ -79,6 +78,12 @@ bool has_directions(const Frame& frame) {
 }
 
 }  // namespace
+
+std::vector<std::string> compressions() {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : known_compressions) names.push_back(name);
+  return names;
+}
 
 void check_compression(const std::string& name) { compression_of(name); }
 

@@ -226,7 +226,8 @@ TEST_F(CaptureCommand, RefusesInOneLine) {
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "1,2,3"}, 2, "--target");
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "1,2", "--target", "0,0,0"}, 2, "--eye 1,2,3");
   expect_refused({"capture", "plane", "-o", file("no/x.exr")}, 1, "is not a folder");
-  expect_refused({"capture", "plane", "-o", file("x.exr"), "--compression", "dwaa"}, 2, "lossless");
+  expect_refused({"capture", "plane", "-o", file("x.exr"), "--compression", "dwaa"}, 2,
+                 "--compression dwaa is not allowed; none, ");
   expect_refused({"capture", "plane", "-o", file("x.png")}, 2, ".exr");
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--set", "hbao+.bias=1"}, 2, "tilt can be set");
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--planes", "normal", "--picture", file("x.png")}, 2,

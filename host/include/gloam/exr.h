@@ -149,9 +149,12 @@ class FrameFile {
 
 /// How a frame is written.
 struct WriteOptions {
-  bool half = false;  ///< AO and other bounded planes as half; depth stays float
-  std::string compression = "zip";
+  bool half = false;                ///< AO and other bounded planes as half; depth stays float
+  std::string compression = "zip";  ///< one of `compressions`
 };
+
+/// Names of the lossless ones that frames can be written with.
+std::vector<std::string> compressions();
 
 /// Throws UsageError when the options cannot be used, before anything is computed.
 void check(const WriteOptions& options);

@@ -1,0 +1,129 @@
+// Flags with a type. Their values are checked while the command line is read, so that what is wrong with them is told before a file is
+// opened, in one line that names the flag, the value and what is allowed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gloam::cli {
+
+/// What a number may be, both ends included.
+template <typename Number>
+struct Range {
+  Number least, most;
+  bool or_infinite = false;  ///< beyond the range as well; of both signs where the least is below 0
+};
+
+/// Words and what they stand for.
+template <typename Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+inline constexpr Range<int> allowed_seeds = {0, std::numeric_limits<int>::max()}, allowed_rays = {1, 1 << 24},
+                            allowed_rounds = {1, 10000};
+inline constexpr Range<double> allowed_radii = {1e-30, 1e30};
+
+/// The type of a flag's value: that of the variable, or what an optional holds.
+template <typename Target>
+struct ValueIn {
+  using type = Target;
+};
+template <typename Value>
+struct ValueIn<std::optional<Value>> {
+  using type = Value;
+};
+
+// --- Text to values. UsageError names the flag.
+
+double parse_number(const std::string& text, const std::string& flag, const Range<double>& range);
+int parse_number(const std::string& text, const std::string& flag, const Range<int>& range);
+
+/// Throws where a number that is known to be one is out of a range that is known later.
+void check_number(int value, const std::string& flag, const Range<int>& range);
+
+/// Width and height in pixels.
+using Size = std::pair<int, int>;
+
+/// "1920x1080": 1 to 65536 each way, and `max_pixels` at most.
+Size parse_size(const std::string& text, const std::string& flag);
+
+/// "a,b" -> a b; none of them empty.
+std::vector<std::string> split_list(const std::string& text, const std::string& flag);
+
+/// Throws that a word is none of those that are allowed.
+[[noreturn]] void refuse_word(const std::string& word, const std::string& flag, const std::vector<std::string>& words);
+
+template <typename Value>
+std::vector<std::string> words_of(const Choices<Value>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : choices) words.push_back(word);
+  return words;
+}
+
+template <typename Value>
+Value value_of(const std::string& word, const std::string& flag, const Choices<Value>& choices) {
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+  }
+  refuse_word(word, flag, words_of(choices));
+}
+
+template <typename Value>
+std::string word_for(const Value& value, const Choices<Value>& choices) {
+  for (const auto& [name, known] : choices) {
+    if (known == value) return name;
+  }
+  return "";
+}
+
+// --- Flags.
+
+/// Refuses the text that `parse(text, flag)` refuses. For flags that stay text.
+template <typename Parse>
+CLI::Validator accepted_by(Parse parse, const std::string& flag) {
+  return CLI::Validator([parse, flag](std::string& text) { return parse(text, flag), std::string(); }, "");
+}
+
+/// What `parse(text, flag)` makes of the text, in a variable or an optional. CLI11's own conversion takes 010 for 8, rounds decimals twice,
+/// and knows neither sizes nor units.
+template <typename Target, typename Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& flag, Target& target, Parse parse, const std::string& help) {
+  const CLI::callback_t take = [&target, parse, flag](const CLI::results_t& texts) {
+    target = parse(texts.front(), flag);
+    return true;
+  };
+  return app.add_option(flag, take, help)->check(accepted_by(parse, flag));
+}
+
+/// A number within a range, in an `int`, a `double` or an optional one.
+template <typename Target, typename Number = typename ValueIn<Target>::type>
+CLI::Option* add_number(CLI::App& app, const std::string& flag, Target& target, const Range<Number>& range,
+                        const std::string& help) {
+  const auto parse = [range](const std::string& text, const std::string& name) {
+    return parse_number(text, name, range);
+  };
+  return add_parsed(app, flag, target, parse, help)->type_name(std::is_integral_v<Number> ? "INT" : "FLOAT");
+}
+
+/// "full|half|quarter": the type of a flag that takes one of a few words. `--help` shows it, and shells complete from it.
+std::string type_of_words(const std::vector<std::string>& words);
+
+/// One of a few words, as the value that it stands for, in a variable or an optional.
+template <typename Target, typename Value = typename ValueIn<Target>::type>
+CLI::Option* add_choice(CLI::App& app, const std::string& flag, Target& target, const Choices<Value>& choices,
+                        const std::string& help) {
+  const auto parse = [choices](const std::string& word, const std::string& name) {
+    return value_of(word, name, choices);
+  };
+  return add_parsed(app, flag, target, parse, help)->type_name(type_of_words(words_of(choices)));
+}
+
+/// One of a few words, as it is.
+CLI::Option* add_word(CLI::App& app, const std::string& flag, std::string& target,
+                      const std::vector<std::string>& words, const std::string& help);
+
+}  // namespace gloam::cli
