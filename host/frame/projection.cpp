@@ -53,7 +53,7 @@ ViewRay slit_ray(const TwoSlits& s, const Slopes& slopes) {
   return {to_view * start, to_view * (per_z * -s.to_physical[2][2])};
 }
 
-std::optional<dvec2> place_through_slits(const Camera& camera, const dvec3& point) {
+std::optional<dvec2> project_through_slits(const Camera& camera, const dvec3& point) {
   const TwoSlits& s = *camera.slits;
   const dvec3 p = s.to_physical * point + observer_of(s);
   if (!(p.z < s.observer_distance && p.z > s.module.z)) return {};
@@ -82,7 +82,7 @@ std::optional<ViewRay> view_ray(const Camera& camera, const dvec2& place) {
 }
 
 std::optional<dvec2> place_of(const Camera& camera, const dvec3& point) {
-  if (camera.slits) return place_through_slits(camera, point);
+  if (camera.slits) return project_through_slits(camera, point);
   const double depth = -point.z, along = camera.orthographic ? 1 : depth;
   if (!(depth > 0)) return {};
   return dvec2(camera.cx + camera.fx * point.x / along, camera.cy - camera.fy * point.y / along);
