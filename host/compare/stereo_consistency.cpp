@@ -56,8 +56,8 @@ glm::dvec3 point_of(const Eye& eye, int x, int y) {
 }
 
 /// Where a point lands, pixels from the corner of the window; NaN for a point that the camera does not show.
-glm::dvec2 place_of(const Eye& eye, const glm::dvec3& point) {
-  const std::optional<glm::dvec2> place = gloam::place_of(eye.camera, point);
+glm::dvec2 pixel_of(const Eye& eye, const glm::dvec3& point) {
+  const std::optional<glm::dvec2> place = gloam::pixel_of(eye.camera, point);
   if (!place) return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
   return *place - glm::dvec2(eye.window.x0, eye.window.y0);
 }
@@ -129,7 +129,7 @@ bool comes_back(const Lookup& lookup, int x, int y, const glm::dvec2& place) {
   const int there_x = int(place.x), there_y = int(place.y);
   if (is_background(lookup.other.depth.at(there_x, there_y))) return false;
   const glm::dvec3 point = lookup.back.of_point(point_of(lookup.other, there_x, there_y));
-  return glm::distance(place_of(lookup.own, point), glm::dvec2(x + 0.5, y + 0.5)) <= back_check;  // false for NaN
+  return glm::distance(pixel_of(lookup.own, point), glm::dvec2(x + 0.5, y + 0.5)) <= back_check;  // false for NaN
 }
 
 /// What the neighbours that make up I have to say to their counting.
@@ -172,7 +172,7 @@ double error_at(const Lookup& lookup, int x, int y, const Neighbours& neighbours
 /// Sets `error` where the pixel counts.
 StereoPixel look_up(const Lookup& lookup, int x, int y, float& error) {
   if (is_background(lookup.own.depth.at(x, y))) return StereoPixel::background;
-  const glm::dvec2 place = place_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
+  const glm::dvec2 place = pixel_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
   if (!is_inside(lookup.other, place)) return StereoPixel::outside;
   if (!comes_back(lookup, x, y, place)) return StereoPixel::hidden;
   const Neighbours neighbours = neighbours_of(place);
@@ -185,7 +185,7 @@ bool sees_any(const Lookup& lookup) {
   for (int y = 0; y < lookup.own.window.height(); ++y) {
     for (int x = 0; x < lookup.own.window.width(); ++x) {
       if (is_background(lookup.own.depth.at(x, y))) continue;
-      const glm::dvec2 place = place_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
+      const glm::dvec2 place = pixel_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
       if (is_inside(lookup.other, place) && comes_back(lookup, x, y, place)) return true;
     }
   }

@@ -81,16 +81,16 @@ std::optional<ViewRay> view_ray(const Camera& camera, const dvec2& place) {
   return ViewRay{{0, 0, 0}, {across, up, -1}};
 }
 
-std::optional<dvec2> place_of(const Camera& camera, const dvec3& point) {
+std::optional<dvec2> pixel_of(const Camera& camera, const dvec3& point) {
   if (camera.slits) return project_through_slits(camera, point);
   const double depth = -point.z, along = camera.orthographic ? 1 : depth;
   if (!(depth > 0)) return {};
   return dvec2(camera.cx + camera.fx * point.x / along, camera.cy - camera.fy * point.y / along);
 }
 
-std::optional<dvec2> place_in_world(const Camera& camera, const dvec3& world, double w) {
+std::optional<dvec2> pixel_of_world(const Camera& camera, const dvec3& world, double w) {
   if ((camera.orthographic || camera.slits) && w == 0) return {};
-  return place_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
+  return pixel_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
 }
 
 double depth_of_slit(const Camera& camera) {

@@ -22,7 +22,7 @@ namespace {
 // Which tiles
 
 /// Where a plane stands on the sheet: kinds in the order of their table, then stacks, then what gloam does not know.
-std::pair<size_t, std::string> place_of(const std::string& name) {
+std::pair<size_t, std::string> rank_of(const std::string& name) {
   const std::vector<PlaneKind>& kinds = plane_kinds();
   size_t i = 0;
   while (i < kinds.size() && kinds[i].name != name) ++i;
@@ -33,7 +33,7 @@ std::vector<const Plane*> planes_in_order(const View& view) {
   std::vector<const Plane*> planes;
   for (const auto& [name, plane] : view.planes) planes.push_back(&plane);
   std::sort(planes.begin(), planes.end(),
-            [](const Plane* a, const Plane* b) { return place_of(a->name) < place_of(b->name); });
+            [](const Plane* a, const Plane* b) { return rank_of(a->name) < rank_of(b->name); });
   return planes;
 }
 

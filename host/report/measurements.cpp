@@ -23,14 +23,14 @@ class Object {
   std::string text(const char* key) const {
     const Json* value = find(key);
     if (!value) return "";
-    if (!value->is_string()) fail(place_of(key), *value, "a text");
+    if (!value->is_string()) fail(path_of(key), *value, "a text");
     return value->get<std::string>();
   }
 
   Number number(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
-    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(place_of(key), *value, "a number");
+    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(path_of(key), *value, "a number");
     return value->get<double>();
   }
 
@@ -46,7 +46,7 @@ class Object {
 
   Object object(const char* key) const {
     const Json* value = find(key);
-    return Object(value ? *value : nothing, file_, place_of(key));
+    return Object(value ? *value : nothing, file_, path_of(key));
   }
 
   Object needed_object(const char* key) const {
@@ -58,9 +58,9 @@ class Object {
     std::vector<Object> items;
     const Json* value = find(key);
     if (!value) return items;
-    if (!value->is_array()) fail(place_of(key), *value, "a list");
+    if (!value->is_array()) fail(path_of(key), *value, "a list");
     for (size_t i = 0; i < value->size(); ++i)
-      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", place_of(key), i));
+      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", path_of(key), i));
     return items;
   }
 
@@ -75,7 +75,7 @@ class Object {
     if (!value) return {};
     const bool are_texts =
         value->is_array() && std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); });
-    if (!are_texts) fail(place_of(key), *value, "a list of texts");
+    if (!are_texts) fail(path_of(key), *value, "a list of texts");
     return value->get<std::vector<std::string>>();
   }
 
@@ -84,7 +84,7 @@ class Object {
     const Json* value = find(key);
     if (!value) return {};
     if (!value->is_array() || value->size() != 2 || !value->at(0).is_number() || !value->at(1).is_number())
-      fail(place_of(key), *value, "a list of width and height");
+      fail(path_of(key), *value, "a list of width and height");
     return {value->at(0).get<double>(), value->at(1).get<double>()};
   }
 
@@ -97,7 +97,7 @@ class Object {
     const auto found = value_.find(key);
     return found == value_.end() || found->is_null() ? nullptr : &*found;
   }
-  std::string place_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+  std::string path_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
 
   [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
     std::string shown = value.dump(-1, ' ', true, Json::error_handler_t::replace);
@@ -105,7 +105,7 @@ class Object {
     throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file_, place, shown, needed);
   }
   [[noreturn]] void missing(const char* key) const {
-    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, place_of(key));
+    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, path_of(key));
   }
 
   const Json& value_;

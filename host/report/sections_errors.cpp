@@ -133,7 +133,7 @@ std::string steps_of(const ScaleChange& change) {
 }
 
 /// "tilt 80 degrees, direction 45, perspective, pixel (3, 0)": as far as it is known.
-std::string place_of(const PlaneReading& reading) {
+std::string position_in_words(const PlaneReading& reading) {
   std::vector<std::string> parts;
   if (reading.tilt) parts.push_back(fmt::format("tilt {:g}", *reading.tilt));
   if (reading.direction) parts.push_back(fmt::format("direction {:g}", *reading.direction));
@@ -270,7 +270,7 @@ std::string planes_section(const Material& material) {
     std::vector<std::string> cells{plain_text(technique)};
     for (const std::string& plane : planes) {
       const PlaneReading* least = least_of(readings, technique, plane);
-      cells.insert(cells.end(), {least ? openness(least->least) : "", least ? place_of(*least) : ""});
+      cells.insert(cells.end(), {least ? openness(least->least) : "", least ? position_in_words(*least) : ""});
     }
     table.add(cells);
   }

@@ -128,7 +128,7 @@ class Capturer {
 
   void moved(int x, int y, const dvec3& world, double w) const {
     if (!target_.motion[0] || !view_.previous_camera) return;
-    const std::optional<glm::dvec2> before = place_in_world(*view_.previous_camera, world, w);
+    const std::optional<glm::dvec2> before = pixel_of_world(*view_.previous_camera, world, w);
     if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
   }
 

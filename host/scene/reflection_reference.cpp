@@ -72,7 +72,7 @@ class Shown {
   bool in_a_view(const dvec3& world, double w, const Fits& fits) const {
     return std::any_of(frame_.views.begin(), frame_.views.end(), [&](const View& view) {
       const Camera& camera = *view.camera;
-      const std::optional<glm::dvec2> place = place_in_world(camera, world, w);
+      const std::optional<glm::dvec2> place = pixel_of_world(camera, world, w);
       if (!place) return false;
       const dvec3 p = camera.pose->world_to_view * (world - w * camera.pose->position);
       const double x = std::floor(place->x) - frame_.window.x0, y = std::floor(place->y) - frame_.window.y0;

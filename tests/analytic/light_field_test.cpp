@@ -92,7 +92,7 @@ double largest_slip(const Frame& frame, const Frame& positions) {
         const double depth = view.planes.at("depth").channels[0].at(x, y);
         if (!(depth > 0.01 * slit && depth < 0.99 * slit)) continue;
         const dvec3 world = positions.views[i].origin + dvec3(p[0].at(x, y), p[1].at(x, y), p[2].at(x, y));
-        const auto place = place_of(*view.camera, pose.world_to_view * (world - pose.position));
+        const auto place = pixel_of(*view.camera, pose.world_to_view * (world - pose.position));
         const double slip = place ? glm::length(*place - dvec2(x + 0.5, y + 0.5)) : 1e9;
         if (slip > worst) worst = slip, worst_depth = depth / slit;
       }
@@ -257,9 +257,9 @@ TEST(LightFieldCorner, ReadsTheShareOfTheBallBehindTheOtherWall) {
 /// How far 1 scene unit reaches in the image at a point, pixels of each axis.
 dvec2 pixels_per_length(const Shot& shot, const dvec3& point) {
   const double step = 1e-4;
-  const dvec2 here = place_of(shot, point);
-  return {std::abs(place_of(shot, point + dvec3(step, 0, 0)).x - here.x) / step,
-          std::abs(place_of(shot, point + dvec3(0, step, 0)).y - here.y) / step};
+  const dvec2 here = pixel_of(shot, point);
+  return {std::abs(pixel_of(shot, point + dvec3(step, 0, 0)).x - here.x) / step,
+          std::abs(pixel_of(shot, point + dvec3(0, step, 0)).y - here.y) / step};
 }
 
 /// 1 less twice the mean obscurance over an ellipse in the image, which is what a disc of the radius covers.

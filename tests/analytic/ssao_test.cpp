@@ -30,7 +30,7 @@ Settings settings_of(const Model& m) {
 /// 1 where a place, `offset` from the surface, lies behind what is seen on its way, less for what is far before.
 double occlusion_at(const IntegralCase& test, const Receiver& here, const glm::dvec3& offset, const Model& m) {
   const glm::dvec3 point = here.point + offset;
-  const glm::dvec2 place = place_of(test.shot, point);
+  const glm::dvec2 place = pixel_of(test.shot, point);
   const EyeRay ray = ray_through(test.shot, place.x, place.y);
   const auto seen = test.scene(ray);
   if (!seen) return 0;

@@ -44,7 +44,7 @@ double integral(const IntegralCase& test, glm::ivec2 pixel, const Model& m) {
     const double low = std::max(0.0, middle - rise), high = std::max(0.0, middle + rise);
     whole += high - low;
     // Where the column passes the depth of the point.
-    const auto v = towards(test, here, place_of(test.shot, here.point + aside - to_eye * (aside.z / to_eye.z)));
+    const auto v = towards(test, here, pixel_of(test.shot, here.point + aside - to_eye * (aside.z / to_eye.z)));
     if (!v) continue;
     const double height = glm::dot(normal, *v) - m.bias * distance * radius;
     const double before = v->z / (m.range * radius);

@@ -119,9 +119,9 @@ double pixels_across(const Shot& shot, double length, double depth) {
   return length * shot.camera.fx / (shot.camera.orthographic ? 1 : depth);
 }
 
-glm::dvec2 place_of(const Shot& shot, const glm::dvec3& point) {
+glm::dvec2 pixel_of(const Shot& shot, const glm::dvec3& point) {
   if (shot.camera.slits)
-    return gloam::place_of(shot.camera, point).value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+    return gloam::pixel_of(shot.camera, point).value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
   const double nearness = shot.camera.orthographic ? 1 : -1 / point.z;
   return {shot.camera.cx + point.x * nearness * shot.camera.fx, shot.camera.cy - point.y * nearness * shot.camera.fy};
 }

@@ -44,7 +44,7 @@ std::optional<glm::dvec3> towards(const IntegralCase& test, const Receiver& rece
 double pixels_across(const Shot& shot, double length, double depth);
 
 /// The place of the image that shows a point, in pixels.
-glm::dvec2 place_of(const Shot& shot, const glm::dvec3& point);
+glm::dvec2 pixel_of(const Shot& shot, const glm::dvec3& point);
 
 /// Point `i` of a sequence that is even in the unit cube (Roberts 2018).
 glm::dvec3 even_point(int i);

@@ -502,7 +502,7 @@ TEST(TwoSlitRays, PlaceIsTheInverseOfRay) {
           const double depth = share * depth_of_slit(camera);
           const dvec3 point = ray->at(depth);
           EXPECT_NEAR(point.z, -depth, 1e-12 * depth);
-          const auto back = place_of(camera, point);
+          const auto back = pixel_of(camera, point);
           worst = std::max(worst, back ? glm::length(*back - pixel) : 1e9);
         }
       }
@@ -624,26 +624,26 @@ TEST(TwoSlitRays, PointsThatHaveNoPlace) {
   const double slit = depth_of_slit(camera);
   EXPECT_NEAR(slit, 3 + 1.75, 1e-12);
   const auto ray = view_ray(camera, {30.5, 40.5});
-  EXPECT_TRUE(place_of(camera, ray->at(1e-9)));
-  EXPECT_FALSE(place_of(camera, ray->at(0))) << "on the observers' line";
-  EXPECT_FALSE(place_of(camera, ray->at(-1))) << "before the observers";
-  EXPECT_TRUE(place_of(camera, ray->at(slit - 1e-9)));
-  EXPECT_FALSE(place_of(camera, ray->at(slit))) << "at the module";
-  EXPECT_FALSE(place_of(camera, ray->at(slit + 1))) << "behind the module";
+  EXPECT_TRUE(pixel_of(camera, ray->at(1e-9)));
+  EXPECT_FALSE(pixel_of(camera, ray->at(0))) << "on the observers' line";
+  EXPECT_FALSE(pixel_of(camera, ray->at(-1))) << "before the observers";
+  EXPECT_TRUE(pixel_of(camera, ray->at(slit - 1e-9)));
+  EXPECT_FALSE(pixel_of(camera, ray->at(slit))) << "at the module";
+  EXPECT_FALSE(pixel_of(camera, ray->at(slit + 1))) << "behind the module";
   // Nor has what is seen past the side of a screen that is half a cylinder.
   json document = flat_display();
   document["screen"] = {{"width", 1.6}, {"height", 1.2}, {"radius", 0.81}};
   document["modules"]["line"] = {{"from", {0, 0, -2}}, {"to", {0, 0, -2}}};
   const Camera convex = module_cameras(read(document), {0, 0, 160, 120})[0].second;
-  EXPECT_TRUE(place_of(convex, {0, 0, -3}));
-  EXPECT_FALSE(place_of(convex, {4, 0, -3}));
+  EXPECT_TRUE(pixel_of(convex, {0, 0, -3}));
+  EXPECT_FALSE(pixel_of(convex, {4, 0, -3}));
 }
 
 TEST(TwoSlitRays, PixelsPerUnit) {
   const Camera camera = module_cameras(read(flat_display()), {0, 0, 160, 120})[1].second;
   for (const double depth : {1.0, 3.0, 4.5}) {
     const dvec3 point = view_ray(camera, {70.5, 50.5})->at(depth);
-    const double moved = place_of(camera, point + dvec3(0.01, 0, 0))->x - place_of(camera, point)->x;
+    const double moved = pixel_of(camera, point + dvec3(0.01, 0, 0))->x - pixel_of(camera, point)->x;
     EXPECT_NEAR(pixels_per_unit(camera, depth), moved / 0.01, 1e-6);
   }
 }

@@ -1,5 +1,5 @@
-// Light-field displays: rows of optical modules behind a screen that spreads light upwards and downwards alone, so that who
-// moves sideways along the observer line sees another picture (Balogh et al. 2007; Doronin, Kara, Barsi, Martini 2017).
+// Light-field displays: rows of optical modules behind a screen that spreads light upwards and downwards only, so that an observer
+// who moves sideways along the observer line sees another picture (Balogh et al. 2007; Doronin, Kara, Barsi, Martini 2017).
 #pragma once
 
 #include <filesystem>
@@ -14,54 +14,54 @@
 
 namespace gloam {
 
-/// Where an optical module stands in physical space (`TwoSlits`) and which way it throws its light.
+/// Position of an optical module in physical space (`TwoSlits`), and the direction of its light.
 struct OpticalModule {
   glm::dvec3 position{0.0, 0.0, -1.0};
-  double yaw = 0, pitch = 0;  ///< degrees, to the right and up, of the observers that look at the screen
+  double yaw = 0, pitch = 0;  ///< degrees, to the right and up as the observers see it
 };
 
-/// What the screen's middle shows, and how the world's axes turn, stretch and shear into those of physical space:
-/// physical = linear * (world - origin).
+/// The point of the world in the middle of the screen, and how the world's axes turn, stretch and shear into those of physical
+/// space: physical = linear * (world - origin).
 struct WorldToPhysical {
   glm::dmat3 linear{1.0};
   glm::dvec3 origin{0.0};  ///< in double: it may be far from the world's own origin
 };
 
-/// What a display JSON says (docs/light-field.md). Lengths in the display's units.
+/// Contents of a display JSON (docs/light-field.md). Lengths in the display's units.
 struct LightFieldDisplay {
   std::string name;
-  double observer_distance = 1, observer_height = 0;  ///< of the observer line, from the screen's middle
+  double observer_distance = 1, observer_height = 0;  ///< of the observer line, from the middle of the screen
   double screen_width = 1, screen_height = 1;
-  std::optional<double> screen_radius;  ///< of an upright cylinder, convex to the observers; none: flat
+  std::optional<double> screen_radius;  ///< radius of an upright cylinder, convex to the observers; none: flat
   int width = 1024, height = 768;       ///< pixels of each module's image
   std::vector<OpticalModule> modules;
-  std::optional<WorldToPhysical> world;  ///< without it a capture chooses one
+  std::optional<WorldToPhysical> world;  ///< none: a capture chooses one
 };
 
-/// Reads a display JSON. Throws Error naming the file, the field and what is expected for what is missing, of the wrong type or
-/// not finite, and for a display that cannot be: without modules, with a screen behind its observers, with modules before the
-/// screen, with a transform that is singular or mirrors.
+/// Reads a display JSON. Throws Error naming the file, the field and what is expected if a field is missing, of the wrong type or
+/// not finite, and for an impossible display: without modules, with a screen behind its observers, with modules before the screen,
+/// with a transform that is singular or mirrors.
 LightFieldDisplay read_display(const std::filesystem::path& file);
 
-/// The same from text; `name`: of where it is from, for messages.
+/// As `read_display`, from text. `name`: its source, for messages.
 LightFieldDisplay display_from_text(const std::string& text, const std::string& name);
 
-/// JSON of a display, its modules one by one: what `display_from_text` reads as the same display.
+/// The JSON of a display, module by module; `display_from_text` reads the same display from it.
 std::string text_of(const LightFieldDisplay& display);
 
 /// Whether a JSON text is an object with modules, as a display's is and a camera's is not.
 bool is_display_text(const std::string& text);
 
-/// "module00", "module01", ...: names of views, with as many digits as the last one needs, two at least.
+/// Names of the views: "module00", "module01", ..., with as many digits as the last one needs, at least two.
 std::vector<std::string> module_names(const LightFieldDisplay& display);
 
 /// The camera of every module, by name, in pixels of an image of `window`'s size. Each image holds the module's view of the whole
-/// screen. The poses are the same: all modules share one view space.
-/// Throws Error for a display that does not say which part of the world it shows.
+/// screen. All modules share one pose: that of the display's view space. Throws Error if the display does not state which part of
+/// the world it shows.
 std::vector<std::pair<std::string, Camera>> module_cameras(const LightFieldDisplay& display, const Window& window);
 
-/// With the part of the world on display that a camera's image frames: who stands in the middle of the observer line stands where
-/// the camera does, and its image at `depth` fills the screen from top to bottom, about its middle. The camera has a pose.
+/// A display that shows the part of the world in a camera's image: the middle of the observer line is at the camera's position, and
+/// the image at `depth` (scene units) fills the screen from top to bottom, about its middle. The camera needs a pose.
 LightFieldDisplay fitted_to(LightFieldDisplay display, const Camera& camera, const Window& window, double depth);
 
 }  // namespace gloam
