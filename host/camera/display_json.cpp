@@ -16,14 +16,14 @@ using glm::dmat3;
 using glm::dvec3;
 using nlohmann::json;
 
-/// A display is a few kilobytes; a larger JSON is something else.
+/// A display takes a few kilobytes; a larger JSON is no display.
 constexpr std::uintmax_t largest_file = 16 << 20;
 constexpr int most_modules = 4096, most_pixels = 16384;
-constexpr double largest = 1e12;  // of any number
+constexpr double largest = 1e12;  // absolute value of any number
 
 // --- Fields
 
-/// An object of the document, and how messages name it: "screen", "modules.list[3]"; empty for the document itself.
+/// An object of the document, and its name in messages: "screen", "modules.list[3]"; empty for the document itself.
 struct Object {
   const std::string& file;
   std::string name;
@@ -39,13 +39,13 @@ struct Object {
 
 std::string type_of(const json& value) { return fmt::format("is of type {}", value.type_name()); }
 
-/// The field, or nullptr where it is missing or null.
+/// The field, or nullptr if it is missing or null.
 const json* find(const Object& object, const std::string& field) {
   const auto found = object.value.find(field);
   return found == object.value.end() || found->is_null() ? nullptr : &*found;
 }
 
-/// Misspelt fields would be taken for missing ones.
+/// Throws Error for unknown fields: a misspelt field would count as missing.
 void check_fields(const Object& object, const std::vector<std::string>& known) {
   for (const auto& [field, unused] : object.value.items()) {
     if (!contains(known, field))
@@ -135,7 +135,7 @@ std::vector<dvec3> along_arc(const Object& modules, int count) {
   return places;
 }
 
-/// Turned from where it stands to the screen's middle.
+/// A module turned from its position to the middle of the screen.
 OpticalModule facing_the_middle(const dvec3& place) {
   const double degrees = 180 / glm::pi<double>();
   return {place, std::atan2(-place.x, -place.z) * degrees,
@@ -213,7 +213,7 @@ dmat3 matrix(const Object& object, const std::string& field) {
   return m;
 }
 
-/// In relation to what its rows could span: 1 at right angles, 0 where one lies in the plane of the others.
+/// Volume of the rows relative to the product of their lengths: 1 at right angles, 0 if one lies in the plane of the others.
 double volume_share(const dmat3& m) {
   const dmat3 rows = glm::transpose(m);
   const double most = glm::length(rows[0]) * glm::length(rows[1]) * glm::length(rows[2]);
@@ -247,7 +247,7 @@ Box box_of(const Object& object) {
   return box;
 }
 
-/// The map that takes one box to the other.
+/// The map from one box to the other.
 std::optional<WorldToPhysical> from_boxes(const Object& document) {
   const std::optional<Object> region = object(document, "region_of_interest", {"physical", "world"});
   if (!region) return {};
@@ -264,7 +264,7 @@ std::optional<WorldToPhysical> from_boxes(const Object& document) {
   const dvec3 scale = to.size / from.size;
   const dmat3 rows(scale.x * glm::normalize(right), scale.y * glm::normalize(up), scale.z * glm::normalize(ahead));
   WorldToPhysical map{glm::transpose(rows), {}};
-  // Sizes as far apart as doubles go.
+  // The sizes may differ by as much as doubles can.
   check_transform(document.file, "region_of_interest", map.linear);
   map.origin = from.centre - glm::inverse(map.linear) * to.centre;
   return map;
@@ -284,7 +284,7 @@ bool is_within_range(const dvec3& v) {
   return std::abs(v.x) <= largest && std::abs(v.y) <= largest && std::abs(v.z) <= largest;
 }
 
-/// What comes of numbers in range may be out of it, and could be written and not be read again.
+/// Results from numbers in range may be out of range: they could be written but not read again.
 void check_range(const std::string& file, const LightFieldDisplay& display) {
   for (size_t i = 0; i < display.modules.size(); ++i)
     if (!is_within_range(display.modules[i].position))
@@ -305,7 +305,7 @@ void check_places(const std::string& file, const LightFieldDisplay& display) {
   for (size_t i = 0; i < display.modules.size(); ++i) {
     const OpticalModule& module = display.modules[i];
     const double r = display.screen_radius.value_or(0);
-    // A curved screen's sides lie farthest back.
+    // The sides of a curved screen lie farthest back.
     const double back =
         display.screen_radius ? std::sqrt(r * r - 0.25 * display.screen_width * display.screen_width) - r : 0;
     if (!(module.position.z < back))

@@ -338,8 +338,8 @@ TEST_F(RadiusNote, OfMetresOnAFrameInMillimetres) {
 
 TEST_F(RadiusNote, OverTheCap) {
   expect_note("20",
-              "radius 20 scene units reaches 1541 pixels at the median depth, and most pixels are searched up to 120 "
-              "alone (max_reach 0.25); --radius 0.39 reaches 30");
+              "radius 20 scene units reaches 1541 pixels at the median depth, but most pixels are searched only up to "
+              "120 (max_reach 0.25); --radius 0.39 reaches 30");
 }
 
 TEST_F(RadiusNote, Zero) {

@@ -98,11 +98,11 @@ TEST(Mask, WhatCannotBeIsSaidInOneLine) {
       "--only corner-mast: is neither a plane at hand nor a technique that makes one (did you mean 'corner-mask'?); "
       "--plane mask=CHANNEL takes any channel of the file as 'mask'");
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "normal"}),
-            "--only normal: 'normal' is no single value per pixel; corner-mask makes a mask");
+            "--only normal: 'normal' has several values per pixel; corner-mask makes a mask");
   EXPECT_EQ(message({.outputs = {"normals"}, .mask = "depth"}),
-            "--only: normals has no work that a mask can leave out; leave it out");
+            "--only: normals has no pass that a mask can restrict; leave --only out");
   EXPECT_EQ(message({.outputs = {"stereo-ao"}, .mask = "corner-mask"}),
-            "--only: restricts techniques that look at one view, and stereo-ao looks at two; leave it out");
+            "--only: restricts techniques that read one view, and stereo-ao reads two; leave --only out");
 }
 
 // --- What comes out

@@ -151,7 +151,7 @@ TEST(Resolution, WhatTwoViewsAgreeOnIsUpsampledFromBoth) {
     if (read.from == From::other_view) others.push_back(read.argument + " " + read.plane);
   }
   EXPECT_EQ(others, (Names{"other_source ao@4", "other_depth depth@4", "other_normal normal@4"}));
-  EXPECT_FALSE(pass.can_skip) << "masks restrict techniques that look at one view";
+  EXPECT_FALSE(pass.can_skip) << "masks restrict techniques that read one view";
   EXPECT_FALSE(looks_at_other_view(upsampling_of(plan_of({.outputs = {"gtao"}, .resolution = 4}), "ao")));
 }
 
@@ -165,7 +165,7 @@ TEST(Resolution, UpsamplingInheritsTheRadius) {
 
 TEST(Resolution, WhatGuidesUpsamplingIsNotReduced) {
   EXPECT_EQ(message_of([] { plan_of({.outputs = {"normals"}, .resolution = 2}); }),
-            "normals: 'normal' is what guides upsampling, so it has to be made of every pixel; use --resolution full");
+            "normals: 'normal' guides upsampling, so it needs every pixel; use --resolution full");
 }
 
 TEST(Resolution, WhatIsMissingForUpsamplingIsNamed) {

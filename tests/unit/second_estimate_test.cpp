@@ -176,13 +176,13 @@ TEST(AdaptivePlan, WhatCannotBeIsSaidInOneLine) {
   EXPECT_EQ(message({.outputs = {"gtao"}, .resolution = 2, .adaptive = "low"}),
             "--adaptive low: works at full resolution; leave out --resolution");
   EXPECT_EQ(message({.outputs = {"dp-gtao"}, .adaptive = "low"}, {"depth", "normal", "peel.00", "peel.01"}),
-            "--adaptive low: dp-gtao looks at further layers, which a base pass does not; leave it out");
+            "--adaptive low: dp-gtao reads further layers, which a base pass does not; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"stereo-gtao"}, .adaptive = "low"}),
-            "--adaptive low: stereo-gtao looks at two views, which a base pass does not; leave it out");
+            "--adaptive low: stereo-gtao reads two views, which a base pass does not; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"normals"}, .adaptive = "low"}),
-            "--adaptive low: normals has no estimate that can leave out pixels; leave it out");
+            "--adaptive low: normals has no estimate that can skip pixels; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"multires"}, .adaptive = "low"}),
-            "--adaptive low: multires has no estimate that can leave out pixels; leave it out");
+            "--adaptive low: multires has no estimate that can skip pixels; leave --adaptive out");
 }
 
 // --- Elsewhere
@@ -272,14 +272,13 @@ TEST(Elsewhere, WhatCannotBeIsSaidInOneLine) {
   const auto message = [](const PlanRequest& request, const Names& available = {"depth", "normal", "mask"}) {
     return message_of([&] { plan_of(request, available); });
   };
-  EXPECT_EQ(message({.outputs = {"bitmask"}, .elsewhere = "gtao"}),
-            "--elsewhere gtao: nothing says where it does; add --only MASK");
+  EXPECT_EQ(message({.outputs = {"bitmask"}, .elsewhere = "gtao"}), "--elsewhere gtao: needs a mask; add --only MASK");
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtao"}),
-            "--elsewhere gtao: is what runs where the mask is, too; leave out --only and --elsewhere");
+            "--elsewhere gtao: also runs inside the mask; leave out --only and --elsewhere");
   EXPECT_NE(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtoa"}).find("did you mean 'gtao'"),
             std::string::npos);
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "normals"}),
-            "--elsewhere normals: makes normal, and gtao makes ao_raw; name an estimate of the same");
+            "--elsewhere normals: makes normal, and gtao makes ao_raw; name an estimate of the same planes");
   EXPECT_EQ(message({.outputs = {"gtao"}, .with = {"cone"}, .mask = "mask", .elsewhere = "hbao+"}),
             "--elsewhere hbao+: does not make 'cone', which is asked for; leave that out");
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "ssao", .resolution = 2}),
