@@ -1,4 +1,4 @@
-// Scenes from files, by assimp: meshes in place, cameras, and what was mended or left out.
+// Scenes from files, by assimp: placed meshes, cameras, and notes on repairs and omissions.
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
@@ -31,14 +31,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Counted in place: a small file can ask for any number of instances.
+/// Counted with all instances: a small file can ask for any number of them.
 constexpr size_t most_triangles = 100'000'000;
 
 std::string counted(size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
 
 // --- Reading the file
 
-/// A file that ends: some of assimp's readers (PLY) ask for more for ever where a file is cut short.
+/// A file that ends: some of assimp's readers (PLY) would read for ever if a file is cut short.
 class EndingStream : public Assimp::IOStream {
  public:
   explicit EndingStream(Assimp::IOStream* from) : from_(from) {}
@@ -58,7 +58,7 @@ class EndingStream : public Assimp::IOStream {
   int reads_past_end_ = 0;
 };
 
-/// assimp ends the program where a property of a material comes before any material.
+/// Whether a material file begins with a material: assimp ends the program if a property comes first.
 bool begins_with_material(const fs::path& mtl) {
   std::ifstream file(mtl);
   std::string first;
@@ -72,7 +72,7 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-/// Text that assimp reads in place of a file's.
+/// Text that assimp reads instead of a file's.
 class TextStream : public Assimp::MemoryIOStream {
  public:
   static TextStream* of(const std::string& text) {
@@ -85,8 +85,8 @@ class TextStream : public Assimp::MemoryIOStream {
   TextStream(uint8_t* bytes, size_t size) : MemoryIOStream(bytes, size, true) {}
 };
 
-/// Opens files for assimp: OBJ and MTL in a form that it reads right, and buffers whose names have escapes. Remembers which .mtl
-/// files were of use, as assimp goes on without and says nothing, and what an OBJ holds.
+/// Opens files for assimp: OBJ and MTL in a form that it reads correctly, and buffers whose names have escapes. Remembers which
+/// .mtl files were usable, since assimp goes on without them silently, and the contents of an OBJ.
 class Files : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override {
@@ -101,8 +101,8 @@ class Files : public Assimp::DefaultIOSystem {
     return stream ? new EndingStream(stream) : nullptr;
   }
   std::vector<std::string> found, missing, left_out;
-  std::optional<size_t> faces;  ///< of an OBJ file
-  std::string why_not;          ///< an OBJ file cannot be read
+  std::optional<size_t> faces;  ///< faces of an OBJ file
+  std::string why_not;          ///< why an OBJ file cannot be read
 
  private:
   Assimp::IOStream* open_obj(const fs::path& path) {
@@ -111,7 +111,7 @@ class Files : public Assimp::DefaultIOSystem {
       const ObjText obj = readable_obj(read_text(path), path.string());
       faces = obj.faces;
       return obj.text.empty() ? nullptr : TextStream::of(obj.text);
-    } catch (const Error& error) {  // assimp would keep it to itself
+    } catch (const Error& error) {  // assimp would not report it
       why_not = error.what();
       return nullptr;
     }
@@ -151,8 +151,8 @@ std::string one_line(std::string text) {
   throw Error("{}: cannot be read as a scene: {}", path.string(), reason.empty() ? "no reason given" : reason);
 }
 
-/// assimp checks the indices of some formats only, and its triangulation trusts them; and it ends the program where a
-/// mesh says that it has polygons and has none.
+/// Checks indices, which assimp does for some formats only and its triangulation trusts, and meshes that claim polygons but have
+/// none, for which assimp ends the program.
 void check_faces(const aiScene& scene, const fs::path& path) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     aiMesh& mesh = *scene.mMeshes[m];
@@ -169,7 +169,7 @@ void check_faces(const aiScene& scene, const fs::path& path) {
   }
 }
 
-/// What assimp does not understand of an OBJ file it passes over without a word.
+/// Throws Error if assimp silently skipped parts of an OBJ file.
 void check_understood(const aiScene& scene, size_t expected, const fs::path& path) {
   size_t found = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -182,14 +182,14 @@ void check_understood(const aiScene& scene, size_t expected, const fs::path& pat
                 found);
 }
 
-/// No smooth normals are made (missing ones mean flat faces) and no vertices joined.
+/// Makes no smooth normals (missing ones mean flat faces) and joins no vertices.
 const aiScene& read(Assimp::Importer& importer, const fs::path& path, bool is_gltf, const Files& files) {
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (!files.why_not.empty()) throw Error("{}", files.why_not);
   if (!scene || !scene->mRootNode) refuse(path, one_line(importer.GetErrorString()));
   check_faces(*scene, path);
   if (files.faces) check_understood(*scene, *files.faces, path);
-  // Of glTF it gets texture transforms with a rotation wrong: import_materials takes care of those.
+  // assimp gets glTF texture transforms with a rotation wrong: import_materials handles those.
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | (is_gltf ? 0u : aiProcess_TransformUVCoords));
   if (!scene) refuse(path, one_line(importer.GetErrorString()));
   return *scene;
@@ -207,15 +207,15 @@ std::string unique_name(const Scene& scene, const std::string& wanted) {
   return name;
 }
 
-/// The transform of the node with a name; identity where there is none.
+/// The transform of the node with this name; identity if there is none.
 glm::dmat4 to_world_of(const aiNode* node) {
   glm::dmat4 m(1.0);
   for (; node; node = node->mParent) m = matrix_of(node->mTransformation) * m;
   return m;
 }
 
-/// assimp's cameras stand at a place and look along a direction within their node. The field of view is the whole
-/// horizontal angle, whatever assimp's header says of half of it.
+/// assimp's cameras have a position and a direction within their node. The field of view is the whole horizontal angle; assimp's
+/// header says half of it, wrongly.
 void add_cameras(const aiScene& from, Scene& scene) {
   for (unsigned i = 0; i < from.mNumCameras; ++i) {
     const aiCamera& camera = *from.mCameras[i];
@@ -239,7 +239,7 @@ void add_cameras(const aiScene& from, Scene& scene) {
   }
 }
 
-/// From a corner above, so near that all of the bounding box is in an image of up to 16:9.
+/// A camera above a corner, as near as possible with the whole bounding box in an image of up to 16:9.
 SceneCamera overview(const Bounds& bounds, const Scene& scene) {
   constexpr double fov_degrees = 50, margin = 1.05;
   const glm::dvec3 side = std::abs(scene.up.x) > 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -258,7 +258,7 @@ SceneCamera overview(const Bounds& bounds, const Scene& scene) {
 
 // --- The whole
 
-/// As the file says (FBX); assimp keeps its axes, and turns others to y up.
+/// The up axis that the file states (FBX), whose axes assimp keeps; other formats come with y up.
 glm::dvec3 up_of(const aiScene& from) {
   int axis = 1, sign = 1;
   if (from.mMetaData) from.mMetaData->Get("UpAxis", axis), from.mMetaData->Get("UpAxisSign", sign);
@@ -267,20 +267,20 @@ glm::dvec3 up_of(const aiScene& from) {
   return up;
 }
 
-void add_notes(const Mended& mended, const Bounds& bounds, const aiScene& from, Scene& scene) {
+void add_notes(const Repairs& repairs, const Bounds& bounds, const aiScene& from, Scene& scene) {
   const auto note = [&](size_t n, const char* one, const char* many) {
     if (n > 0) scene.notes.push_back(n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many));
   };
-  note(mended.not_finite, "triangle was left out, with a vertex that is not finite",
+  note(repairs.not_finite, "triangle was left out, with a vertex that is not finite",
        "triangles were left out, with vertices that are not finite");
-  note(mended.degenerate, "triangle was left out, without an area", "triangles were left out, without an area");
-  note(mended.not_surfaces, "point or line was left out", "points and lines were left out");
-  note(mended.normals, "vertex normal was zero or not finite, and is made from the faces around it",
+  note(repairs.degenerate, "triangle was left out, without an area", "triangles were left out, without an area");
+  note(repairs.not_surfaces, "point or line was left out", "points and lines were left out");
+  note(repairs.normals, "vertex normal was zero or not finite, and is made from the faces around it",
        "vertex normals were zero or not finite, and are made from the faces around them");
-  note(mended.uvs, "texture coordinate was not finite, and is 0", "texture coordinates were not finite, and are 0");
-  note(mended.coloured, "mesh has vertex colours, which are left out",
+  note(repairs.uvs, "texture coordinate was not finite, and is 0", "texture coordinates were not finite, and are 0");
+  note(repairs.coloured, "mesh has vertex colours, which are left out",
        "meshes have vertex colours, which are left out");
-  note(mended.moving, "mesh has bones or morph targets, and stands as modelled",
+  note(repairs.moving, "mesh has bones or morph targets, and stands as modelled",
        "meshes have bones or morph targets, and stand as modelled");
   note(from.mNumLights, "light of the file was left out", "lights of the file were left out");
   const double step = bounds.largest_local * std::numeric_limits<float>::epsilon();
@@ -298,11 +298,12 @@ void check_count(const std::vector<Instance>& instances, const fs::path& path) {
     throw Error("{}: has {} triangles with all instances; up to {} are read", path.string(), count, most_triangles);
 }
 
-[[noreturn]] void refuse_empty(const Mended& mended, const fs::path& path) {
+[[noreturn]] void refuse_empty(const Repairs& repairs, const fs::path& path) {
   std::vector<std::string> found;
-  if (mended.not_surfaces) found.push_back(counted(mended.not_surfaces, "point or line"));
-  if (mended.degenerate) found.push_back(counted(mended.degenerate, "triangle") + " without an area");
-  if (mended.not_finite) found.push_back(counted(mended.not_finite, "triangle") + " with vertices that are not finite");
+  if (repairs.not_surfaces) found.push_back(counted(repairs.not_surfaces, "point or line"));
+  if (repairs.degenerate) found.push_back(counted(repairs.degenerate, "triangle") + " without an area");
+  if (repairs.not_finite)
+    found.push_back(counted(repairs.not_finite, "triangle") + " with vertices that are not finite");
   throw Error("{}: has no triangles{}{}", path.string(), found.empty() ? "" : ", only ", enumerate(found));
 }
 
@@ -312,7 +313,7 @@ Scene imported(const fs::path& path) {
   const GltfJson gltf = is_gltf ? read_gltf_json(path) : GltfJson{};
   Assimp::Importer importer;
   Files* files = new Files;
-  importer.SetIOHandler(files);  // which owns it
+  importer.SetIOHandler(files);  // the importer owns it
   const aiScene& from = read(importer, path, is_gltf, *files);
 
   Scene scene;
@@ -333,10 +334,10 @@ Scene imported(const fs::path& path) {
                     counted(files->left_out.size(), "statement"), files->left_out.size() == 1 ? "was" : "were",
                     files->left_out.size() == 1 ? "its value is" : "their values are", enumerate(files->left_out)));
   const std::vector<UvUse> uv_uses = import_materials(from, path.parent_path(), gltf.emissive_strength, scene);
-  Mended mended;
-  add_meshes(instances, uv_uses, scene, mended);
-  if (scene.faces() == 0) refuse_empty(mended, path);
-  add_notes(mended, bounds, from, scene);
+  Repairs repairs;
+  add_meshes(instances, uv_uses, scene, repairs);
+  if (scene.faces() == 0) refuse_empty(repairs, path);
+  add_notes(repairs, bounds, from, scene);
 
   scene.notes.insert(scene.notes.end(), gltf.notes.begin(), gltf.notes.end());
   if (is_gltf) {

@@ -8,9 +8,9 @@
 namespace gloam {
 namespace {
 
-/// Float has steps of 1e8 there, and squares of distances still fit it.
+/// Float has steps of 1e8 there; squares of distances still fit it.
 constexpr double largest_coordinate = 1e15;
-/// A triangle is without area where it is thinner than this part of its length: float cannot tell its normal.
+/// A triangle counts as without area if its height is less than this share of its length: float cannot give its normal.
 constexpr double thinnest = 1e-7;
 
 double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -26,15 +26,15 @@ bool degenerate(const std::array<glm::vec3, 3>& p) {
   return !(glm::length(area_vector(p[0], p[1], p[2])) > thinnest * longest * longest);
 }
 
-/// The cofactors: inverse transpose times determinant. Exists where an axis is scaled by zero, too.
+/// The cofactors: inverse transpose times determinant. They exist even if an axis is scaled by zero.
 glm::dmat3 cofactors(const glm::dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
 class Placing {
  public:
-  Placing(const Instance& instance, const glm::dvec3& origin, Mended& mended)
-      : instance_(instance), from_(*instance.mesh), origin_(origin), mended_(mended) {
+  Placing(const Instance& instance, const glm::dvec3& origin, Repairs& repairs)
+      : instance_(instance), from_(*instance.mesh), origin_(origin), repairs_(repairs) {
     mirrored_ = glm::determinant(glm::dmat3(instance.to_world)) < 0;
   }
 
@@ -53,15 +53,15 @@ class Placing {
 
   void add(const aiFace& face) {
     if (face.mNumIndices != 3) {
-      ++mended_.not_surfaces;
+      ++repairs_.not_surfaces;
       return;
     }
     std::array<glm::vec3, 3> p;
     for (unsigned i = 0; i < 3; ++i) p[i] = glm::vec3(instance_.vertex(face.mIndices[i]) - origin_);
     if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) {
-      ++mended_.not_finite;
+      ++repairs_.not_finite;
     } else if (degenerate(p)) {
-      ++mended_.degenerate;
+      ++repairs_.degenerate;
     } else {
       glm::uvec3 t;
       for (int i = 0; i < 3; ++i) t[i] = vertex(face.mIndices[i], p[size_t(i)]);
@@ -69,7 +69,7 @@ class Placing {
     }
   }
 
-  /// Only what triangles use is kept, so that a stray vertex that is not finite does no harm.
+  /// Keeps only vertices that triangles use, so that a stray vertex that is not finite does no harm.
   unsigned vertex(unsigned from, const glm::vec3& position) {
     if (index_[from] == none) {
       index_[from] = unsigned(source_.size());
@@ -89,15 +89,15 @@ class Placing {
       if (!usable) broken.push_back(unsigned(mesh_.normals.size()));
       mesh_.normals.push_back(usable ? glm::vec3(n / length) : glm::vec3(0));
     }
-    mended_.normals += broken.size();
+    repairs_.normals += broken.size();
     if (broken.size() == mesh_.normals.size())
       mesh_.normals.clear();
     else if (!broken.empty())
-      mend(broken);
+      repair(broken);
   }
 
-  /// The sum of the faces around a vertex by area, or one of them where they cancel.
-  void mend(const std::vector<unsigned>& broken) {
+  /// Sets a normal to the area-weighted sum of the faces around the vertex, or to one of them if they cancel.
+  void repair(const std::vector<unsigned>& broken) {
     std::vector<glm::dvec3> sum(mesh_.positions.size(), glm::dvec3(0)), last = sum;
     for (const glm::uvec3& t : mesh_.triangles) {
       const glm::dvec3 area = area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]);
@@ -109,7 +109,7 @@ class Placing {
     }
   }
 
-  /// assimp has v up from the bottom for all formats.
+  /// assimp has v up from the bottom, for all formats.
   void add_uvs(const UvUse& use) {
     const bool has_set = use.set < AI_MAX_NUMBER_OF_TEXTURECOORDS && from_.HasTextureCoords(use.set);
     const unsigned set = has_set ? use.set : 0;
@@ -118,7 +118,7 @@ class Placing {
       const aiVector3D& uv = from_.mTextureCoords[set][from];
       const glm::vec2 used = use({uv.x, 1.0 - uv.y});
       const bool usable = std::isfinite(used.x) && std::isfinite(used.y);
-      if (!usable) ++mended_.uvs;
+      if (!usable) ++repairs_.uvs;
       mesh_.uvs.push_back(usable ? used : glm::vec2(0));
     }
   }
@@ -126,7 +126,7 @@ class Placing {
   const Instance& instance_;
   const aiMesh& from_;
   glm::dvec3 origin_;
-  Mended& mended_;
+  Repairs& repairs_;
   bool mirrored_ = false;
   Mesh mesh_;
   std::vector<unsigned> index_, source_;  // from the file's vertices to ours, and back
@@ -174,15 +174,15 @@ Bounds bounds_of(const std::vector<Instance>& instances, const std::filesystem::
 }
 
 void add_meshes(const std::vector<Instance>& instances, const std::vector<UvUse>& uv_uses, Scene& scene,
-                Mended& mended) {
+                Repairs& repairs) {
   const unsigned plain = unsigned(scene.materials.size()) - 1;
   for (const Instance& instance : instances) {
     const unsigned material = std::min(instance.mesh->mMaterialIndex, plain);
-    Mesh mesh = Placing(instance, scene.origin, mended).place(uv_uses[material]);
+    Mesh mesh = Placing(instance, scene.origin, repairs).place(uv_uses[material]);
     if (mesh.triangles.empty()) continue;
     mesh.material = int(material);
-    mended.coloured += instance.mesh->HasVertexColors(0);
-    mended.moving += instance.mesh->HasBones() || instance.mesh->mNumAnimMeshes > 0;
+    repairs.coloured += instance.mesh->HasVertexColors(0);
+    repairs.moving += instance.mesh->HasBones() || instance.mesh->mNumAnimMeshes > 0;
     scene.meshes.push_back(std::move(mesh));
   }
 }

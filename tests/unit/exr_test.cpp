@@ -269,17 +269,17 @@ TEST(ReadExr, AsStoredMeasuresWhatTheFileHolds) {
   ReadOptions options;
   options.normal_space = NormalSpace::view;
   const std::vector<std::string> planes = {"depth", "ao", "color", "normal"};
-  const Frame mended = FrameFile(folder / "f.exr", options).read(planes);
+  const Frame repaired = FrameFile(folder / "f.exr", options).read(planes);
   options.as_stored = true;
   const Frame stored = FrameFile(folder / "f.exr", options).read(planes);
-  const Channel &ao = stored.views[0].find("ao")->channels[0], &mended_ao = mended.views[0].find("ao")->channels[0];
+  const Channel &ao = stored.views[0].find("ao")->channels[0], &repaired_ao = repaired.views[0].find("ao")->channels[0];
   EXPECT_EQ(ao.at(0, 0), 1.5f);
   EXPECT_EQ(ao.at(1, 0), -0.5f);
   EXPECT_TRUE(std::isnan(ao.at(2, 0)));
   EXPECT_EQ(ao.at(3, 0), inf);
-  EXPECT_EQ(mended_ao.at(0, 0), 1);
-  EXPECT_EQ(mended_ao.at(2, 0), 1);
-  for (const Frame* frame : {&mended, &stored}) {
+  EXPECT_EQ(repaired_ao.at(0, 0), 1);
+  EXPECT_EQ(repaired_ao.at(2, 0), 1);
+  for (const Frame* frame : {&repaired, &stored}) {
     EXPECT_EQ(frame->views[0].find("depth")->channels[0].at(3, 0), inf) << "depth is converted all the same";
     EXPECT_EQ(frame->views[0].find("ao")->channels[0].row(0)[4], 1) << "padding";
   }

@@ -490,7 +490,7 @@ TEST(Import, OverviewSeesEverything) {
   }
 }
 
-// --- Mending
+// --- Repairs
 
 TEST(Import, TrianglesOfNoUseAreLeftOut) {
   const Scene scene = import_text("a.obj", one_triangle +
