@@ -11,7 +11,7 @@
 namespace gloam::report {
 namespace {
 
-/// An object of the file, with its place in it for messages: "results[3]".
+/// An object of the file, and its path in the file for messages: "results[3]".
 class Object {
  public:
   Object(const Json& value, std::string file, std::string place)
@@ -19,7 +19,7 @@ class Object {
     if (!value_.is_object()) fail(place_.empty() ? "the document" : place_, value_, "an object");
   }
 
-  /// Empty where it is null or missing.
+  /// Empty if it is null or missing.
   std::string text(const char* key) const {
     const Json* value = find(key);
     if (!value) return "";
@@ -69,7 +69,7 @@ class Object {
     return list(key);
   }
 
-  /// Empty where it is null or missing.
+  /// Empty if it is null or missing.
   std::optional<std::vector<std::string>> texts(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
@@ -79,7 +79,7 @@ class Object {
     return value->get<std::vector<std::string>>();
   }
 
-  /// The two numbers of a size; empty where there is none.
+  /// The two numbers of a size; empty if there is none.
   std::pair<Number, Number> size(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
@@ -124,7 +124,7 @@ Ladder ladder_of(const Object& l) {
           l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
 }
 
-/// Of files that do not say.
+/// For files that do not state what a technique reads.
 Reads reads_by_name(const std::string& technique) {
   if (technique.starts_with(peeled_prefix)) return {{"depth", "peel"}};
   if (technique.starts_with(stochastic_prefix)) return {{"depth", "stochastic"}};
@@ -237,7 +237,7 @@ Measurements measurements_of(const Object& o) {
   return m;
 }
 
-/// A scene that rows name and the list of scenes does not.
+/// Adds scenes that rows name and the list of scenes lacks.
 void add_scenes_of_rows(Measurements& m) {
   for (const Row& row : m.rows) {
     const auto is_it = [&](const Scene& scene) { return scene.name == row.scene; };

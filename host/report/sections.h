@@ -1,4 +1,4 @@
-// The parts of the generated page. Each is Markdown with its heading, or empty where nothing was measured for it.
+// The parts of the generated page. Each is Markdown with its heading, or empty if nothing was measured for it.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace gloam::report {
 
-/// What the sections are made of.
+/// The data of the sections.
 struct Material {
   const std::vector<Source>& sources;
   Measurements all;                  ///< `joined`
-  std::vector<ClassFront> measured;  ///< of each group (`by_group`), over all settings
-  std::vector<ClassFront> fronts;    ///< of each group, over plain settings with one layer; a group may have none
+  std::vector<ClassFront> measured;  ///< fronts of each group (`by_group`), over all settings
+  std::vector<ClassFront> fronts;    ///< fronts of each group, over plain settings with one layer; may be missing
 };
 
 Material material_of(const std::vector<Source>& sources);
@@ -22,7 +22,7 @@ Material material_of(const std::vector<Source>& sources);
 std::string needs_section(const Material& material);
 std::string fronts_section(const Material& material);
 std::string scenes_section(const Material& material);
-/// Presets that take more time than a smaller one and are farther from the truth.
+/// Presets that take more time than a smaller preset and are farther from the truth.
 std::string presets_section(const Material& material);
 std::string converged_section(const Material& material);
 std::string ladder_section(const Material& material);
@@ -31,7 +31,7 @@ std::string scales_section(const Material& material);
 std::string planes_section(const Material& material);
 std::string others_section(const Material& material);
 
-// --- What several of them need
+// --- Functions that several sections use
 
 /// "gtao medium, half"
 std::string setting_text(const std::string& technique, const std::string& preset, const std::string& variant = "");

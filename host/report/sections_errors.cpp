@@ -1,4 +1,4 @@
-// How near to the truth, and what keeps it from being nearer.
+// Distances from the truth, and their causes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace gloam::report {
 namespace {
 
-/// Of some numbers; empty where there are none.
+/// Empty for an empty list.
 Number median_of(const std::vector<double>& values) { return values.empty() ? Number() : Number(median(values)); }
 
 // --- Converged
@@ -28,13 +28,13 @@ const Converged* find(const std::vector<Converged>& list, const std::string& sce
   return found == list.end() ? nullptr : &*found;
 }
 
-/// A technique and the same over all peeled layers; either may be missing, and is empty then.
+/// A technique, and its variant over all peeled layers; either may be missing, and is then empty.
 struct Pair {
   std::string name, given, all_layers;
-  bool is_over_one_layer = false;  ///< `given`: what is compared for the least
+  bool is_over_one_layer = false;  ///< `given` takes part in the comparison for the least error
 };
 
-/// What the technique is called that the same over peeled layers is named after (technique/ambient_occlusion.h).
+/// The name of the technique without the prefix for peeled layers (technique/ambient_occlusion.h).
 std::string name_of_pair(const Converged& each) {
   const bool is_named_after = reads_peeled_layers(each.reads) && each.technique.starts_with(peeled_prefix);
   return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);
@@ -70,7 +70,7 @@ std::string side_by_side(const std::string& one, const std::string& all) {
   return all == "-" ? one : one + " / " + all;
 }
 
-/// Mean over the scenes; empty where one of them lacks it, since the mean would be over others than its neighbours'.
+/// Mean over the scenes; empty if one of them lacks the technique, since its mean would not compare with its neighbours'.
 Number mean_of(const std::vector<Converged>& list, const std::vector<std::string>& scenes, const std::string& technique,
                Number Converged::*figure) {
   double sum = 0;
@@ -144,7 +144,7 @@ std::string position_in_words(const PlaneReading& reading) {
   return text;
 }
 
-/// What reads less than this is bold: a plane is seen to be shaded.
+/// Values below this are bold: shading becomes visible.
 constexpr double open = 0.99;
 
 std::string openness(double least) {

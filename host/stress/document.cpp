@@ -70,7 +70,7 @@ CaseResult case_result_of(const Json& document) {
 std::string replay_command(const StressRun& run, const std::string& technique, int number, int trial,
                            const std::string& device_flag) {
   std::string command = fmt::format("gloam stress {} --case {}", technique, number);
-  if (trial > 0) command += fmt::format(" --trial {}", trial);  // 0: it ended before its first
+  if (trial > 0) command += fmt::format(" --trial {}", trial);  // 0: the case ended before its first trial
   if (run.extent == Extent::quick) command += " --quick";
   if (run.seed != 1) command += fmt::format(" --seed {}", run.seed);
   if (run.frames != 0) command += fmt::format(" --frames {}", run.frames);
