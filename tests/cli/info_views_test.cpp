@@ -45,7 +45,7 @@ class InfoViews : public Cli {
   }
 };
 
-/// Where a run of ten such pixels first begins; (-1, -1) where none is.
+/// Position of the first run of ten pixels of a colour; (-1, -1) if there is none.
 std::pair<int, int> find_run(const Picture& picture, const Pixel& colour) {
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0, run = 0; x < picture.width; ++x) {

@@ -24,7 +24,7 @@ IntegralCase moved(IntegralCase test, glm::ivec2 by) {
   return test;
 }
 
-/// The depth as a layer, and nothing to be computed but these pixels: background everywhere else.
+/// A frame with the depth as a layer and background everywhere but at these pixels.
 Frame only_at(const std::vector<glm::ivec2>& pixels, const Frame& frame) {
   Frame few = with_layers(frame, {same_depth});
   Channel& depth = plane_of(few, "depth").channels[0];
@@ -42,7 +42,7 @@ std::vector<double> values_at(const std::vector<glm::ivec2>& pixels, const Frame
   return values;
 }
 
-/// By seed and pixel.
+/// Indexed by seed and pixel.
 using Samples = std::vector<std::vector<double>>;
 
 Samples samples_of(const Plan& plan, const Frame& frame, const std::vector<glm::ivec2>& pixels, int seeds) {

@@ -220,7 +220,7 @@ TEST(DisplayJson, IsToldFromACamera) {
   EXPECT_FALSE(is_display_text(R"({"fx": 3, "camera_to_world": []})"));
   EXPECT_FALSE(is_display_text("[1]"));
   EXPECT_FALSE(is_display_text("{"));
-  // A display with a fault is a display: its fault is what has to be said.
+  // A faulty display is still a display: its fault must be reported.
   EXPECT_TRUE(is_display_text(R"({"observer": {"distance": NaN}, "modules": {}})"));
 }
 
@@ -420,7 +420,7 @@ TEST(DisplayFault, Resolution) {
   expect_fault(fault({20000, 8}), {"modules.resolution[0]", "20000"});
 }
 
-/// One of two would be left unread.
+/// Fields that exclude each other are refused, since one of them would be ignored.
 TEST(DisplayFault, WhatExcludesEachOther) {
   json document = flat_display();
   document["modules"]["arc"] = {{"centre", {0, 0, 0}}, {"radius", 2}, {"angle", 30}};
@@ -459,7 +459,7 @@ std::vector<Case> cases() {
   json convex = flat, far_behind = flat, turned = flat, sheared = flat, distant = flat, nearly_flat = flat;
   convex["screen"]["radius"] = 2;
   convex["modules"]["facing"] = "middle";
-  // Outside of the screen's cylinder.
+  // Outside the screen's cylinder.
   far_behind["screen"]["radius"] = 0.9;
   far_behind["modules"]["line"] = {{"from", {-0.4, 0.1, -6}}, {"to", {0.4, 0.1, -6}}};
   turned["modules"] = json::parse(R"({"resolution": [160, 120], "list": [
@@ -508,12 +508,12 @@ TEST(TwoSlitRays, PlaceIsTheInverseOfRay) {
       }
     }
     EXPECT_LT(worst, 1e-6);
-    // The whole of the image but what turned modules throw past the screen.
+    // The whole image, except the part that turned modules throw past the screen.
     EXPECT_GT(shown, 160 * 120 / 2);
   });
 }
 
-/// The world's own points: what a place far from the origin costs is what a double costs there.
+/// World positions: far from the origin, the error is the rounding of doubles there.
 TEST(TwoSlitRays, PosesAreThoseOfTheDisplay) {
   for (const Case& test : cases()) {
     SCOPED_TRACE(test.name);
@@ -561,7 +561,7 @@ TEST(TwoSlitRays, MeetBothSlits) {
   });
 }
 
-/// Where a ray meets the screen is where the module's own light does: it is spread upwards and downwards there, not sideways.
+/// A ray meets the screen where the module's own light does: light is spread upwards and downwards there, not sideways.
 TEST(TwoSlitRays, LeaveTheScreenWhereTheModuleLightsIt) {
   for_each_module([](const Camera& camera) {
     const TwoSlits& s = *camera.slits;
@@ -630,7 +630,7 @@ TEST(TwoSlitRays, PointsThatHaveNoPlace) {
   EXPECT_TRUE(pixel_of(camera, ray->at(slit - 1e-9)));
   EXPECT_FALSE(pixel_of(camera, ray->at(slit))) << "at the module";
   EXPECT_FALSE(pixel_of(camera, ray->at(slit + 1))) << "behind the module";
-  // Nor has what is seen past the side of a screen that is half a cylinder.
+  // Nor have points seen past the side of a screen that is half a cylinder.
   json document = flat_display();
   document["screen"] = {{"width", 1.6}, {"height", 1.2}, {"radius", 0.81}};
   document["modules"]["line"] = {{"from", {0, 0, -2}}, {"to", {0, 0, -2}}};

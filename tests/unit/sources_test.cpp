@@ -1,5 +1,5 @@
-// What the sources promise a reader: files of host/ are short or say why not, and the public headers show no library that
-// a program which uses gloam would have to have.
+// Promises about the sources: files of host/ are short or say why not, and the public headers show no library that a program
+// using gloam would then need.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t most_lines = 400;
-/// What the first comment of a longer file says, and why.
+/// Begins the reason in the first comment of a longer file.
 const std::string reason = "Long, because ";
 
 /// Longer files that are to be split yet, below host/.
@@ -38,7 +38,7 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::st
   return files;
 }
 
-/// The first lines in a row that are comments.
+/// The leading comment lines.
 std::string first_comment(const std::vector<std::string>& lines) {
   const auto is_comment = [](const std::string& line) { return line.starts_with("//"); };
   const auto begin = std::find_if(lines.begin(), lines.end(), is_comment);
@@ -47,7 +47,7 @@ std::string first_comment(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Files of more than `most_lines` lines whose first comment gives no reason, below `host`.
+/// Files below `host` of more than `most_lines` lines whose first comment gives no reason.
 std::vector<std::string> long_without_reason(const fs::path& host) {
   std::vector<std::string> found;
   for (const fs::path& file : files_below(host, {".cpp", ".h", ".js", ".css", ".html"})) {
@@ -58,8 +58,8 @@ std::vector<std::string> long_without_reason(const fs::path& host) {
   return found;
 }
 
-/// "FILE:LINE: text" for each line of a public header that includes another than gloam's public headers, the standard's, those
-/// of glm and of fmt, or that names a type of OpenCV, Embree or OpenCL.
+/// "FILE:LINE: text" for each line of a public header that includes anything but gloam's public headers, the standard's, glm and
+/// fmt, or that names a type of OpenCV, Embree or OpenCL.
 std::vector<std::string> not_public(const fs::path& include) {
   static const std::regex other_library(R"(#\s*include\s*<(?!glm/|fmt/)[^>]*/.*)");
   static const std::regex internal_header(R"(#\s*include\s*"(?!gloam/).*)");
