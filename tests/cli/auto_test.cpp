@@ -201,7 +201,7 @@ TEST_F(CliAuto, LayersThatHideNothingAreNotLookedAt) {
                                "--mask", "always", "--set", "sd-bitmask.samples=1"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(effect_of(result)["runs"], "bitmask");
-  EXPECT_EQ(refinement(effect_of(result), "sd-bitmask")["why"], "nothing that the depth hides rises over what is seen");
+  EXPECT_EQ(refinement(effect_of(result), "sd-bitmask")["why"], "no hidden surface rises over a visible one");
   expect_same_as_run({"--radius", "0.2", "--only", "corner-mask"});
 }
 
