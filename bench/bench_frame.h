@@ -1,4 +1,4 @@
-// What the benchmarks run on, and what every benchmark program does first.
+// The frame of the benchmarks, and the start of every benchmark program.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,14 +13,14 @@ namespace gloam::bench {
 /// The bundled loggia at any size, with depth, normal and albedo.
 Frame loggia_frame(int width, int height);
 
-/// The depth layers that a stack gets.
+/// Depth layers of a stack in the benchmarks.
 constexpr int most_layers = 8;
 
-/// Adds a plane that the frame lacks: a copy of depth or normal where it means that, else noise from a hash. A stack gets
+/// Adds a plane that the frame lacks: a copy of depth or normal for planes of that meaning, else noise from a hash. A stack gets
 /// `most_layers` layers, each a tenth of the depth behind the one before.
 void add_plane(Frame& frame, const std::string& name);
 
-/// The median reach that a benchmark's radius has on the screen, at 1920 columns.
+/// Median reach of a benchmark's radius on the screen, pixels, for 1920 columns.
 constexpr double reach_in_full_hd = 60;
 
 /// The radius in scene units that reaches `pixels` at the median depth of the surfaces.
@@ -35,7 +35,7 @@ void add_sizes(CLI::App& flags, std::vector<std::pair<int, int>>& sizes);
 /// Takes flags out of the command line, and leaves in it what is none of them: names, Google Benchmark's flags. Throws UsageError.
 void take_flags(CLI::App& flags, int& argc, char** argv);
 
-/// Runs a program's main function; an error is one line that begins with the program's name. Returns the exit status.
+/// Runs a program's main function. An error becomes one line that begins with the program's name. Returns the exit status.
 int run_program(const char* name, int argc, char** argv, int (*main)(int argc, char** argv));
 
 }  // namespace gloam::bench

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Those over one view and one layer of depth: more are not to be had of a plane, nor of a frame of another size.
+/// Techniques over one view and one depth layer: planes, and frames of another size, have no more.
 std::vector<const Technique*> over_one_layer(const std::vector<const Technique*>& techniques) {
   std::vector<const Technique*> some;
   for (const Technique* t : techniques) {
@@ -26,7 +26,7 @@ std::vector<const Technique*> over_one_layer(const std::vector<const Technique*>
   return some;
 }
 
-/// With default settings.
+/// The result with default settings.
 Frame filtered(const Technique& technique, const Frame& frame, double radius, Device& device) {
   return run(whole_plan({&technique, "", radius}, planes_of(frame), "the frame"), frame, device).frame;
 }
@@ -46,7 +46,7 @@ Channel every_second(const Channel& from, float outside) {
 
 std::string size_of(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
 
-/// Over the pixels of the smaller image that show a surface.
+/// Compares the pixels of the smaller image that show a surface.
 ScaleFacts change(const Frame& fine, const Channel& fine_ao, const Frame& coarse, const Channel& coarse_ao) {
   const Channel& depth = coarse.views.front().planes.at("depth").channels[0];
   double sum = 0, sum_absolute = 0;
@@ -80,15 +80,15 @@ Camera camera_named(const std::string& name, int width, int height, double dista
   Camera camera;
   camera.source = "made";
   camera.orthographic = name == "orthographic";
-  // 60 degrees wide, or as much of the plane as such a camera sees.
+  // 60 degrees wide; an orthographic camera sees as much of the plane.
   camera.fx = camera.fy = 0.5 * width / std::tan(30 * degree) / (camera.orthographic ? distance : 1);
   camera.cx = (name == "off-axis" ? 0.2 : 0.5) * width;
   camera.cy = (name == "off-axis" ? 0.7 : 0.5) * height;
   return camera;
 }
 
-/// What a plane through (0, 0, -distance) looks like. Background where it lies behind the eye, or further than a
-/// million distances.
+/// The image of a plane through (0, 0, -distance). Background where it lies behind the eye, or further away than a million
+/// distances.
 PlaneCase plane_case(const std::string& name, double tilt, double direction, int width, int height, double distance) {
   PlaneCase made{name, tilt, direction, {}};
   const Camera camera = camera_named(name, width, height, distance);
@@ -119,7 +119,7 @@ PlaneCase plane_case(const std::string& name, double tilt, double direction, int
   return made;
 }
 
-/// What one plane of one technique reads on all of them so far.
+/// What one technique has read so far on planes.
 struct Reading {
   const Technique* technique;
   std::string plane;
@@ -143,7 +143,7 @@ void read_plane(Reading& reading, const PlaneCase& test, const Channel& ao) {
   }
 }
 
-/// A technique on several sizes of a frame, the largest first: each change from one to the next.
+/// The changes of a technique's result between neighbouring sizes of a frame, the largest size first.
 std::vector<ScaleFacts> changes_of(const Technique& technique, const std::array<const Frame*, 3>& sizes, double radius,
                                    Device& device) {
   std::vector<ScaleFacts> all;
@@ -160,7 +160,7 @@ std::vector<ScaleFacts> changes_of(const Technique& technique, const std::array<
   return all;
 }
 
-/// Adds what a plane reads, unless the technique failed on an earlier one.
+/// Adds the result on one plane, unless the technique failed on an earlier one.
 void read(Reading& reading, const PlaneCase& test, double radius, Device& device, const OnFailure& on_failure) {
   if (reading.has_failed) return;
   try {

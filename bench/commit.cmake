@@ -1,8 +1,8 @@
-# Writes a C++ file with the commit that SOURCE is at, unless that is there already.
+# Writes a C++ file with the present commit of SOURCE, unless the file has it already.
 # Usage: cmake -DSOURCE=checkout -DOUTPUT=commit.cpp -P commit.cmake
 include("${CMAKE_CURRENT_LIST_DIR}/../cmake/write_text.cmake")
 set(commit "unknown")
-# A .git of its own: sources unpacked inside another project's checkout are not at that one's commit.
+# Only for a .git of its own: sources unpacked inside another project's checkout are not at that project's commit.
 if(EXISTS "${SOURCE}/.git")
   execute_process(COMMAND git -C "${SOURCE}" rev-parse --short=12 HEAD
     OUTPUT_VARIABLE head RESULT_VARIABLE failed OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

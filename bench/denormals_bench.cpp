@@ -1,6 +1,6 @@
-// What denormal numbers cost: every technique with default settings on a frame in closed form against the same frame with a unit
-// so large that its depths are denormal; and with a denormal depth in one pixel of 16 against depths there that are as good as
-// nothing too, but normal. A new technique appears by itself.
+// The cost of denormal numbers: every technique with default settings on a frame in closed form, compared with the same frame in
+// a unit so large that its depths are denormal; and with a denormal depth in one pixel of 16, compared with tiny but normal
+// depths there. A new technique is included by itself.
 //
 // bench_denormals [--size=WIDTHxHEIGHT]... [TECHNIQUE]...     Default size: 960x540
 #include <cmath>
@@ -43,7 +43,7 @@ struct Ratios {
 
 Ratios measure(const Technique& technique, const stress::Shot& shot, Device& device) {
   Frame usual = stress::shoot(shot, stress::room());
-  const Plan plan = stress::plan_for(technique, usual);  // adds the planes that nothing makes
+  const Plan plan = stress::plan_for(technique, usual);  // adds invented planes
   Frame denormal = stress::in_other_unit(usual, denormal_unit);
   const auto lengths = stress::set_lengths(technique, denormal, [](double l) { return std::ldexp(l, denormal_unit); });
   const Frame tiny_holes = with_holes(usual, tiny_unit), holes = with_holes(usual, denormal_unit);

@@ -22,7 +22,7 @@ Json milliseconds(const Series& ms) {
   return {{"median", median(ms)}, {"min", *least}, {"max", *most}};
 }
 
-/// What can be given to --set: names without a dot are the technique's own.
+/// The settings that --set accepts: names without a dot are the technique's own.
 Json settings_of(const Plan& plan, const Technique& technique) {
   Json settings = Json::object();
   for (const PlannedPass& planned : plan.passes) {
@@ -204,7 +204,7 @@ Json origin_of(const DeviceInfo& device) {
           {"commit", commit}};
 }
 
-/// Per pixel, of the truths; none where they differ, or one does not say.
+/// Rays per pixel of the truths; none if they differ, or one does not state it.
 static std::optional<double> rays_of(const std::vector<SceneFacts>& scenes) {
   std::optional<double> rays;
   for (const SceneFacts& scene : scenes) {

@@ -1,4 +1,4 @@
-// bench.json (docs/benchmarking.md).
+// Writing bench.json (docs/benchmarking.md).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,15 +11,15 @@ namespace gloam::bench {
 
 using Json = nlohmann::ordered_json;
 
-/// "model name" of /proc/cpuinfo; "unknown" where there is none.
+/// "model name" of /proc/cpuinfo; "unknown" if there is none.
 std::string cpu_model();
 
-/// What a document says of where it was measured: device, cpu, cores, driver, date, commit.
+/// Where a document's figures were measured: device, cpu, cores, driver, date, commit.
 Json origin_of(const DeviceInfo& device);
 
 Json document_of(const Measurement& measurement, const MeasureOptions& options, const DeviceInfo& device);
 
-/// Of a paper that was measured again: no results, but `paper`, `facts` and `pictures`.
+/// The document of a reproduced paper: no results, but `paper`, `facts` and `pictures`.
 Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device);
 
 }  // namespace gloam::bench

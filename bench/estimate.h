@@ -1,4 +1,4 @@
-// HBAO+ as the baselines compute it: what is fixed, and what they all take.
+// HBAO+ as the baselines compute it: fixed parameters, and their common arguments.
 #pragma once
 
 #include "gloam/frame.h"
@@ -8,7 +8,7 @@ namespace gloam::bench {
 
 inline constexpr int directions = 8, steps = 4;
 
-/// Camera and layout of a frame in float, as kernels take them; the layout of `Camera` in naive.cl.
+/// Camera and layout of a frame in float, as kernels get them; laid out like `Camera` in naive.cl.
 struct PixelCamera {
   int width, height, pitch, seed;
   float scale_x, scale_y;    ///< scene units per pixel at depth 1

@@ -1,4 +1,4 @@
-// Floors: what no implementation of the same sampling can go below on this device.
+// Floors: times that no implementation of the same sampling can beat on this device.
 #pragma once
 
 #include "bench/estimate.h"
@@ -26,7 +26,7 @@ class GatherFloor : public Floor {
   GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params);
 };
 
-/// One plane read, one written.
+/// Reads one plane and writes one.
 class CopyFloor : public Floor {
  public:
   CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes);

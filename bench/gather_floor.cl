@@ -1,5 +1,5 @@
-// What HBAO+'s sampling costs by itself: the addresses of kernels/hbao_plus, one gather each, and a sum.
-// Comes after shared/sampling/fan.h. -D LANES, DIRECTIONS, STEPS, JITTER
+// The cost of HBAO+'s sampling alone: the addresses of kernels/hbao_plus, one gather each, and a sum. Compiled after
+// shared/sampling/fan.h. -D LANES, DIRECTIONS, STEPS, JITTER
 static inline __attribute__((always_inline)) real sum_of_gathers(Frame frame, global const float* depth, Receiver r,
                                                                  Fan fan, int within) {
   real sum = 0;
@@ -17,7 +17,7 @@ static inline __attribute__((always_inline)) real sum_of_gathers(Frame frame, gl
 }
 
 kernel void gather_floor(Frame frame, float radius, float max_reach, PLANE depth, PLANE_OUT result) {
-  // The depth stands in for the normal, which the compiler leaves out.
+  // The depth stands in for the normal, which is unused.
   const Receiver r = receiver_at(frame, radius, max_reach, depth, depth, depth, depth);
   if (!ANY(!r.point.background)) {
     store((real)(0), result, r.here);

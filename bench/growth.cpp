@@ -47,7 +47,7 @@ Frame without_views(const Frame& frame) {
 
 std::shared_ptr<const Frame> share(Frame frame) { return std::make_shared<const Frame>(std::move(frame)); }
 
-/// Not owned: the caller's frame outlives the cases.
+/// A pointer without ownership: the caller's frame outlives the cases.
 std::shared_ptr<const Frame> same(const Frame& frame) { return {std::shared_ptr<const Frame>(), &frame}; }
 
 Growth measured(const std::string& over, std::vector<Case> cases, Device& device, int rounds) {
@@ -74,7 +74,7 @@ std::vector<Case> over_pixels(const Plan& plan, const Frame& frame) {
   return cases;
 }
 
-/// Samples per pixel; for a technique that does not say, the product of the whole numbers that its presets set.
+/// Samples per pixel; if a technique does not state them, the product of the whole numbers that its presets set.
 double samples_of(const Technique& technique, const ParameterValues& values) {
   if (technique.samples) return technique.samples(values);
   std::vector<std::string> counts;
@@ -127,7 +127,7 @@ std::vector<Case> over_layers(const Technique& technique, const Plan& plan, cons
 
 std::vector<Case> over_views(const Technique& technique, const Plan& plan, const Frame& frame) {
   std::vector<Case> cases;
-  if (technique.views > 1) return cases;  // it takes so many and no others
+  if (technique.views > 1) return cases;  // it takes exactly that many
   for (const int views : {1, 2, 4}) cases.push_back({double(views), plan, share(with_views(frame, views))});
   return cases;
 }

@@ -32,7 +32,7 @@ Plan hbao_plus_plan(const Frame& frame, float radius) {
   return make_plan(request, available, "the benchmark's frame");
 }
 
-/// Everything at one size.
+/// All contenders at one size.
 class Arena {
  public:
   Arena(Device& device, int width, int height, bool with_naive)
@@ -77,7 +77,7 @@ class Arena {
     contenders_.push_back({name, [naive] { return naive->run(); }});
   }
 
-  /// All that this CPU can are checked; the widest competes.
+  /// Checks every instruction set of this CPU; the widest competes.
   void add_native() {
     for (const Instructions i : {Instructions::scalar, Instructions::avx2, Instructions::avx512}) {
       if (i > widest_instructions()) continue;
@@ -91,7 +91,7 @@ class Arena {
     }
   }
 
-  /// A baseline that computes something else is no baseline.
+  /// Throws Error if a baseline computes something else.
   void check(const std::string& name, const Channel& ao) const {
     const double mean = mean_difference(ao, expected_);
     std::fprintf(stderr, "%s %s: mean absolute difference from gloam %.2e\n", size().c_str(), name.c_str(), mean);

@@ -7,7 +7,7 @@
 namespace gloam::bench {
 namespace {
 
-/// Plans of the same text compute the same.
+/// A text of a plan: plans with the same text compute the same.
 std::string text_of(const Plan& plan) {
   std::string text = plan.outputs.front();
   for (const PlannedPass& planned : plan.passes) {
@@ -18,7 +18,7 @@ std::string text_of(const Plan& plan) {
   return text;
 }
 
-/// As a step is meant to be: without rounding, as far as the device can.
+/// Options with as little rounding as the device allows.
 RunOptions without_rounding(const Device& device) {
   RunOptions options;
   options.math = Math::precise;
@@ -26,11 +26,11 @@ RunOptions without_rounding(const Device& device) {
   return options;
 }
 
-/// Of thousands of samples: float and fast are within RMSE 1.5e-4 of double and precise (docs/benchmarking.md), which
+/// Options for thousands of samples: float and fast are within RMSE 1.5e-4 of double and precise (docs/benchmarking.md), which
 /// take five times as long.
 RunOptions for_converged() { return {}; }
 
-/// Depth, normals ... of the views of an image and the image itself, for a plan that reads no other planes.
+/// The image, with depth, normals ... of its views, for a plan that reads no other planes.
 Frame with_plane(const Frame& frame, const Plan& plan, const std::string& name, const Image& image) {
   Frame out;
   out.display = frame.display;
@@ -76,7 +76,7 @@ const Image* Steps::own_truth(const Technique& technique, const ParameterValues&
   return truths_ ? &truths_->truth(frame_, technique, values).ao : nullptr;
 }
 
-/// Null where there is no such thing, or the frame has no layers.
+/// Null if the technique has no converged settings, or the frame has no layers.
 const Image* Steps::converged(const Technique& technique, const Variation& variation) {
   if (technique.converged.empty()) return nullptr;
   Variation full = variation;
@@ -90,8 +90,7 @@ const Image* Steps::converged(const Technique& technique, const Variation& varia
   }
 }
 
-/// The filter by itself. Where it reads what an earlier technique makes (normals from depth) the frame does not have
-/// that, and it is computed first.
+/// The filter alone. If it reads a plane of an earlier technique that the frame lacks (normals from depth), that is computed first.
 Image Steps::filtered(const Frame& frame, const Plan& filter, const std::string& plane, const Image& raw,
                       const RunOptions& options) {
   Frame read = with_plane(frame, filter, plane, raw);
@@ -103,7 +102,7 @@ Image Steps::filtered(const Frame& frame, const Plan& filter, const std::string&
   return image_of(run(filter, read, device_, options).frame, filter.outputs.front());
 }
 
-/// Rounded at the door, between estimate and filter, and at the end.
+/// Rounds to half at input, between estimate and filter, and at the end.
 Image Steps::kept_in_half(const Variation& variation, const Plan& whole) {
   if (!frame_in_half_) frame_in_half_ = stored_in_half(frame_);
   const RunOptions options = variation.run_options();

@@ -13,42 +13,42 @@
 
 namespace gloam::bench {
 
-/// Of what is shipped, to the truth: the total. None without a truth.
+/// Errors of the shipped result to the truth: the total. None without a truth.
 struct Errors {
   std::optional<double> rmse;
   std::optional<double> bias;  ///< above 0: too bright
 };
 
-/// RMSE of each image to the one a step above; none where one of both is not at hand.
+/// RMSE of each image to the one a step above; none if one of the two is missing.
 struct Ladder {
   std::optional<double> t0w;       ///< truth with the technique's own contribution, to the truth
-  std::optional<double> t1;        ///< over all peeled layers and converged, to that
-  std::optional<double> t2;        ///< over the layers it is given, converged, to that
-  std::optional<double> t3;        ///< with its samples, in double, to that
-  std::optional<double> t4_bias;   ///< what the filter does to the converged image
+  std::optional<double> t1;        ///< over all peeled layers and converged, to the image above
+  std::optional<double> t2;        ///< over the given layers, converged, to the image above
+  std::optional<double> t3;        ///< with its own samples, in double, to the image above
+  std::optional<double> t4_bias;   ///< filtered converged image, to the converged image
   std::optional<double> t4_noise;  ///< filtered, to the filtered converged image
-  std::optional<double> t5;        ///< what is shipped, to that in double
+  std::optional<double> t5;        ///< shipped result, to the same in double
 };
 
-/// Images of techniques on one frame. Those that many presets share are computed once.
+/// Images of techniques on one frame. Images that many presets share are computed once.
 class Steps {
  public:
-  /// Either truth may be missing: `truth` null, `truths` null where no scene is at hand. All must outlive it.
-  /// `holds`: as for `make_plan`. `foreground`: what errors are over.
+  /// Either truth may be missing: `truth` null, `truths` null without a scene. All arguments must outlive it. `holds`: as for
+  /// `make_plan`. `foreground`: the pixels that errors are over.
   Steps(const Frame& frame, const std::string& holds, Device& device, const Truth* truth, Truths* truths,
         Foreground foreground);
 
-  /// What is handed over in the end, with its filter. Throws what `gloam::run` throws.
+  /// The final result, with its filter. Throws as `gloam::run` does.
   Image shipped(const Variation& variation);
 
   Errors errors(const Image& shipped) const;
 
-  /// Of the technique's own plane, converged and unfiltered, on the layers it is given; none without a truth, or where
-  /// there is no such thing.
+  /// Errors of the technique's own plane, converged and unfiltered, on the given layers; none without a truth or without
+  /// converged settings.
   Errors converged_errors(const Variation& variation);
 
-  /// `shipped`: of the same variation. At a lower resolution there is no `t4_bias` and no `t4_noise`: the filter does not
-  /// see the converged image then.
+  /// `shipped`: of the same variation. At a lower resolution `t4_bias` and `t4_noise` are missing: the filter does not get the
+  /// converged image.
   Ladder climb(const Variation& variation, const Image& shipped);
 
  private:

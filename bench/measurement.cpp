@@ -10,9 +10,9 @@ namespace gloam::bench {
 namespace {
 
 constexpr int growth_rounds = 5;
-constexpr int most_pixels_across = 8192;  // of a frame that is captured to have one twice as large
+constexpr int most_pixels_across = 8192;  // of a frame captured at twice the size
 
-/// Everything that goes on on one frame.
+/// All measurements on one frame.
 class Session {
  public:
   Session(Subject& subject, const MeasureOptions& options, Device& device, Measurement& result)
@@ -47,7 +47,7 @@ class Session {
     }
   }
 
-  /// On twice as many pixels each way of a built-in scene, so that the frame itself is the middle of three.
+  /// Captures a built-in scene with twice as many pixels each way, so that the frame itself is the middle one of three.
   void measure_scales() {
     tell("other resolutions", 0, 1);
     const int width = 2 * subject_.frame.width(), height = 2 * subject_.frame.height();
@@ -109,12 +109,12 @@ class Session {
     result_.skipped.push_back({technique.name, preset, subject_.name, why});
   }
 
-  /// Something that is measured beside the rows.
+  /// Skips a measurement other than the rows.
   void skip_part(const Technique& technique, const std::string& part, const Error& error) {
     skip(technique, "", part + ": " + without_name(technique, error));
   }
 
-  /// Enters what of a technique the frame and the device allow.
+  /// Enters the variations of a technique that the frame and the device allow.
   void enter(const Technique& technique) {
     const std::vector<Variation> variations = variations_of(technique, subject_.radius.value, options_);
     if (variations.empty()) skip(technique, "", "has none of these presets");
@@ -133,7 +133,7 @@ class Session {
     add_skipped(failed, failed.size() == variations.size());
   }
 
-  /// One line for a technique of which nothing can be measured, for one reason.
+  /// One line for a technique if nothing of it can be measured, for one reason.
   void add_skipped(const std::vector<Skipped>& failed, bool is_all) {
     const auto is_like_first = [&](const Skipped& each) { return each.why == failed.front().why; };
     if (is_all && !failed.empty() && std::all_of(failed.begin(), failed.end(), is_like_first))
@@ -158,12 +158,12 @@ class Session {
     row->image = picture(name, shipped);
     Errors converged;
     if (with_ladder && !contains(measured_, variation.technique->name)) converged = steps_.converged_errors(variation);
-    race_.enter(*row);  // last: the race keeps a pointer to it
+    race_.enter(*row);  // last, since the race keeps a pointer to the row
     if (converged.rmse) result_.converged.push_back({variation.technique, subject_.name, converged});
     return row;
   }
 
-  /// Draws the first view; the path below the folder, empty where there shall be no pictures.
+  /// Draws the first view; returns the path below the folder, empty if there are to be no pictures.
   std::string picture(const std::string& name, const Image& image) {
     if (options_.folder.empty()) return "";
     const std::string folder = "images/" + file_name(subject_.name);
@@ -174,7 +174,7 @@ class Session {
     std::error_code error;
     std::filesystem::create_directories(options_.folder / folder, error);
     if (error) throw Error("{}: cannot be made ({})", (options_.folder / folder).string(), error.message());
-    // The first that both have, where the truth is of one view.
+    // The first view that image and truth share: the truth may have one view.
     const auto is_known = [&](const View& v) {
       return image.count(v.name) && (!subject_.truth || subject_.truth->ao.count(v.name));
     };
@@ -185,7 +185,7 @@ class Session {
     return path;
   }
 
-  /// An error of a technique without the name that goes before it.
+  /// An error message without the name of the technique at its start.
   static std::string without_name(const Technique& technique, const Error& error) {
     const std::string message = error.what(), prefix = technique.name + ": ";
     return message.rfind(prefix, 0) == 0 ? message.substr(prefix.size()) : message;

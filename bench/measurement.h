@@ -1,4 +1,4 @@
-// What `gloam bench` measures: frames, the techniques on them, and what came of it.
+// Measurements of `gloam bench`: frames, techniques on them, and results.
 #pragma once
 
 #include <filesystem>
@@ -17,35 +17,35 @@
 
 namespace gloam::bench {
 
-/// For which rows it is measured where their error comes from: this takes longest.
+/// The rows whose error is split into steps (the ladder), which takes longest.
 enum class LadderFor { none, presets, all };
 
-/// What is measured on every frame.
+/// Options for the measurements on every frame.
 struct MeasureOptions {
   std::vector<const Technique*> techniques;
-  std::vector<std::string> presets;  ///< these only; empty: all
+  std::vector<std::string> presets;  ///< only these; empty: all
   std::vector<std::string> variants;
   std::vector<Sweep> sweeps;
-  /// Off: of techniques over all peeled layers, which take several times as long, one preset and no variants.
+  /// Off: techniques over all peeled layers, which take several times as long, get one preset and no variants.
   bool layers_in_full = true;
   LadderFor ladder = LadderFor::presets;
   int rounds = 9;
-  bool checks = true;                    ///< other resolutions, and on the first frame bare planes (checks.h)
-  std::vector<const Technique*> growth;  ///< techniques whose growth is measured, on the first frame
-  std::filesystem::path folder;          ///< where images/ goes; empty: no pictures
+  bool checks = true;                    ///< other resolutions, and bare planes on the first frame (checks.h)
+  std::vector<const Technique*> growth;  ///< techniques whose growth is measured on the first frame
+  std::filesystem::path folder;          ///< folder of images/; empty: no pictures
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
 };
 
-/// A frame that is measured on.
+/// A frame to measure on.
 struct Subject {
   std::string name, scene_class;  ///< "own" for the user's frame
   Frame frame;
   std::string holds;  ///< "beauty.exr has only R, G, B"
   Radius radius;
-  std::optional<Truth> given;      ///< --truth
-  const Truth* truth = nullptr;    ///< that, or traced; null: none
-  std::unique_ptr<Truths> truths;       ///< where the scene is at hand
-  unsigned long long memory_bytes = 0;  ///< that measuring was planned to take; 0 where nobody planned
+  std::optional<Truth> given;           ///< --truth
+  const Truth* truth = nullptr;         ///< the given or the traced one; null: none
+  std::unique_ptr<Truths> truths;       ///< null without a scene
+  unsigned long long memory_bytes = 0;  ///< memory that the measurement was planned for; 0: not planned
 };
 
 /// One row of the table.
@@ -58,7 +58,7 @@ struct Row : Racer {
 };
 
 struct Skipped {
-  std::string technique, preset, scene, why;  ///< no preset: all of them; no scene: on every one
+  std::string technique, preset, scene, why;  ///< no preset: all presets; no scene: all scenes
 };
 
 struct SceneFacts {
@@ -67,9 +67,9 @@ struct SceneFacts {
   Radius radius;
   double radius_pixels = 0;
   std::optional<double> truth_noise,
-      truth_rays;           ///< RMS; per pixel, of a truth that was given as far as its header says
+      truth_rays;           ///< noise: RMS; rays: per pixel, for a given truth if its header states them
   std::string truth_image;  ///< below the folder; empty: none
-  bool traced = false;      ///< the scene was at hand
+  bool traced = false;      ///< the truth was traced from the scene
   std::vector<std::string> made, reused;
 };
 
@@ -78,7 +78,7 @@ struct GrowthFacts {
   Growth growth;
 };
 
-/// What more samples would lead to, without a filter.
+/// The limit for many samples, without a filter.
 struct ConvergedFacts {
   const Technique* technique = nullptr;
   std::string scene;
@@ -96,16 +96,17 @@ struct Measurement {
   std::vector<std::string> notes;  ///< one sentence each
 };
 
-/// Presets of a technique that are asked for; "" where it has none, and all are.
+/// The presets of a technique that were asked for; "" if it has none and all were asked for.
 std::vector<std::string> presets_of(const Technique& technique, const MeasureOptions& options);
 
 /// Whether a technique is measured with one preset only.
 bool in_short(const Technique& technique, const MeasureOptions& options);
 
-/// Everything of one technique: its presets, and variants of one of them.
+/// All variations of one technique: its presets, and variants of one of them.
 std::vector<Variation> variations_of(const Technique& technique, double radius, const MeasureOptions& options);
 
-/// Measures everything on one frame; what is measured once, on the first. What a frame or a device does not allow is skipped, and said.
+/// Measures on one frame; with `is_first`, also everything that is measured only once. What the frame or the device does not
+/// allow is skipped and listed.
 void measure(Subject& subject, const MeasureOptions& options, bool is_first, Device& device, Measurement& result);
 
 }  // namespace gloam::bench

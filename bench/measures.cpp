@@ -9,7 +9,7 @@
 namespace gloam::bench {
 namespace {
 
-/// Mean of a function of test - truth over the foreground; 0 where there is none.
+/// Mean of a function of test - truth over the foreground; 0 if there is none.
 template <typename Function>
 double mean_over(const Image& test, const Image& truth, const Foreground& foreground, Function function) {
   double sum = 0;

@@ -1,4 +1,4 @@
-// Figures of frames and images that several benchmarks take.
+// Figures of frames and images that several benchmarks use.
 #pragma once
 
 #include <map>
@@ -10,20 +10,20 @@
 
 namespace gloam::bench {
 
-/// One plane of each view that it was made for, by the view's name: a technique that needs two views may make it for one.
+/// One plane for each view that it was made for, by the view's name: a technique for two views may make it for one.
 using Image = std::map<std::string, Plane>;
 using Foreground = std::map<std::string, Mask>;
 
-/// Of each view, by depth; `first_view_only`: of the first.
+/// The foreground of each view, by depth; `first_view_only`: of the first.
 Foreground foreground(const Frame& frame, bool first_view_only = false);
 
-/// Takes a plane out of every view that has it.
+/// Moves a plane out of every view that has it.
 Image image_of(Frame frame, const std::string& plane);
 
-/// Root of the mean squared difference over the foreground, of views that both images have.
+/// Root of the mean squared difference over the foreground of views that both images have.
 double rmse(const Image& test, const Image& truth, const Foreground& foreground);
 
-/// Mean of test - truth over the foreground, of views that both images have: above 0, the test is too bright.
+/// Mean of test - truth over the foreground of views that both images have; above 0: the test is too bright.
 double bias(const Image& test, const Image& truth, const Foreground& foreground);
 
 /// Mean absolute difference over all pixels.
@@ -32,10 +32,10 @@ double mean_difference(const Channel& a, const Channel& b);
 /// The greatest absolute difference of all pixels.
 double greatest_difference(const Channel& a, const Channel& b);
 
-/// The median depth of a view's surfaces, scene units; 0 where there are none.
+/// The median depth of a view's surfaces, scene units; 0 if there are none.
 double median_depth(const View& view);
 
-/// The radius on the screen, in pixels, at the median depth of the first view's surfaces; 0 where there are none.
+/// The radius on the screen, in pixels, at the median depth of the first view's surfaces; 0 if there are none.
 double median_reach(const Frame& frame, double radius);
 
 }  // namespace gloam::bench

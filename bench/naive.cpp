@@ -8,7 +8,7 @@
 namespace gloam::bench {
 namespace {
 
-/// The layout of `Settings` in naive.cl.
+/// Laid out like `Settings` in naive.cl.
 struct Settings {
   float radius, max_pixels;
   float bias, strength;
@@ -16,7 +16,7 @@ struct Settings {
   int directions, steps, columns, rows;
 };
 
-/// 0 where a technique has no such parameter, or a pass no such define.
+/// 0 if the technique has no such parameter, or the pass no such define.
 double number_of(const ParameterValues& values, const char* name) { return values.has(name) ? values.number(name) : 0; }
 int define_of(const Pass& pass, const std::string& name) {
   for (const auto& [defined, value] : pass.defines) {
@@ -50,8 +50,7 @@ std::string options(const Settings& settings, Counts counts) {
 }  // namespace
 
 const std::vector<NaiveKernel>& naive_kernels() {
-  // The estimates clamp to the border and know no options. GTAO's tolerance: an arc's mass in slice.h is off by up to
-  // 1.5e-3.
+  // The estimates clamp to the border and have no options. Tolerance of GTAO: an arc's mass in slice.h is off by up to 1.5e-3.
   static const std::vector<NaiveKernel> kernels = {
       {.technique = "hbao+",
        .text = naive_hbao_plus_cl,

@@ -15,30 +15,29 @@ namespace gloam::bench {
 /// Loop counts as arguments, or known to the compiler.
 enum class Counts { at_run_time, unrolled };
 
-/// A naive kernel, and what of a technique it computes.
+/// A naive kernel, and the part of a technique that it computes.
 struct NaiveKernel {
   std::string technique;
   const char* text;  ///< comes after naive.cl
   const char* kernel;
-  bool filters = false;  ///< reads the plane that the pass before has made
-  int samples = 0;       ///< per pixel with which it is compared; 0: any
-  double tolerance = 0;  ///< of an estimate: mean absolute difference from gloam above which it computes something else
-  Settings knows = {};   ///< settings that must have these values
+  bool filters = false;  ///< reads the result of the pass before
+  int samples = 0;       ///< samples per pixel for which it is compared; 0: any number
+  double tolerance = 0;  ///< for an estimate: mean absolute difference from gloam up to which it computes the same
+  Settings knows = {};   ///< settings that must have these values for a comparison
 };
 
 const std::vector<NaiveKernel>& naive_kernels();
 
-/// Null where there is none, or none that computes the same with the technique's settings.
+/// Null if there is no kernel that computes the same with the technique's settings.
 const NaiveKernel* naive_kernel_for(const PlannedPass& planned);
 
-/// Whether there is one for every pass of a plan.
+/// Whether every pass of a plan has a naive kernel.
 bool has_naive(const Plan& plan);
 
-/// A plan's passes as naive kernels, one after another, each of which may read the plane made by the one before.
+/// A plan's passes as naive kernels, one after another; each may read the result of the one before.
 class Naive {
  public:
-  /// For `has_naive(plan)`, and one view with a perspective camera. Compiles and runs it once. Device and planes must
-  /// outlive it.
+  /// For `has_naive(plan)`, and one view with a perspective camera. Compiles and runs it once. Device and planes must outlive it.
   Naive(const Plan& plan, const Frame& frame, DevicePlanes& planes, Device& device,
         Counts counts = Counts::at_run_time);
 
@@ -46,7 +45,7 @@ class Naive {
 
   size_t passes() const { return passes_.size(); }
   const Series& ms(size_t pass) const { return passes_[pass].ms; }  ///< one per call of `run`
-  /// What a pass has made, until another naive baseline runs on the same planes.
+  /// The result of a pass, valid until another naive baseline runs on the same planes.
   const Channel& result(size_t pass) { return planes_.result(pass).download(); }
 
  private:

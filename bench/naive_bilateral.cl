@@ -1,5 +1,5 @@
-// The cross-bilateral filter of kernels/bilateral, over `columns` to the left and right and `rows` above and below.
-// Comes after naive.cl.
+// The cross-bilateral filter of kernels/bilateral, over `columns` to the left and right and `rows` above and below. Compiled
+// after naive.cl.
 
 // Biweight: 0 one pixel beyond the last tap.
 float window_at(int k, int taps) {
@@ -19,7 +19,7 @@ kernel void naive_bilateral(Camera camera, Settings settings, global const float
     return;
   }
   const float3 p = position(camera, x, y, z), n = (float3)(normal_x[here], normal_y[here], normal_z[here]);
-  // The pixel itself counts whatever its normal.
+  // The pixel itself always counts.
   float sum = source[here], weights = 1;
 #ifdef UNROLLED
 #pragma unroll

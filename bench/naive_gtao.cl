@@ -1,10 +1,10 @@
-// GTAO (Jimenez, Wu, Pesce, Jarabo 2016, Algorithm 1 and equations 7 to 10): per slice the two horizons as angles from the
-// line to the eye, and the cosine-weighted integral between them in closed form. Comes after naive.cl.
+// GTAO (Jimenez, Wu, Pesce, Jarabo 2016, Algorithm 1 and equations 7 to 10): two horizons per slice as angles from the line to
+// the eye, and the cosine-weighted integral between them in closed form. Compiled after naive.cl.
 //
-// As in kernels/gtao and other than in the paper: where slices and samples lie, no falloff up to the radius and nothing
-// beyond, samples moved into the slice along the surface's tangent plane, and each pixel's mean is over its own slices.
+// As in kernels/gtao, and unlike the paper: the positions of slices and samples; no falloff up to the radius and nothing beyond;
+// samples are moved into the slice along the surface's tangent plane; each pixel's mean is over its own slices.
 
-// Equation 7 without the 1/4, of one side: from the line to the eye to the horizon h; n: the projected normal's angle.
+// One side of equation 7 without the 1/4, from the line to the eye to the horizon h; n: the projected normal's angle.
 float inner_integral(float h, float n, float cosine_n, float sine_n) {
   return -native_cos(2 * h - n) + cosine_n + 2 * h * sine_n;
 }
@@ -21,7 +21,7 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
   }
   const float3 p = position(camera, x, y, z), to_eye = normalize(-p);
   float3 normal = (float3)(normal_x[here], normal_y[here], normal_z[here]);
-  normal += fmax(1e-4f - dot(normal, to_eye), 0.0f) * to_eye;  // not turned away
+  normal += fmax(1e-4f - dot(normal, to_eye), 0.0f) * to_eye;  // turned towards the eye at least a little
   const float3 right = normalize(cross((float3)(0, 1, 0), to_eye)), up = cross(to_eye, right);
 
   const float turn = turn_at(camera, x, y), shift = shift_at(camera, x, y);
@@ -36,11 +36,11 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
   for (int d = 0; d < slices; ++d) {
     const float angle = M_PI_F * (d + turn) / slices;
     const float3 tangent = native_cos(angle) * right + native_sin(angle) * up;
-    // Along the line to the eye into the image plane: where the slice leads on the screen.
+    // The slice's direction on the screen: the tangent moved along the line to the eye into the image plane.
     const float3 screen = tangent - tangent.z / to_eye.z * to_eye;
     const float per_screen = 1 / dot(screen, screen);
 
-    // The normal's projection onto the slice: length, and angle from the line to the eye.
+    // The normal's projection onto the slice: its length, and its angle from the line to the eye.
     const float facing = dot(normal, to_eye), across = dot(normal, tangent);
     const float length = sqrt(facing * facing + across * across), cosine = facing / length, sine = across / length;
     const float inverse_cosine = 1 / cosine;
@@ -64,7 +64,8 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
         const int sx = clamp(wanted_x, 0, camera.width - 1), sy = clamp(wanted_y, 0, camera.height - 1);
         const float there = depth[index_of(camera, sx, sy)];
         const float3 v = position(camera, sx, sy, there) - p;
-        // In the slice: along its tangent, and towards the eye, at the same height above the surface's tangent plane.
+        // The sample moved into the slice at the same height above the surface's tangent plane: along the slice's tangent, and
+        // towards the eye.
         const float along =
             ((sx - x) * camera.scale_x * screen.x - (sy - y) * camera.scale_y * screen.y) * per_screen * there;
         const float height = dot(upright, v), towards = (height - sine * along) * inverse_cosine;
@@ -78,7 +79,7 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
     }
     const float h1 = n + fmax(horizon[0] - n, -M_PI_2_F), h2 = n + fmin(horizon[1] - n, M_PI_2_F);
     open += length * 0.25f * (inner_integral(h1, n, cosine, sine) + inner_integral(h2, n, cosine, sine));
-    all += length * (cosine + n * sine);  // the same with nothing in the way
+    all += length * (cosine + n * sine);  // the same without occluders
   }
   ao[here] = clamp(open / all, 0.0f, 1.0f);
 }

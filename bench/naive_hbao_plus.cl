@@ -1,4 +1,4 @@
-// HBAO+: samples, noise and result are those of kernels/hbao_plus. Comes after naive.cl.
+// HBAO+ with the samples, noise and result of kernels/hbao_plus. Compiled after naive.cl.
 
 float obscurance(float3 v, float3 n, float bias, float inverse_square) {
   const float vv = dot(v, v);

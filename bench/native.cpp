@@ -19,7 +19,7 @@
 
 namespace gloam::bench {
 
-/// What all rows share.
+/// Data that all rows share.
 struct Job {
   PixelCamera camera;
   float radius, bias, max_pixels, inverse_square, strength;
@@ -34,8 +34,8 @@ constexpr float step_cosine = 0.70710678f, step_sine = 0.70710678f;  ///< from o
 static_assert(directions == 8);
 #define GLOAM_UNROLL _Pragma("GCC unroll 4")
 
-// The loop is written once in native_loop.h, on the types and functions that each namespace here defines: F and I are
-// a vector of floats and of 32-bit integers. GCC and Clang provide + - * on both.
+// native_loop.h holds the loop once, in terms of types and functions that each namespace here defines: F and I are vectors of
+// floats and of 32-bit integers. GCC and Clang provide + - * on both.
 
 namespace scalar {
 using F = float;
@@ -90,7 +90,7 @@ inline I smaller_i(I a, int b) { return _mm256_min_epi32(a, all_i(b)); }
 inline F fma(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
 inline F fms(F a, F b, F c) { return _mm256_fmsub_ps(a, b, c); }
 inline F fnma(F a, F b, F c) { return _mm256_fnmadd_ps(a, b, c); }
-// 12 bits and one Newton step.
+// A 12-bit guess and one Newton step.
 inline F inverse_sqrt(F x) {
   const F y = _mm256_rsqrt_ps(x);
   return y * fnma(all(0.5f) * x * y, y, all(1.5f));
@@ -134,7 +134,7 @@ inline I smaller_i(I a, int b) { return _mm512_min_epi32(a, all_i(b)); }
 inline F fma(F a, F b, F c) { return _mm512_fmadd_ps(a, b, c); }
 inline F fms(F a, F b, F c) { return _mm512_fmsub_ps(a, b, c); }
 inline F fnma(F a, F b, F c) { return _mm512_fnmadd_ps(a, b, c); }
-// 14 bits and one Newton step.
+// A 14-bit guess and one Newton step.
 inline F inverse_sqrt(F x) {
   const F y = _mm512_rsqrt14_ps(x);
   return y * fnma(all(0.5f) * x * y, y, all(1.5f));

@@ -1,4 +1,4 @@
-// The native baseline: HBAO+ 8 x 4 as a C++/OpenMP loop written by hand for the CPU's vectors.
+// The native baseline: HBAO+ 8 x 4 as a C++/OpenMP loop, vectorised for the CPU by its author.
 #pragma once
 
 #include "bench/estimate.h"
@@ -7,19 +7,19 @@ namespace gloam::bench {
 
 enum class Instructions { scalar, avx2, avx512 };
 
-/// OpenMP threads that spin after a loop would take the cores from OpenCL's, and each other's where other programs run.
-/// How they wait is read before main: where OMP_WAIT_POLICY is not set, sets it to passive and starts the program again
-/// with the same arguments. To be called before anything is done. Returns false where that did not work.
+/// Makes OpenMP threads wait passively: threads that spin after a loop would take the cores from OpenCL, and from each other if
+/// other programs run. OpenMP reads its waiting policy before main, so if OMP_WAIT_POLICY is not set, this sets it to passive and
+/// restarts the program with the same arguments. Call it first. Returns false if that failed.
 bool make_openmp_wait_passively();
 
-/// The widest that this CPU has.
+/// The widest instruction set of this CPU.
 Instructions widest_instructions();
 const char* name_of(Instructions instructions);
 
 struct Job;
 using RowLoop = void (*)(const Job&, int y);
 
-/// Plain, or tuned: without clamping where all samples of a block of pixels lie in the frame, as gloam's kernel does.
+/// A plain version, or a tuned one that does not clamp if all samples of a block of pixels lie in the frame, as in gloam's kernel.
 class Native {
  public:
   Native(const Frame& frame, const HbaoPlusParams& params, Instructions instructions, bool tuned = false);

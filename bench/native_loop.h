@@ -1,7 +1,6 @@
 // Included once per instruction set by native.cpp. One row of pixels, `width` at a time.
 //
-// x86's max and min return the second operand where one is NaN: samples on background (infinite or NaN distances) end
-// as 0.
+// x86's max and min return the second operand if one is NaN: samples on background (infinite or NaN distances) end as 0.
 
 // Cosine and sine of 0 to pi/4.
 inline void cosine_sine(F a, F& cosine, F& sine) {
@@ -10,10 +9,10 @@ inline void cosine_sine(F a, F& cosine, F& sine) {
   sine = a * fma(fma(fma(b, all(-1.0f / 5040), all(1.0f / 120)), b, all(-1.0f / 6)), b, all(1));
 }
 
-// The pixel noise of kernels/shared/sampling/sample.h, per column.
+// The pixel noise of kernels/shared/sampling/sample.h, by column.
 constexpr uint32_t turn_across = 0x8e42b7fdu, shift_across = 0xc13fa9a9u;
 
-// What one row's pixels share.
+// Constants of one row.
 struct RowConstants {
   F scale_x, scale_y, origin_x, origin_y;  // position at depth 1 = scale * pixel + origin
   F bias, inverse_square;
@@ -23,8 +22,8 @@ struct RowConstants {
 // The pixel at hand.
 struct Point {
   F x, y, z;     // view space; z is the depth
-  F nx, ny, nz;  // nz negated, as depth points away
-  F least;       // square of a distance well above the rounding of x and y: the point itself then stays below any bias
+  F nx, ny, nz;  // nz is negated, since depth points away
+  F least;       // a squared distance above the rounding of x and y, so that the point itself stays below any bias
 };
 
 inline F obscurance(const RowConstants& r, const Point& p, I ix, I iy, F depth) {
@@ -37,7 +36,7 @@ inline F obscurance(const RowConstants& r, const Point& p, I ix, I iy, F depth) 
   return larger(cosine - r.bias, all(0)) * larger(fnma(vv, r.inverse_square, all(1)), all(0));
 }
 
-// The block of pixels from column x; z is their depth. `inside`: every sample lies in the frame.
+// AO of the block of pixels from column x; z: their depths. `inside`: every sample lies in the frame.
 template <bool inside>
 inline F open_share(const Job& job, const RowConstants& r, int x, int y, size_t here, uint32_t first_turn,
                     uint32_t first_shift, F z) {
@@ -85,7 +84,7 @@ inline F open_share(const Job& job, const RowConstants& r, int x, int y, size_t 
   return smaller(larger(open, zero), all(1));
 }
 
-// Whether no pixel of the block reaches out of the frame.
+// Whether the reach of every pixel of the block lies within the frame.
 inline bool reaches_only_inside(const Job& job, int x, int y, F z) {
   const PixelCamera& c = job.camera;
   const float per_depth = job.radius / smallest(z);
@@ -94,7 +93,7 @@ inline bool reaches_only_inside(const Job& job, int x, int y, F z) {
   return x >= reach_x && x + width + reach_x <= c.width && y >= reach_y && y + 1 + reach_y <= c.height;
 }
 
-// `tuned`: clamps only the samples of blocks that reach out of the frame.
+// `tuned`: clamps samples only in blocks that reach out of the frame.
 template <bool tuned>
 inline void row(const Job& job, int y) {
   const PixelCamera& c = job.camera;

@@ -17,11 +17,11 @@ extern const char* const naive_hbao_plus_cl;
 extern const char* const gather_floor_cl;
 extern const char* const copy_floor_cl;
 
-/// Room on the device for one plane that is computed.
+/// Device memory for one computed plane.
 class ResultPlane {
  public:
   ResultPlane(Device& device, const Layout& layout);
-  /// Takes it to the host. It stays valid until the next launch.
+  /// Copies the plane to the host; valid until the next launch.
   const Channel& download();
 
  private:
@@ -32,12 +32,12 @@ class ResultPlane {
   cl::Buffer buffer;
 };
 
-/// What ambient occlusion reads, on the device as gloam::run puts it there, and room for results.
+/// The inputs of ambient occlusion, on the device as gloam::run puts them there, and memory for results.
 class DevicePlanes {
  public:
   DevicePlanes(Device& device, const Frame& frame);
   cl::Buffer depth, normal_x, normal_y, normal_z;
-  /// Made when first asked for, and shared by all that ask for the same number.
+  /// Result plane with this number, made at first use and shared.
   ResultPlane& result(size_t number = 0);
 
  private:

@@ -11,18 +11,18 @@
 namespace gloam::bench {
 namespace {
 
-/// Nearest to ray-traced truth on the built-in scenes, with a single layer (docs/accuracy.md).
+/// The technique nearest to ray-traced truth on the built-in scenes, with a single layer (docs/accuracy.md).
 const std::string stand_in = "bitmask";
-/// Timed in turn at the end.
+/// Number of settings timed in turn at the end.
 constexpr size_t most_finalists = 12;
-/// A first time may be this much too long before a setting is given up.
+/// A setting is dropped only if its first time is over the bound by more than this factor.
 constexpr double doubt = 1.5;
 
 std::string name_of(const Variation& v) {
   return v.technique->name + " " + v.name() + (v.variant.empty() ? "" : ", " + v.variant);
 }
 
-/// AO as a screen shows it, where the mask says so; elsewhere black in both images.
+/// AO as displayed within the mask; black in both images elsewhere.
 cv::Mat grey_picture(const Channel& ao, const Mask& mask) {
   const Layout& layout = ao.layout();
   cv::Mat picture(layout.height, layout.width, CV_64FC3, cv::Scalar(0, 0, 0));
@@ -40,7 +40,7 @@ double mean_flip(const Channel& test, const Channel& truth, const Mask& mask) {
   return cv::mean(map, counted)[0];
 }
 
-/// Something tried: its plan and what one run of it gave.
+/// A tried setting: its plan, and the figures of one run.
 struct Try : Choice {
   std::unique_ptr<TimedPlan> timed;
 };
@@ -155,7 +155,7 @@ class Search {
     if (options_.by == PickBy::flip) choice.flip = flip / views;
   }
 
-  /// Milliseconds of one run, for as many views as all make.
+  /// Milliseconds of one run, over the views that all techniques make.
   double time_of(Try& tried) const {
     const double ms = tried.timed->run();
     const bool counts_in_full = !first_view_only_ || makes_first_view_only(*tried.variation.technique);
@@ -186,7 +186,7 @@ class Search {
     bool found = false;
     for (size_t i = 0; i < all.size(); ++i) {
       const bool fits = is_within(all[i], options_);
-      const bool is_better = options_.budget ? off(all[i]) < off(all[picked_.best]) : false;  // they are by time
+      const bool is_better = options_.budget ? off(all[i]) < off(all[picked_.best]) : false;  // they are sorted by time
       if (!fits || (found && !is_better)) continue;
       picked_.best = i;
       found = true;
@@ -243,7 +243,7 @@ std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOpt
   doubtful.insert(doubtful.end(), rest, within.end());
   within.erase(rest, within.end());
   std::sort(doubtful.begin(), doubtful.end(), is_better);
-  // At least one, to tell by how much the bound is missed.
+  // At least one, to tell how far the bound is missed.
   const size_t nearest = size_t(std::min_element(tries.begin(), tries.end(), is_nearer) - tries.begin());
   std::vector<size_t> finalists = {nearest};
   for (const std::vector<size_t>* some : {&within, &doubtful}) {

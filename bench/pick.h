@@ -1,4 +1,4 @@
-// Which setting to take on one frame and device: measured, not assumed.
+// The best setting for one frame and device, by measurement.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace gloam::bench {
 
-/// What decides which image is nearer to the truth.
+/// The figure that decides which image is nearer to the truth.
 enum class PickBy { rmse, ssim, flip };
 /// "RMSE", "SSIM" or "FLIP".
 const char* name_of(PickBy by);
@@ -18,7 +18,7 @@ const char* name_of(PickBy by);
 struct PickOptions {
   std::vector<const Technique*> techniques;
   std::optional<double> budget;  ///< milliseconds; the most accurate within it is picked
-  std::optional<double> error;   ///< of the figure that decides; the cheapest within it is picked
+  std::optional<double> error;   ///< bound on the deciding figure; the cheapest setting within it is picked
   PickBy by = PickBy::rmse;
   int rounds = 9;
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
@@ -29,29 +29,29 @@ struct Choice {
   double ms = 0;               ///< median, the filter included
   double rmse = 0;             ///< to the truth
   double ssim = 0;             ///< 1: the same
-  std::optional<double> flip;  ///< of the grey picture; where it decides
+  std::optional<double> flip;  ///< of the grey picture; only if it decides
 };
 
-/// How far off an image is by the figure that decides: RMSE, 1 - SSIM, or FLIP.
+/// Error of an image by the deciding figure: RMSE, 1 - SSIM, or FLIP.
 double error_of(const Choice& choice, PickBy by);
 
 struct Picked {
-  std::vector<Choice> finalists;  ///< by time
-  size_t tried = 0;               ///< settings, of which these are the ones that may win
-  size_t best = 0;                ///< of these
-  std::string truth;              ///< what errors are to: "the truth", or what stood in for it
+  std::vector<Choice> finalists;  ///< sorted by time
+  size_t tried = 0;               ///< number of settings tried
+  size_t best = 0;                ///< index of the best finalist
+  std::string truth;              ///< reference of the errors: "the truth", or its stand-in
   std::vector<Skipped> skipped;
 };
 
-/// Which of what was tried once (`ms` of one run) are timed in turn: indices, first the one that misses the bound least. The
-/// most accurate of those that a budget may turn out to allow, but half of the places are for those that were within it at
-/// once: near misses do not crowd them out.
+/// Indices of the settings, tried once (`ms` of one run), to time in turn; first the one that misses the bound least. They are
+/// the most accurate ones that a budget may allow after all, but half of the places go to those within it at once: near misses
+/// must not crowd them out.
 std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options);
 
-/// Tries every preset of the techniques at full and at half resolution, once; then times those that may win in turn. Where
-/// the subject has no truth, errors are to the converged image of the technique that comes nearest to ray-traced truth on
-/// the built-in scenes. Where one of the techniques makes an image of the first of two views only, times and errors of all
-/// are those of the first view. Throws Error that names the nearest miss where nothing is within the bound.
+/// Tries every preset of the techniques at full and at half resolution, once; then times those that may win, in turn. If the
+/// subject has no truth, errors are to the converged image of the technique that is nearest to ray-traced truth on the built-in
+/// scenes. If one of the techniques makes an image of only the first of two views, times and errors of all are those of the first
+/// view. Throws Error that names the nearest miss if nothing is within the bound.
 Picked pick(const Subject& subject, const PickOptions& options, Device& device);
 
 }  // namespace gloam::bench

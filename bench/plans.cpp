@@ -66,7 +66,7 @@ bool any_makes_first_view_only(const std::vector<const Technique*>& techniques) 
 
 const Technique* over_all_layers(const Technique& technique) {
   if (contains(technique.reads, "peel")) return &technique;
-  // "sd-hbao+" over all layers is "dp-hbao+", too.
+  // Over all layers "sd-hbao+" is "dp-hbao+" as well.
   const bool is_stochastic = technique.name.starts_with(stochastic_prefix);
   const std::string base = technique.name.substr(is_stochastic ? stochastic_prefix.size() : 0);
   for (const Technique& other : registry()) {

@@ -11,18 +11,18 @@
 namespace gloam::bench {
 namespace {
 
-/// Above this mean absolute difference the native loop computes something else than gloam.
+/// Up to this mean absolute difference the native loop computes the same as gloam.
 constexpr double native_tolerance = 1e-4;
 
-/// What the native loop computes, and the preset with its number of samples.
+/// The technique that the native loop computes, and the preset with its number of samples.
 constexpr const char *reference_technique = "hbao+", *reference_preset = "medium";
 
-/// So many rows share one run of what all are compared with, so that the two of a ratio are close in time.
+/// Number of rows that share one run of the baselines, so that the two times of a ratio are close together.
 constexpr size_t group_size = 4;
 
 std::string name_of(size_t racer) { return "racer " + std::to_string(racer); }
 
-/// The baselines' frame: one view's depth and normals, which are computed where the frame has none.
+/// The baselines' frame: one view's depth and normals; missing normals are computed.
 Frame depth_and_normals(const Frame& frame, Device& device) {
   Frame out = run(make_plan({.outputs = {"depth", "normal"}}, planes_of(frame), "the frame"), frame, device).frame;
   if (const Plane* given = frame.views.front().find("normal"))
@@ -30,7 +30,7 @@ Frame depth_and_normals(const Frame& frame, Device& device) {
   return out;
 }
 
-/// HBAO+ as the native loop computes it; null where a plan does otherwise.
+/// The parameters if a plan computes HBAO+ like the native loop; else null.
 const ParameterValues* as_baseline(const Plan& plan) {
   const ParameterValues* values = values_of(plan, reference_technique);
   if (!values) return nullptr;
@@ -54,7 +54,7 @@ void add(Series& sum, const Series& ms) {
   for (size_t round = 0; round < ms.size(); ++round) sum[round] += ms[round];
 }
 
-/// A technique's own passes, without what prepares, filters or resamples: their time in each round.
+/// Time of a technique's own passes in each round, without preparation, filter and resampling.
 Series own_passes(const TimedPlan& timed) {
   Series sum;
   for (size_t i = 0; i < timed.passes().size(); ++i) {
@@ -72,7 +72,7 @@ void add(std::vector<Share>& shares, const std::string& what, double ms) {
   shares.push_back({what, ms});
 }
 
-/// The estimate, then the other passes in their order.
+/// Shares of the estimate, then of the other passes in order.
 std::vector<Share> spent_on(const Racer& racer) {
   const Series estimate = own_passes(*racer.timed);
   std::vector<Share> shares = split_estimate(median(estimate), ratio(racer.own_floor_ms, estimate));
@@ -86,20 +86,20 @@ std::vector<Share> spent_on(const Racer& racer) {
   return shares;
 }
 
-/// Whether a racer is run as the baselines are: at full resolution, in float, fast.
+/// Whether a racer runs like the baselines: at full resolution, in float, fast.
 bool runs_as_baseline(const Variation& v) {
   return v.resolution == 1 && v.math == Math::fast && v.real == Real::float32 && v.storage == Storage::float32;
 }
 
-/// Whether a racer computes what the native loop computes, as it does.
+/// Whether a racer computes the same as the native loop, in the same way.
 bool is_native(const Racer& racer) {
   const Variation& v = racer.variation;
   return v.technique->name == reference_technique && v.settings.empty() && runs_as_baseline(v) &&
          as_baseline(racer.timed->plan());
 }
 
-/// Whether all of a racer's own passes have naive kernels. Of a sweep over anything but numbers of samples nothing has:
-/// they take long.
+/// Whether all of a racer's own passes have naive kernels. False for sweeps over anything but numbers of samples: the kernels
+/// take long.
 bool has_naive_estimate(const Racer& racer) {
   const TimedPlan& timed = *racer.timed;
   for (const auto& [name, value] : racer.variation.settings) {
@@ -116,7 +116,7 @@ size_t own_passes_in(const Plan& plan) {
                               [&](const PlannedPass& planned) { return planned.technique->name == plan.technique; }));
 }
 
-/// A part of what the naive kernels and gloam make, with how much they differ there.
+/// A part computed by naive kernels and by gloam, and their difference there.
 AgainstNaive part_of(const char* name, const Channel& naive, const Plan& plan, const Frame& frame, Device& device) {
   const RunResult run = gloam::run(plan, frame, device);
   const Channel& ours = run.frame.views[0].planes.at(plan.outputs.front()).channels[0];
@@ -138,10 +138,10 @@ struct Race::Plain {
   DevicePlanes planes;
 };
 
-/// What HBAO+ with 8 x 4 samples is measured against, and floors of the device.
+/// The baselines of HBAO+ with 8 x 4 samples, and floors of the device.
 class Race::Baselines {
  public:
-  /// `estimate`: what gloam makes; a loop that makes something else takes no part.
+  /// `estimate`: gloam's result; a loop with another result takes no part.
   Baselines(Device& device, Plain& plain, const HbaoPlusParams& params, const Channel& estimate,
             std::vector<std::string>& notes)
       : gathers_(device, plain.frame, plain.planes, params),
@@ -301,7 +301,7 @@ void Race::add_naive_ratios(size_t index) {
   Racer& racer = *racers_[index];
   const Naive& naive = *naives_[index];
   const std::vector<TimedPlan::Pass>& passes = racer.timed->passes();
-  // The plan may have more passes before, which make normals.
+  // The plan may begin with passes that make normals.
   const size_t before = passes.size() - naive.passes(), own = own_passes_in(racer.timed->plan());
   for (AgainstNaive& part : racer.against_naive) {
     const size_t first = part.part == "filter" ? own : 0, end = part.part == "estimate" ? own : naive.passes();

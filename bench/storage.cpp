@@ -9,7 +9,7 @@
 namespace gloam::bench {
 namespace {
 
-/// Rounds values in relation to `unit`.
+/// Rounds values relative to `unit`.
 void store_in_half(Plane& plane, float unit) {
   for (Channel& channel : plane.channels) {
     for (int y = 0; y < channel.layout().height; ++y) {

@@ -1,19 +1,19 @@
-// What keeping planes in half precision costs in accuracy.
+// The cost in accuracy of planes in half precision.
 #pragma once
 
 #include "gloam/frame.h"
 
 namespace gloam::bench {
 
-/// The nearest number that a half holds; beyond the largest, the largest. Infinite values and NaN stay.
+/// The nearest value of half; beyond the largest, the largest. Infinite values and NaN stay.
 float as_half(float value);
 
-/// A plane as if it had been kept in half.
+/// Rounds a plane to half.
 void store_in_half(Plane& plane);
 
-/// A frame as if its depths, unit vectors and shares had been kept in half: depths in relation to the median depth of the
-/// view's surfaces, so that no unit overflows. Other planes stay. They are floats in scene units afterwards: kernels read
-/// nothing else, so this says what half costs in accuracy and nothing about time.
+/// Rounds a frame's depths, unit vectors and shares to half: depths relative to the median depth of the view's surfaces, so that
+/// no unit overflows. Other planes stay. The results are floats in scene units, since kernels read nothing else: this shows the
+/// cost of half in accuracy, not in time.
 Frame stored_in_half(const Frame& frame);
 
 }  // namespace gloam::bench

@@ -14,9 +14,9 @@
 namespace gloam::bench {
 namespace {
 
-constexpr const char* recipe_attribute = "gloamBench";  ///< header of the kept files: what they were made from
+constexpr const char* recipe_attribute = "gloamBench";  ///< header attribute of the kept files: their inputs
 
-/// Tells scenes apart whose geometry, first camera or reach differs.
+/// Identifies a scene by geometry, first camera and reach.
 std::string digest_of(const Scene& scene) {
   const SceneCamera& camera = scene.cameras.front();
   Fingerprint print;
@@ -27,14 +27,14 @@ std::string digest_of(const Scene& scene) {
   return print.text();
 }
 
-/// Tells frames apart that rays start from elsewhere.
+/// Identifies a frame by the starts of its rays.
 std::string digest_of(const Frame& frame) {
   Fingerprint print;
   print.add(frame);
   return print.text();
 }
 
-/// Tells contributions apart, by their values.
+/// Identifies a contribution by its values.
 std::string digest_of(const std::function<double(double, double)>& contribution) {
   if (!contribution) return "none";
   constexpr int n = 16;
@@ -65,7 +65,7 @@ void Truths::tell(const std::string& what, double share) const {
   if (options_.progress) options_.progress(name_ + ": " + what, share);
 }
 
-/// Notes whether a file is used again. A file that cannot be read is made anew.
+/// Notes whether a file is reused. A file that cannot be read is made again.
 bool Truths::is_there(const std::string& file, const std::string& recipe) {
   bool same = false;
   try {
@@ -145,7 +145,7 @@ const Truth& Truths::truth(const Frame& frame, const Technique& technique, const
   const auto known = own_truths_.find(digest);
   if (known != own_truths_.end()) return truths_.at(known->second);
   std::string file = fmt::format("{}_ao_ref_{}.exr", name_, technique.name);
-  // Presets that contribute otherwise get files of their own.
+  // Presets with another contribution get files of their own.
   for (int number = 2; truths_.count(file) != 0; ++number)
     file = fmt::format("{}_ao_ref_{}_{}.exr", name_, technique.name, number);
   const Truth& truth = traced(frame, file, contribution, technique.name);
@@ -155,7 +155,7 @@ const Truth& Truths::truth(const Frame& frame, const Technique& technique, const
 
 namespace {
 
-/// Which view of a frame each view of a truth's file is of.
+/// For each view of a truth's file, its view of the frame.
 std::vector<std::pair<std::string, const View*>> views_for(const Frame& truth, const FrameFile& file,
                                                            const Frame& frame) {
   if (truth.views.size() == 1 && frame.views.size() == 1) return {{frame.views[0].name, &truth.views[0]}};

@@ -8,21 +8,21 @@
 namespace gloam::bench {
 namespace {
 
-/// With more variants than this a preset is not listed with all of them.
+/// With more variants than this, not all of a preset's variants are listed.
 constexpr size_t most_variants = 3;
 
 std::string cell(const std::optional<double>& value, const char* format = "{:.4f}") {
   return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
-/// A row, with what is known of it among the others of its scene.
+/// A row, and its standing among the rows of its scene.
 struct Entry {
   const Row* row;
-  double ms = 0, time = 0;  ///< time: what rows are sorted by
+  double ms = 0, time = 0;  ///< time: the sort key
   bool on_front = false;
 };
 
-/// As in the report, time is the ratio, since ratios drift less; ms where a row has none.
+/// As in the report, time is the ratio, since ratios drift less; ms if a row has none.
 void set_times(std::vector<Entry>& entries) {
   const bool with_ratio =
       std::all_of(entries.begin(), entries.end(), [](const Entry& e) { return e.row->to_hbao_plus.has_value(); });
@@ -76,7 +76,7 @@ std::string folded(const std::vector<Entry>& variants) {
                      variants.size() == 1 ? "variant" : "variants", fast->ms, slow->ms, errors);
 }
 
-/// A preset's variants: all of a few, of many those on the front.
+/// Adds all of a few variants of a preset; of many, those on the front.
 void add_variants(const std::vector<Entry>& variants, Table& table) {
   std::vector<Entry> others;
   for (const Entry& e : variants) {

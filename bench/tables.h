@@ -1,4 +1,4 @@
-// What `gloam bench` prints.
+// Tables that `gloam bench` prints.
 #pragma once
 
 #include <string>
@@ -12,15 +12,14 @@ struct Table {
   std::string title;
   std::vector<std::vector<std::string>> rows;  ///< the first is the heading
   size_t first_number = 0;                     ///< columns from here on are numbers
-  std::vector<std::string> below;              ///< lines that belong to it
+  std::vector<std::string> below;              ///< lines below the table
 };
 
-/// Time and error of everything on one scene, fastest preset first, variants under their preset. `*` marks the Pareto
-/// front over all rows of the scene. Of many variants of a preset only those on the front have a line; `below` has the
-/// range of the others.
+/// Times and errors of all rows of one scene, fastest preset first, variants under their preset. `*` marks the Pareto front over
+/// all rows of the scene. Of many variants of a preset only those on the front have a line; `below` has the range of the others.
 Table table_of_scene(const Measurement& measurement, const std::string& scene);
 
-/// Rows against the naive kernels and the native loop; no rows but the heading where there are none.
+/// Rows compared with the naive kernels and the native loop; only the heading if there are none.
 Table table_of_baselines(const Measurement& measurement, const std::string& scene);
 
 Table table_of_growth(const Measurement& measurement);

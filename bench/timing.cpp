@@ -26,8 +26,8 @@ double ratio(const Series& a, const Series& b) {
 
 TimedPlan::TimedPlan(Plan plan, const Frame& frame, Device& device, const RunOptions& options)
     : plan_(std::move(plan)), frame_(frame), device_(device), options_(options) {
-  // Two timed runs, of which the last counts, follow an untimed one: fresh pages and cold caches are behind them. For
-  // what takes long those are nothing.
+  // One untimed run takes the cost of fresh pages and cold caches; then two timed runs, of which the last counts. For long runs
+  // that cost is negligible.
   constexpr double long_ms = 30;
   options_.repeat = 1;
   const RunResult first = gloam::run(plan_, frame_, device_, options_);
@@ -39,7 +39,7 @@ TimedPlan::TimedPlan(Plan plan, const Frame& frame, Device& device, const RunOpt
 double TimedPlan::run() {
   const RunResult result = gloam::run(plan_, frame_, device_, options_);
   for (Pass& pass : passes_) {
-    double ms = 0;  // of all views that it ran on
+    double ms = 0;  // sum over the views that it ran on
     for (const PassTime& time : result.passes) {
       if (time.name != pass.name) continue;
       ms += time.ms.back();

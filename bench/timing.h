@@ -1,4 +1,4 @@
-// Times that travel: all contenders run in turn, and ratios are made within a round.
+// Times that can be compared between machines: contenders run in turn, and ratios are taken within a round.
 #pragma once
 
 #include <functional>
@@ -17,36 +17,36 @@ namespace gloam::bench {
 /// Milliseconds, one per round.
 using Series = std::vector<double>;
 
-/// One way to compute something; gives milliseconds.
+/// One way to compute something; returns milliseconds.
 struct Contender {
   std::string name;
   std::function<double()> run;
 };
 
-/// Runs all in turn, `rounds` times, so that what else the machine does falls on all alike. `progress` is told of single
-/// runs, and may be empty.
+/// Runs all contenders in turn, `rounds` times, so that other load on the machine affects all alike. `progress` is called for
+/// single runs, and may be empty.
 std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
                                 const std::function<void(int done, int of)>& progress = {});
 
-/// Median of the rounds' ratios a / b: both of a round saw the same machine.
+/// Median of the rounds' ratios a / b: both times of a round are from the same state of the machine.
 double ratio(const Series& a, const Series& b);
 
 /// A plan as a contender, with the time of each pass.
 class TimedPlan {
  public:
-  /// Compiles and runs it once. Throws what `gloam::run` throws. Frame and device must outlive it.
+  /// Compiles and runs the plan once. Throws as `gloam::run` does. Frame and device must outlive it.
   TimedPlan(Plan plan, const Frame& frame, Device& device, const RunOptions& options = {});
 
-  /// The sum over passes and views, by the events of the device, when the device is warm.
+  /// Runs the plan once the device is warm; returns the sum over passes and views, by the device's events.
   double run();
 
-  /// Of the last run, the sum over the passes on the first view.
+  /// Sum over the passes on the first view in the last run.
   double first_view_ms() const { return first_view_ms_; }
 
   struct Pass {
     std::string name;                        ///< "hbao+/estimate"
     Series ms;                               ///< one per call of `run`, the sum over views
-    std::map<std::string, Series> of_views;  ///< the same by the view's name, of those that it runs on
+    std::map<std::string, Series> of_views;  ///< by the name of each view that it runs on
   };
   const std::vector<Pass>& passes() const { return passes_; }
   const Plan& plan() const { return plan_; }

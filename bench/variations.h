@@ -1,4 +1,4 @@
-// What is measured of a technique beside its presets: one of them at another resolution, precision, with other settings.
+// Variants of a preset: at another resolution or precision, or with other settings.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace gloam::bench {
 
-/// "half", "quarter", "precise", "double", "half-storage": what one can ask for, in this order.
+/// "half", "quarter", "precise", "double", "half-storage": all variants, in this order.
 const std::vector<std::string>& variant_names();
 
-/// Those measured when nobody asks: half, quarter, precise.
+/// The default variants: half, quarter, precise.
 const std::vector<std::string>& default_variants();
 
 /// A preset in one of these variants.
@@ -23,17 +23,17 @@ struct Sweep {
   std::vector<std::string> values;
 };
 
-/// Whether a technique has all parameters that are swept.
+/// Whether a technique has all parameters of the sweeps.
 bool has_all(const Technique& technique, const std::vector<Sweep>& sweeps);
 
-/// Empty, or the sentence on why a technique does not take a value: "hbao+: steps = '99' is not allowed; 1 to 32 is".
+/// Empty, or the reason why a technique does not take a value: "hbao+: steps = '99' is not allowed; 1 to 32 is".
 std::string not_allowed(const Technique& technique, const std::string& parameter, const std::string& value);
 
-/// A preset with every combination of the values swept that its technique takes, as "steps=9, directions=2". None for a
-/// technique that lacks one of the parameters.
+/// A preset with every allowed combination of the swept values, as "steps=9, directions=2". None if the technique lacks one of
+/// the parameters.
 std::vector<Variation> swept(const Variation& base, const std::vector<Sweep>& sweeps);
 
-/// The preset that variants are of: `medium` where it is among them, else the first; "" of none.
+/// The preset of the variants: `medium` if it is among them, else the first; "" for none.
 std::string base_preset(const std::vector<std::string>& presets);
 
 }  // namespace gloam::bench

@@ -1,5 +1,5 @@
-# Takes the example of a page of docs apart: each block whose first line is a comment with a path below FOLDER/ (kernels/) becomes
-# that file below OUTPUT.
+# Extracts the files of an example from a page of docs: each block whose first line is a comment with a path below FOLDER/
+# (kernels/) becomes that file below OUTPUT.
 # Usage: cmake -DPAGE=docs/adding-a-technique.md [-DFOLDER=kernels] -DOUTPUT=folder -P example_from_docs.cmake
 if(NOT FOLDER)
   set(FOLDER kernels)

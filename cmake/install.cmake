@@ -1,12 +1,12 @@
-# What `cmake --install` puts into a prefix, and the Debian packages made of it. Component `runtime` is the command with its pages and
-# completions (that of zsh is `zsh`, as packages have another folder for it), `development` the libraries, headers and what finds them.
+# Contents of `cmake --install`, and of the Debian packages. Component `runtime` is the command with its pages and completions
+# (zsh's are `zsh`, since packages have another folder for them), `development` the libraries, headers and package files.
 #
-# The libraries are static: a C++ interface of plain structs has no stable binary form before 1.0, and kernels, techniques and scenes
-# are linked in as data, so that a program made with gloam needs no file of it.
+# The libraries are static: a C++ interface of plain structs has no stable ABI before 1.0, and kernels, techniques and scenes are
+# linked in as data, so that a program that uses gloam needs none of its files.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# --- First, so that it fails before a file is copied.
+# --- Runs first, so that it fails before any file is copied.
 install(CODE [[
   set(prefix "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
   set(probe "${prefix}/.gloam-install-probe")
@@ -52,7 +52,7 @@ foreach(name gloam gloam-scene)
   install(FILES ${PROJECT_BINARY_DIR}/generated/${name}.pc DESTINATION ${pkgconfig_folder} COMPONENT development)
 endforeach()
 
-# --- The command; its pages and completions are what it says of itself.
+# --- The command; its pages and completions come from its own --help.
 install(TARGETS gloam RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 find_program(HELP2MAN help2man DOC "makes man pages of --help")
 find_program(GZIP gzip)

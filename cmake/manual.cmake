@@ -1,4 +1,4 @@
-# A man page for the command and one for each of its commands, made of their --help.
+# A man page for the command and for each of its subcommands, made from their --help.
 # Usage: cmake -DGLOAM=binary -DHELP2MAN=program -DGZIP=program -DVERSION=0.1.0 -DOUTPUT=folder -P manual.cmake
 
 function(help_of command result)
@@ -16,7 +16,7 @@ function(write_page invocation summary)
     WORKING_DIRECTORY ${OUTPUT} OUTPUT_VARIABLE page COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE "\n\\.TH [^ ]+ " "\n.TH ${title} " page "${page}")
   string(REGEX REPLACE "\ngloam \\\\- " "\n${name} \\\\- " page "${page}")
-  # Examples stay lines of their own.
+  # Examples keep their lines.
   string(REGEX REPLACE "\n\\.IP\n((gloam [^\n]*\n)+)" "\n.IP\n.nf\n\\1.fi\n" page "${page}")
   file(WRITE ${OUTPUT}/${name}.1 "${page}")
   execute_process(COMMAND ${GZIP} -9nf ${OUTPUT}/${name}.1 COMMAND_ERROR_IS_FATAL ANY)  # as Debian wants them
@@ -44,7 +44,7 @@ folder where the OpenCL driver PoCL keeps compiled kernels
 [SEE ALSO]
 \\fBgloam\\fR(1), ${see_also}
 ")
-# help2man takes what it runs from PATH, so that the page says \"gloam\" and no path.
+# help2man takes the program from PATH, so that the page says \"gloam\" without a path.
 cmake_path(GET GLOAM PARENT_PATH folder)
 set(ENV{PATH} "${folder}:$ENV{PATH}")
 string(REGEX MATCH "^gloam: ([^\n]*[^\n.])" unused "${help}")

@@ -2,7 +2,7 @@
 set(GLOAM_MAINTAINER "The gloam authors <gloam@users.noreply.github.com>" CACHE STRING "who answers for Debian packages made here")
 set(packaging ${PROJECT_BINARY_DIR}/generated/debian)
 
-# --- What only packages have: /usr/share/doc/PACKAGE, and zsh's completions where Debian looks for those of packages.
+# --- Only in packages: /usr/share/doc/PACKAGE, and zsh's completions in Debian's folder for packages.
 if(NOT GZIP)
   message(STATUS "no gzip: cpack makes no packages")
   return()

@@ -1,4 +1,4 @@
-# Writes a text, unless it is there already: what depends on the file is not built anew then.
+# Writes a text unless the file has it already, so that files that depend on it are not rebuilt.
 function(write_text_if_different path text)
   set(old "")
   if(EXISTS "${path}")

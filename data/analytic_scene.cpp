@@ -16,18 +16,18 @@ using glm::dvec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Rays leave a surface from this far above it, in metres: far over double's rounding, far under anything modelled.
+/// Distance above a surface at which rays leave it, metres: far above double's rounding, far below any modelled size.
 constexpr double lift = 1e-7;
 
-/// The part of a line inside a convex solid, and which face bounds it at either end: an axis of a box; 0 and 1 for the
-/// side and the caps of a frustum.
+/// The part of a line inside a convex solid, and the face at either end: the axis of a box; 0 for the side and 1 for the caps of
+/// a frustum.
 struct Span {
   double enter = infinity, leave = -infinity;
   int enter_face = 0, leave_face = 0;
   bool empty() const { return enter >= leave; }
 };
 
-/// Cuts a span down to what is also between two parallel planes.
+/// Intersects a span with the space between two parallel planes.
 void clip_to_slab(Span& span, double origin, double direction, double half, int face) {
   if (direction == 0) {
     if (std::abs(origin) > half) span = Span{};
@@ -59,8 +59,8 @@ std::pair<double, double> roots(double a, double b, double c, double discriminan
   return {std::min(t0, t1), std::max(t0, t1)};
 }
 
-/// The part of a line inside the side of a frustum, as if it had no caps. Only the nappe with a positive radius counts;
-/// the other lies beyond a cap.
+/// The part of a line inside the side of a frustum without its caps. Only the nappe with a positive radius counts; the other lies
+/// beyond a cap.
 Span cone_span(const Solid& solid, const dvec3& o, const dvec3& d) {
   const double radius = solid.radius + solid.slope * o.y, growth = solid.slope * d.y;
   const double a = d.x * d.x + d.z * d.z - growth * growth;
@@ -109,15 +109,15 @@ dvec3 normal_at(const Solid& solid, const dvec3& point, int face) {
   return glm::transpose(solid.to_local) * glm::normalize(n);
 }
 
-/// Where a ray meets an object: a distance, and the solid and face that are met there.
+/// The crossing of a ray with an object: its distance, solid and face.
 struct Crossing {
   double distance = infinity;
   const Solid* solid = nullptr;
   int face = 0;
 };
 
-/// Walks along the ray from where it enters the body, out of each cut that it finds itself in, to the first place that
-/// is inside the body and in no cut. A ray that starts inside what is left meets it at once.
+/// Follows the ray from where it enters the body, leaving each cut that contains the position, to the first position inside the
+/// body and outside all cuts. A ray that starts inside the remaining solid meets it at once.
 Crossing cross(const Object& object, const Ray& ray) {
   const Span body = span_of(object.body, ray);
   if (body.empty() || body.leave <= 0) return {};
@@ -127,12 +127,12 @@ Crossing cross(const Object& object, const Ray& ray) {
     if (cut.enter > at.distance || cut.leave <= at.distance) continue;
     at = {cut.leave, &object.cuts[i], cut.leave_face};
     if (at.distance >= body.leave) return {};
-    i = size_t(-1);  // the place has moved: ask every cut again
+    i = size_t(-1);  // the position has moved: test every cut again
   }
   return at;
 }
 
-/// Whether a ray can touch the bounds at all: the slab test, without faces.
+/// Whether a ray can touch the bounds: the slab test, without faces.
 bool may_touch(const Bounds& bounds, const Ray& ray, const dvec3& inverse) {
   const dvec3 a = (bounds.low - ray.origin) * inverse, b = (bounds.high - ray.origin) * inverse;
   double enter = 0, leave = infinity;

@@ -1,7 +1,7 @@
 // A scene of solids with closed-form ray intersection, and its exact ambient occlusion.
 //
-// Everything is in double and in world space, metres, y up. There are no meshes and no acceleration structure: what a
-// ray meets is solved for, so that a depth, a normal or an occlusion taken from here has no modelling error of its own.
+// All in double and in world space, metres, y up. There are no meshes and no acceleration structure: intersections are solved
+// for, so that depths, normals and occlusion have no modelling error.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,21 @@ struct Ray {
   glm::dvec3 direction;  ///< unit
 };
 
-/// A convex solid. Convex, because a line then meets it in one interval, and cutting solids out of solids is a walk
-/// over intervals.
+/// A convex solid: a line meets it in one interval, so cutting solids out of solids is a walk over intervals.
 struct Solid {
   enum Shape { box, sphere, frustum };
   Shape shape = box;
   glm::dvec3 centre{0.0};
   glm::dmat3 to_local{1.0};  ///< rotation: local = to_local * (world - centre)
   bool rotated = false;      ///< false: `to_local` is the identity and is skipped
-  glm::dvec3 half{0.0};      ///< half the extents; frustum: only y counts
-  double radius = 0;         ///< sphere; frustum: halfway up
+  glm::dvec3 half{0.0};      ///< half extents; frustum: only y is used
+  double radius = 0;         ///< sphere: its radius; frustum: radius halfway up
   double slope = 0;          ///< frustum: radius gained per unit of local y; 0: a cylinder
 };
 
 Solid make_box(const glm::dvec3& low, const glm::dvec3& high);
 Solid make_sphere(const glm::dvec3& centre, double radius);
-/// A capped cone between two points, with the radius at each of them; equal radii make a cylinder.
+/// A capped cone between two points, with a radius at each; equal radii make a cylinder.
 Solid make_frustum(const glm::dvec3& from, const glm::dvec3& to, double radius_from, double radius_to);
 /// The solid turned by `yaw` radians about the world's y axis (counter-clockwise from above), then moved.
 Solid placed(Solid solid, double yaw, const glm::dvec3& offset);
@@ -45,7 +44,7 @@ struct Bounds {
 };
 Bounds bounds_of(const Solid& solid);
 
-/// What is left of `body` when `cuts` are taken away: a wall with an arch, a sphere hollowed to a bowl.
+/// A body with `cuts` taken away: a wall with an arch, a sphere hollowed to a bowl.
 struct Object {
   Solid body;
   std::vector<Solid> cuts;
@@ -67,18 +66,18 @@ struct Hit {
 /// The first surface in front of the ray's origin.
 std::optional<Hit> first_hit(const Scene& scene, const Ray& ray);
 
-/// Whether anything lies on the ray nearer than `reach`.
+/// Whether a surface lies on the ray nearer than `reach`.
 bool blocked(const Scene& scene, const Ray& ray, double reach);
 
-/// What a point sees of its surroundings.
+/// Visibility at a point.
 struct Visibility {
   double ao = 1;               ///< 1 open, 0 closed: mean of the two halves
-  double half_difference = 0;  ///< first half minus second: what the noise is estimated from
+  double half_difference = 0;  ///< first half minus second, for estimating the noise
 };
 
-/// Cosine-weighted share of the hemisphere about `normal` in which nothing is nearer than `radius`; binary, without
-/// falloff. `samples` rays in two halves, which are two independent randomisations of one low-discrepancy set, so that
-/// the variance of `ao` is that of `half_difference` divided by four.
+/// Cosine-weighted share of the hemisphere about `normal` in which nothing is nearer than `radius`; binary, without falloff.
+/// `samples` rays in two halves, two independent randomisations of one low-discrepancy set, so that the variance of `ao` is that
+/// of `half_difference` divided by four.
 Visibility ambient_visibility(const Scene& scene, const glm::dvec3& point, const glm::dvec3& normal, double radius,
                               int samples, uint32_t seed);
 

@@ -30,13 +30,13 @@ using namespace gloam::analytic;
 
 constexpr int width = 480, height = 270;
 
-/// Mantissa bits kept: a relative step of 1/1024 in colours, 1/65536 in the components of normals.
+/// Mantissa bits kept: relative steps of 1/1024 in colours, 1/65536 in components of normals.
 constexpr int colour_bits = 9, normal_bits = 15;
 
 /// The reference is stored in steps of 1/4096: an error of 7e-5 RMS, well under its noise.
 constexpr double ao_steps = 4096;
 
-/// Rounds to `bits` bits of mantissa. The rest would be exact but of no use, and zeros compress.
+/// Rounds to `bits` bits of mantissa. More bits are of no use, and zeros compress.
 float rounded(float value, int bits) {
   const uint32_t step = 1u << (23 - bits);
   uint32_t pattern;
@@ -93,7 +93,7 @@ Frame render(const Scene& scene) {
   return frame;
 }
 
-/// How noisy the reference is, from the two halves of each pixel's rays.
+/// Noise of the reference, from the two halves of each pixel's rays.
 struct Noise {
   long long pixels = 0;
   double sum_of_squares = 0, largest = 0;
@@ -135,7 +135,7 @@ Frame reference(const Scene& scene, const Frame& captured, int rays, Noise& nois
   return frame;
 }
 
-/// What a reference says of itself, as gloam reference writes it: `compare`, `pick` and `bench` go by the radius.
+/// Adds the attributes that gloam reference writes: `compare`, `pick` and `bench` use the radius.
 void describe(Frame& reference, int rays, const Noise& noise) {
   reference.numbers = {{"aoRadius", loggia_ao_radius}, {"aoSamples", rays}, {"aoNoise", noise.rms()}};
   reference.attributes = {

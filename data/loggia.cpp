@@ -25,7 +25,7 @@ const vec3 leaf(0.10f, 0.22f, 0.05f), orange(0.80f, 0.28f, 0.03f), lemon(0.82f, 
     apple(0.52f, 0.06f, 0.05f);
 const vec3 bottle_green(0.05f, 0.16f, 0.08f), rug_red(0.42f, 0.08f, 0.07f), rug_blue(0.10f, 0.15f, 0.28f);
 
-/// Adds solids given in the coordinates of one piece of furniture, which stands somewhere and is turned about y.
+/// Adds solids in the coordinates of a piece of furniture, which is moved and turned about y.
 struct Group {
   Scene& scene;
   double yaw = 0;
@@ -205,7 +205,7 @@ void add_stool(const Group& room) {
   }
 }
 
-/// An open-slatted crate: posts at the corners, boards with gaps, a bottom, and something dark behind the gaps.
+/// An open-slatted crate: posts at the corners, boards with gaps, a bottom, and a dark box behind the gaps.
 void add_crate(const Group& room, const dvec3& at, double yaw, double size, double height) {
   const Group crate{room.scene, yaw, at};
   const double h = size / 2, t = 0.016;
@@ -302,7 +302,7 @@ vec3 sky_light(const dvec3& normal) {
   return glm::mix(ground, zenith, up) + opening * out;
 }
 
-/// Share of a sun of 1.6 degrees radius that is seen from a point.
+/// Visible share of a sun with a radius of 1.6 degrees.
 double sun_visibility(const Scene& scene, const dvec3& point, uint32_t seed) {
   constexpr int samples = 64;
   const double spread = std::tan(1.6 * M_PI / 180);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int width = 960, height = 540, peeled_layers = 8, ao_rays = 64;
-/// AO below this has geometry within the scene's ao_radius: of 64 rays at least one is blocked.
+/// AO below this means geometry within the scene's ao_radius: at least one of 64 rays is blocked.
 constexpr double open_ao = 0.995;
 
 constexpr int columns = 4, tile_width = 240, least_tile_width = 160;
@@ -36,7 +36,7 @@ struct Figures {
 
 // --- Measuring
 
-/// The camera of the frame before: one tenth of the AO radius further left, so that there is motion to be seen.
+/// The camera of the frame before: a tenth of the AO radius further left, so that there is visible motion.
 Camera camera_before(Camera camera, double ao_radius) {
   const glm::dmat3& turn = camera.pose->world_to_view;
   camera.pose->position -= 0.1 * ao_radius * glm::dvec3(turn[0][0], turn[1][0], turn[2][0]);
@@ -73,7 +73,7 @@ void measure(const View& view, Figures& figures) {
   figures.near_geometry = double(near) / double(foreground);
 }
 
-/// The contact sheet, with tiles as large as the file's size allows; the least tile is kept whatever its size (foliage).
+/// The contact sheet, with tiles as large as the file size limit allows; the smallest tile is kept whatever its size (foliage).
 void draw(const fs::path& path, const Frame& frame, const std::string& name) {
   for (int tile = tile_width; tile >= least_tile_width; tile -= 16) {
     write_contact_sheet(path, frame, {.title = name, .tile_width = tile, .columns = columns, .colour_step = 4});
@@ -151,7 +151,7 @@ std::string page(const std::vector<Figures>& all) {
   return text;
 }
 
-/// Puts the table between the markers of a page that people write.
+/// Replaces the table between the markers of a page that people write.
 void renew_table(const fs::path& path, const std::string& table) {
   const std::string begin = "<!-- scenes -->\n", end = "<!-- /scenes -->";
   std::string text = read_text(path);

@@ -1,5 +1,5 @@
-// Every kernel of the registry by itself: one line per pass of a technique with default settings, at one lane and at the
-// device's own width; one that reads a stack of layers with 1, 2, 4 and 8 of them. A new technique appears by itself.
+// Every kernel of the registry by itself: one line per pass of a technique with default settings, for one lane and for the
+// device's own width; kernels that read a stack of layers with 1, 2, 4 and 8 of them. A new technique is included by itself.
 //
 // bench_kernels [--size=WIDTHxHEIGHT]... [Google Benchmark's flags]      Default size: 1920x1080
 #include <benchmark/benchmark.h>
@@ -18,7 +18,7 @@
 namespace gloam::bench {
 namespace {
 
-/// What a technique reads, with a number of layers for each stack.
+/// The inputs of a technique, with a number of layers for each stack.
 std::vector<std::string> planes_read(const Technique& technique, int layers) {
   std::vector<std::string> planes;
   for (const std::string& plane : technique.reads) {
@@ -28,7 +28,7 @@ std::vector<std::string> planes_read(const Technique& technique, int layers) {
   return planes;
 }
 
-/// The technique alone: all it reads is there, nothing follows. None where it reads more layers than there are.
+/// The technique alone: all its inputs are there, and nothing follows. None if it needs more layers than there are.
 std::optional<Plan> plan_alone(const Technique& technique, float radius, int layers) {
   PlanRequest request{.outputs = {technique.name}, .then = "none"};
   for (const std::string& plane : technique.writes) {
@@ -43,7 +43,7 @@ std::optional<Plan> plan_alone(const Technique& technique, float radius, int lay
   }
 }
 
-/// One pass of it, with all that the pass reads as inputs.
+/// One pass of the technique, with all its inputs in the frame.
 Plan pass_alone(const Plan& technique, const PlannedPass& pass) {
   Plan plan;
   plan.technique = pass.label();
@@ -60,7 +60,7 @@ Plan pass_alone(const Plan& technique, const PlannedPass& pass) {
   return plan;
 }
 
-/// 0 where it reads no stack.
+/// 0 if it reads no stack.
 std::vector<int> layer_counts(const Technique& technique) {
   return reads_layers(technique) ? std::vector<int>{1, 2, 4, most_layers} : std::vector<int>{0};
 }

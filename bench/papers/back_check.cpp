@@ -9,7 +9,7 @@
 namespace gloam::bench {
 namespace {
 
-/// RMSE of one plane to another where `counts` says so.
+/// RMSE of one plane to another over pixels that `counts`.
 double error_where(const Mask& counts, const Channel& test, const Channel& truth) {
   const int width = truth.layout().width;
   double squares = 0, count = 0;
@@ -23,7 +23,7 @@ double error_where(const Mask& counts, const Channel& test, const Channel& truth
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-/// Where a is farther from the truth than b.
+/// Pixels at which a is farther from the truth than b.
 Mask where_worse(const Channel& a, const Channel& b, const Channel& truth) {
   Mask worse;
   for (int y = 0; y < a.layout().height; ++y) {
@@ -33,7 +33,7 @@ Mask where_worse(const Channel& a, const Channel& b, const Channel& truth) {
   return worse;
 }
 
-constexpr int parts = 16;  ///< that the image's width and height are cut into
+constexpr int parts = 16;  ///< parts of the image's width and height
 
 Window part_of(const Layout& layout, int column, int row) {
   const int x = column * layout.width / parts, y = row * layout.height / parts;
@@ -58,7 +58,7 @@ Window fullest_part(const Mask& mask, const Layout& layout) {
   return fullest;
 }
 
-/// Each pixel becomes a square.
+/// Cuts out a window; each pixel becomes a square.
 Plane cut_out(const Plane& plane, const Window& w) {
   constexpr int enlarged = 4;
   Plane part{plane.name, {}};

@@ -1,4 +1,4 @@
-// What modules of a light-field display show of a scene, as a stage.
+// Images of a light-field display's modules as a stage.
 #pragma once
 
 #include <string>
@@ -13,13 +13,14 @@ namespace gloam::bench {
 extern const char* const eighty_modules_json;
 LightFieldDisplay eighty_modules();
 
-/// The number of the module in the middle of the line, or right of it.
+/// Number of the module in the middle of the line, or just right of it.
 size_t middle_module(const LightFieldDisplay& display);
 
-/// With what the scene's first camera frames on display.
+/// The display with the part of the world that the scene's first camera sees.
 LightFieldDisplay showing(const LightFieldDisplay& display, const std::string& scene, const Settings& settings);
 
-/// Depth, normal and position of some modules' images; all where none is named. The display says what it shows.
+/// Depth, normal and position of some modules' images; of all if none is named. The display must state which part of the world it
+/// shows.
 Stage stage_of(const LightFieldDisplay& display, const std::string& scene, const Settings& settings, int width,
                int height, const std::vector<size_t>& modules = {});
 

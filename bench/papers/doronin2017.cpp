@@ -21,12 +21,12 @@ Asked ssao() { return {.technique = "lightfield-ssao", .settings = {}}; }
 
 struct Model {
   const char *faces, *of;
-  double ms;  ///< of the paper: with SSAO less without
+  double ms;  ///< in the paper: time with SSAO minus time without
 };
 constexpr std::array<Model, 3> models = {
     {{"5011", "Statue", 6.46}, {"29520", "Ammonite", 6.43}, {"212574", "Armadillo", 6.48}}};
 
-/// What of a model's time is a column.
+/// A column of the table: some passes of a model's time.
 struct Column {
   const char* name;
   std::vector<std::string> passes;
@@ -43,7 +43,7 @@ struct Shown {
   std::optional<double> paper_ms;
 };
 
-/// The value below which a share of them lies.
+/// The quantile of some values.
 double quantile(Series values, double share) {
   std::sort(values.begin(), values.end());
   return values[size_t(share * double(values.size() - 1) + 0.5)];
@@ -58,9 +58,9 @@ void state_spread(Study& study, const std::string& table, const Shown& model, co
     study.fact(figure, model.name, name, quantile(ratios, share), "ratio, of the rounds");
 }
 
-/// Three models, and the first once more: its ratio to itself is what the machine's own noise makes.
+/// Measures three models, and the first one twice: its ratio to itself shows the machine's own noise.
 void measure_models(Study& study, const std::string& table, const std::vector<Shown>& shown) {
-  // A difference of a few percent is asked for.
+  // The differences sought are a few per cent.
   constexpr int more_rounds = 7;
   std::vector<std::unique_ptr<TimedPlan>> timed;
   std::vector<Contender> contenders;
@@ -117,7 +117,7 @@ void table_1(Study& study, const LightFieldDisplay& display) {
 
 constexpr std::array<const char*, 5> point_sets = {"spiral", "random", "jittered", "latin_square", "poisson_disk"};
 
-/// Where the points lie.
+/// The volume over which points are spread.
 struct Shape {
   const char *name, *radii, *hemisphere, *inner, *range = "2";
 };
@@ -162,7 +162,7 @@ void section_6_times(Study& study, const Stage& s) {
           entries);
 }
 
-/// Of one row and column, with or without the filter.
+/// States the errors of one row and column, with or without the filter.
 void state_errors(Study& study, const Stage& s, const Asked& asked, const Shape& shape, const char* points,
                   const Image& truth) {
   const char* filter = asked.plane == "ao" ? "with Gaussian" : "without Gaussian";

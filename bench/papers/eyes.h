@@ -1,4 +1,4 @@
-// How far images of two eyes are from each other, for the papers that measure it.
+// Inconsistency of images of two eyes, for the papers that measure it.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace gloam::bench {
 
-/// Of an image of each eye, made of the stage's frame. Throws what `stereo_inconsistency` throws.
+/// For an image of each eye, made from the stage's frame. Throws as `stereo_inconsistency` does.
 StereoInconsistency inconsistency(const Stage& s, const Image& ao, const StereoOptions& options = {});
 
-/// Of two views of a frame of many.
+/// For two views of a frame of many.
 StereoInconsistency inconsistency(const Frame& frame, const std::array<size_t, 2>& views, const Image& ao,
                                   const StereoOptions& options = {});
 

@@ -29,7 +29,7 @@ bool occludes(const Point& point, const glm::dvec3& occluder, double radius) {
   return distance < radius && glm::dot(v, point.normal) > 0.02 * distance;
 }
 
-/// 0: the first layer occludes, or none does.
+/// The layer of the nearest occluder; 0 if the first layer occludes, or none does.
 int layer_at(const Frame& frame, const std::vector<const Channel*>& layers, const Point& point, int x, int y,
              double radius) {
   for (size_t k = 0; k < layers.size(); ++k) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 2> techniques = {"lightfield-ssao", "lightfield-hbao+"};
 
-/// Every so many views one is a key view; 0: reuse=off.
+/// Distances between key views; 0: reuse=off.
 constexpr std::array<int, 4> spacings = {0, 2, 4, 8};
 
 std::string name_of(int spacing) { return spacing == 0 ? "reuse=off" : fmt::format("reuse=on, key_views={}", spacing); }
@@ -27,10 +27,10 @@ Asked asked_of(const std::string& technique, int spacing) {
   return with(with(alone, "reuse", "on"), "key_views", std::to_string(spacing));
 }
 
-/// The numbers of views that follow one another.
+/// Numbers of consecutive views.
 using Numbers = std::vector<size_t>;
 
-/// Those that are no key views.
+/// Views that are not key views.
 Numbers between_keys(const Frame& frame, int spacing) {
   Numbers between;
   const std::vector<KeyViewRole> roles = key_view_roles(int(frame.views.size()), spacing);
@@ -40,7 +40,7 @@ Numbers between_keys(const Frame& frame, int spacing) {
   return between;
 }
 
-/// Nine about the middle: whatever the spacing, the first eight have their share of key views, and so have the pairs of neighbours.
+/// Nine views about the middle: for every spacing the first eight, and the pairs of neighbours, contain their share of key views.
 Numbers about(size_t middle, const Frame& frame) {
   Numbers numbers;
   const size_t first = middle > 4 ? middle - 4 : 0;
@@ -97,7 +97,7 @@ void state_times(Study& study, const Stage& s, const std::string& technique) {
 
 // --- Errors
 
-/// Mean over the pairs of neighbours, in `inconsistency_unit`.
+/// Mean over pairs of neighbours, in `inconsistency_unit`.
 double inconsistency_of_neighbours(const Frame& frame, const Numbers& views, const Image& ao) {
   double sum = 0;
   for (size_t k = 0; k + 1 < views.size(); ++k)
@@ -105,7 +105,7 @@ double inconsistency_of_neighbours(const Frame& frame, const Numbers& views, con
   return sum / double(views.size() - 1);
 }
 
-/// As errors of a panel: how far one image of a view is from another.
+/// Difference between two images of a view, as the errors of a panel.
 StereoErrors difference_of(const Plane& test, const Plane& expected, const Mask& surfaces) {
   const Layout& layout = test.channels[0].layout();
   StereoErrors errors{Channel(layout, std::numeric_limits<float>::quiet_NaN()), {}, {}};
@@ -123,7 +123,7 @@ Image converged(const Study& study, const Stage& s, const std::string& technique
   return image_of(run(study.plan_of(s, asked), views_of(s.frame, views), study.device()).frame, "ao");
 }
 
-/// What one technique makes of all views, by one spacing after another.
+/// Compares the results of one technique over all views, spacing by spacing.
 class Comparison {
  public:
   Comparison(Study& study, const Stage& s, const std::string& technique, size_t middle, const Image& truth)

@@ -15,11 +15,11 @@
 namespace gloam::bench {
 namespace {
 
-/// A scene of table 1, and what stands for it.
+/// A scene of table 1, and its stand-in.
 struct TableScene {
   StandIn stand_in;
-  double whole, masked;              ///< average of the paper, milliseconds
-  double worst_whole, worst_masked;  ///< its worst
+  double whole, masked;              ///< the paper's average, milliseconds
+  double worst_whole, worst_masked;  ///< the paper's worst
   std::string name() const { return fmt::format("{} for {}", stand_in.scene, stand_in.of); }
 };
 
@@ -30,13 +30,14 @@ const std::array<TableScene, 3> table_scenes = {{{{"courtyard", "Small Desert Ci
 /// Section 4: four samples of Alchemy AO.
 const Asked aao{"alchemy", {{"samples", "4"}}};
 
-/// A mask, and how it is made.
+/// A mask, and the settings that make it.
 struct Masking {
   std::string name, technique;
   Settings settings = {};
 };
 
-/// For an estimate of so few samples the mask's usual 24 for 16 pixels are too many; 16 for 64 are the probe of gloam auto.
+/// For an estimate of so few samples the mask's usual 24 samples for 16 pixels are too many; the probe of gloam auto uses 16 for
+/// 64.
 const std::array<Masking, 3> masks = {
     {{"outline-mask", "outline-mask"},
      {"corner-mask", "corner-mask"},
@@ -50,7 +51,7 @@ Asked restricted(Asked asked, const Masking& mask) {
   return asked;
 }
 
-/// Captured with outlines as wide as the radius: a surface that lies in another object's outline is within the radius of it.
+/// Captures a scene with outlines as wide as the radius: a surface in another object's outline is within the radius of that object.
 Stage table_stage(const Study& study, const TableScene& scene) {
   return study.timed_stage({.scene = scene.stand_in.scene, .with_outlines = true});
 }
@@ -59,7 +60,7 @@ Stage table_stage(const Study& study, const TableScene& scene) {
 
 struct Missed {
   double processed = 0;                  ///< share of the pixels
-  double mean = 0, most = 0, share = 0;  ///< of AO, after its filter; share of all pixels that miss 1/255 and more
+  double mean = 0, most = 0, share = 0;  ///< of filtered AO; share of all pixels that miss at least 1/255
 };
 
 Missed missed_by(const Study& study, const Stage& s, const Masking& mask, const Plane& whole) {
@@ -115,7 +116,7 @@ void figure_5(Study& study, const TableScene& scene, const Stage& s) {
 
 // --- Times
 
-/// The stages live until the table has been measured.
+/// Measures the tables; the stages live until then.
 void tables(Study& study) {
   std::vector<Stage> stages;
   for (const TableScene& scene : table_scenes) {
@@ -151,7 +152,7 @@ void tables(Study& study) {
   }
 }
 
-/// How far the stand-alone mask is from AO, and both from rays.
+/// The difference of the stand-alone mask to AO, and of both to rays.
 void section_5_errors(Study& study) {
   for (const TableScene& scene : table_scenes) {
     study.tell(fmt::format("section 5, errors: {}", scene.stand_in.scene));
@@ -171,13 +172,13 @@ void section_5_errors(Study& study) {
 
 constexpr int cameras = 100, rounds_of_a_camera = 3;
 
-/// Turned in its place, about the scene's up.
+/// A camera turned in place, about the scene's up direction.
 SceneCamera turned(SceneCamera camera, const glm::dvec3& up, double radians) {
   camera.pose.world_to_view = camera.pose.world_to_view * glm::dmat3(glm::rotate(glm::dmat4(1), radians, up));
   return camera;
 }
 
-/// Milliseconds of each camera.
+/// Milliseconds, one per camera.
 struct Times {
   std::vector<double> ms;
   double average() const {

@@ -1,4 +1,4 @@
-// Images side by side, each under its name: the figures of a paper.
+// Images side by side with their names: the figures of a paper.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,17 @@
 
 namespace gloam::bench {
 
-/// Of errors: one of 0.05 is white (Shi, Billeter, Eisemann 2022, figure 9).
+/// Factor on errors in panels: an error of 0.05 is white (Shi, Billeter, Eisemann 2022, figure 9).
 inline constexpr double error_magnification = 20;
 
 struct Panel {
   std::string label;
-  Plane plane;  ///< of one component, 0 to 1, or a unit vector
-  /// Shown instead, magnified, with the plane under what does not count.
+  Plane plane;  ///< one component, 0 to 1, or a unit vector
+  /// Magnified errors to show instead; pixels that do not count show the plane.
   std::optional<StereoErrors> errors = {};
 };
 
-/// In rows of up to `columns`, all of the same size. PNG, written atomically.
+/// Draws panels of equal size in rows of up to `columns`. PNG, written atomically.
 void write_panels(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns);
 
 }  // namespace gloam::bench

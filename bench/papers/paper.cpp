@@ -17,7 +17,7 @@
 namespace gloam::bench {
 namespace {
 
-/// Rows and columns of a table in the order in which they come.
+/// Names of rows or columns in the order of their first entries.
 template <typename Entry>
 struct Grid {
   std::vector<std::string> rows, columns;
@@ -29,7 +29,7 @@ struct Grid {
   }
 };
 
-/// After the point, of units for which four are too many.
+/// Digits after the point for units that do not need four.
 const std::map<std::string, int> digits_of_units = {{inconsistency_unit, 1}, {"pixels of 100 000", 1}, {"dB", 2},
                                                     {"triangles", 0},        {"milliseconds", 0},      {"ratio", 2}};
 
@@ -65,7 +65,7 @@ std::string table_of(const std::vector<const Entry*>& entries) {
   return table.text();
 }
 
-/// Everything of one list that belongs to one heading.
+/// All entries of a list under one heading.
 template <typename Entry>
 void add_tables(std::string& text, const std::vector<Entry>& entries, std::string Entry::*heading,
                 const std::function<std::string(const Entry&)>& below) {

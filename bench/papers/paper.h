@@ -1,4 +1,4 @@
-// What a paper measured, measured again: its tables with its ratios beside ours, its figures as pictures.
+// Reproduction of a paper's measurements: its tables with its ratios beside ours, its figures as pictures.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,20 @@
 
 namespace gloam::bench {
 
-/// A time of a table.
+/// A time in a table.
 struct PaperTime {
   std::string table, row, column;
   double ms = 0;                      ///< median of the rounds
   std::optional<double> ratio;        ///< to `base`, median of the rounds' ratios; none for the base itself
   std::optional<double> paper_ms;     ///< the paper's own, on its device
-  std::optional<double> paper_ratio;  ///< the same of the paper's own figures
-  std::string base;                   ///< what the ratio is to
+  std::optional<double> paper_ratio;  ///< ratio of the paper's own figures
+  std::string base;                   ///< the row that the ratio is to
 };
 
-/// Of a difference between two eyes, a mean over pixels (gloam/stereo_consistency.h).
+/// Unit of a difference between two eyes, a mean over pixels (gloam/stereo_consistency.h).
 inline constexpr const char* inconsistency_unit = "mean inconsistency times 100 000";
 
-/// A figure that is no time: an error, a share. Many belong to what the paper shows in pictures only.
+/// A figure other than a time: an error, a share. Many come from images of the paper that have no numbers.
 struct PaperFact {
   std::string figure, row, column;
   double value = 0;
@@ -35,29 +35,29 @@ struct PaperPicture {
   std::string figure, caption, file;  ///< file: below the folder
 };
 
-/// What came of it.
+/// The result of a reproduction.
 struct PaperResult {
   std::vector<PaperTime> times;
   std::vector<PaperFact> facts;
   std::vector<PaperPicture> pictures;
-  std::vector<std::string> notes;  ///< what stands in for what, and what differs from the paper
+  std::vector<std::string> notes;  ///< stand-ins, and differences from the paper
 };
 
 struct PaperOptions {
-  std::filesystem::path folder;  ///< for pictures; there
+  std::filesystem::path folder;  ///< existing folder for pictures
   int width = 1920, height = 1080;
   int rounds = 9;
-  int rays = 256;  ///< per pixel, of truths that are traced
-  /// Told of what takes long; may be empty.
+  int rays = 256;  ///< rays per pixel of traced truths
+  /// Called for lengthy steps; may be empty.
   std::function<void(const std::string& what, double share_done)> progress;
 };
 
 struct Paper {
   std::string name;   ///< as users type it: "vermeer2021"
   std::string title;  ///< authors and year
-  int rays;           ///< where nothing else is asked for
+  int rays;           ///< default rays per pixel
   std::function<PaperResult(Device&, const PaperOptions&)> reproduce;
-  int width = 1920, height = 1080;  ///< where nothing else is asked for
+  int width = 1920, height = 1080;  ///< default size
 };
 
 /// All papers that can be measured again.

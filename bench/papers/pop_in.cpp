@@ -14,7 +14,7 @@ namespace {
 constexpr int positions = 61, width = 480, height = 270;
 constexpr float unseen = std::numeric_limits<float>::quiet_NaN();
 
-/// Of the wall, beside what the pillar always hides.
+/// Points of the wall near the part that the pillar always hides.
 std::vector<glm::dvec3> points_of_the_wall() {
   std::vector<glm::dvec3> points;
   for (double x = -1.2; x <= 1.2; x += 0.05) {
@@ -35,7 +35,7 @@ struct Pixel {
   int x, y;
 };
 
-/// Where a point of the world lies on the image of a frame; none outside, or where something else is seen.
+/// The pixel of a world point in a frame; none outside the image, or if another surface is seen there.
 std::optional<Pixel> seen_at(const Frame& frame, const glm::dvec3& point) {
   const Camera& c = *frame.views[0].camera;
   const glm::dvec3 p = c.pose->world_to_view * (point - c.pose->position);
@@ -45,7 +45,7 @@ std::optional<Pixel> seen_at(const Frame& frame, const glm::dvec3& point) {
   return std::abs(depth + p.z) < 0.01 * depth ? std::optional<Pixel>({x, y}) : std::nullopt;
 }
 
-/// What one technique's AO does at the points.
+/// The changes of one technique's AO at the points.
 class Jumps {
  public:
   explicit Jumps(size_t points) : before_(points, unseen) {}

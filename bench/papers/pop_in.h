@@ -1,4 +1,4 @@
-// How much AO jumps when a camera goes past something.
+// Jumps of AO while a camera moves past an object.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace gloam::bench {
 
-/// A camera goes past the pillar in 60 steps: what is seen of the rib behind it comes and goes, and with it the AO of the
-/// wall. States the largest and the mean change of AO, after its filter, from step to step at fixed points of the wall.
+/// A camera moves past the pillar in 60 steps: visible parts of the rib behind it come and go, and with them the AO of the wall.
+/// States the largest and the mean change of filtered AO from step to step, at fixed points of the wall.
 void pop_in(Study& study, const std::vector<std::pair<std::string, Asked>>& techniques);
 
 }  // namespace gloam::bench

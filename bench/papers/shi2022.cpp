@@ -15,11 +15,11 @@ namespace gloam::bench {
 namespace {
 
 constexpr double eyes_apart = 0.065;
-/// Unlike the other scenes it shows a surface at nearly every pixel, as the frames do that the paper times.
+/// Unlike the other scenes it shows a surface at nearly every pixel, as the paper's timed frames do.
 constexpr StandIn sponza{"gallery", "Sponza"};
 constexpr std::array<const char*, 3> scenes = {"courtyard", "colonnade", "gallery"};
 constexpr const char* long_walls = "corridor";  ///< seen at flat angles, as figure 5 needs
-constexpr int divisor = 4;                      ///< of the images that rays are traced for
+constexpr int divisor = 4;                      ///< of the size of images that rays are traced for
 
 /// Section 4.3: 10 directions of 4 samples. Its filter has 13 taps.
 const Settings samples_of_the_paper = {{"directions", "10"}, {"steps", "4"}};
@@ -30,7 +30,7 @@ Asked filtered_by_13_taps(const std::string& technique) { return with(filtered(r
 
 // --- Times
 
-/// The tables' images: 1920x1080, and the 2468x2740 of a headset in the same relation.
+/// Stages at the tables' sizes: 1920x1080, and the 2468x2740 of a headset in the same relation.
 using TimedStages = std::array<Stage, 2>;
 
 TimedStages timed_stages(Study& study) {
@@ -40,14 +40,14 @@ TimedStages timed_stages(Study& study) {
   return {study.stage(shot, width, height), study.stage(shot, width * 2468 / 1920, height * 2740 / 1080)};
 }
 
-/// Milliseconds of the paper: both sizes, each at full and at half resolution.
+/// The paper's milliseconds: both sizes, each at full and at half resolution.
 using PaperTimes = std::array<std::optional<double>, 4>;
 
 struct Row {
   std::string name;
   Asked asked;
   std::vector<std::string> passes;
-  std::string view;  ///< empty: both
+  std::string view;  ///< empty: both views
   PaperTimes paper;
   bool is_base = false;
 };
@@ -131,7 +131,7 @@ void figure_7(Study& study, const TimedStages& stages) {
 
 // --- How far the eyes disagree
 
-/// What of the two steps is stereo: a column of figure 10.
+/// A column of figure 10: which of the steps are stereo.
 struct Letter {
   const char *letter, *estimate, *other_eye, *reproject, *filter;
 };
@@ -155,11 +155,11 @@ Asked asked_of(const Letter& l) {
 
 const Letter& d_of_the_paper = letters[3];
 
-/// F of figure 10, from two halves that know nothing of each other.
+/// F of figure 10, from two independent halves.
 struct Traced {
   std::array<Image, 2> halves;
   Image mean;
-  int rays = 0;  ///< of both
+  int rays = 0;  ///< of both halves
 };
 
 Image mean_of(const Image& a, const Image& b) {
@@ -178,7 +178,7 @@ Image mean_of(const Image& a, const Image& b) {
   return mean;
 }
 
-/// Rounded up to what can be traced.
+/// Rays of a half, rounded up to a number that can be traced.
 int rays_of_a_half(const PaperOptions& options) { return (options.rays + 63) / 64 * 32; }
 
 Traced traced_halves(Study& study, const Stage& s, const std::string& scene) {
@@ -194,7 +194,7 @@ Traced traced_halves(Study& study, const Stage& s, const std::string& scene) {
   return t;
 }
 
-/// RMSE of the mean of so many rays that each meet something or not, as independent ones would have it.
+/// RMSE of the mean of that many independent rays, each of which meets something or not.
 double predicted_noise(const Stage& s, const Traced& t) {
   double sum = 0;
   long long count = 0;
@@ -224,7 +224,7 @@ void state_noise(Study& study, const Stage& s, const std::string& scene, const T
   add("all", t.mean);
 }
 
-/// One of the letters on one scene, in figures and as two panels.
+/// Figures and two panels for one of the letters on one scene.
 struct Ablation {
   Study& study;
   const Stage& stage;
@@ -251,7 +251,7 @@ struct Ablation {
   }
 };
 
-/// Three letters beside each other, their errors below them, then the next three.
+/// Three letters in a row, their errors below them, then the next three.
 std::vector<Panel> in_threes(std::vector<Panel> images, std::vector<Panel> errors) {
   std::vector<Panel> panels;
   for (size_t first = 0; first < images.size(); first += 3) {
@@ -273,7 +273,7 @@ void figure_10(Study& study, const Stage& s, const std::string& scene, const Tra
                 in_threes(std::move(ablation.images), std::move(ablation.errors)), 3);
 }
 
-/// The letters alone at the size of the tables: F would take hours.
+/// Only the letters at the size of the tables: F would take hours.
 void figure_10_in_full(Study& study, const Stage& s, const std::string& scene) {
   for (const Letter& l : letters)
     study.fact(fmt::format("Figure 10, {}: mean inconsistency", size_of(s)), name_of(l), scene,

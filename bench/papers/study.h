@@ -1,4 +1,4 @@
-// What measuring a paper again is made of: frames of scenes, techniques on them, and what came of it.
+// Parts of a paper's reproduction: frames of scenes, techniques on them, and results.
 #pragma once
 
 #include <memory>
@@ -17,52 +17,52 @@
 
 namespace gloam::bench {
 
-/// A scene that stands for one of the paper's, which cannot be had here.
+/// A scene that stands for one of the paper's, which is not available.
 struct StandIn {
   const char *scene, *of;
 };
 
-/// A technique, and what of it is set.
+/// A technique, and its settings.
 struct Asked {
   std::string technique;
   Settings settings;
   int resolution = 1;
   std::string plane = "ao_raw";
-  std::string mask = {};  ///< as `PlanRequest::mask`
+  std::string mask = {};  ///< as in `PlanRequest::mask`
   bool operator==(const Asked&) const = default;
 };
 
 Asked with(Asked asked, const std::string& name, const std::string& value);
 
-/// The same after its filter.
+/// The same technique with its filter.
 Asked filtered(Asked asked);
 
-/// How many pixels a mask names.
+/// Number of pixels in a mask.
 double pixels_of(const Mask& mask);
 
-/// A frame of a scene, with what its AO is measured with.
+/// A frame of a scene, and the data to measure AO with.
 struct Stage {
   Scene scene;
   std::unique_ptr<Tracer> tracer;
   Frame frame;
   double radius = 0;
   Foreground surfaces;
-  std::unique_ptr<Outlines> outlines;  ///< where the frame counts them
-  double outline_seconds = 0;          ///< that this took
-  double capture_seconds = 0;          ///< tracing the frame in all, where that is stated
+  std::unique_ptr<Outlines> outlines;  ///< set if the frame counts them
+  double outline_seconds = 0;          ///< time of counting them
+  double capture_seconds = 0;          ///< total time of tracing the frame
 };
 
 /// "1920x1080"
 std::string size_of(const Stage& s);
 
-/// What of a scene is captured: depth, normal, and what is asked for.
+/// What to capture of a scene: depth, normal, and the options below.
 struct Shot {
   std::string scene;
   int layers = 0;
-  Settings settings = {};  ///< of the scene
+  Settings settings = {};  ///< settings of the scene
   int camera = 0;
   std::optional<double> second_view = {};  ///< degrees
-  std::optional<double> eyes_apart = {};   ///< two eyes in the camera's place, scene units
+  std::optional<double> eyes_apart = {};   ///< distance of two eyes in place of the camera, scene units
   bool with_outlines = false;              ///< as wide as the scene's radius
   bool with_materials = false;             ///< also what reflections read
 };
@@ -75,13 +75,13 @@ class Study {
 
   Stage stage(const Shot& shot, int width, int height) const;
 
-  /// In the size of tables.
+  /// A stage at the size of the tables.
   Stage timed_stage(const Shot& shot) const { return stage(shot, options_.width, options_.height); }
 
-  /// One `divisor`-th of the width and of the height: errors and pictures do not need more.
+  /// A stage with one `divisor`-th of the width and of the height: enough for errors and pictures.
   Stage small_stage(const Shot& shot, int divisor = 2) const;
 
-  /// Captures a stage's scene anew, with one view, depth, normal, and outlines where it had them.
+  /// Captures a stage's scene again from another camera, with one view, depth, normal, and outlines if it had them.
   void look_from(Stage& s, const SceneCamera& camera) const;
 
   Plan plan_of(const Stage& s, const Asked& asked) const;
@@ -92,10 +92,10 @@ class Study {
   /// The plane of each view.
   Image images(const Stage& s, const Asked& asked) const;
 
-  /// AO of each view from so many rays per pixel.
+  /// AO of each view, traced.
   Image traced(const Stage& s, AoReferenceOptions rays) const;
 
-  /// AO of the first view from `PaperOptions::rays`; of `like`, with that technique's own falloff.
+  /// Traced AO of the first view with `PaperOptions::rays`; with the falloff of `like`, if given.
   Plane truth(const Stage& s, const Technique* like = nullptr) const;
 
   /// RMSE over the surfaces of the first view.
@@ -104,7 +104,7 @@ class Study {
   /// RMSE over the surfaces of every view.
   double error(const Stage& s, const Image& test, const Image& truth) const { return rmse(test, truth, s.surfaces); }
 
-  /// Mean over the surfaces of the first view of what AO takes away.
+  /// Mean occlusion (1 - AO) over the surfaces of the first view.
   double mean_taken(const Stage& s, const Plane& ao) const;
 
   void tell(const std::string& what, double share = 0) const;

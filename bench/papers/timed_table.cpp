@@ -21,7 +21,7 @@ size_t runs_of(const Entry& entry, const std::vector<Entry>& entries) {
   return size_t(same - entries.begin());
 }
 
-/// The entry that this one is measured by.
+/// The entry that this one's ratio is to.
 size_t base_of(const Entry& entry, const std::vector<Entry>& entries) {
   size_t base = entries.size();
   for (size_t i = 0; i < entries.size(); ++i) {
@@ -30,7 +30,7 @@ size_t base_of(const Entry& entry, const std::vector<Entry>& entries) {
   return base;
 }
 
-/// Each once, where several entries have it in common.
+/// States the parts of an entry, each once even if several entries share it.
 void state_parts(Study& study, const TimedTable& table, const Entry& e, const TimedPlan& timed) {
   for (const Part& part : table.parts) {
     const Series ms = series_of(timed, part.counts);

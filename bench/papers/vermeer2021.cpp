@@ -53,7 +53,7 @@ void table_1(Study& study) {
   const Stage stage = study.timed_stage({sponza.scene, layers_in_times});
   struct Column {
     const char *technique, *name;
-    std::array<double, 6> paper;  ///< regular, then by samples
+    std::array<double, 6> paper;  ///< regular, then by number of samples
   };
   const std::array<Column, 3> columns = {{{"ssao", "SSAO", {0.926, 1.192, 1.460, 2.161, 3.557, 5.967}},
                                           {"hbao", "HBAO", {0.734, 1.124, 1.302, 1.762, 2.528, 4.823}},
@@ -80,7 +80,7 @@ void table_1(Study& study) {
 void table_2(Study& study) {
   struct Column {
     StandIn scene;
-    std::array<double, 6> full, half;  ///< regular, then by samples; with the map
+    std::array<double, 6> full, half;  ///< regular, then by number of samples; with the map
   };
   const std::array<Column, 4> columns = {
       {{sponza, {1.042, 1.259, 1.577, 2.313, 3.837, 7.005}, {0.226, 0.382, 0.436, 0.622, 1.038, 1.922}},
@@ -114,7 +114,7 @@ void table_3(Study& study) {
   for (size_t i = 0; i < paper.size(); ++i) {
     const std::string column = samples_name(sample_counts[i]);
     const Asked single = stochastic("hbao+", sample_counts[i], "on");
-    Asked both = single, half = single;  // half: all of it
+    Asked both = single, half = single;  // half: both views
     both.technique = half.technique = "multiview";
     half.resolution = 2;
     entries.push_back({"one camera", column, single, &one, paper[i][0], true});
@@ -151,7 +151,7 @@ void figure_3(Study& study) {
                 "figure_3.png", panels, 2);
 }
 
-/// Errors to all layers, with the same samples, and to rays with HBAO's own falloff.
+/// Errors to all layers with the same samples, and to rays with HBAO's own falloff.
 void figures_4_and_5(Study& study) {
   const std::string gap = "Gap to all layers that stochastic depth closes (HBAO, RMSE, unfiltered)",
                     error = "Error to all layers (HBAO, unfiltered)", traced = "Error to rays (HBAO, unfiltered)";

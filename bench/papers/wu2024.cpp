@@ -17,12 +17,12 @@ namespace gloam::bench {
 namespace {
 
 constexpr double eyes_apart = 0.065;
-constexpr int divisor = 2;  ///< of the images that rays are traced for
-/// Shares of the reflected light that either eye shows, so that it can be found, or hardly can.
+constexpr int divisor = 2;  ///< of the size of images that rays are traced for
+/// Shares of the reflected light that one of the eyes shows, from which on it counts as well shown, or below which as hardly shown.
 constexpr double well_shown = 0.9, hardly_shown = 0.1;
-constexpr double all_shown = 2;  ///< more than a share can be, with its rounding
+constexpr double all_shown = 2;  ///< above any share, including its rounding
 
-/// What the paper has of a scene: SSIM of left and right, and milliseconds.
+/// The paper's figures of a scene: SSIM of left and right, and milliseconds.
 struct OfThePaper {
   std::array<double, 2> plain_ssim, stereo_ssim;
   double plain_traversal, stereo_traversal, plain_filter, stereo_filter, plain_total, stereo_total;
@@ -62,7 +62,7 @@ Plane without_confidence(const Plane& plane) {
   return out;
 }
 
-/// What a screen shows of it, without sRGB.
+/// A plane as a screen shows it, without sRGB.
 Plane shown(const Plane& plane, double exposure) {
   Plane out = without_confidence(plane);
   for (Channel& channel : out.channels) {
@@ -87,8 +87,8 @@ Truth traced(Study& study, const Stage& s, const std::string& scene) {
   return {image_of(std::move(reference.frame), "reflection"), exposure};
 }
 
-/// What an eye shows too much or too little: what is equally wrong for both eyes is no inconsistency, and what changes with the
-/// direction of view is in the truth too.
+/// Excess or lack of light for each eye: an error that is equal in both eyes is no inconsistency, and changes with the viewing
+/// direction are in the truth too.
 Image errors_of(const Image& test, const Truth& truth) {
   Image errors;
   for (const auto& [view, plane] : test) {
@@ -105,7 +105,7 @@ Image errors_of(const Image& test, const Truth& truth) {
   return errors;
 }
 
-/// The surfaces of a view where either eye shows from `low` on and less than `high` of what is reflected.
+/// Surfaces of a view for which either eye shows a share from `low` to below `high` of the reflected light.
 Mask where_shown(const Stage& s, const Truth& truth, const std::string& view, double low, double high) {
   Mask mask = s.surfaces.at(view);
   const Channel& shown = truth.image.at(view).channels[3];
@@ -118,10 +118,10 @@ Mask where_shown(const Stage& s, const Truth& truth, const std::string& view, do
   return mask;
 }
 
-/// How far apart the errors of the eyes are.
+/// Difference between the errors of the two eyes.
 struct Disagreement {
   double everywhere = 0;  ///< where both eyes see the surface
-  double shown = 0;       ///< of these, where `well_shown` of what is reflected is shown
+  double shown = 0;       ///< of these, where `well_shown` of the reflection is shown
 };
 
 Disagreement disagreement(const Stage& s, const Image& test, const Truth& truth) {
@@ -166,7 +166,7 @@ void state_errors(Study& study, const Stage& s, const Subject& subject, const Tr
   }
 }
 
-/// Figure 10, and section 5.3: more samples do not do what the modules do, and what each of them does.
+/// Figure 10 and section 5.3: more samples do not replace the modules; the effect of each module.
 void state_modules(Study& study, const Stage& s, const Subject& subject, const Truth& truth) {
   const std::vector<Named> all = {{"sssr", plain()},
                                   {"sssr, 2 rays (equal samples)", with(plain(), "rays", "2")},

@@ -9,7 +9,7 @@ namespace {
 
 char lower(char c) { return char(std::tolower(static_cast<unsigned char>(c))); }
 
-/// Letters left out, added, replaced or swapped with their neighbour (optimal string alignment), without regard to case.
+/// Number of letters left out, added, replaced or swapped with their neighbour (optimal string alignment), without regard to case.
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
   const auto same = [&](size_t i, size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
@@ -30,7 +30,7 @@ std::string_view without_dashes(std::string_view name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
-/// Letters in lower case and without what separates words; "plus" and "+" are the same: "HBAO_plus" and "hbao+".
+/// A name in lower case and without word separators; "plus" and "+" are the same: "HBAO_plus" and "hbao+".
 std::string folded(std::string_view name) {
   std::string text;
   for (const char c : name) {
@@ -47,7 +47,7 @@ bool abbreviates(std::string_view name, std::string_view candidate) {
          std::equal(start.begin(), start.end(), whole.begin(), [](char a, char b) { return lower(a) == lower(b); });
 }
 
-/// Bytes of the UTF-8 character that `text` begins with; 0 where it begins with none, or with a control character.
+/// Length of the UTF-8 character that `text` begins with, bytes; 0 for an invalid or a control character.
 size_t printable_length(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? unsigned(static_cast<unsigned char>(text[i])) : 0u; };
   const unsigned first = byte(0);
@@ -83,8 +83,7 @@ std::string printable(std::string_view text) {
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
   if (std::none_of(name.begin(), name.end(), is_letter)) return "";
-  // A third of the letters wrong, or two swapped, is still a slip of the fingers; more is another word. What is only
-  // cut short is as near as one slip.
+  // Up to a third of the letters wrong, or two swapped, counts as a typing error; an abbreviation counts as one error.
   const size_t letters = without_dashes(name).size(), farthest = letters <= 3 ? 1 : std::max<size_t>(2, letters / 3);
   const std::string plain = folded(name);
   std::tuple<size_t, bool, size_t> best = {farthest + 1, false, 0};

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of files in the making, where a signal handler can read them: no allocation, no lock.
+/// Name of a temporary file where a signal handler can read it: no allocation, no lock.
 struct TemporaryName {
   std::atomic<bool> taken{false};   ///< a writer owns this slot
   std::atomic<bool> exists{false};  ///< `path` is complete and may be unlinked
@@ -34,7 +34,7 @@ static_assert(std::atomic<unsigned>::is_always_lock_free);
 std::array<TemporaryName, 16> temporaries;
 std::atomic<unsigned> files_written{0};
 
-/// No signal arrives between two steps that belong together.
+/// Delays signals, so that none arrives between two steps that belong together.
 class SignalsLater {
  public:
   SignalsLater() {
@@ -59,11 +59,11 @@ std::string random_name() {
   return name;
 }
 
-/// A new file that nobody else has, removed unless it was renamed; while it exists, a signal handler knows it.
+/// A new file that no other process has. It is removed unless it is renamed; a signal handler knows it while it exists.
 class Temporary {
  public:
-  /// In the folder of `target`, since only within one file system is a rename one step. Short, since the target's own name may
-  /// be as long as a name can be.
+  /// In the folder of `target`, since a rename is atomic only within one file system. The name is short, since the target's own may
+  /// be as long as names can be.
   Temporary(const fs::path& target, mode_t mode) {
     constexpr int tries = 100;
     for (int i = 0; i < tries && descriptor_ < 0; ++i) {
@@ -91,11 +91,11 @@ class Temporary {
 
   int descriptor() const { return descriptor_; }
 
-  /// To the disk, and then to `target`. A crash after this leaves the file whole.
+  /// Writes the file to the disk and renames it to `target`. A crash after this leaves it whole.
   void finish(const fs::path& target) {
-    // Some file systems cannot sync, and say so.
+    // Some file systems cannot sync, and report that.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) throw Error("{}", std::strerror(errno));
-    // What a network file system could not store, it may say here alone.
+    // A network file system may report a failed write only here.
     if (::close(std::exchange(descriptor_, -1)) != 0) throw Error("{}", std::strerror(errno));
     if (slot_) slot_->moving.store(true);
     renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
@@ -114,7 +114,7 @@ class Temporary {
       return;
     }
   }
-  /// The new name is in the folder's data. The file is whole without it, so failures are of no account.
+  /// Writes the folder, which holds the new name, to the disk. The file is whole without it, so failures are ignored.
   static void sync_folder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -134,7 +134,7 @@ std::atomic<bool> leaving{false};
 void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 extern "C" void remove_and_leave(int signal) {
-  if (leaving.exchange(true)) return;  // a second signal on another thread: one says it
+  if (leaving.exchange(true)) return;  // a second signal, on another thread: one report is enough
   unsigned written = files_written.load();
   for (TemporaryName& slot : temporaries)
     if (slot.exists.load() && ::unlink(slot.path) != 0 && slot.moving.load()) ++written;
@@ -156,7 +156,7 @@ extern "C" void remove_and_leave(int signal) {
   ::_exit(128 + signal);
 }
 
-/// Where the data has to go: through symbolic links, so that they stay, also where nothing is at their end yet.
+/// The file that a path leads to through symbolic links, which stay, even if the last one leads to nothing.
 fs::path resolved(const fs::path& path) {
   constexpr int most_links = 40;  // Linux follows as many
   fs::path target = path;
@@ -179,7 +179,7 @@ void check_target(const fs::path& path, const fs::path& target) {
     throw Error("{}: cannot write: '{}' is not a folder", path.string(), folder.string());
 }
 
-/// Permissions for what replaces `target`, and whether they are a file's that stands there.
+/// Permissions for the file that replaces `target`, and whether they are those of an existing file.
 std::pair<mode_t, bool> permissions_for(const fs::path& target) {
   struct stat about {};
   if (::stat(target.c_str(), &about) != 0) return {0666, false};
@@ -213,7 +213,7 @@ void write_atomically(const fs::path& path, const std::function<void(NewFile&)>&
   const auto [mode, replaces] = permissions_for(target);
   try {
     Temporary temporary(target, mode);
-    // Once more, as the mask for new files does not hold for one that is replaced.
+    // Set again, since the umask does not apply to a file that replaces another.
     if (replaces) ::fchmod(temporary.descriptor(), mode);
     NewFile file(temporary.descriptor());
     write(file);

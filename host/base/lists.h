@@ -1,4 +1,4 @@
-// Lists of names: short, so looking through them is fine.
+// Lists of names: short, so linear search is fine.
 #pragma once
 
 #include <algorithm>

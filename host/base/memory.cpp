@@ -16,14 +16,14 @@ using Bytes = unsigned long long;
 
 constexpr Bytes unlimited = std::numeric_limits<Bytes>::max();
 
-/// The number that a file holds; none where it holds a word ("max") or is not there.
+/// The number in a file; none if the file is missing or holds a word ("max").
 std::optional<Bytes> number_in(const fs::path& file) {
   std::ifstream stream(file);
   Bytes value = 0;
   return stream >> value ? std::optional(value) : std::nullopt;
 }
 
-/// The number beside a name in a file of lines "name number"; none where it has no such line.
+/// The number after a name in a file of lines "name number"; none if there is no such line.
 std::optional<Bytes> number_named(const fs::path& file, const std::string& name) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -35,7 +35,7 @@ std::optional<Bytes> number_named(const fs::path& file, const std::string& name)
   return {};
 }
 
-/// The two forms of control groups.
+/// Files of the two versions of control groups.
 struct Files {
   const char *folder, *limit, *usage, *inactive, *active;
 };
@@ -52,7 +52,8 @@ Bytes left_in_group(const fs::path& folder, const Files& files) {
   return *limit - std::min(held, *limit);
 }
 
-/// Of the group and all that it lies in. In a container the group's path may be that of the host: then the folder above tells.
+/// Memory left in a group and in all groups around it. In a container the path may be the host's: then the root of the groups is
+/// used.
 Bytes left_in_groups(const fs::path& root, const Files& files, std::string group) {
   Bytes left = unlimited;
   for (;;) {

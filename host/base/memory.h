@@ -1,4 +1,4 @@
-// How much memory there is, in bytes and in words.
+// Available memory, in bytes and in words.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace gloam {
 
-/// Bytes that a process can take without another losing what it holds: what the kernel counts as available, or less where a control
-/// group (a container, a job of a queue) allows less. What such a group holds of files counts as free. The largest number where
-/// nothing tells. `root`: where /proc and /sys are.
+/// Bytes that a process can allocate without taking memory from another: what the kernel counts as available, or less if a
+/// control group (a container, a job of a queue) allows less. A group's file cache counts as free. The largest number if nothing
+/// is known. `root`: the folder of /proc and /sys.
 unsigned long long available_memory(const std::filesystem::path& root = "/");
 
 /// "4.2 GiB", "512 MiB"

@@ -13,7 +13,7 @@ namespace gloam {
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
-  /// Another sequence for each pair.
+  /// Each pair of seed and number gives a sequence of its own.
   Random(uint64_t seed, uint64_t number) : state_(seed * 0x100000001b3u + number) {}
 
   uint64_t next() {
@@ -28,7 +28,7 @@ class Random {
   int between(int low, int high) { return low + int(below(size_t(high - low) + 1)); }
   /// `low` to `high`.
   double uniform(double low, double high) { return low + (high - low) * double(next() >> 11) * 0x1p-53; }
-  /// Even over the powers of ten.
+  /// `low` to `high`, with a uniform logarithm.
   double of_any_size(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   bool one_in(size_t n) { return below(n) == 0; }
   template <typename List>

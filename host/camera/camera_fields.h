@@ -8,16 +8,16 @@
 
 namespace gloam {
 
-/// Where the fields of one view are looked up: in the view itself, then at the top of the document.
+/// The fields of one view: looked up in the view itself, then at the top of the document.
 struct CameraFields {
   std::string file;
-  std::string prefix;  ///< how messages name the view: "views[1]."; empty where the document is the view
+  std::string prefix;  ///< the view's name in messages: "views[1]."; empty if the document is the view
   const nlohmann::json& view;
   const nlohmann::json& top;
 
-  /// The field, or nullptr where it is missing or null.
+  /// The field, or nullptr if it is missing or null.
   const nlohmann::json* find(const char* name) const;
-  /// None where the field is missing or null; throws Error for another type and for what is not finite.
+  /// None if the field is missing or null. Throws Error for another type and for a number that is not finite.
   std::optional<double> number(const char* name) const;
   /// A number > 0.
   std::optional<double> positive(const char* name) const;

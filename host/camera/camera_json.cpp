@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A camera is a few kilobytes; a larger JSON is something else.
+/// A camera takes a few kilobytes; a larger JSON is no camera.
 constexpr std::uintmax_t largest_camera_file = 16 << 20;
 
 json parse_camera_file(const fs::path& file) {
@@ -29,7 +29,7 @@ json parse_camera_file(const fs::path& file) {
   return document;
 }
 
-/// Between two cameras, at 0 to 1.
+/// Interpolates between two cameras; t: 0 to 1.
 Camera between(const Camera& a, const Camera& b, double t) {
   if (t == 0 || t == 1) return t == 0 ? a : b;
   Camera camera = a;

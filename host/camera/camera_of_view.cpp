@@ -14,7 +14,7 @@ namespace gloam {
 
 namespace {
 
-/// A rigid transform between world and camera: what is left of a 4x4 matrix once it has been checked.
+/// A rigid transform between world and camera, from a checked 4x4 matrix.
 struct Rigid {
   glm::dmat3 rotation;
   glm::dvec3 translation;
@@ -31,7 +31,7 @@ Rigid rigid_from(const CameraFields& fields, const char* name, const glm::dmat4&
   return {nearest_rotation(rotation), glm::dvec3(m[3])};
 }
 
-/// camera_to_world is preferred: its translation is the camera's position as written, in full precision.
+/// The pose. camera_to_world is preferred: its translation is the camera's position in full precision.
 Pose pose_from(const CameraFields& fields) {
   if (const auto m = fields.matrix("camera_to_world")) {
     const Rigid camera_to_world = rigid_from(fields, "camera_to_world", *m);
@@ -44,7 +44,7 @@ Pose pose_from(const CameraFields& fields) {
   fields.refuse("camera_to_world", "is missing", "it or world_to_camera, a 4x4 matrix");
 }
 
-/// Whether the view is orthographic: as camera_type says, else as the other fields tell.
+/// Whether the view is orthographic, by camera_type or else by the other fields.
 bool is_orthographic(const CameraFields& fields, const std::optional<glm::dmat4>& projection) {
   if (const auto type = fields.text("camera_type")) {
     if (*type == "ORTHO") return true;
@@ -56,7 +56,7 @@ bool is_orthographic(const CameraFields& fields, const std::optional<glm::dmat4>
   return projection && (*projection)[2][3] == 0;
 }
 
-/// Pixels of the image that the JSON describes.
+/// Size of the image that the JSON describes, pixels.
 struct Size {
   double width, height;
 };
@@ -92,7 +92,7 @@ void check_range(const CameraFields& fields, const Camera& camera) {
     fields.refuse("cy", fmt::format("is {:g}", camera.cy), "at most 1e6 pixels up or down");
 }
 
-/// Intrinsics in pixels of `size`: the fields in pixels where they are there, the rest from the projection.
+/// Intrinsics in pixels of `size`: from the fields in pixels if present, the rest from the projection.
 Camera intrinsics_from(const CameraFields& fields, const Size& size) {
   const std::optional<glm::dmat4> projection = fields.matrix("projection_gl");
   const bool orthographic = is_orthographic(fields, projection);
@@ -100,7 +100,7 @@ Camera intrinsics_from(const CameraFields& fields, const Size& size) {
   camera.orthographic = orthographic;
   if (projection) camera = camera_from_projection(fields, *projection, orthographic, size);
   if (orthographic) {
-    // One number for both axes; where pixels are not square the projection tells how much they differ.
+    // One number for both axes; if pixels are not square, the projection gives their ratio.
     const std::optional<double> scale = fields.positive("pixels_per_unit");
     const double aspect = projection ? camera.fy / camera.fx : 1;
     camera.fx = scale.value_or(camera.fx);
@@ -129,18 +129,18 @@ void add_clipping(const CameraFields& fields, Camera& camera) {
     fields.refuse("far", fmt::format("is {:g}", *camera.far), fmt::format("more than near, {:g}", *camera.near));
 }
 
-/// The size the JSON was made for; that of the display where it says none. Another aspect is another picture.
+/// Size of the image that the JSON was made for; the display's if it states none. The aspect must be the display's.
 Size size_from(const CameraFields& fields, const Window& display) {
   const double width = fields.positive("width").value_or(display.width());
   const double height = fields.positive("height").value_or(display.height());
-  // Half-size frames round to whole pixels: one pixel more or less is the same aspect.
+  // Half-size frames round to whole pixels: a difference of one pixel is the same aspect.
   if (std::abs(display.width() * height - display.height() * width) > std::max(width, height))
     fields.refuse("width", fmt::format("and height are {:g}x{:g}", width, height),
                   fmt::format("the aspect of the frame, {}x{}", display.width(), display.height()));
   return {width, height};
 }
 
-/// From pixels of the JSON's image to those of the display window.
+/// Scales a camera from pixels of the JSON's image to those of the display window.
 void fit_to_display(Camera& camera, const Size& size, const Window& display) {
   const double scale_x = display.width() / size.width, scale_y = display.height() / size.height;
   camera.fx *= scale_x;
@@ -149,7 +149,7 @@ void fit_to_display(Camera& camera, const Size& size, const Window& display) {
   camera.cy = display.y0 + camera.cy * scale_y;
 }
 
-/// In pixels of the frame too: one of another size than the JSON's takes a camera out of the range.
+/// Checks the camera in pixels of the frame as well: scaling may take it out of range.
 void check_fit(const CameraFields& fields, const Camera& camera, const Size& size, const Window& display) {
   const double x = camera.cx - display.x0, y = camera.cy - display.y0;
   if (is_sensible_scale(camera.fx, camera.orthographic) && is_sensible_scale(camera.fy, camera.orthographic) &&

@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// In pixels of `display`. A JSON for another size of the same aspect is scaled, with a sentence to `assumed`. Throws Error as
-/// `read_camera_file` does (camera_json.h).
+/// The camera in pixels of `display`. A JSON for another size of the same aspect is scaled, with a note to `assumed`. Throws
+/// Error as `read_camera_file` does (camera_json.h).
 Camera camera_of_view(const CameraFields& fields, const Window& display, std::vector<std::string>& assumed);
 
 }  // namespace gloam

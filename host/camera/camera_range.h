@@ -1,15 +1,15 @@
-// Which intrinsics a camera can have.
+// Allowed intrinsics of a camera.
 #pragma once
 
 namespace gloam {
 
-/// Beyond these no picture was taken, and what kernels compute from it leaves the range or the digits of a float.
+/// Whether a scale is plausible. Beyond these limits no picture was taken, and kernels would run out of float's range or digits.
 bool is_sensible_scale(double pixels, bool orthographic);
 
-/// That range in words, for messages.
+/// The allowed range in words, for messages.
 const char* sensible_scale(bool orthographic);
 
-/// Pixels from the corner of the image: what lies further to the side is no place that a lens shift or a crop leads to.
+/// Largest distance of the principal point, pixels from the corner of the image: no lens shift or crop leads further.
 inline constexpr double farthest_centre = 1e6;
 
 }  // namespace gloam

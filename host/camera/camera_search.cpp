@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// File name without `.json` and without a `.camera` before it.
+/// File name without `.json` or `.camera.json`.
 std::string camera_stem(const fs::path& file) {
   std::string stem = file.stem().string();
   if (stem.ends_with(".camera")) stem.resize(stem.size() - std::string_view(".camera").size());
@@ -25,9 +25,8 @@ bool has_camera_name(const fs::path& file) {
   return name.starts_with("camera") || name.ends_with(".camera.json");
 }
 
-/// Whether a JSON without a camera's name holds one all the same. Other JSON files lie beside frames too, gloam's own
-/// reports among them, so anything that does not mean to be a camera is passed over in silence; `why_not` is filled
-/// where it may have meant to.
+/// Whether a JSON whose name is not a camera's holds one. Frames lie beside other JSON files too, such as gloam's own reports, so
+/// any file that is clearly not a camera is ignored; `why_not` is filled if it may have been meant as one.
 bool looks_like_camera(const fs::path& file, std::string& why_not) {
   try {
     const json document = parse_camera_json(file);

@@ -18,7 +18,7 @@ using glm::dmat3;
 using glm::dvec3;
 using nlohmann::json;
 
-/// A display is a few kilobytes; a larger JSON is something else.
+/// A display takes a few kilobytes; a larger JSON is no display.
 constexpr std::uintmax_t largest_file = 16 << 20;
 
 bool is_within_range(const dvec3& v) {
@@ -26,7 +26,7 @@ bool is_within_range(const dvec3& v) {
          std::abs(v.z) <= largest_in_display;
 }
 
-/// What comes of numbers in range may be out of it, and could be written and not be read again.
+/// Results from numbers in range may be out of range: they could be written but not read again.
 void check_range(const std::string& file, const LightFieldDisplay& display) {
   for (size_t i = 0; i < display.modules.size(); ++i)
     if (!is_within_range(display.modules[i].position))
@@ -47,7 +47,7 @@ void check_places(const std::string& file, const LightFieldDisplay& display) {
   for (size_t i = 0; i < display.modules.size(); ++i) {
     const OpticalModule& module = display.modules[i];
     const double r = display.screen_radius.value_or(0);
-    // A curved screen's sides lie farthest back.
+    // The sides of a curved screen lie farthest back.
     const double back =
         display.screen_radius ? std::sqrt(r * r - 0.25 * display.screen_width * display.screen_width) - r : 0;
     if (!(module.position.z < back))

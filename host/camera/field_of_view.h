@@ -1,4 +1,4 @@
-// A camera of which only the field of view is known.
+// A camera from a field of view alone.
 #pragma once
 
 #include <string>

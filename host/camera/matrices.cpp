@@ -14,7 +14,7 @@ namespace gloam {
 
 namespace {
 
-/// Imath's row i is GLM's column i: the same transform, for row vectors there and for column vectors here.
+/// Imath's row i is GLM's column i: the same transform, for row vectors in Imath and for column vectors here.
 glm::dmat4 columns_of(const Imath::M44d& m) {
   glm::dmat4 result;
   for (int i = 0; i < 4; ++i)
@@ -49,7 +49,7 @@ Pose pose_from_header(const Imath::M44d& world_to_camera) {
   return {flip_z * to_camera, -(glm::transpose(to_camera) * glm::dvec3(m[3]))};
 }
 
-/// Camera space to NDC. The rotation is inverted by transposing it, so that a distant origin costs no digits.
+/// Camera space to NDC. The rotation is inverted by transposition, so that a distant origin costs no digits.
 glm::dmat4 camera_to_ndc(const Imath::M44d& world_to_ndc, const Pose& pose) {
   const glm::dmat3 to_world = glm::transpose(flip_z * pose.world_to_view);
   const glm::dmat4 camera_to_world(glm::dvec4(to_world[0], 0), glm::dvec4(to_world[1], 0), glm::dvec4(to_world[2], 0),
@@ -59,21 +59,21 @@ glm::dmat4 camera_to_ndc(const Imath::M44d& world_to_ndc, const Pose& pose) {
 
 [[noreturn]] void refuse_ndc(const char* fault) { throw Error("worldToNDC: {}", fault); }
 
-/// What a writer's normalised device coordinates are: OpenEXR's 0 to 1 and y down, or with y up, from 0 or from -1.
+/// Range of a writer's normalised device coordinates: OpenEXR's 0 to 1 with y down, or y up from 0 or from -1.
 enum class NdcRange { y_down, y_up, symmetric_y_up };
 
-/// By where the principal point lies: `x`, `y` in NDC. Of a camera that is not shifted it is the middle of the range.
+/// The range in whose middle the principal point lies, or is nearest to. `x`, `y`: principal point in NDC.
 NdcRange range_of(bool y_grows_up, double x, double y) {
   if (!y_grows_up) return NdcRange::y_down;
   return std::hypot(x, y) / 2 < std::hypot(x - 0.5, y - 0.5) ? NdcRange::symmetric_y_up : NdcRange::y_up;
 }
 
-/// Intrinsics from `p` = camera to NDC, where p[i][j] is what camera axis i (3: the constant) adds to x, y, z, w.
+/// Intrinsics from `p` = camera to NDC, where p[i][j] is the contribution of camera axis i (3: the constant) to x, y, z, w.
 Camera intrinsics_from_ndc(const glm::dmat4& p, const Window& display, double camera_distance, NdcRange& range) {
   const double slope_x = std::hypot(p[0][0], p[1][0]), slope_y = std::hypot(p[0][1], p[1][1]);
   if (!(slope_x > 0 && slope_y > 0)) refuse_ndc("is singular: it flattens the image");
-  // How fast w grows along an axis, against x: 2 tan(fov / 2) for a perspective, 0 for an orthographic camera. No
-  // units.
+  // Growth of w along an axis relative to that of x, without a unit: 2 tan(fov / 2) for a perspective, 0 for an orthographic
+  // camera.
   const double w_sideways = std::hypot(p[0][3], p[1][3]) / slope_x, w_forwards = std::abs(p[2][3]) / slope_x;
   const bool orthographic = w_forwards < 1e-5;
   if (w_sideways > 1e-4 * std::max(w_forwards, 0.1))
@@ -85,7 +85,7 @@ Camera intrinsics_from_ndc(const glm::dmat4& p, const Window& display, double ca
     refuse_ndc("shears or turns the image against worldToCamera");
   if (orthographic && (std::abs(p[2][0]) > 1e-4 * slope_x || std::abs(p[2][1]) > 1e-4 * slope_y))
     refuse_ndc("is an oblique projection; expected a perspective or an upright orthographic one");
-  // The eye: where w vanishes. Floats in the header move it by their rounding of the camera's distance.
+  // The eye is where w vanishes. Float rounding in the header moves it by a share of the camera's distance.
   if (!orthographic && std::abs(p[3][3] / w) > 1e-4 * camera_distance)
     refuse_ndc("has its centre of projection away from the origin of worldToCamera");
   Camera camera;
@@ -104,8 +104,9 @@ Camera intrinsics_from_ndc(const glm::dmat4& p, const Window& display, double ca
   return camera;
 }
 
-/// Whatever a matrix is scaled by, x has to grow to the right of what is seen: where it does so along -z alone, that is where the
-/// camera looks. Of an orthographic camera z tells, and only where y grows up, which OpenEXR's own form does not.
+/// Whether the camera looks along -z. Whatever a matrix is scaled by, x must grow to the right in the image: if it does so only
+/// along -z, the camera looks there. For an orthographic camera z decides, but only if y grows up, which is not so in OpenEXR's
+/// own form.
 bool looks_along_minus_z(const glm::dmat4& p) {
   const double slope_x = std::hypot(p[0][0], p[1][0]);
   if (std::abs(p[2][3]) >= 1e-5 * slope_x) return p[0][0] / p[2][3] < 0;
@@ -122,7 +123,7 @@ void note_form(NdcRange range, bool looks_back, std::vector<std::string>& assume
   if (std::find(assumed.begin(), assumed.end(), sentence) == assumed.end()) assumed.push_back(sentence);
 }
 
-/// NDC z is 0 at near and 1 at far. Where they are not known any invertible choice will do: nothing reads it back.
+/// NDC z is 0 at near and 1 at far. If these are unknown, any invertible choice will do: nothing reads it back.
 glm::dvec2 ndc_z(const Camera& camera) {
   const double near = camera.near.value_or(camera.orthographic ? 0 : 1);
   const bool has_far = camera.far && std::isfinite(*camera.far) && *camera.far > near;
@@ -158,7 +159,7 @@ Camera camera_from_matrices(const Imath::M44d& world_to_camera, const Imath::M44
   }
   NdcRange range;
   Camera camera = intrinsics_from_ndc(projection, display, glm::length(pose.position), range);
-  // OpenEXR's own form, mirrored, looks the same.
+  // A mirrored matrix in OpenEXR's own form looks the same.
   if (looks_back && !camera.orthographic && range == NdcRange::y_up)
     refuse_ndc("mirrors the image: x has to grow to the right");
   if (assumed) note_form(range, looks_back, *assumed);

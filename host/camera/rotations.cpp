@@ -11,7 +11,7 @@ namespace gloam {
 
 namespace {
 
-/// Renderers write matrices as floats: a rotation may be off by their rounding, not by more.
+/// Renderers write matrices as floats: a rotation may be off by their rounding, but not by more.
 constexpr double rotation_tolerance = 1e-4;
 
 /// The largest element of m^T m - 1: 0 for a rotation, mirrored or not.

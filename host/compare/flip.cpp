@@ -38,7 +38,7 @@ Colour from_ycxcz(const Colour& c) {
   return from_xyz * Colour(x * white[0], y * white[1], z * white[2]);
 }
 
-/// L*a*b*, its colours weaker where it is dark (Hunt effect).
+/// L*a*b*, with weaker colours where it is dark (Hunt effect).
 Colour to_hunt_lab(const Colour& linear) {
   const auto compressed = [](double t) {
     constexpr double delta = 6.0 / 29;
@@ -51,7 +51,7 @@ Colour to_hunt_lab(const Colour& linear) {
   return lab;
 }
 
-/// Distance for large differences of colour: of lightness, and of the rest.
+/// Distance for large colour differences: of lightness, plus that of the other two.
 double hyab(const Colour& a, const Colour& b) { return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]); }
 
 template <typename To>
@@ -105,7 +105,7 @@ cv::Mat filtered(const cv::Mat& image, const cv::Mat& kernel) {
   return out;
 }
 
-/// What is seen of the colours from that distance.
+/// Colours as an observer at that distance sees them.
 cv::Mat as_seen(const cv::Mat& ycxcz, double pixels_per_degree) {
   std::vector<cv::Mat> channels;
   cv::split(ycxcz, channels);
@@ -118,7 +118,7 @@ cv::Mat as_seen(const cv::Mat& ycxcz, double pixels_per_degree) {
 
 // --- Features
 
-/// Width of what the eye detects edges with, in degrees.
+/// Width of the edge detector, degrees.
 constexpr double feature_width = 0.082;
 
 double feature_deviation(double pixels_per_degree) { return 0.5 * feature_width * pixels_per_degree; }
@@ -135,7 +135,7 @@ cv::Mat feature_kernel(bool is_point, double pixels_per_degree) {
   return cv::max(kernel, 0) / positive + cv::min(kernel, 0) / negative;
 }
 
-/// How strong the edges or points of a lightness are, whatever their direction.
+/// Strength of edges or points in a lightness image, whatever their direction.
 cv::Mat features(const cv::Mat& lightness, bool is_point, double pixels_per_degree) {
   const cv::Mat kernel = feature_kernel(is_point, pixels_per_degree);
   cv::Mat strength;
@@ -162,7 +162,7 @@ cv::Mat feature_difference(const cv::Mat& test, const cv::Mat& truth, double pix
 
 constexpr double colour_exponent = 0.7;
 
-/// 0 to 1: small differences take most of the range.
+/// Maps a distance to 0..1, where small differences take most of the range.
 double redistributed(double distance) {
   static const double most =
       std::pow(hyab(to_hunt_lab(Colour(0, 1, 0)), to_hunt_lab(Colour(0, 0, 1))), colour_exponent);

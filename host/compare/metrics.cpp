@@ -15,8 +15,8 @@
 namespace gloam {
 namespace {
 
-/// Rows of the similarity maps made at a time. OpenCV holds some sixteen images of doubles per map, which for a whole
-/// 8192 x 8192 frame would be 8 GiB. A multiple of 4, see `add_gmsd`.
+/// Rows per band of the similarity maps. OpenCV holds some sixteen images of doubles per map: 8 GiB for a whole 8192 x 8192
+/// frame. A multiple of 4, see `add_gmsd`.
 int band_rows(int width) {
   constexpr int pixels = 1 << 20, least = 32;
   return std::clamp(pixels / width / 4 * 4, least, Comparison::step);
@@ -25,7 +25,7 @@ int band_rows(int width) {
 /// SSIM's window is 11 x 11.
 constexpr int ssim_reach = 5;
 
-/// A row of the GMSD map needs its neighbours above and below, each made of two rows of the image.
+/// A row of the GMSD map needs its neighbours above and below; each is made from two rows of the image.
 constexpr int gmsd_reach = 4;
 
 std::string size_text(const Plane& plane) {
@@ -77,8 +77,8 @@ Metrics simple_figures(const Sums& sums, size_t components) {
   return m;
 }
 
-/// Rows [first, last) of the image as OpenCV's measures want them: 0..255. Background is open (1) in both images, so that whatever
-/// stands there says nothing, not even through a window that reaches across the edge of a surface.
+/// Rows [first, last) of the image as OpenCV's measures expect them: 0..255. Background is open (1) in both images, so that its
+/// values do not count, not even through a window that reaches across the edge of a surface.
 cv::Mat scaled_rows(const Channel& channel, const ComparedRows& of, int first, int last) {
   const int width = width_of(of);
   cv::Mat rows(last - first, width, CV_64F);
@@ -89,7 +89,7 @@ cv::Mat scaled_rows(const Channel& channel, const ComparedRows& of, int first, i
   return rows;
 }
 
-/// SSIM lies in -1..1; only rounding, with values of a million and more, leads out of it.
+/// SSIM lies in -1..1; only rounding, with values of a million and more, exceeds it.
 double bounded(double similarity) { return std::isfinite(similarity) ? std::clamp(similarity, -1.0, 1.0) : 0.0; }
 
 /// Whether the block of 2 x 2 pixels that became pixel (x, y) of the GMSD map holds foreground.
@@ -100,8 +100,8 @@ bool block_counts(const ComparedRows& rows, int height, int x, int y) {
   return false;
 }
 
-/// Similarity of gradients for rows [first, last) of the image: a map of half the size, as OpenCV halves the images first. Where
-/// an image is one pixel wide or high nothing would be left, so that pixel is doubled.
+/// Similarity of gradients for rows [first, last) of the image: a map of half the size, since OpenCV halves the images first. An
+/// image that is one pixel wide or high would vanish, so that pixel is doubled.
 cv::Mat gradient_similarity(const ComparedRows& of, size_t channel, int height, int first, int last) {
   const auto prepared = [&](const Plane& plane) {
     cv::Mat rows = scaled_rows(plane.channels[channel], of, first, last);
@@ -116,7 +116,7 @@ cv::Mat gradient_similarity(const ComparedRows& of, size_t channel, int height, 
 
 constexpr size_t colours = 3;
 
-/// Whether red, green and blue come first.
+/// Whether the first components are red, green and blue.
 bool is_colour(const Plane& plane) {
   const std::vector<std::string> names = plane_kind(plane.name).components, rgb = plane_kind("color").components;
   return plane.channels.size() >= colours && names.size() >= plane.channels.size() &&
@@ -147,13 +147,13 @@ Plane with_each(const Plane& plane, const Function& function) {
   return out;
 }
 
-/// What a screen can show of radiance, in linear light. What is not finite is background, and stays.
+/// Radiance as a screen shows it, in linear light. Values that are not finite are background, and stay.
 Plane exposed(const Plane& plane, double exposure) {
   return with_each(
       plane, [exposure](float v) { return std::isfinite(v) ? float(std::clamp(exposure * double(v), 0.0, 1.0)) : v; });
 }
 
-/// Through sRGB.
+/// Encodes linear light as sRGB.
 Plane encoded(const Plane& linear) {
   return with_each(linear, [](float v) { return std::isfinite(v) ? float(srgb(v)) : v; });
 }
@@ -199,7 +199,7 @@ void Comparison::add_simple(const ComparedRows& rows, int first, int last) {
       if (counts(rows, x, y)) add_pixel(rows, x, y);
 }
 
-/// Over the foreground. The bands overlap by the reach of the window: the same values as from the whole image at once.
+/// Adds SSIM over the foreground. Bands overlap by the reach of the window, so the values are those of the whole image.
 void Comparison::add_ssim(const ComparedRows& rows, size_t channel, int y0, int y1) {
   const int first = std::max(y0 - ssim_reach, 0), last = std::min(y1 + ssim_reach, height_);
   cv::Mat map;
@@ -213,9 +213,9 @@ void Comparison::add_ssim(const ComparedRows& rows, size_t channel, int y0, int 
       }
 }
 
-/// Over the blocks that hold foreground; none where the map sees none of it (OpenCV drops the last column of an image 5 pixels
-/// wide: it rounds half the width to an even number). Bands start at multiples of 4 rows, which keeps that rounding the same
-/// as for the whole image.
+/// Adds GMSD over the blocks that hold foreground; none if the map misses all of them (OpenCV drops the last column of an image 5
+/// pixels wide: it rounds half the width to an even number). Bands start at multiples of 4 rows, so that this rounding is the
+/// same as for the whole image.
 void Comparison::add_gmsd(const ComparedRows& rows, size_t channel, int y0, int y1) {
   const int first = std::max(y0 - gmsd_reach, 0), last = std::min(y1 + gmsd_reach, height_);
   const cv::Mat map = gradient_similarity(rows, channel, height_, first, last);
@@ -231,7 +231,7 @@ void Comparison::add_gmsd(const ComparedRows& rows, size_t channel, int y0, int 
       }
 }
 
-/// Over the foreground, in bands that overlap as those of SSIM do.
+/// Adds FLIP over the foreground, in bands that overlap as those of SSIM.
 void Comparison::add_flip(const ComparedRows& rows, int y0, int y1) {
   const int first = std::max(y0 - flip_reach(), 0), last = std::min(y1 + flip_reach(), height_);
   const cv::Mat map = flip_map(colour_rows(rows.test, rows, first, last), colour_rows(rows.truth, rows, first, last));
@@ -244,7 +244,7 @@ void Comparison::add_flip(const ComparedRows& rows, int y0, int y1) {
   }
 }
 
-/// Where the truth is dark the difference counts by itself.
+/// Adds the relative error. Where the truth is dark, the plain difference counts.
 void Comparison::add_relative(const ComparedRows& rows, int first, int last) {
   for (int y = first; y < last; ++y) {
     for (int x = 0; x < width_of(rows); ++x) {
@@ -271,7 +271,7 @@ void Comparison::add(const ComparedRows& rows, int first, int last) {
   }
   add_simple(rows, first, last);
   if (relative_) add_relative(rows, first, last);
-  // OpenCV would start OpenCL by itself and compute there, with other rounding on every device.
+  // OpenCV would use OpenCL by itself, with other rounding on every device.
   cv::ocl::setUseOpenCL(false);
   const auto add_maps = [&](const ComparedRows& linear, const ComparedRows& seen) {
     const int band = band_rows(width_of(rows));

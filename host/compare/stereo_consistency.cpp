@@ -15,11 +15,11 @@
 namespace gloam {
 namespace {
 
-/// How far from p the way back may end, pixels: "1 pixel width".
+/// Largest distance from p at which the way back may end, pixels: "1 pixel width".
 constexpr double back_check = 1;
 
-/// Places this near to the middle of a pixel are there, pixels. Cameras in single precision, which OpenEXR's M44f are,
-/// leave some 1e-4 pixels open.
+/// Positions this near to the middle of a pixel count as the middle, pixels. Cameras in single precision, as OpenEXR's M44f, are
+/// off by some 1e-4 pixels.
 constexpr double on_centre = 1e-3;
 
 /// One view as the comparison needs it.
@@ -44,20 +44,20 @@ struct Motion {
   glm::dvec3 of_point(const glm::dvec3& p) const { return rotation * p + translation; }
 };
 
-/// The places are subtracted before anything else: they may be far from the origin, and near each other.
+/// Positions are subtracted first: they may be far from the origin, and near each other.
 Motion motion_between(const Pose& from, const Pose& to) {
   return {to.world_to_view * glm::transpose(from.world_to_view), to.world_to_view * (from.position - to.position)};
 }
 
-/// What the centre of a pixel shows, view space.
+/// The point that the centre of a pixel shows, view space.
 glm::dvec3 point_of(const Eye& eye, int x, int y) {
   const std::optional<ViewRay> ray = view_ray(eye.camera, {eye.window.x0 + x + 0.5, eye.window.y0 + y + 0.5});
   return ray ? ray->at(double(eye.depth.at(x, y))) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Where a point lands, pixels from the corner of the window; NaN for a point that the camera does not show.
-glm::dvec2 place_of(const Eye& eye, const glm::dvec3& point) {
-  const std::optional<glm::dvec2> place = gloam::place_of(eye.camera, point);
+/// Pixel of a point, relative to the corner of the window; NaN for a point that the camera does not show.
+glm::dvec2 pixel_of(const Eye& eye, const glm::dvec3& point) {
+  const std::optional<glm::dvec2> place = gloam::pixel_of(eye.camera, point);
   if (!place) return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
   return *place - glm::dvec2(eye.window.x0, eye.window.y0);
 }
@@ -69,10 +69,10 @@ bool is_inside(const Eye& eye, const glm::dvec2& place) {  // false for NaN
 // ---------------------------------------------------------------------------------------------------------------------
 // Neighbours
 
-/// The one or two pixels of a row or column that a place lies between.
+/// The one or two pixels of a row or column around a position.
 struct Between {
   int first;
-  double weight;  ///< of the pixel after `first`; 0: that pixel is not asked for
+  double weight;  ///< of the pixel after `first`; 0: that pixel is not used
 };
 
 Between between(double place) {
@@ -108,7 +108,7 @@ glm::dvec3 vector_at(const Plane& plane, int x, int y) {
   return {plane.channels[0].at(x, y), plane.channels[1].at(x, y), plane.channels[2].at(x, y)};
 }
 
-/// Normals need not be unit: renderers that filter them leave some short. NaN and zero length are never near.
+/// Normals need not be unit: renderers that filter them shorten some. NaN and zero length always fail.
 bool is_within(double cosine, const glm::dvec3& a, const glm::dvec3& b) {
   const double lengths = glm::length(a) * glm::length(b);
   return lengths > 0 && glm::dot(a, b) >= cosine * lengths;
@@ -124,15 +124,15 @@ struct Lookup {
   double cosine;  ///< of the normal-check
 };
 
-/// Whether the other eye sees what is at pixel (x, y), whose point lands on `place` there.
+/// Whether the other eye sees the point of pixel (x, y), which has the position `place` there.
 bool comes_back(const Lookup& lookup, int x, int y, const glm::dvec2& place) {
   const int there_x = int(place.x), there_y = int(place.y);
   if (is_background(lookup.other.depth.at(there_x, there_y))) return false;
   const glm::dvec3 point = lookup.back.of_point(point_of(lookup.other, there_x, there_y));
-  return glm::distance(place_of(lookup.own, point), glm::dvec2(x + 0.5, y + 0.5)) <= back_check;  // false for NaN
+  return glm::distance(pixel_of(lookup.own, point), glm::dvec2(x + 0.5, y + 0.5)) <= back_check;  // false for NaN
 }
 
-/// What the neighbours that make up I have to say to their counting.
+/// The result of the checks on the neighbours that I is made from.
 StereoPixel verdict_of(const Lookup& lookup, int x, int y, const Neighbours& neighbours) {
   const Eye& other = lookup.other;
   for (const auto& n : neighbours) {
@@ -169,10 +169,10 @@ double error_at(const Lookup& lookup, int x, int y, const Neighbours& neighbours
   return std::sqrt(squares);
 }
 
-/// Sets `error` where the pixel counts.
+/// Sets `error` if the pixel counts.
 StereoPixel look_up(const Lookup& lookup, int x, int y, float& error) {
   if (is_background(lookup.own.depth.at(x, y))) return StereoPixel::background;
-  const glm::dvec2 place = place_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
+  const glm::dvec2 place = pixel_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
   if (!is_inside(lookup.other, place)) return StereoPixel::outside;
   if (!comes_back(lookup, x, y, place)) return StereoPixel::hidden;
   const Neighbours neighbours = neighbours_of(place);
@@ -185,7 +185,7 @@ bool sees_any(const Lookup& lookup) {
   for (int y = 0; y < lookup.own.window.height(); ++y) {
     for (int x = 0; x < lookup.own.window.width(); ++x) {
       if (is_background(lookup.own.depth.at(x, y))) continue;
-      const glm::dvec2 place = place_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
+      const glm::dvec2 place = pixel_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
       if (is_inside(lookup.other, place) && comes_back(lookup, x, y, place)) return true;
     }
   }
@@ -218,7 +218,7 @@ void count(StereoFigures& figures, StereoPixel pixel) {
   figures.counted += pixel == StereoPixel::counted;
 }
 
-/// Of counted errors. Doubles, added in pixel order on one thread: the same bits every time.
+/// Figures of counted errors. Doubles, added in pixel order on one thread: the same bits every time.
 void measure(StereoFigures& figures, std::vector<float>& errors) {
   if (errors.empty()) return;
   double sum = 0, squares = 0;
@@ -234,7 +234,7 @@ void measure(StereoFigures& figures, std::vector<float>& errors) {
   figures.max = double(*std::max_element(errors.begin() + long(rank), errors.end()));
 }
 
-/// Over one view or several.
+/// Figures over one view or several.
 StereoFigures figures_of(const std::vector<const StereoErrors*>& views) {
   StereoFigures figures;
   std::vector<float> errors;
@@ -307,7 +307,7 @@ Eye eye_of(const Frame& frame, const View& view, const std::string& plane, bool 
           are_directions};
 }
 
-/// From eye to eye, both ways. `cosine`: of the normal-check.
+/// Lookups from either eye to the other. `cosine`: of the normal-check.
 std::array<Lookup, 2> lookups(const Frame& frame, const std::array<Eye, 2>& eyes, double cosine) {
   const Pose &first = *frame.views[0].camera->pose, &second = *frame.views[1].camera->pose;
   const Motion there = motion_between(first, second), back = motion_between(second, first);

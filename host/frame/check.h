@@ -1,4 +1,4 @@
-// What of a frame is looked at before anything is computed of it.
+// Checks of a frame before anything is computed from it.
 #pragma once
 
 #include "gloam/frame.h"
@@ -8,7 +8,7 @@ namespace gloam {
 /// Throws Error for a frame without views or pixels.
 void check_window(const Frame& frame);
 
-/// Throws Error for a plane that has not one channel for each component, each with memory and of the frame's size.
+/// Throws Error if a plane has not one channel per component, each with memory and the frame's size.
 void check(const Plane& plane, const Frame& frame);
 
 }  // namespace gloam

@@ -20,7 +20,7 @@ using glm::dmat3;
 using glm::dvec2;
 using glm::dvec3;
 
-/// Points along an edge of the screen that an image has to hold: a curved screen bulges between its corners.
+/// Points along an edge of the screen that an image must cover: a curved screen bulges between its corners.
 constexpr int edge_points = 33;
 
 dmat3 turn_of(const OpticalModule& module) {
@@ -31,14 +31,14 @@ dmat3 turn_of(const OpticalModule& module) {
   return {right, glm::cross(ahead, right), ahead};
 }
 
-/// How far the screen's front lies before the plane z = 0 at x: 0 or less.
+/// Position of the screen's front along z at x: 0 or less.
 double depth_of_screen(const LightFieldDisplay& display, double x) {
   if (!display.screen_radius) return 0;
   const double r = *display.screen_radius;
   return std::sqrt(std::max(0.0, r * r - x * x)) - r;
 }
 
-/// What the screen covers of a module's image, in tangents to the right and up.
+/// The part of a module's image that the screen covers, as tangents to the right and up.
 struct Span {
   dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 };
@@ -51,7 +51,7 @@ Span span_of(const LightFieldDisplay& display, const OpticalModule& module, cons
       const double x = (double(i) / (edge_points - 1) - 0.5) * display.screen_width;
       const double y = (double(j) / (edge_points - 1) - 0.5) * display.screen_height;
       const dvec3 seen = glm::transpose(turn) * (dvec3(x, y, depth_of_screen(display, x)) - module.position);
-      // 85 degrees: beyond, a pixel of the middle is a hundredth of one at the border.
+      // Limit of 85 degrees: beyond it, a pixel in the middle is a hundredth of one at the border.
       if (!(seen.z > 0.087 * glm::length(seen)))
         throw Error("display '{}': {} cannot light the whole screen: a part of it lies over 85 degrees off its axis",
                     display.name, name);
@@ -62,7 +62,7 @@ Span span_of(const LightFieldDisplay& display, const OpticalModule& module, cons
   return span;
 }
 
-/// World to view is the rotation that leaves physical = upper triangular * view, with depth by itself in the last row.
+/// World to view is the rotation for which physical = upper triangular * view, with depth alone in the last row.
 struct Turned {
   dmat3 world_to_view, to_physical;
 };
@@ -70,11 +70,11 @@ struct Turned {
 Turned turned(const dmat3& linear) {
   const dmat3 rows = glm::transpose(linear);
   const auto at_right_angles = [](const dvec3& v, const dvec3& z) { return glm::normalize(v - glm::dot(v, z) * z); };
-  // Twice: where the rows lie close together the first leaves what rounding makes of their difference.
+  // Twice: if the rows are close together, the first step leaves the rounding error of their difference.
   const dvec3 z = glm::normalize(rows[2]), y = at_right_angles(at_right_angles(rows[1], z), z), x = glm::cross(y, z);
   const dmat3 world_to_view = glm::transpose(dmat3(x, y, z));
   dmat3 to_physical = linear * glm::transpose(world_to_view);
-  // What is none but for rounding would make a straight image a skewed one.
+  // Elements that are zero but for rounding would turn a straight image into a skewed one.
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row)
       if (column < row || std::abs(to_physical[column][row]) < 1e-12 * std::abs(to_physical[row][row]))
@@ -84,7 +84,7 @@ Turned turned(const dmat3& linear) {
 
 bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Sizes and places are numbers of any kind, and what comes of them need not be one.
+/// Checks that the results are finite: sizes and positions may be any numbers.
 void check_numbers(const LightFieldDisplay& display, const std::string& name, const Camera& camera) {
   const dmat3& axes = camera.slits->to_physical;
   const bool projects = std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0 &&
@@ -139,7 +139,7 @@ std::vector<std::pair<std::string, Camera>> module_cameras(const LightFieldDispl
 LightFieldDisplay fitted_to(LightFieldDisplay display, const Camera& camera, const Window& window, double depth) {
   const double reach = camera.orthographic ? 1 : depth, height = window.height() / camera.fy * reach;
   const double across = display.screen_height / height, along = display.observer_distance / depth;
-  // What the middle of the image shows at the depth becomes the middle of the screen, though the observers be higher.
+  // What the middle of the image shows at the depth becomes the middle of the screen, even if the observers are higher.
   const double x = (0.5 * (window.x0 + window.x1) - camera.cx) / camera.fx * reach;
   const double y = (camera.cy - 0.5 * (window.y0 + window.y1)) / camera.fy * reach;
   const dvec3 per_z(across * x / depth, (across * y + display.observer_height) / depth, along);

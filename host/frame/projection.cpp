@@ -11,27 +11,27 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-/// How far along z from the module its light meets the screen, which it leaves sideways by `slope` per z; none if never.
+/// Distance along z from the module to where its light, moving sideways by `slope` per z, meets the screen; none if it never does.
 std::optional<double> reach_of_screen(const TwoSlits& s, double slope) {
   if (!s.screen_radius) return -s.module.z;
-  // (x, z) = module + t (slope, 1) on the circle about (0, -radius); the outer crossing is the screen's front.
+  // (x, z) = module + t (slope, 1) on the circle about (0, -radius); the outer crossing is on the screen's front.
   const double r = *s.screen_radius, x = s.module.x, z = s.module.z + r;
   const double a = 1 + slope * slope, b = slope * x + z, c = x * x + s.module.z * (s.module.z + 2 * r);
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0)) return {};
   const double root = std::sqrt(discriminant);
-  // Two ways to say it, of which one subtracts almost equal numbers.
+  // Two forms of the same root: one of them would subtract almost equal numbers.
   return b > 0 ? -c / (b + root) : (root - b) / a;
 }
 
-/// A light ray, physical space: how far it goes sideways and up on its way towards the observers, per z.
+/// Direction of a light ray in physical space: sideways and up per z towards the observers.
 struct Slopes {
   double across, up;
 };
 
 dvec3 observer_of(const TwoSlits& s) { return {0, s.observer_height, s.observer_distance}; }
 
-/// Of the light of a pixel, once the screen has spread it upwards and downwards.
+/// Direction of a pixel's light after the screen has spread it upwards and downwards.
 std::optional<Slopes> slopes_of(const Camera& camera, const dvec2& place) {
   const TwoSlits& s = *camera.slits;
   const dvec3 out = s.turn * dvec3((place.x - camera.cx) / camera.fx, (camera.cy - place.y) / camera.fy, 1);
@@ -47,13 +47,13 @@ std::optional<Slopes> slopes_of(const Camera& camera, const dvec2& place) {
 
 ViewRay slit_ray(const TwoSlits& s, const Slopes& slopes) {
   const double from_module = s.observer_distance - s.module.z;
-  // From the observer line on; depth grows against z.
+  // Starts on the observer line; depth grows against z.
   const dvec3 start(s.module.x + slopes.across * from_module, 0, 0), per_z(slopes.across, slopes.up, 1);
   const glm::dmat3 to_view = glm::inverse(s.to_physical);
   return {to_view * start, to_view * (per_z * -s.to_physical[2][2])};
 }
 
-std::optional<dvec2> place_through_slits(const Camera& camera, const dvec3& point) {
+std::optional<dvec2> project_through_slits(const Camera& camera, const dvec3& point) {
   const TwoSlits& s = *camera.slits;
   const dvec3 p = s.to_physical * point + observer_of(s);
   if (!(p.z < s.observer_distance && p.z > s.module.z)) return {};
@@ -81,16 +81,16 @@ std::optional<ViewRay> view_ray(const Camera& camera, const dvec2& place) {
   return ViewRay{{0, 0, 0}, {across, up, -1}};
 }
 
-std::optional<dvec2> place_of(const Camera& camera, const dvec3& point) {
-  if (camera.slits) return place_through_slits(camera, point);
+std::optional<dvec2> pixel_of(const Camera& camera, const dvec3& point) {
+  if (camera.slits) return project_through_slits(camera, point);
   const double depth = -point.z, along = camera.orthographic ? 1 : depth;
   if (!(depth > 0)) return {};
   return dvec2(camera.cx + camera.fx * point.x / along, camera.cy - camera.fy * point.y / along);
 }
 
-std::optional<dvec2> place_in_world(const Camera& camera, const dvec3& world, double w) {
+std::optional<dvec2> pixel_of_world(const Camera& camera, const dvec3& world, double w) {
   if ((camera.orthographic || camera.slits) && w == 0) return {};
-  return place_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
+  return pixel_of(camera, camera.pose->world_to_view * (world - w * camera.pose->position));
 }
 
 double depth_of_slit(const Camera& camera) {

@@ -9,7 +9,7 @@ namespace gloam {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-/// From here on positions leave the range of float, whatever the camera: never a surface.
+/// Depths from here on are never surfaces: positions would leave the range of float with any camera.
 constexpr float beyond_reach = 1e20f;
 
 void clean_row(float* row, int width, float sign, const Background& background) {

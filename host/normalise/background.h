@@ -1,4 +1,4 @@
-// Which depths are background, and how they become +inf.
+// Recognises background depths and sets them to +inf.
 #pragma once
 
 #include <limits>
@@ -8,21 +8,20 @@
 
 namespace gloam {
 
-/// What renderers write for "nothing here" starts at 1e10 (Blender), and no scene reaches it.
+/// Depths that renderers write for "nothing here" start at 1e10 (Blender); no scene reaches it.
 inline constexpr float farthest_depth = 1e10f;
-/// Depths that would turn denormal in any product are no depths; the bound is far below every scene's unit.
+/// Smaller depths count as background: they would turn denormal in a product. The bound is far below the unit of any scene.
 inline constexpr float nearest_depth = 1e-30f;
 
-/// What is background besides infinities, NaN, 0 and what is negative. A value that the user names takes the place of
-/// the rule for 1e10.
+/// Values that mean background besides infinities, NaN, 0 and negative numbers. A value from the user replaces the rule for 1e10.
 struct Background {
   float value = std::numeric_limits<float>::quiet_NaN();  ///< --background; NaN equals nothing
-  float from = farthest_depth;                            ///< anything from here on
+  float from = farthest_depth;                            ///< anything from here on is background
   float far_low = std::numeric_limits<float>::infinity(),
-        far_high = -std::numeric_limits<float>::infinity();  ///< the far plane with its rounding; empty where not known
+        far_high = -std::numeric_limits<float>::infinity();  ///< the far plane with its rounding; empty if not known
 };
 
-/// `value`: --background. `far`: the far plane, where it is known.
+/// `value`: --background. `far`: the far plane, if known.
 Background background_of(std::optional<float> value, std::optional<double> far);
 
 /// Bitwise operators, so that a loop over it becomes vector instructions. NaN fails the first comparison.
@@ -31,7 +30,7 @@ inline bool is_surface(float depth, const Background& background) {
   return (depth >= nearest_depth) & (depth < background.from) & !at_far & (depth != background.value);
 }
 
-/// Planar depth: only the background and the sign change.
+/// For planar depth: sets background to +inf and applies the sign.
 void clean_depth(Channel& depth, float sign, const Background& background);
 
 }  // namespace gloam

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Signs of the surfaces in a plane, as far as they had to be looked at.
+/// Signs of the surfaces in a plane; the search stops once they are decided.
 struct Signs {
   bool positive = false, negative = false, over_one = false;
 };
@@ -72,11 +72,11 @@ void ray_to_depth(Channel& depth, const Window& window, const Camera& camera) {
   });
 }
 
-/// From window depth d to the reciprocal of view depth (perspective) or to view depth (orthographic): a + b d.
+/// Map from window depth d to the reciprocal of view depth (perspective) or to view depth (orthographic): a + b d.
 struct WindowDepth {
   double a, b;
-  float lowest, highest;  ///< d of a surface: lowest <= d <= highest; the far value is left out
-  float background;       ///< --background, NaN where none
+  float lowest, highest;  ///< d of a surface: lowest <= d <= highest, without the far value
+  float background;       ///< --background; NaN: none
 };
 
 void perspective_row(float* row, int width, const WindowDepth& map) {
@@ -97,7 +97,7 @@ void orthographic_row(float* row, int width, const WindowDepth& map) {
   }
 }
 
-/// 0 is the near plane there, so a pixel that was never drawn can only be told by its alpha.
+/// In NDC 0 is the near plane, so only alpha tells a pixel that was never drawn.
 void mark_missing(Channel& depth, const Channel& alpha) {
   const int width = depth.layout().width;
   for_each_row(depth.layout(), [&](int y) {
@@ -107,7 +107,7 @@ void mark_missing(Channel& depth, const Channel& alpha) {
   });
 }
 
-/// The map from window depth, checked: near and far are needed, and flags take precedence over the camera.
+/// The map from window depth, checked: near and far are needed; flags override the camera.
 WindowDepth window_depth(const Camera& camera, const ReadOptions& options, std::vector<std::string>& assumed) {
   const bool reversed = options.depth == DepthConvention::reversed;
   const char* name = reversed ? "reversed" : "ndc";
@@ -153,7 +153,8 @@ std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& 
 std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
                           const ReadOptions& options, std::vector<std::string>& assumed) {
   if (camera.slits && options.depth != DepthConvention::automatic && options.depth != DepthConvention::z)
-    throw UsageError("--depth ray, ndc and reversed are of cameras with one eye; the depth of a display's module is z");
+    throw UsageError(
+        "--depth ray, ndc and reversed need a single centre of projection; the depth of a display's module is z");
   if (options.depth == DepthConvention::ndc || options.depth == DepthConvention::reversed)
     return window_to_depth(depth, alpha, camera, options, assumed);
 

@@ -1,4 +1,4 @@
-// Depth as a file has it, brought to planar view-space z.
+// Brings a file's depth to planar view-space z.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace gloam {
 
-/// Depth as found in the file to planar view-space z, in place; background to +inf.
+/// Converts depth as found in the file to planar view-space z, in place, and background to +inf.
 ///
 /// `ray` is the distance from the eye; it needs the camera. `ndc` is window depth d in 0..1, 0 at near and 1 at far, as
 /// OpenGL (after its default depth range) and Direct3D write it: z = n f / (f - d (f - n)). `reversed` is 1 at near and
 /// 0 at far: z = n f / (n + d (f - n)), or n / d for an infinite far plane. Both are linear for an orthographic camera.
-/// They need near, and ndc and orthographic cameras far as well, from the options or else from the camera; a reversed
-/// depth without far is taken to have an infinite one. `automatic` is z.
+/// 0 at far: z = n f / (n + d (f - n)), or n / d for an infinite far plane. Both are linear for an orthographic camera. They need
+/// near; ndc and orthographic cameras also need far. Both come from the options or else from the camera; without far, reversed
+/// depth is taken to have an infinite one. `automatic` is z.
 ///
-/// Background: NaN, infinite, 0 and anything below 1e-30 (no denormals reach a kernel), 1e10 and more, the far plane
-/// where it is known (to a rounding of float), exactly `options.background`, both compared before conversion. ndc: d <
-/// 0 or d >= 1; reversed: d <= 0 or d > 1. Negative depth is background, unless all surfaces are negative: then the
-/// plane is "negative z" and is flipped. `alpha`, where given, tells a surface on the near plane of ndc (d = 0) from a
-/// pixel that was never drawn (d = 0 and alpha 0).
+/// Background: NaN, infinite, 0 and anything below 1e-30 (no denormals reach a kernel), 1e10 and more; before conversion, the far
+/// plane if it is known (to float rounding) and exactly `options.background`. ndc: d < 0 or d >= 1; reversed: d <= 0 or d > 1.
+/// Negative depth is background, unless all surfaces are negative: then the plane is "negative z" and is flipped. `alpha`, if
+/// given, tells a surface on the near plane of ndc (d = 0) from a pixel that was never drawn (d = 0 and alpha 0).
 ///
-/// Returns the convention used ("z", "ray", "ndc", "reversed", "negative z") and appends what was assumed.
+/// Returns the convention used ("z", "ray", "ndc", "reversed", "negative z") and appends the assumptions made.
 /// Throws Error naming what is missing or out of range (near, far).
 std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
                           const ReadOptions& options, std::vector<std::string>& assumed);

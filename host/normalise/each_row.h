@@ -7,7 +7,7 @@
 
 namespace gloam {
 
-/// `body(y)` for every row, on all cores unless the image is so small that waking them would cost more.
+/// Calls `body(y)` for every row, on all cores unless the image is too small to be worth it.
 template <typename Body>
 void for_each_row(const Layout& layout, const Body& body) {
 #pragma omp parallel for if (size_t(layout.width) * size_t(layout.height) > 65536)

@@ -13,13 +13,13 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// `depth`, where given, tells the background.
+/// `depth`, if given, marks the background.
 void unit_row(float* x, float* y, float* z, const float* depth, int width) {
   for (int i = 0; i < width; ++i) {
     const double a = x[i], b = y[i], c = z[i];
     const double square = a * a + b * b + c * c;  // in double no float overflows or vanishes
     const double inverse = 1 / std::sqrt(square);
-    // Those that are unit to a rounding stay as they are, so that a second pass changes no bit.
+    // Normals that are unit but for rounding stay as they are, so that a second pass changes no bit.
     const double unit = std::abs(square - 1) < 3e-7 ? 1.0 : inverse;
     const bool usable = (square > 0) & (square < std::numeric_limits<double>::infinity());
     const bool keep = usable & (depth ? depth[i] < infinity : true);
@@ -48,7 +48,7 @@ void finite_row(float* row, int width) {
   for (int x = 0; x < width; ++x) row[x] = std::abs(row[x]) < infinity ? row[x] : 0.0f;
 }
 
-/// To 0..1; NaN becomes what lies outside the image: open for AO, rough, black for albedo.
+/// Clamps to 0..1. NaN becomes the value outside the image: open for AO, rough, black for albedo.
 void clamp_channel(Channel& channel, float unknown) {
   for_each_row(channel.layout(), [&](int y) { clamp_row(channel.row(y), channel.layout().width, unknown); });
 }
@@ -81,7 +81,7 @@ Plane* depth_of(View& view) {
   return found == view.planes.end() || found->second.channels.empty() ? nullptr : &found->second;
 }
 
-/// Everything but the depth itself, which tells the background of the normals.
+/// Normalises all planes but the depth, which marks the background of the normals.
 void normalise_view(View& view, const Background& background, bool as_stored) {
   const Plane* depth = depth_of(view);
   for (auto& [name, plane] : view.planes) {

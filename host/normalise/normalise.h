@@ -8,8 +8,8 @@
 
 namespace gloam {
 
-/// What `normalise` does, for a frame whose `depth` has already been through `to_view_depth`. `as_stored`: only depths are
-/// cleaned and padding is filled (see ReadOptions).
+/// As `normalise`, for a frame whose `depth` has been through `to_view_depth`. `as_stored`: only cleans depths and fills padding
+/// (see ReadOptions).
 void normalise_planes(Frame& frame, std::optional<float> background, bool as_stored = false);
 
 }  // namespace gloam

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A normal of the file beside the one that depth tells, both unit, the latter in view space.
+/// A normal of the file and the one estimated from depth, both unit, the latter in view space.
 struct NormalPair {
   glm::dvec3 given, from_depth;
 };
@@ -28,8 +28,8 @@ glm::dvec3 view_position(const Channel& depth, const Window& window, const Camer
   return ray ? ray->at(depth.at(x, y)) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The step of the surface from a pixel towards +x or +y, to whichever neighbour is nearer in depth; none where both
-/// are background or across a depth edge.
+/// The step on the surface from a pixel towards +x or +y, to whichever neighbour is nearer in depth; none if both are background or
+/// across a depth edge.
 std::optional<glm::dvec3> surface_step(const Channel& depth, const Window& window, const Camera& camera, int x, int y,
                                        int dx, int dy) {
   const int width = depth.layout().width, height = depth.layout().height;
@@ -58,7 +58,7 @@ std::optional<glm::dvec3> normal_from_depth(const Channel& depth, const Window& 
   return normal / length;
 }
 
-/// Mean cosine between the given normals, as view and as world space, and those from depth.
+/// Mean cosine between the normals estimated from depth and the given ones, taken as view space and as world space.
 struct Agreement {
   double view = 0, world = 0;
   double best() const { return std::max(view, world); }
@@ -105,7 +105,7 @@ void rotate_row(float* x, float* y, float* z, int width, const glm::mat3& m) {
 
 }  // namespace
 
-/// One at a random place in each cell of a lattice: the same ones every time.
+/// One sample at a random position in each cell of a lattice, the same every time.
 NormalSamples::NormalSamples(const Layout& image) {
   const int width = image.width, height = image.height;
   const int cell = std::max(1, int(std::sqrt(double(width) * height / 4096)));
@@ -138,7 +138,8 @@ NormalForm NormalSamples::form(const Channel& depth, const Window& window, const
       pairs.push_back({sample.normal, *estimate});
   }
   if (pairs.empty()) {
-    assumed.push_back("normals: taken as view space, as no pixel lets depth tell; --normal-space says otherwise");
+    assumed.push_back(
+        "normals: taken as view space, as no pixel has a depth to compare them with; --normal-space says otherwise");
     return {NormalSpace::view};
   }
   Agreement agreement = agreement_of(pairs, camera.pose, false);
@@ -147,8 +148,8 @@ NormalForm NormalSamples::form(const Channel& depth, const Window& window, const
   if (encoded) agreement = decoded;
   const std::string taken = encoded ? "decoded from 0..1 and taken" : "taken";
   if (!camera.pose) {
-    // Normals of the view's own space agree with depth wherever the camera stands, measured to 0.94 and more; those of
-    // a world that the camera looks at nearly straight still reach 0.86.
+    // Normals in view space agree with depth wherever the camera stands, by measurement to 0.94 and more; world-space normals reach
+    // up to 0.86 if the camera looks nearly straight along the world's axis.
     if (agreement.view < 0.9) {
       assumed.push_back(fmt::format("normals: taken as world space: as view space they agree with depth only to {:.2f}",
                                     agreement.view));

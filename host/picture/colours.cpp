@@ -12,7 +12,7 @@
 namespace gloam {
 namespace {
 
-/// A foreground value that is not a number, or not positive where it has to be: no colour of any scale.
+/// Colour of foreground values that are NaN, infinite, or not positive where they must be: on no scale.
 const cv::Vec3b not_finite_colour(255, 0, 255);
 
 using ColourTable = std::array<cv::Vec3b, 256>;
@@ -26,7 +26,7 @@ ColourTable colour_table(cv::ColormapTypes map) {
   return table;
 }
 
-/// Both run evenly from dark to bright, also for those who see few colours.
+/// Depth and count colours run evenly from dark to bright, also for colour-blind readers.
 const ColourTable& depth_colours() {
   static const ColourTable table = colour_table(cv::COLORMAP_VIRIDIS);
   return table;
@@ -48,8 +48,7 @@ cv::Vec3b hue_colour(double hue, double saturation, double brightness) {
   return red_green_blue(component(0), component(2.0 / 3), component(1.0 / 3));
 }
 
-/// A colour for an identity. Neighbouring numbers get unlike colours: their bits are mixed first (the finaliser of
-/// MurmurHash3).
+/// A colour for an identity. Neighbouring numbers get unlike colours: their bits are mixed first (the finaliser of MurmurHash3).
 cv::Vec3b identity_colour(float id) {
   uint32_t h = std::bit_cast<uint32_t>(id);
   h = (h ^ (h >> 16)) * 0x85ebca6bu;
@@ -69,7 +68,7 @@ cv::Vec3b position_colour(const Plane& plane, const std::vector<Range>& ranges, 
   return red_green_blue(t[0], t[1], t[2]);
 }
 
-/// For styles that do not come from `image_of`.
+/// Colour of a pixel, for styles that `image_of` does not cover.
 cv::Vec3b colour_at(const Tile& tile, const std::vector<Range>& ranges, int x, int y) {
   const Plane& plane = *tile.plane;
   const double t = ranges[0].position(value_at(tile, 0, x, y));

@@ -1,4 +1,4 @@
-// The colours of a tile: by its style, on a scale.
+// The colours of a tile, by its style and scale.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,10 +9,10 @@
 
 namespace gloam {
 
-/// The plane at full size, CV_8UC3. Values that are not finite are magenta; background is left as it is.
+/// The plane at full size, CV_8UC3. Values that are not finite are magenta; background is left unchanged.
 cv::Mat colours_of(const Tile& tile, const std::vector<Range>& scale);
 
-/// Of a depth at a position on its scale, 0 (near, bright) to 1.
+/// Colour of a depth by its position on the scale, 0 (near, bright) to 1.
 cv::Vec3b depth_colour(double position);
 
 }  // namespace gloam

@@ -21,8 +21,8 @@ namespace {
 // ---------------------------------------------------------------------------------------------------------------------
 // Which tiles
 
-/// Where a plane stands on the sheet: kinds in the order of their table, then stacks, then what gloam does not know.
-std::pair<size_t, std::string> place_of(const std::string& name) {
+/// Rank of a plane on the sheet: kinds in the order of their table, then stacks, then unknown planes.
+std::pair<size_t, std::string> rank_of(const std::string& name) {
   const std::vector<PlaneKind>& kinds = plane_kinds();
   size_t i = 0;
   while (i < kinds.size() && kinds[i].name != name) ++i;
@@ -33,15 +33,15 @@ std::vector<const Plane*> planes_in_order(const View& view) {
   std::vector<const Plane*> planes;
   for (const auto& [name, plane] : view.planes) planes.push_back(&plane);
   std::sort(planes.begin(), planes.end(),
-            [](const Plane* a, const Plane* b) { return place_of(a->name) < place_of(b->name); });
+            [](const Plane* a, const Plane* b) { return rank_of(a->name) < rank_of(b->name); });
   return planes;
 }
 
 struct SheetTile : Tile {
-  int layers_left_out = 0;  ///< of the stack that this tile is the last drawn layer of
+  int layers_left_out = 0;  ///< layers of the stack after this tile, its last drawn layer
 };
 
-/// The tiles of a view. Of each stack the first `layers` are drawn; the last of them says how many are not.
+/// The tiles of a view. The first `layers` of each stack are drawn; the last of them gives the number of the others.
 std::vector<SheetTile> tiles_of(const View& view, int layers) {
   std::vector<SheetTile> tiles;
   std::map<std::string, int> drawn;
@@ -64,7 +64,7 @@ struct Sheet {
   double unit = 1;
   PanelSize panel;
   int columns = 1, rows = 0;
-  bool has_depth = false;  ///< a scale of depths stands in the header
+  bool has_depth = false;  ///< the header has a scale of depths
 
   int px(double length) const { return cvRound(length * unit); }
   int margin() const { return px(24); }
@@ -144,7 +144,7 @@ Sheet blank_sheet(const Frame& frame, const ContactSheet& options, const std::ve
   return sheet;
 }
 
-/// To multiples of `step`; white stays white.
+/// Rounds colours to multiples of `step`; white stays white.
 void round_colours(cv::Mat& canvas, int step) {
   if (step <= 1) return;
   cv::Mat table(1, 256, CV_8UC1);

@@ -19,12 +19,12 @@ const cv::Scalar bias_ink(30, 120, 20), rmse_ink(150, 60, 130);
 
 constexpr PanelLimits panel_limits{320, 1280, 2560};
 
-/// White paper and its measures: all lengths are multiples of `unit`, so that the sheet keeps its looks at any size.
+/// A white sheet. All lengths are multiples of `unit`, so that it looks the same at any size.
 struct Sheet {
   cv::Mat canvas;
   double unit = 1;
   PanelSize panel;
-  bool light = true;  ///< the plane holds brightness: differences are "too dark" and "too bright"
+  bool light = true;  ///< the plane is brightness: differences are "too dark" and "too bright"
 
   int px(double length) const { return cvRound(length * unit); }
   int margin() const { return px(24); }
@@ -153,7 +153,7 @@ void draw_upright(cv::Mat& canvas, int x, int y0, int y1, const cv::Scalar& colo
     cv::rectangle(canvas, cv::Rect(x - thickness / 2, y, thickness, std::min(dash, y1 - y)), colour, cv::FILLED);
 }
 
-/// Where the histogram is drawn. Heights are logarithmic: a few far-off pixels are what one looks for.
+/// Area of the histogram. Heights are logarithmic: a few far-off pixels are of most interest.
 struct Plot {
   int x0, x1, y0, y1;  ///< y1 is the base line
   double range, top;   ///< ends of the axes: difference, log10 of the count
@@ -181,7 +181,7 @@ void draw_bars(Sheet& sheet, const Plot& plot, const Histogram& histogram) {
   }
 }
 
-/// A short piece of the line and what it means, right-aligned at `right`. Returns the left end.
+/// Draws a short piece of a line and its meaning, right-aligned at `right`. Returns the left end.
 int draw_key(Sheet& sheet, int right, int baseline, const std::string& text, const cv::Scalar& colour, bool dashed) {
   put_text(sheet.canvas, text, {right, baseline}, sheet.tick(), Align::right);
   const int x = right - cvRound(text_width(text, sheet.tick())) - sheet.px(9), thickness = std::max(2, sheet.px(1.6));
@@ -190,7 +190,7 @@ int draw_key(Sheet& sheet, int right, int baseline, const std::string& text, con
   return x - sheet.px(16);
 }
 
-/// Zero, bias and the spread. Lines that would lie outside the axis are left out; the key still gives their numbers.
+/// Draws zero, bias and spread. Lines outside the axis are left out; the key still gives their numbers.
 void draw_marks(Sheet& sheet, const Plot& plot, const Metrics& metrics) {
   const auto mark = [&](double v, const cv::Scalar& colour, double thickness, bool dashed) {
     if (std::abs(v) > plot.range) return;

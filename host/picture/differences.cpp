@@ -7,16 +7,15 @@
 namespace gloam {
 namespace {
 
-/// One side of the difference map, from no difference to the end of the scale: equal steps of lightness in the OKLab
-/// space (0.975 to 0.4) at one hue each, so that equal differences look equally far apart and both signs weigh the
-/// same.
+/// One side of the difference map, from no difference to the end of the scale: equal steps of lightness in the OKLab space (0.975
+/// to 0.4) at one hue per side, so that equal differences look equally different and both signs have the same weight.
 constexpr std::array<std::array<int, 3>, 6> too_dark_colours{
     // red, green, blue
     {{247, 247, 247}, {191, 211, 239}, {134, 175, 232}, {81, 138, 217}, {40, 102, 185}, {17, 70, 137}}};
 constexpr std::array<std::array<int, 3>, 6> too_bright_colours{
     {{247, 247, 247}, {237, 199, 192}, {226, 150, 137}, {206, 102, 86}, {171, 63, 49}, {125, 36, 26}}};
 
-/// Ends of the scale to choose from: round numbers, so that two pictures are likely to share one and can be compared.
+/// Possible ends of the scale: round numbers, so that two pictures are likely to share one and can be compared.
 constexpr std::array<float, 5> ranges{0.05f, 0.1f, 0.2f, 0.5f, 1.0f};
 
 }  // namespace
@@ -31,7 +30,7 @@ Differences differences(const Plane& test, const Plane& truth, const Mask& foreg
   return {test, truth, foreground, layout.width, layout.height, test.channels.size()};
 }
 
-// A few outliers must not wash out all the rest.
+// A few outliers must not wash out the rest.
 float fitting_range(const Differences& d) {
   std::array<long long, ranges.size()> within{};
   long long pixels = 0;

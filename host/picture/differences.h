@@ -12,7 +12,7 @@
 
 namespace gloam {
 
-/// What the picture is made of. The drawn difference of a pixel is that of the component that differs most.
+/// The data of the picture. The drawn difference of a pixel is that of the component that differs most.
 struct Differences {
   const Plane& test;
   const Plane& truth;
@@ -41,17 +41,17 @@ Differences differences(const Plane& test, const Plane& truth, const Mask& foreg
 /// End of a scale: the smallest of 0.05, 0.1, 0.2, 0.5 and 1 that covers 99 % of the counted pixels.
 float fitting_range(const Differences& d);
 
-/// Colour of a difference in units of the scale's end; beyond -1 and 1 the colour stays that of the end.
+/// Colour of a difference in units of the scale's end; beyond -1 and 1, that of the end.
 cv::Vec3b difference_colour(double t);
 
-/// CV_8UC3, with `range` at the ends of the colours; what does not count has the colour of no difference.
+/// CV_8UC3, with `range` at the ends of the colours; pixels that do not count have the colour of no difference.
 cv::Mat difference_image(const Differences& d, double range);
 
-/// Of the differences of all components.
+/// Histogram of the differences of all components.
 struct Histogram {
   std::vector<long long> bins;  ///< of equal width over -range .. range; an odd number: the middle one is about 0
   long long largest = 0;
-  long long beyond = 0, all = 0;  ///< values outside the range (they are in the end bins too); all values
+  long long beyond = 0, all = 0;  ///< values outside the range (also in the end bins); all values
 };
 
 Histogram histogram_of(const Differences& d, double range, int bins);

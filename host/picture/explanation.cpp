@@ -12,7 +12,7 @@
 namespace gloam {
 namespace {
 
-/// One for each effect, told apart by the colour-blind as well (Okabe, Ito 2008); blue, green, red.
+/// One colour per effect, distinguishable for the colour-blind too (Okabe, Ito 2008); blue, green, red.
 const std::array<cv::Scalar, 5> effect_colours{
     {{0, 159, 230}, {233, 180, 86}, {115, 158, 0}, {167, 121, 204}, {66, 228, 240}}};
 
@@ -21,7 +21,7 @@ const TextStyle title_style{14, ink, true}, text_style{12}, cost_style{12, faint
 
 cv::Scalar colour_of(size_t effect) { return effect_colours[effect % effect_colours.size()]; }
 
-/// Grey by the angle to the line of sight, or by nearness where there are no normals.
+/// Grey by the angle between normal and line of sight, or by nearness if there are no normals.
 cv::Mat lit_from_the_eye(const View& view) {
   const Channel& depth = view.find("depth")->channels.front();
   const Plane* normal = view.find("normal");
@@ -49,10 +49,10 @@ cv::Mat backdrop_of(const View& view) {
   return image;
 }
 
-/// Pale, so that a tint is seen.
+/// Makes an image pale, so that a tint stands out.
 void fade(cv::Mat& image) { image.convertTo(image, -1, 0.7, 70); }
 
-/// Of a pixel of the image: its tile's.
+/// Whether the tile of a pixel calls for the effect.
 bool is_called_for(const Explanation& e, int x, int y, cv::Size image) {
   if (e.is_everywhere || !e.where) return e.is_everywhere;
   const Channel& tiles = e.where->channels.front();
@@ -79,7 +79,7 @@ void write_explanation(const std::filesystem::path& path, const View& view,
   cv::Mat image = backdrop_of(view);
   fade(image);
   for (size_t i = 0; i < explanations.size(); ++i) tint(image, explanations[i], colour_of(i));
-  // Small images are enlarged, so that the text has room.
+  // Small images are enlarged to make room for the text.
   const int zoom = std::max(1, least_width / std::max(1, image.cols));
   const cv::Size size(image.cols * zoom, image.rows * zoom);
   const int width = std::max(size.width, least_width);

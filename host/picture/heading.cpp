@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// Round numbers on a logarithmic scale: 1, 2 and 5 of each decade, or all digits where these are less than three.
+/// Round numbers on a logarithmic scale: 1, 2 and 5 of each decade, or all digits if these are fewer than three.
 std::vector<double> round_depths(double low, double high) {
   std::vector<double> few, many;
   for (int decade = cvFloor(std::log10(low)); decade <= cvCeil(std::log10(high)); ++decade)
@@ -24,7 +24,7 @@ std::vector<double> round_depths(double low, double high) {
   return few.size() < 3 ? many : few;
 }
 
-/// Ticks with labels below the bar, as far as there is room.
+/// Draws ticks with labels below the bar, as far as there is room.
 void draw_depth_ticks(cv::Mat& canvas, int x0, int x1, int y, const Range& range, double unit) {
   const auto px = [&](double length) { return cvRound(length * unit); };
   const TextStyle style{8.5 * unit};
@@ -40,7 +40,7 @@ void draw_depth_ticks(cv::Mat& canvas, int x0, int x1, int y, const Range& range
   }
 }
 
-/// "depth 1.2 [bar] 14", its left top corner at `at`, as wide as `width` at most: one scale for all depths of the sheet.
+/// Draws "depth 1.2 [bar] 14", its left top corner at `at`, at most `width` wide: one scale for all depths of the sheet.
 void draw_depth_scale(cv::Mat& canvas, const Range& depths, cv::Point at, int width, double unit) {
   const auto px = [&](double length) { return cvRound(length * unit); };
   const TextStyle style{8.5 * unit};

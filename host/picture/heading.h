@@ -1,4 +1,4 @@
-// What stands above the tiles of a picture: title, facts, and the scale of the depths.
+// The heading above the tiles of a picture: title, facts, and the scale of the depths.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// What stands above the tiles of a sheet.
+/// The heading above the tiles of a sheet.
 struct Heading {
   std::string title;
   Wordings facts;                 ///< a line below the title
@@ -18,7 +18,7 @@ struct Heading {
   int margin = 24;                ///< pixels, on either side
 };
 
-/// Pixels, to the top of the tiles' captions.
+/// Height down to the captions of the tiles, pixels.
 int heading_height(double unit, bool has_depths);
 
 void draw_heading(cv::Mat& canvas, const Heading& heading);

@@ -1,4 +1,4 @@
-// The errors of a stereo pair as an image, to be written or put on a sheet.
+// The errors of a stereo pair as an image.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,11 +7,11 @@
 
 namespace gloam {
 
-/// What `write_inconsistency_picture` (gloam/stereo_pictures.h) writes: CV_8UC3, of the plane's size.
+/// The image of `write_inconsistency_picture` (gloam/stereo_pictures.h): CV_8UC3, of the plane's size.
 cv::Mat inconsistency_image(const Plane& shown, const StereoErrors& errors, double magnify);
 
-/// How a pixel that does not count is drawn: purple at half strength over the plane's colour, so that it stays dark where
-/// that is dark, and purple where that is bright.
+/// Colour of a pixel that does not count: purple at half strength over the plane's colour, so that it stays dark where that is
+/// dark, and purple where that is bright.
 cv::Vec3b hidden_tone(const cv::Vec3b& colour);
 
 }  // namespace gloam

@@ -19,7 +19,7 @@
 namespace gloam {
 namespace {
 
-/// to_byte(srgb(v)) of any float, from tables: powers would take most of a picture's time.
+/// to_byte(srgb(v)) for any float, by tables: computing powers would take most of a picture's time.
 class SrgbBytes {
  public:
   SrgbBytes() {
@@ -39,8 +39,8 @@ class SrgbBytes {
   }
 
  private:
-  /// Positive floats are in the order of their bits. Those alike in all but the last 15 are so near one another that no
-  /// two bytes begin among them.
+  /// Positive floats are in the order of their bits. Floats that are equal but for their last 15 bits are so close that at most
+  /// one byte begins among them.
   static constexpr int shift = 15;
   static constexpr uint32_t bits_of_one = std::bit_cast<uint32_t>(1.0f);
 
@@ -53,7 +53,7 @@ class SrgbBytes {
     return std::bit_cast<float>(from);
   }
 
-  std::vector<float> steps_;       ///< the least value of each byte from 1 on, and of none
+  std::vector<float> steps_;       ///< the least value of each byte from 1 on, and a sentinel
   std::vector<unsigned char> at_;  ///< the byte of each float whose last bits are 0
 };
 
@@ -81,7 +81,7 @@ cv::Mat colour_image(const Plane& plane) {
   return image;
 }
 
-/// Hershey strokes drawn this much larger and averaged down have soft edges and any stroke width.
+/// Hershey strokes drawn this many times larger and averaged down have soft edges and any stroke width.
 constexpr int oversampling = 4;
 
 double font_scale(const TextStyle& style) { return style.size * oversampling / 21; }
@@ -89,7 +89,7 @@ int stroke(const TextStyle& style) {
   return std::max(1, cvRound(style.size * oversampling * (style.bold ? 0.19 : 0.115)));
 }
 
-/// How much of each pixel the text covers, with a border of `pad` pixels; the baseline is at `baseline`.
+/// Share of each pixel that the text covers, with a border of `pad` pixels; the baseline is at `baseline`.
 cv::Mat text_coverage(const std::string& text, const TextStyle& style, int pad, int baseline) {
   const int width = int(text_width(text, style)) + 1 + 2 * pad, height = baseline + int(style.size) + pad;
   cv::Mat large(height * oversampling, width * oversampling, CV_8UC1, cv::Scalar(0)), small;
@@ -158,7 +158,7 @@ std::string encode_png(const cv::Mat& image) {
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& image) {
-  // Encoded first, as the codec keeps the cause of a failed write to itself.
+  // Encoded in memory, since the codec does not report why a write failed.
   write_text(path, encode_png(image));
 }
 

@@ -1,4 +1,4 @@
-// What the pictures for people have in common: colours, text, planes as 8-bit images, panels, PNG files.
+// What all pictures share: colours, text, planes as 8-bit images, panels, PNG files.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@ namespace gloam {
 // --- Colours: blue, green, red, as OpenCV keeps them
 
 inline const cv::Scalar paper(255, 255, 255), ink(34, 34, 34), faint(118, 118, 118), rule(200, 200, 200);
-/// Background is no value: grey with slanting lines.
+/// Background has no value: it is grey with slanting lines.
 inline const cv::Scalar background_tone(214, 214, 214);
 inline const cv::Vec3b background_line(186, 186, 186);
 
 // --- Planes as 8-bit images
 
-/// 0 .. 1 as 0 .. 255, clamped. NaN is black: a picture has to show something.
+/// 0 .. 1 to 0 .. 255, clamped. NaN becomes black: a picture must show something.
 unsigned char to_byte(double v);
 
 /// Linear light as an sRGB value, 0 .. 1 each.
@@ -28,13 +28,13 @@ double srgb(double v);
 /// 0..1 through sRGB. A missing component is 0. CV_8UC1 or CV_8UC3.
 cv::Mat image_of(const Plane& plane);
 
-/// The same with three channels always, CV_8UC3: grey is red, green and blue alike.
+/// As `image_of`, always CV_8UC3: grey has three equal channels.
 cv::Mat coloured(const Plane& plane);
 
 /// CV_8UC1, CV_8UC2 (grey and alpha, not multiplied by it) or CV_8UC3, written atomically. Throws Error naming `path`.
 void write_png(const std::filesystem::path& path, const cv::Mat& image);
 
-/// The same as the bytes of a file.
+/// As `write_png`, into a string.
 std::string encode_png(const cv::Mat& image);
 
 /// A PNG of any kind as grey and alpha (CV_8UC2), alpha 255 where it has none. Throws Error naming `path`.
@@ -51,7 +51,7 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// Pixels.
+/// Width in pixels.
 double text_width(const std::string& text, const TextStyle& style);
 
 /// Writes text with its baseline at `at`.
@@ -61,39 +61,37 @@ void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const Text
 /// The font holds ASCII only: each other character becomes one '?'.
 std::string ascii(const std::string& text);
 
-/// The text in ASCII, with its middle left out where it is wider than `width`: both the start and the ending of a file
-/// name tell.
+/// The text in ASCII, without its middle if it is wider than `width`: start and end of a file name matter most.
 std::string shortened(const std::string& text, double width, const TextStyle& style);
 
 // --- Panels: images on the paper
 
-/// Between what sizes an image is drawn, pixels.
+/// Limits on the drawn size of an image, pixels.
 struct PanelLimits {
   int smallest_box;  ///< narrower images are enlarged towards it by a whole factor
   int largest_box;   ///< wider ones are reduced to it
   int largest_height;
 };
 
-/// How large an image is drawn.
+/// Size of an image as drawn.
 struct PanelSize {
   cv::Size image;         ///< as drawn
   int box = 0;            ///< width kept for it on the sheet
   std::string zoom_note;  ///< for the caption; empty at full size
 };
 
-/// Full size as far as the sheet stays readable: less for large images, whole multiples for tiny ones. A row or column
-/// of pixels is widened until it can be seen.
+/// Full size if the sheet stays readable; large images are reduced, tiny ones enlarged by a whole factor. A row or column of
+/// pixels is widened until it is visible.
 PanelSize panel_size(int width, int height, const PanelLimits& limits);
 
-/// How an image gets its size on the sheet.
+/// How an image is scaled for the sheet.
 enum class Sampling { average, point };
 
 /// Slanting lines over an image (CV_8UC3) where `background` (CV_8UC1, of the same size) is set. `unit` scales them.
 void hatch(cv::Mat& image, const cv::Mat& background, double unit);
 
-/// Draws an image (CV_8UC3) with a thin frame around it; where `background` (CV_8UC1) is set, hatched.
-/// Enlarged pixels stay squares; reduced ones are averaged over areas or, for identities, sampled at points.
-/// `unit` scales the hatching.
+/// Draws an image (CV_8UC3) with a thin frame around it, hatched where `background` (CV_8UC1) is set. Enlarged pixels stay
+/// squares; reduced ones are averaged over areas or, for identities, sampled at points. `unit` scales the hatching.
 void put_panel(cv::Mat& canvas, const cv::Mat& colours, const cv::Mat& background, cv::Point corner, cv::Size size,
                double unit, Sampling sampling = Sampling::average);
 

@@ -10,12 +10,12 @@
 namespace gloam {
 namespace {
 
-/// Values looked at to find the ends of the colours.
+/// Number of values sampled to find the ends of the colours.
 constexpr size_t sample_size = 200'000;
 
-/// Ends of the colours: the range, or without the outermost 1 % of the values where that is less than half of it. A few
-/// outliers must not wash out all the rest. Positions go without their outermost 10 %: what lies near the horizon is few
-/// pixels and most of the range.
+/// Ends of the colours: the range, or the range without the outermost 1 % of the values if that is less than half of it: a few
+/// outliers must not wash out the rest. Positions go without their outermost 10 %: points near the horizon are few pixels and
+/// most of the range.
 void choose_ends(Range& range, std::vector<float>& sample, PictureStyle style) {
   range.first = range.low;
   range.last = range.high;
@@ -29,7 +29,7 @@ void choose_ends(Range& range, std::vector<float>& sample, PictureStyle style) {
   range.last = last;
 }
 
-/// Values of one component, and every so many of them for the ends of the colours.
+/// Values of one component, and a sample of them for the ends of the colours.
 struct Values {
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   std::vector<float> sample;
@@ -50,7 +50,7 @@ Values values_of(const Tile& tile, size_t component, long long step) {
   return values;
 }
 
-/// Over the tiles that are drawn on one scale.
+/// Range over the tiles that share a scale.
 Range range_of(const std::vector<const Tile*>& tiles, size_t component) {
   size_t pixels = 0;
   for (const Tile* tile : tiles) pixels += size_t(tile->layout().width) * size_t(tile->layout().height);

@@ -13,7 +13,7 @@
 namespace gloam {
 namespace {
 
-/// Both as images of three colours, left first.
+/// Both planes as images of three colours, left first.
 std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& left, const Plane& right) {
   std::array<cv::Mat, 2> images = {coloured(left), coloured(right)};
   if (images[0].size() != images[1].size())
@@ -27,7 +27,7 @@ std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& l
 constexpr int least_width = 320, margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
 const TextStyle words{8, ink};
 
-/// A field of colours and what they mean.
+/// An entry of the legend: a field of colours and its meaning.
 struct Key {
   std::string text;
   cv::Mat swatch;
@@ -46,7 +46,7 @@ std::vector<Key> keys_of(double magnify) {
           {"no surface", background}};
 }
 
-/// Where each key stands: from left to right, in as many rows as that takes.
+/// Positions of the entries: from left to right, in as many rows as needed.
 std::vector<cv::Point> places_of(const std::vector<Key>& keys, int width) {
   std::vector<cv::Point> places;
   cv::Point at(margin, margin);

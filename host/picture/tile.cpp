@@ -15,7 +15,7 @@ struct NamedStyle {
   PictureStyle style;
 };
 
-/// Planes whose kind says too little. One with another number of components is drawn as what it has.
+/// Planes whose kind does not determine the style. A plane with another number of components is drawn by those.
 constexpr std::array<NamedStyle, 5> named_styles{{{"instance", 1, PictureStyle::identity},
                                                   {"peel_count", 1, PictureStyle::count},
                                                   {"outline_count", 1, PictureStyle::count},
@@ -32,7 +32,7 @@ PictureStyle style_of(const Plane& plane) {
   return meaning == PlaneKind::unit_interval ? PictureStyle::share : PictureStyle::scalar;
 }
 
-/// The sky has a colour and a coverage.
+/// Whether background pixels have a value: the sky has a colour and a coverage.
 bool background_has_value(const Plane& plane) { return plane.name == "color" || plane.name == "alpha"; }
 
 const Channel* background_of(const View& view, const Plane& plane, PictureStyle style) {
@@ -59,7 +59,7 @@ double value_at(const Tile& tile, size_t component, int x, int y) {
 size_t components_of(const Tile& tile) { return tile.style == PictureStyle::motion ? 1 : tile.plane->channels.size(); }
 
 bool is_finite(const Tile& tile, int x, int y) {
-  if (tile.style == PictureStyle::depth) {  // and so has a logarithm
+  if (tile.style == PictureStyle::depth) {  // a depth is drawn by its logarithm
     const float depth = tile.plane->channels[0].at(x, y);
     return depth > 0 && std::isfinite(depth);
   }

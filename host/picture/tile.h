@@ -1,4 +1,4 @@
-// A plane of a view as the pictures for people draw it: its style, by what its values mean, and the numbers that are drawn.
+// A plane of a view as it is drawn: its style, by the meaning of its values, and the numbers that are drawn.
 #pragma once
 
 #include <cstddef>
@@ -27,28 +27,28 @@ struct Tile {
   const View* view;
   const Plane* plane;
   PictureStyle style;
-  const Channel* background = nullptr;  ///< depth that is infinite where the tile is hatched; none: nowhere
+  const Channel* background = nullptr;  ///< depth; the tile is hatched where it is infinite; null: no hatching
 
   const Layout& layout() const { return plane->channels[0].layout(); }
   bool is_background(int x, int y) const { return background && gloam::is_background(background->at(x, y)); }
 };
 
-/// By the plane's kind; hatched where the view's depth is infinite, unless the sky has a value.
+/// The tile of a plane, by its kind; hatched where the view's depth is infinite, unless background has a value.
 Tile tile_of(const View& view, const Plane& plane);
 
-/// The number that is drawn of a component, a logarithm of depths; NaN where there is none.
+/// The drawn number of a component (for depths, the logarithm); NaN if there is none.
 double value_at(const Tile& tile, size_t component, int x, int y);
 
-/// Components that are drawn: of motion one, its length.
+/// Number of drawn components; one for motion, its length.
 size_t components_of(const Tile& tile);
 
-/// Whether all that is drawn of a pixel has a colour: is finite, and of depths positive.
+/// Whether all drawn numbers of a pixel have a colour: finite, and positive for depths.
 bool is_finite(const Tile& tile, int x, int y);
 
 /// CV_8UC1, 255 on background.
 cv::Mat background_mask(const Tile& tile);
 
-/// Identities are no numbers to average.
+/// Identities cannot be averaged.
 Sampling sampling_of(const Tile& tile);
 
 }  // namespace gloam

@@ -55,7 +55,7 @@ bool any_background(const Tile& tile) {
   return false;
 }
 
-/// What has to be said beside the range for a picture to be understood.
+/// Notes besides the range that a reader needs to understand the picture.
 std::string key_in_words(const std::vector<Tile>& tiles) {
   std::string words;
   if (std::any_of(tiles.begin(), tiles.end(), any_background)) words += "; hatched: no surface";
@@ -66,7 +66,7 @@ std::string key_in_words(const std::vector<Tile>& tiles) {
 // ---------------------------------------------------------------------------------------------------------------------
 // The sheet of views
 
-/// Where the tiles are.
+/// Layout of the tiles.
 struct Grid {
   static constexpr int gap = 12;
   PanelSize panel;
@@ -81,17 +81,17 @@ struct Grid {
   TextStyle label() const { return {9 * unit, ink}; }
 };
 
-/// Narrower tiles show nothing and cut names off.
+/// Narrower tiles show nothing and cut off names.
 constexpr int narrowest_tile = 96;
 
-/// As many as make the sheet about half as wide again as high.
+/// Number of columns that makes the sheet about half as wide again as high.
 int columns_for(size_t views, double aspect) {
   const int most = (widest - 2 * margin + Grid::gap) / (narrowest_tile + Grid::gap);
   const int wanted = cvCeil(std::sqrt(1.5 * double(views) / std::clamp(aspect, 0.5, 4.0)));
   return std::clamp(std::min(wanted, int(views)), 1, most);
 }
 
-/// Images are not enlarged, but for small ones.
+/// Images are not enlarged, except small ones.
 Grid grid_for(const Frame& frame, bool has_depths) {
   Grid grid;
   grid.columns = columns_for(frame.views.size(), double(frame.width()) / frame.height());
@@ -105,7 +105,7 @@ Grid grid_for(const Frame& frame, bool has_depths) {
   return grid;
 }
 
-/// Every view is much to compute, and none reaches into another's place.
+/// Draws the tiles in parallel: a view takes long, and tiles do not overlap.
 void draw_tiles(cv::Mat& canvas, const Grid& grid, const std::vector<Tile>& tiles, const std::vector<Range>& scale) {
   cv::parallel_for_(cv::Range(0, int(tiles.size())), [&](const cv::Range& part) {
     for (int i = part.start; i < part.end; ++i) {
@@ -157,7 +157,7 @@ Plane stacked_rows(const Frame& frame, const std::string& name, int y) {
   return stack;
 }
 
-/// The scan lines as a view of as many rows as there are views; with depth, to know the background by, if all have it.
+/// The scan lines as a view with one row per view; with depth, to recognise background, if all views have it.
 View stacked_view(const Frame& frame, const std::string& plane, int y) {
   View stack;
   stack.planes[plane] = stacked_rows(frame, plane, y);
@@ -170,7 +170,7 @@ View stacked_view(const Frame& frame, const std::string& plane, int y) {
   return stack;
 }
 
-/// Where things are.
+/// Layout of the scan lines.
 struct LinesLayout {
   PanelSize panel;
   double unit = 1;
@@ -200,7 +200,7 @@ LinesLayout lines_layout(const Frame& frame, bool has_depths) {
   return layout;
 }
 
-/// The name of every view that there is room for, of the first and of the last in any case.
+/// Draws as many view names as there is room for, always the first and the last.
 void draw_view_names(cv::Mat& canvas, const LinesLayout& layout, const std::vector<View>& views) {
   const int room = layout.px(14), last = layout.lines - 1;
   const auto middle = [&](int line) { return layout.top() + line * layout.line_height + layout.line_height / 2; };
@@ -223,7 +223,7 @@ int round_step(double least) {
   return 10 * decade;
 }
 
-/// Columns of the image, so that shifts from view to view can be read off. `first`: the column at the left end.
+/// Draws columns of the image as ticks, so that shifts from view to view can be read off. `first`: the column at the left end.
 void draw_column_ticks(cv::Mat& canvas, const LinesLayout& layout, int columns, int first) {
   const double zoom = double(layout.panel.image.width) / columns;
   const int step = round_step(layout.px(70) / zoom), y = layout.top() + layout.height_of_lines() + 1;

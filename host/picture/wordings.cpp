@@ -24,7 +24,7 @@ size_t different_values(const std::vector<const Tile*>& tiles) {
   return values.size();
 }
 
-/// All components in one.
+/// The union of the ranges of all components.
 Range united(const std::vector<Range>& ranges) {
   Range all = ranges.front();
   for (const Range& range : ranges) {
@@ -53,14 +53,14 @@ Wordings axes(const std::vector<Range>& r) {
 
 std::string instances(size_t count) { return fmt::format("{} instance{}", count, count == 1 ? "" : "s"); }
 
-/// The range, and where it leaves the scale.
+/// The range, and the part of it that is drawn.
 Wordings scalar_range(const Range& all, const Range& drawn) {
   const std::string text = span(all.low, all.high);
   if (drawn.first <= all.low && drawn.last >= all.high) return {text};
   return {fmt::format("{}, drawn {} .. {}", text, figure(drawn.first), figure(drawn.last)), text};
 }
 
-/// What the values of the tiles are.
+/// The meaning of the values of the tiles.
 Wordings values_in_words(const std::vector<const Tile*>& tiles, const std::vector<Range>& own,
                          const std::vector<Range>& scale) {
   const Range all = united(own);

@@ -13,11 +13,11 @@ namespace gloam {
 /// A number in three digits; never "-0".
 std::string figure(double v);
 
-/// Several ways to say it, the longest first.
+/// Several wordings of one fact, the longest first.
 using Wordings = std::vector<std::string>;
 
-/// What the values of tiles of one style and plane are: their `own` ranges, and the `scale` that they are drawn on, of more
-/// tiles perhaps.
+/// The values of tiles of one style and plane: their `own` ranges, and the `scale` on which they are drawn, which may cover more
+/// tiles.
 Wordings range_in_words(const std::vector<const Tile*>& tiles, const std::vector<Range>& own,
                         const std::vector<Range>& scale);
 

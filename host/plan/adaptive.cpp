@@ -14,7 +14,7 @@ namespace {
 
 constexpr int base_resolution = 4;
 constexpr int pixels_of_tile = 4;  // of the base pass, along each axis
-// Rows of lanes lie in one tile each, so that none is estimated twice.
+// A multiple of 16: each row of lanes lies in one tile, so that no pixel is estimated twice.
 constexpr int tile = base_resolution * pixels_of_tile;
 static_assert(tile % 16 == 0);
 
@@ -22,8 +22,8 @@ void check_adaptive(const Plan& plan, const Technique& technique, const std::str
   if (plan.resolution != 1) throw UsageError("--adaptive {}: works at full resolution; leave out --resolution", preset);
   const bool reads_stack = std::any_of(technique.reads.begin(), technique.reads.end(), is_stack);
   if (technique.views > 1 || reads_stack)
-    throw UsageError("--adaptive {}: {} looks at {}, which a base pass does not; leave it out", preset, technique.name,
-                     reads_stack ? "further layers" : "two views");
+    throw UsageError("--adaptive {}: {} reads {}, which a base pass does not; leave --adaptive out", preset,
+                     technique.name, reads_stack ? "further layers" : "two views");
 }
 
 ParameterValues with_preset(const Technique& technique, ParameterValues values, const std::string& name) {
@@ -39,7 +39,7 @@ ParameterValues with_preset(const Technique& technique, ParameterValues values, 
   return values;
 }
 
-/// A technique's passes as planned, but for what a preset says and extras.
+/// A technique's passes as planned, with the values of a preset and without extras.
 std::vector<PlannedPass> passes_with(const Technique& technique, const ParameterValues& values) {
   std::vector<PlannedPass> planned;
   for (Pass& pass : technique.passes(values)) planned.push_back({&technique, std::move(pass), values});
@@ -51,14 +51,14 @@ void append(std::vector<Item>& to, std::vector<Item> items) {
   std::move(items.begin(), items.end(), std::back_inserter(to));
 }
 
-/// Null where the plan does without it.
+/// Null if the plan does not use the technique.
 const ParameterValues* values_of(const Plan& plan, const Technique& technique) {
   const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
                                     [&](const PlannedPass& p) { return p.technique == &technique; });
   return planned == plan.passes.end() ? nullptr : &planned->values;
 }
 
-/// The whole of the techniques at a low resolution with few samples. Its last plane tells where AO varies.
+/// The passes of all techniques at a low resolution with few samples. Their last plane tells where AO varies.
 std::vector<PlannedPass> base_passes(const Plan& plan, const std::vector<const Technique*>& techniques) {
   Plan base = plan;
   base.passes.clear();
@@ -82,14 +82,14 @@ PlannedPass tiles_pass(const std::string& ao, const ParameterValues& values) {
   return {&adapting(), std::move(pass), values};
 }
 
-/// The bits by which a pass skips; empty where it does not.
+/// The plane of bits by which a pass skips pixels; empty if it skips none.
 std::string bits_of(const Pass& pass) {
   const auto wanted = std::find_if(pass.reads.begin(), pass.reads.end(),
                                    [](const Binding& binding) { return binding.argument == "wanted"; });
   return wanted == pass.reads.end() ? "" : wanted->plane;
 }
 
-/// The same estimate with other settings, of what the planned one leaves out.
+/// The planned estimate with other settings, for the pixels that the planned one skips.
 PlannedPass estimate_of_rest(const PlannedPass& planned, const ParameterValues& values) {
   std::vector<PlannedPass> passes = passes_with(*planned.technique, values);
   const auto same = std::find_if(passes.begin(), passes.end(),
@@ -125,7 +125,7 @@ void adapt(Plan& plan, const std::vector<const Technique*>& techniques, const st
     return p.technique == &technique && is_estimate(p.pass) && p.pass.scale == 1;
   });
   if (estimate == plan.passes.end())
-    throw UsageError("--adaptive {}: {} has no estimate that can leave out pixels; leave it out", preset,
+    throw UsageError("--adaptive {}: {} has no estimate that can skip pixels; leave --adaptive out", preset,
                      technique.name);
   PlannedPass rest = estimate_of_rest(*estimate, with_preset(technique, estimate->values, preset));
   std::vector<PlannedPass> passes(plan.passes.begin(), estimate);

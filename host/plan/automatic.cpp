@@ -19,8 +19,8 @@ std::vector<const Technique*> refinements_of(const Technique& technique) {
 
 bool is_of(const std::string& setting, const std::string& technique) { return setting.rfind(technique + ".", 0) == 0; }
 
-/// What is asked of a technique: of one that refines another, "gtao.bias" too, as "stereo-gtao.bias"; and what names another that
-/// may or may not run is not its business.
+/// The settings of the request that apply to a technique. A technique that refines another also gets that one's: "gtao.bias" as
+/// "stereo-gtao.bias". Settings for other techniques, which may or may not run, are left out.
 Settings settings_for(const Technique& technique, const PlanRequest& asked) {
   Settings settings = technique.effect.settings;
   const std::string& refined = technique.effect.refines;
@@ -36,7 +36,7 @@ Settings settings_for(const Technique& technique, const PlanRequest& asked) {
   return settings;
 }
 
-/// What names a technique that may not even run is checked all the same.
+/// Checks the settings of techniques that may not run, too.
 void check_settings(const std::vector<const Technique*>& refinements, const PlanRequest& asked) {
   for (const auto& [name, value] : asked.settings) {
     for (const Technique* technique : refinements) {
@@ -60,13 +60,13 @@ PlanRequest request_everywhere(const Technique& technique, const PlanRequest& as
   return request;
 }
 
-/// Whether fewer samples can be taken in some tiles (`PlanRequest::adaptive`).
+/// Whether some tiles can get fewer samples (`PlanRequest::adaptive`).
 bool can_adapt(const Technique& technique) {
   const std::vector<Pass> passes = technique.passes(ParameterValues(technique.parameters));
   return std::any_of(passes.begin(), passes.end(), is_estimate);
 }
 
-/// Whether what an effect plans has a parameter of that name: "radius", or "gtao.radius".
+/// Whether the plan of an effect has a parameter of this name: "radius", or "gtao.radius".
 bool knows(const Plan& plan, const Technique& technique, const std::string& setting) {
   const std::vector<const Technique*> refinements = refinements_of(technique);
   if (std::any_of(refinements.begin(), refinements.end(), [&](const Technique* t) { return is_of(setting, t->name); }))
@@ -83,7 +83,7 @@ const ParameterValues& values_of(const Plan& plan, const Technique& technique) {
       ->values;
 }
 
-/// The mask by itself, with the parameters that it has for the technique, and `more` over them.
+/// A request for the mask alone, with the technique's parameters of the same names, overridden by `more`.
 PlanRequest mask_request(const Technique& technique, const EffectProbe& probe, const Settings& more, int resolution) {
   const std::string& mask = technique.effect.mask;
   PlanRequest request{.outputs = {mask}, .as_cells = true, .resolution = resolution};
@@ -129,7 +129,7 @@ EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
   const Effect& effect = technique.effect;
   probe_mask(choice, probe, effect.probe, effect.probe_resolution);
   choice.is_everywhere = choice.share > effect.most_share;
-  // What a probe overlooks the mask may still find.
+  // The mask may find what a probe overlooks.
   if (choice.share == 0 && effect.least_share == 0) probe_mask(choice, probe, {}, 1);
   choice.is_wanted = choice.share > effect.least_share;
   choice.why = choice.is_wanted ? fmt::format("{} on {} of the image{}", effect.somewhere, in_percent(choice.share),
@@ -138,13 +138,13 @@ EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
   return choice;
 }
 
-/// Why a frame, or what is asked for, does not go with what refines an effect; empty where it does.
+/// The reason why a frame or request does not suit a technique that refines an effect; empty if it does.
 std::string hindrance(const Technique& technique, const EffectProbe& probe) {
   if (technique.views == 2 && probe.frame.views.size() != 2)
     return fmt::format("the frame has {}", probe.frame.views.size() == 1 ? "one view" : "more than two views");
   const auto has_pose = [](const View& view) { return view.camera && view.camera->pose; };
   if (technique.views == 2 && !std::all_of(probe.frame.views.begin(), probe.frame.views.end(), has_pose))
-    return "nothing tells where the two cameras stand";
+    return "the positions of the two cameras are unknown";
   try {
     make_plan(request_everywhere(technique, probe.asked), probe.available, probe.holds);
   } catch (const MissingPlanes& missing) {
@@ -157,17 +157,17 @@ std::string hindrance(const Technique& technique, const EffectProbe& probe) {
   return "";
 }
 
-/// `chosen`: the refinement that runs already, or null.
+/// `chosen`: the refinement already chosen, or null.
 EffectChoice choose_refinement(const Technique& technique, const Technique* chosen, const EffectProbe& probe) {
   std::string why_not = hindrance(technique, probe);
-  if (why_not.empty() && chosen) why_not = fmt::format("{} runs, which does not do this as well", chosen->name);
+  if (why_not.empty() && chosen) why_not = fmt::format("{} already runs in its place", chosen->name);
   if (why_not.empty()) return choose(technique, probe);
   EffectChoice choice{.technique = &technique};
   choice.why = std::move(why_not);
   return choice;
 }
 
-/// In place of what it refines, or beside it where a mask tells them apart.
+/// Replaces the technique that it refines, or runs beside it if a mask separates the two.
 PlanRequest refined_request(const EffectChoice& refinement, const Technique& refined, const EffectProbe& probe) {
   const Technique& technique = *refinement.technique;
   PlanRequest request = request_everywhere(technique, probe.asked);
@@ -180,9 +180,9 @@ PlanRequest refined_request(const EffectChoice& refinement, const Technique& ref
   return request;
 }
 
-/// Rounds that decide whether a mask pays.
+/// Least number of rounds to decide whether a mask pays.
 constexpr int least_rounds = 3;
-/// A mask that saves less is not worth what it leaves out.
+/// A mask that saves less than 5 % is not worth the pixels that it leaves out.
 constexpr double most_of_everywhere = 0.95;
 
 double least(const std::vector<double>& ms) { return ms.empty() ? 0 : *std::min_element(ms.begin(), ms.end()); }
@@ -242,7 +242,7 @@ Decision decide(const Technique& technique, const EffectProbe& probe) {
   if (!decision.effect.is_everywhere) decision.request.mask = technique.effect.mask;
   const Technique* chosen = nullptr;
   for (const Technique* t : refinements_of(technique)) {
-    // Where nothing calls for an effect more layers may, but not the same in two views.
+    // An effect that nothing visible calls for may still be needed for hidden layers, but not for agreement of two views.
     if (!decision.effect.is_wanted && t->views == 2) continue;
     decision.refinements.push_back(choose_refinement(*t, chosen, probe));
     const EffectChoice& refinement = decision.refinements.back();
@@ -252,7 +252,7 @@ Decision decide(const Technique& technique, const EffectProbe& probe) {
     if (!decision.effect.is_wanted) decision.effect.why += fmt::format(" that is seen, but {}", refinement.why);
     decision.effect.is_wanted = true;
     decision.request = refined_request(refinement, technique, probe);
-    // What only spares work is left out where nothing is looked at.
+    // A refinement that only saves work does not matter if nothing is probed.
     if (t->effect.settings.empty()) decision.everywhere = request_everywhere(*t, probe.asked);
   }
   return decision;
@@ -282,7 +282,7 @@ Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use) {
   once.repeat = 1;
   RunResult with_mask, without;
   std::vector<double> ms_with, ms_without;
-  // In turn, so that what else the machine does falls on both; the first round pays for what a device does once.
+  // Alternating, so that other load on the machine affects both; the first round pays one-time costs of the device.
   for (int round = 0; round < std::max(least_rounds, probe.options.repeat); ++round) {
     with_mask = run(masked, probe.frame, probe.device, once);
     without = run(everywhere, probe.frame, probe.device, once);

@@ -1,4 +1,4 @@
-// What a frame calls for: of all effects that techniques declare (`Technique::effect`), which ones, and where.
+// Automatic choice: which of the effects that techniques declare (`Technique::effect`) a frame calls for, and where.
 #pragma once
 
 #include <string>
@@ -11,73 +11,71 @@
 
 namespace gloam {
 
-/// What a frame is probed for effects with. The frame is normalised (gloam/normalise.h).
+/// The means to probe a frame for effects. The frame is normalised (gloam/normalise.h).
 struct EffectProbe {
   const PlanRequest& asked;  ///< settings, preset, filter and resolution
   const Frame& frame;
   const std::vector<std::string>& available;  ///< planes of the frame
-  const std::string& holds;                   ///< the same in words (plan.h)
+  const std::string& holds;                   ///< the planes in words (plan.h)
   Device& device;
   const RunOptions& options;
 };
 
-/// Of one effect, or of what refines one.
+/// The choice for one effect, or for a technique that refines one.
 struct EffectChoice {
   const Technique* technique = nullptr;
   bool is_wanted = false;
   bool is_everywhere = false;  ///< wanted on so much of the image that no mask is made
   std::string why;             ///< in words, with the share
-  double share = 0;            ///< of the tiles that were probed, of all views
-  double classify_ms = 0;      ///< what finding out took, on the device
-  std::string cells;           ///< the plane of `seen`; empty where nothing was probed
-  Frame seen;                  ///< of each view one pixel per tile: above 0 where it is called for
+  double share = 0;            ///< share of the probed tiles, over all views
+  double classify_ms = 0;      ///< time of probing, on the device
+  std::string cells;           ///< the plane of `seen`; empty if nothing was probed
+  Frame seen;                  ///< one pixel per tile of each view: above 0 where the effect is called for
 };
 
-/// What is made of an effect.
+/// The decision for an effect.
 struct Decision {
   EffectChoice effect;
-  std::vector<EffectChoice>
-      refinements;         ///< at most one of them is wanted, and runs in place of the effect's technique
-  PlanRequest request;     ///< for what is called for
-  PlanRequest everywhere;  ///< for the same without probing what the frame calls for
+  std::vector<EffectChoice> refinements;  ///< at most one is wanted; it replaces the effect's technique
+  PlanRequest request;                    ///< for the pixels that call for the effect
+  PlanRequest everywhere;                 ///< for all pixels, without probing
 };
 
-/// Techniques that declare an effect by itself.
+/// Techniques that declare an effect of their own.
 std::vector<const Technique*> techniques_with_effects();
 
-/// Of what is asked for, that which means something to an effect: a setting such as radius, a filter or an extra plane does so to
-/// some. Throws as `make_plan`
-/// does for a frame that lacks what the effect reads.
+/// The part of a request that applies to an effect: a setting such as radius, a filter or an extra plane applies to some effects
+/// only. Throws as `make_plan` does for a frame that lacks what the effect reads.
 PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
                             const std::vector<std::string>& available, const std::string& holds);
 
-/// The plans that may run for an effect: its own with its mask, and those of what refines it, as far as the frame has what they
-/// read. Together they read all that the effect and its probe take from a frame. Throws MissingPlanes, UsageError.
+/// The plans that may run for an effect: its own with its mask, and those of techniques that refine it, as far as the frame has
+/// their inputs. Together they read all planes that the effect and its probe need. Throws MissingPlanes, UsageError.
 std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest& asked,
                                   const std::vector<std::string>& available, const std::string& holds);
 
-/// Probes a frame on the device (`Effect::probe`); where the probe finds nothing, by the mask itself. What refines an effect is
-/// probed where the frame calls for that effect, and where it reads one view, since layers may call for what nothing seen
-/// does. Throws what `make_plan` and `run` do.
+/// Probes a frame on the device (`Effect::probe`); if the probe finds nothing, by the mask itself. A refinement is probed if the
+/// frame calls for its effect; one that reads a single view is probed anyway, since hidden layers may call for an effect that
+/// nothing visible does. Throws as `make_plan` and `run` do.
 Decision decide(const Technique& technique, const EffectProbe& probe);
 
-/// Whether an effect is computed through its mask, where the decision has one, or everywhere: as said, or what takes less.
+/// Whether an effect is computed through its mask, if the decision has one, or everywhere: as stated, or whichever is faster.
 enum class MaskUse { measured, always, never };
 
-/// What an effect's planes took.
+/// The planes computed for an effect, and their time.
 struct Computed {
   RunResult result;
   bool is_masked = false;
-  /// Milliseconds on the device of the whole plan, the least of some rounds in turn; NaN where it was not run.
+  /// Milliseconds of the whole plan on the device, the least of some alternating rounds; NaN if it was not run.
   double ms = 0, ms_masked = 0, ms_everywhere = 0;
 };
 
-/// Runs what was decided, which has to be wanted. Where the mask's use is to be measured, both ways are run in turn, and the mask is
-/// kept where it saves 5 % or more: what it leaves out is then open, where everywhere finds next to nothing. Otherwise the decision
-/// becomes one for everywhere, and says so.
+/// Runs a decision, which must want the effect. If the mask's use is to be measured, both ways run alternately, and the mask is
+/// kept if it saves 5 % or more: the pixels left out are then open, which is nearly what computing everywhere finds. Otherwise
+/// the decision changes to everywhere, and its text says so.
 Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use);
 
-/// The cells of an effect's mask, as `EffectChoice::seen`, with all that the mask has to tell.
+/// Computes the cells of an effect's mask, as `EffectChoice::seen`, at the mask's full accuracy.
 void probe_closely(EffectChoice& choice, const EffectProbe& probe);
 
 }  // namespace gloam

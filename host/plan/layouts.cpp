@@ -18,7 +18,7 @@ std::set<std::string> planes_of(const Plan& plan) {
 
 size_t layers_in_buffer(const Plan& plan, const std::string& name) {
   if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
-  // Two techniques may make one of the same name, one after the other.
+  // Two techniques may make stacks of the same name, one after the other.
   int layers = 1;
   for (const PlannedPass& planned : plan.passes) {
     for (const Binding& binding : planned.pass.writes) {
@@ -59,7 +59,7 @@ bool needs_two_views(const Plan& plan) {
 
 namespace {
 
-/// The first pass that runs on key views, or on those between them; null where there is none.
+/// The first pass that runs on key views, or on those between them; null if there is none.
 const PlannedPass* pass_of_key_views(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     if (planned.pass.on == On::key_views || planned.pass.on == On::views_between) return &planned;

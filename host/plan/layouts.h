@@ -1,4 +1,4 @@
-// How the planes of a plan lie in memory.
+// Memory layouts of the planes of a plan.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ namespace gloam {
 /// Every plane and stack that a plan's passes touch.
 std::set<std::string> planes_of(const Plan& plan);
 
-/// Planes of one channel each that lie in one buffer: the layers of a stack; 1 for all else.
+/// Number of planes of one channel that share a buffer: the layers of a stack; 1 for other planes.
 size_t layers_in_buffer(const Plan& plan, const std::string& name);
 
 /// The layouts of a plan's planes on an image.
@@ -29,23 +29,23 @@ class Layouts {
   std::map<std::string, int> scales_;
 };
 
-/// The one scale beside the pass's own among the planes that the pass binds of its view; 0 where there is none. Throws Error
-/// where there are two.
+/// The one scale other than the pass's own among the planes of its view that it binds; 0 if there is none. Throws Error if there
+/// are two.
 int other_scale(const PlannedPass& planned, const Layouts& layouts);
 
 /// Bytes of a plane or stack.
 unsigned long long bytes_of(const Plan& plan, const Layouts& layouts, const std::string& name);
 
-/// Whether passes look from one of two views into the other.
+/// Whether passes of one of two views read the other.
 bool needs_two_views(const Plan& plan);
 
-/// Whether some views are key views that others look into.
+/// Whether some views are key views that others read.
 bool looks_into_key_views(const Plan& plan);
 
-/// Every how many views of a frame of so many one is a key view; 1 where all are alike.
+/// Distance between key views in a frame of this many views; 1 if there are none.
 int key_view_spacing(const Plan& plan, size_t views);
 
-/// How many of a frame's views are on the device together: those that look into one another.
+/// Number of views that are on the device together: those that read one another.
 size_t views_at_once(const Plan& plan, size_t views);
 
 }  // namespace gloam

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// Bits of what is wanted, and with what filters read around it, at a resolution.
+/// Planes of bits at a resolution: the wanted pixels, and these with the pixels that filters read around them.
 std::string wanted(int scale) { return scale == 1 ? "wanted" : fmt::format("wanted@{}", scale); }
 std::string grown(int scale) { return scale == 1 ? "wanted.grown" : fmt::format("wanted.grown@{}", scale); }
 
@@ -36,7 +36,7 @@ class Restriction {
       is_restricted_.push_back(planned.pass.can_skip && (is_asked_for || planned.technique == &resampling()));
       if (planned.pass.repeats_cells && planned.pass.writes.front().plane == plan.mask &&
           !contains(plan.outputs, plan.mask)) {
-        // The cells do as well.
+        // The cells serve as the mask.
         left_out_ = &planned;
         source_ = planned.pass.reads.front().plane;
         cell_ = plane_scales(plan).at(source_);
@@ -68,10 +68,10 @@ class Restriction {
   }
 
   std::vector<PlannedPass> passes;
-  std::string estimated;  ///< bits by which the first of the restricted passes skips
+  std::string estimated;  ///< bits by which the first restricted pass skips pixels
 
  private:
-  /// How far later passes of the same resolution read around a pixel, from pass `from` on.
+  /// Footprint of all passes of the same resolution from pass `from` on, added up.
   Footprint footprint_after(size_t from, int scale) const {
     Footprint all;
     for (size_t i = from; i < plan_.passes.size(); ++i) {
@@ -88,14 +88,14 @@ class Restriction {
       passes.push_back(bits_pass(source_, cell_, "", "wanted", elsewhere_ ? rest : ""));
     } else {
       need_wanted(1);
-      // Those from which a wanted pixel is upsampled.
+      // Reduced pixels that a wanted pixel is upsampled from.
       add_grown(wanted(1), wanted_around(scale), {scale - 1, scale - 1}, 1);
       passes.push_back(mask_pass("reduced", "mask_reduced", {"whole", wanted_around(scale)}, {"wanted", wanted(scale)},
                                  {{"SCALE", scale}}, scale));
     }
   }
 
-  /// As far as all filters together read: those between have the same.
+  /// Grown by the footprint of all filters together: every pass before the last filter uses the same bits.
   void need_grown(int scale) {
     if (!grown_.insert(scale).second) return;
     add_grown(wanted(scale), grown(scale), footprint_after(0, scale), scale);
@@ -146,16 +146,15 @@ void keep_skipped(Pass& pass) { pass.defines.emplace_back("KEEP", 1); }
 void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques, const Technique* elsewhere) {
   for (const Technique* technique : techniques) {
     if (technique->views > 1)
-      throw UsageError("--only: restricts techniques that look at one view, and {} looks at two; leave it out",
+      throw UsageError("--only: restricts techniques that read one view, and {} reads two; leave --only out",
                        technique->name);
   }
   if (elsewhere && looks_into_key_views(plan))
-    throw UsageError(
-        "--elsewhere {}: what views take over from one another (reuse=on) is one technique's; leave out one of both",
-        elsewhere->name);
+    throw UsageError("--elsewhere {}: views reuse results of one technique only (reuse=on); leave one of the two out",
+                     elsewhere->name);
   Restriction restriction(plan, techniques, elsewhere);
   if (!restriction.has_work())
-    throw UsageError("--only: {} has no work that a mask can leave out; leave it out", plan.technique);
+    throw UsageError("--only: {} has no pass that a mask can restrict; leave --only out", plan.technique);
   restriction.rewrite();
   plan.passes = std::move(restriction.passes);
   if (elsewhere)

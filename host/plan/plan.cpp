@@ -16,7 +16,7 @@
 namespace gloam {
 namespace {
 
-/// Planes made beside the others because they are asked for.
+/// Adds the extras that are asked for to a pass's outputs.
 void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
   for (const Binding& extra : pass.extras) {
     if (!contains(outputs, extra.plane)) continue;
@@ -25,7 +25,7 @@ void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
   }
 }
 
-/// What of the frame is not taken, and why. Layers are told as one, by the name of their stack.
+/// Notes which planes of the frame are not read, and why. The layers of a stack are one entry.
 void skip_the_rest(Plan& plan, const std::vector<std::string>& available) {
   std::vector<std::string> told;
   for (const std::string& plane : available) {
@@ -43,13 +43,13 @@ std::vector<Pass> passes_of(const Technique& technique, const ParameterValues& v
   return technique.passes ? technique.passes(values) : std::vector<Pass>();
 }
 
-/// A mask is made of all pixels, before what it restricts.
+/// The techniques without the maker of the mask, which is made from all pixels before the techniques that it restricts.
 Techniques without_maker(Techniques techniques, const std::string& mask) {
   std::erase_if(techniques, [&](const Technique* t) { return contains(t->writes, mask); });
   return techniques;
 }
 
-/// Motion is told in pixels of the image.
+/// Throws UsageError for techniques that read motion at a lower resolution: motion is in pixels of the full image.
 void check_full_resolution(const PlanRequest& request, const Techniques& techniques) {
   if (request.resolution == 1) return;
   for (const Technique* technique : techniques) {
@@ -59,7 +59,7 @@ void check_full_resolution(const PlanRequest& request, const Techniques& techniq
   }
 }
 
-/// Leaves out the passes that only repeat cells.
+/// Removes the passes that only repeat cells, so that the cells themselves are the output.
 void put_out_cells(Plan& plan) {
   for (std::string& output : plan.outputs) {
     const auto repeats = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {

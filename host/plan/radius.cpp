@@ -9,17 +9,17 @@
 namespace gloam {
 namespace {
 
-/// Depths of all views that the median is taken of, at most about: enough for three digits.
+/// About the largest number of depths, over all views, that the median is taken from: enough for three digits.
 constexpr double samples = 65536;
 
-/// Fewer pixels find hardly any occluder.
+/// A radius of fewer pixels finds hardly any occluder.
 constexpr double least_pixels = 2;
-/// A radius that covers so much less than the default was most likely meant in another unit.
+/// A radius that is this much smaller than the default was most likely meant in another unit.
 constexpr double far_below_default = 1.0 / 8;
 
 double rounded_to_two_digits(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
-  // Through text, so that 0.38 is the double next to 0.38.
+  // By way of text, so that 0.38 is the double nearest to 0.38.
   return std::stod(fmt::format("{:.1e}", std::round(value / unit) * unit));
 }
 
@@ -84,7 +84,7 @@ std::optional<double> radius_made_from(const Frame& frame) {
   const std::optional<double> pixels = pixels_at_median_depth(frame);
   if (!pixels) return {};
   const double radius = rounded_to_two_digits(default_radius_share * longer_side(frame) / *pixels);
-  // Kernels hold it as float.
+  // Kernels hold the radius as float.
   return std::clamp(radius, 1e-30, 1e30);
 }
 
@@ -126,7 +126,7 @@ std::string warning_about(const Radius& radius, const Frame& frame, std::optiona
   if (pixels < std::max(least_pixels, far_below_default * default_radius_share * longer_side(frame)))
     return fmt::format("{}: few occluders are that near; {}", reaches, instead);
   if (pixels > most)
-    return fmt::format("{}, and most pixels are searched up to {} alone{}; {}", reaches, in_pixels(most),
+    return fmt::format("{}, but most pixels are searched only up to {}{}; {}", reaches, in_pixels(most),
                        cap ? fmt::format(" (max_reach {:g})", *cap) : ", the image's width", instead);
   return "";
 }

@@ -12,7 +12,7 @@ namespace {
 
 std::string reduced_name(const std::string& plane, int resolution) { return fmt::format("{}@{}", plane, resolution); }
 
-/// The kernel for planes of such components.
+/// Name of the kernel for a plane with these components.
 std::string kernel_for(const std::string& kernel, const std::string& plane) {
   using Components = std::vector<std::string>;
   static const std::vector<std::pair<Components, std::string>> endings = {
@@ -21,10 +21,11 @@ std::string kernel_for(const std::string& kernel, const std::string& plane) {
   for (const auto& [known, ending] : endings) {
     if (known == components) return kernel + ending;
   }
-  throw Error("'{}' has the components {}, which cannot be had at a lower resolution", plane, enumerate(components));
+  throw Error("'{}' has the components {}, which cannot be computed at a lower resolution", plane,
+              enumerate(components));
 }
 
-/// Of the whole image's plane or stack, every n-th pixel.
+/// The pass that takes every n-th pixel of a full-resolution plane or stack.
 Pass subsample(const std::string& plane, const Plan& plan) {
   const int resolution = plan.resolution;
   Pass pass{.name = "subsample " + plane, .defines = {{"SCALE", resolution}}, .scale = resolution};
@@ -55,7 +56,7 @@ Pass upsample(const std::string& plane, int resolution) {
           .can_skip = true};
 }
 
-/// From the reduced pixels of both views, so that these agree on what both see.
+/// Upsamples from the reduced pixels of both views, so that the views agree where both see a surface.
 Pass upsample_of_both(const std::string& plane, int resolution) {
   Pass pass = upsample(plane, resolution);
   pass.kernel = kernel_for("joint_upsample_of_both", plane);
@@ -68,7 +69,7 @@ Pass upsample_of_both(const std::string& plane, int resolution) {
   return pass;
 }
 
-/// Passes of a plan, rewritten one by one.
+/// Rewrites the passes of a plan one by one.
 class Reduction {
  public:
   Reduction(const Plan& plan, const ParameterValues& values) : plan_(plan), values_(values) {}
@@ -91,9 +92,8 @@ class Reduction {
     for (const std::string& output : plan_.outputs) {
       if (made_.count(output) == 0) continue;
       if (contains(resampling().reads, output))
-        throw UsageError(
-            "{}: '{}' is what guides upsampling, so it has to be made of every pixel; use --resolution full",
-            plan_.technique, output);
+        throw UsageError("{}: '{}' guides upsampling, so it needs every pixel; use --resolution full", plan_.technique,
+                         output);
       if (is_stack(output))
         throw UsageError("{}: '{}' holds layers, which cannot be upsampled; use --resolution full", plan_.technique,
                          output);
@@ -103,7 +103,7 @@ class Reduction {
     }
   }
 
-  /// Of the outputs that are made at the low resolution, the names there.
+  /// Names, at the low resolution, of the outputs that are made there.
   std::vector<std::string> reduced_outputs() const {
     std::vector<std::string> outputs = plan_.outputs;
     for (std::string& output : outputs) {
@@ -115,7 +115,7 @@ class Reduction {
   std::vector<PlannedPass> passes;
 
  private:
-  /// What is not made at the low resolution comes from the whole image.
+  /// Ensures that a plane exists at the low resolution: if no pass makes it there, it is subsampled.
   void need(const std::string& plane) {
     if (!made_.insert(plane).second) return;
     passes.push_back({&resampling(), subsample(plane, plan_), values_, plan_.resolution});
@@ -128,11 +128,11 @@ class Reduction {
 
   const Plan& plan_;
   const ParameterValues& values_;
-  std::set<std::string> made_;          ///< at the low resolution
-  std::map<std::string, bool> agreed_;  ///< of these, whether two views do
+  std::set<std::string> made_;          ///< planes made at the low resolution
+  std::map<std::string, bool> agreed_;  ///< for these planes, whether two views agree
 };
 
-/// Layers that nobody asked for are there for who did: made at the same resolution.
+/// Whether a technique makes a stack. If nobody asked for it, it is made for the technique that reads it, at the same resolution.
 bool makes_stack(const Technique& technique) {
   return std::any_of(technique.writes.begin(), technique.writes.end(),
                      [](const std::string& plane) { return is_stack(plane); });

@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-/// Every setting reaches at least one planned technique, or is an error.
+/// Applies the settings. A setting that reaches no planned technique is an error.
 void apply(const PlanRequest& request, const Techniques& order, const std::string& main,
            std::vector<ParameterValues>& values) {
   const auto set_where_known = [&](const std::string& name, const std::string& value, const std::string& only) {
@@ -62,7 +62,7 @@ void set_default_radius(double radius, const Techniques& order, std::vector<Para
   }
 }
 
-/// What a technique says of its follower.
+/// Sets the values that a technique gives to its follower.
 void set_followers(const Techniques& order, std::vector<ParameterValues>& values) {
   for (const Technique* technique : order) {
     for (size_t i = 0; i < order.size(); ++i) {
@@ -72,7 +72,7 @@ void set_followers(const Techniques& order, std::vector<ParameterValues>& values
   }
 }
 
-/// A follower works on the same radius as the technique it follows.
+/// A follower inherits the radius of the technique that it follows.
 void inherit(const Techniques& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
     for (size_t to = from + 1; to < order.size(); ++to) {
@@ -85,7 +85,7 @@ void inherit(const Techniques& order, std::vector<ParameterValues>& values) {
   }
 }
 
-/// What makes layers makes as many as are asked for: parameters of the same name.
+/// A technique that makes layers makes as many as are asked for, by parameters of the same name.
 void pass_on_to_stacks(const Techniques& order, std::vector<ParameterValues>& values) {
   for (size_t reader = 0; reader < order.size(); ++reader) {
     for (size_t maker = 0; maker < reader; ++maker) {
@@ -100,7 +100,7 @@ void pass_on_to_stacks(const Techniques& order, std::vector<ParameterValues>& va
   }
 }
 
-/// A mask is made for the technique that it restricts: parameters of the same name, such as the radius.
+/// A mask shares parameters of the same name, such as the radius, with the technique that it restricts.
 void pass_on_to_mask(const Techniques& order, const Technique& restricted, const std::string& mask,
                      std::vector<ParameterValues>& values) {
   const size_t asks = size_t(std::find(order.begin(), order.end(), &restricted) - order.begin());
@@ -121,7 +121,7 @@ std::vector<ParameterValues> values_of(const PlanRequest& request, const Techniq
   for (const Technique* t : order) values.emplace_back(t->parameters);
   if (request.radius) set_default_radius(*request.radius, order, values);
   set_followers(order, values);
-  // Twice: what a follower inherits is already set, and what is said of the follower itself wins.
+  // Applied twice: a follower's inherited values are then set, and settings for the follower itself override them.
   apply(request, order, main, values);
   inherit(order, values);
   pass_on_to_stacks(order, values);

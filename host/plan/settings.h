@@ -1,5 +1,4 @@
-// The values of the parameters of a plan's techniques: defaults, presets, settings, and what one technique passes on to
-// another.
+// Values of the parameters of a plan's techniques: defaults, presets, settings, and values that one technique passes on to another.
 #pragma once
 
 #include <string>
@@ -10,8 +9,8 @@
 namespace gloam {
 
 /// Values for each technique of `order`. `main`: the plan's name, for messages. `restricted`, `mask`: the technique that a mask
-/// restricts (null: none), and the mask's plane. Throws UsageError for a preset or a setting that reaches no technique, or
-/// whose value is not allowed.
+/// restricts (null: none), and the mask's plane. Throws UsageError for a preset or setting that reaches no technique, or whose
+/// value is not allowed.
 std::vector<ParameterValues> values_of(const PlanRequest& request, const Techniques& order, const std::string& main,
                                        const Technique* restricted, const std::string& mask);
 

@@ -10,7 +10,7 @@
 namespace gloam {
 namespace {
 
-/// All layers up to the last one at hand, front to back.
+/// All layers up to the last available one, front to back.
 std::vector<std::string> layers_of(const std::string& stack, const std::vector<std::string>& available) {
   int last = 0;
   for (const std::string& plane : available) {
@@ -24,7 +24,7 @@ std::vector<std::string> layers_of(const std::string& stack, const std::vector<s
 
 std::string layer_count_define(const Binding& binding) { return upper_case(binding.argument) + "_LAYERS"; }
 
-/// Layers of a stack that the frame has, or that an earlier pass writes.
+/// Number of layers of a stack that the frame has or an earlier pass writes.
 int layers_at_hand(const Plan& plan, const std::string& stack) {
   if (const auto known = plan.stacks.find(stack); known != plan.stacks.end()) return int(known->second.size());
   for (const PlannedPass& planned : plan.passes) {

@@ -20,7 +20,7 @@ Walk::Walk(const Wanted& wanted, std::vector<std::string> available, const std::
 void Walk::need(const std::string& plane, const Technique* asking) {
   if (contains(made_, plane) || contains(inputs, plane) || contains(missing, plane)) return;
   const Technique* maker = maker_of(plane, asking, wanted_.makers);
-  if (std::find(order.begin(), order.end(), maker) != order.end()) return;  // an extra of what is made
+  if (std::find(order.begin(), order.end(), maker) != order.end()) return;  // an extra of a technique that already runs
   const bool under_way = maker && std::find(begun_.begin(), begun_.end(), maker) != begun_.end();
   const bool asked_for =
       maker && std::find(wanted_.makers.begin(), wanted_.makers.end(), maker) != wanted_.makers.end();
@@ -43,7 +43,7 @@ void Walk::schedule(const Technique& technique) {
 
 namespace {
 
-/// Of missing planes, what is made of one that nothing else reads, by a technique that nobody asked for.
+/// For missing planes from which a technique that nobody asked for makes a plane that nothing else reads: that plane.
 std::map<std::string, std::string> substitutes(const Wanted& wanted, const Techniques& order,
                                                const std::vector<std::string>& missing) {
   std::map<std::string, std::string> instead;
@@ -60,12 +60,12 @@ std::map<std::string, std::string> substitutes(const Wanted& wanted, const Techn
   return instead;
 }
 
-/// What makes a plane that no technique makes: "gloam capture --peel N"; empty where that is not known.
+/// The command that makes a plane that no technique makes: "gloam capture --peel N"; empty if unknown.
 std::string maker_outside(const std::string& plane) {
   return is_stack(plane) ? stack_kind(plane).source : plane_kind(plane).source;
 }
 
-/// "gloam capture --peel N makes 'peel'", with all of `planes` that it makes.
+/// "gloam capture --peel N makes 'peel'", with all of `planes` that the command makes.
 std::string source_of(const std::string& plane, const std::vector<std::string>& planes) {
   const std::string source = maker_outside(plane);
   if (source.empty()) return "";
@@ -88,7 +88,7 @@ void throw_missing(const std::string& technique, const Wanted& wanted, const Wal
     quoted.push_back("'" + (least == instead.end() ? plane : least->second) + "'");
     const std::string first = least == instead.end() ? "" : source_of(least->second, {least->second});
     const std::string own = source_of(plane, missing);
-    if (sources.find(own) != std::string::npos && first.empty()) continue;  // said of another plane
+    if (sources.find(own) != std::string::npos && first.empty()) continue;  // already listed for another plane
     if (!first.empty()) sources += first + (own.empty() ? "; " : ", or " + own + ", which does as well; ");
     if (first.empty() && !own.empty()) sources += own + "; ";
   }

@@ -1,4 +1,4 @@
-// The walk back from the planes asked for to what makes them, and to the planes at hand.
+// The walk back from the planes asked for to the techniques that make them, and to the planes at hand.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace gloam {
 
-/// Walks back from planes to what makes them, and to the planes at hand.
+/// Finds the techniques that make the wanted planes, and the planes at hand that they need.
 class Walk {
  public:
-  /// `also`: planes that are needed beside the outputs. `mask`: one that is needed before them; may be empty.
+  /// `also`: planes needed besides the outputs. `mask`: a plane needed before them; may be empty.
   Walk(const Wanted& wanted, std::vector<std::string> available, const std::vector<std::string>& also,
        const std::string& mask);
 
@@ -30,8 +30,8 @@ class Walk {
   std::vector<std::string> made_;
 };
 
-/// Throws MissingPlanes with all that a walk missed, in words; what would take least first. `technique`: the plan's name.
-/// `holds`: words on what the file does hold.
+/// Throws MissingPlanes for everything that a walk missed, the cheapest remedy first. `technique`: the plan's name. `holds`: text
+/// about what the file does hold.
 [[noreturn]] void throw_missing(const std::string& technique, const Wanted& wanted, const Walk& walk,
                                 const std::string& holds);
 

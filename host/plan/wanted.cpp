@@ -16,12 +16,12 @@ const Technique* technique_named(const std::string& name) {
   return nullptr;
 }
 
-/// Whether a technique makes a plane, by itself or where it is asked to.
+/// Whether a technique makes a plane, by default or as an extra.
 bool makes(const Technique& t, const std::string& plane) {
   return contains(t.writes, plane) || contains(t.extras, plane);
 }
 
-/// All planes that any technique makes, for suggestions.
+/// Names of all planes that any technique makes, and of all techniques, for suggestions.
 std::vector<std::string> plane_and_technique_names() {
   std::vector<std::string> names = technique_names();
   for (const Technique& t : registry()) {
@@ -31,7 +31,7 @@ std::vector<std::string> plane_and_technique_names() {
   return names;
 }
 
-/// How many techniques leave their outputs to this one.
+/// Number of techniques that leave their outputs to this one.
 std::ptrdiff_t followed_by_default(const Technique& technique) {
   return std::count_if(registry().begin(), registry().end(),
                        [&](const Technique& other) { return other.then == technique.name; });
@@ -56,7 +56,7 @@ const Technique* maker_of(const std::string& plane, const Technique* asking, con
 
 namespace {
 
-/// Whether a technique makes of what another writes one of the outputs that the other leaves to a follower.
+/// Whether a technique makes, from the outputs of another, an output that the other leaves to a follower.
 bool follows(const Technique& follower, const Technique& technique) {
   return std::any_of(follower.writes.begin(), follower.writes.end(),
                      [&](const std::string& plane) {
@@ -80,7 +80,7 @@ const Technique& follower_named(const std::string& name, const Technique& techni
                    follower ? "" : suggestion(name, fitting), enumerate(fitting));
 }
 
-/// A technique asked for brings its follower: its own, or the one that the request names.
+/// Adds a technique asked for, and its follower: its own, or the one that the request names.
 void add_makers(Wanted& wanted, const Technique& technique, const std::string& then) {
   wanted.makers.push_back(&technique);
   const std::string follower = then.empty() ? technique.then : then;
@@ -88,15 +88,15 @@ void add_makers(Wanted& wanted, const Technique& technique, const std::string& t
   wanted.makers.push_back(then.empty() ? &find_technique(follower) : &follower_named(then, technique));
 }
 
-/// A technique's outputs, without those that only a follower would make where there shall be none.
+/// Adds a technique's outputs, without those that only a follower would make if there is none.
 void want_outputs(Wanted& wanted, const Technique& technique, const std::string& then) {
   for (const std::string& plane : outputs_of(technique)) {
     if (then != "none" || contains(technique.writes, plane)) add_new(wanted.outputs, plane);
   }
 }
 
-/// The technique that a plane is asked of: what makes it, or what that follows where its work is not at hand. Who asks
-/// for `ao` asks for an estimate and its filter.
+/// The technique to make a plane: its maker, or the technique that leaves the plane to that maker if its input is not at hand. A
+/// request for `ao` thus asks for an estimate and its filter.
 const Technique* asked_for(const std::string& plane, const std::vector<std::string>& available,
                            const Techniques& makers) {
   const Technique* maker = maker_of(plane, nullptr, makers);
@@ -179,7 +179,7 @@ std::string want_mask(Wanted& wanted, const std::string& mask, const std::vector
         mask, suggestion(mask, names));
   }
   if (plane_kind(plane).components.size() != 1 || is_stack(plane))
-    throw UsageError("--only {}: '{}' is no single value per pixel; corner-mask makes a mask", mask, plane);
+    throw UsageError("--only {}: '{}' has several values per pixel; corner-mask makes a mask", mask, plane);
   return plane;
 }
 
@@ -188,19 +188,19 @@ bool is_adaptive(const PlanRequest& request) { return !request.adaptive.empty() 
 const Technique* want_elsewhere(const PlanRequest& request, const Wanted& wanted) {
   if (request.elsewhere.empty()) return nullptr;
   const std::string& name = request.elsewhere;
-  if (request.mask.empty()) throw UsageError("--elsewhere {}: nothing says where it does; add --only MASK", name);
+  if (request.mask.empty()) throw UsageError("--elsewhere {}: needs a mask; add --only MASK", name);
   if (request.resolution > 1)
     throw UsageError("--elsewhere {}: works at full resolution; leave out --resolution", name);
   if (is_adaptive(request))
     throw UsageError("--elsewhere {}: goes without --adaptive {}; leave one of them out", name, request.adaptive);
   if (wanted.makers.empty())
-    throw UsageError("--elsewhere {}: nothing is estimated where the mask is; leave it out", name);
+    throw UsageError("--elsewhere {}: nothing is estimated inside the mask; leave --elsewhere out", name);
   const Technique& technique = find_technique(name);
   const Technique& asked_for = *wanted.makers.front();
   if (&technique == &asked_for)
-    throw UsageError("--elsewhere {}: is what runs where the mask is, too; leave out --only and --elsewhere", name);
+    throw UsageError("--elsewhere {}: also runs inside the mask; leave out --only and --elsewhere", name);
   if (technique.writes != asked_for.writes || technique.views > 1)
-    throw UsageError("--elsewhere {}: makes {}, and {} makes {}; name an estimate of the same", name,
+    throw UsageError("--elsewhere {}: makes {}, and {} makes {}; name an estimate of the same planes", name,
                      enumerate(technique.writes), asked_for.name, enumerate(asked_for.writes));
   for (const std::string& extra : wanted.outputs) {
     if (contains(asked_for.extras, extra) && !contains(technique.extras, extra))

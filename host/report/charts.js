@@ -1,4 +1,4 @@
-// What the charts, Vega specifications, have in common: marks, colours, scales, the box beside the pointer.
+// What the charts (Vega specifications) share: marks, colours, scales, the box beside the pointer.
 
 const shapes = [
   'M-1,0a1,1,0,1,0,2,0a1,1,0,1,0,-2,0Z',                           // circle
@@ -27,7 +27,7 @@ function theme() {
   };
 }
 
-/// Eight colours and seven shapes in step: 56 techniques until one looks like another.
+/// Eight colours and seven shapes advance together: 56 techniques before a pair repeats.
 const colourOf = (index) => theme().colours[index % theme().colours.length];
 const shapeOf = (index) => shapes[index % shapes.length];
 
@@ -67,7 +67,7 @@ function configuration(colours) {
   };
 }
 
-/// Draws a specification where another may be already.
+/// Draws a specification in place of an earlier one.
 function draw(place, spec, width) {
   if (place.view) place.view.finalize();
   const view = new vega.View(
@@ -89,7 +89,7 @@ function clearChart(place) {
   place.replaceChildren();
 }
 
-/// 0.5, 1, 2, 5, ... within a domain; fewer where there would be no room.
+/// 0.5, 1, 2, 5, ... within a domain; fewer if there is no room.
 function logTicks([low, high], most) {
   for (const steps of [[1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 3, 5], [1, 2, 5], [1, 3], [1]]) {
     const ticks = [];
@@ -103,7 +103,7 @@ function logTicks([low, high], most) {
   }
 }
 
-/// Some room around what is shown, on a logarithmic axis.
+/// A domain with some room around the values, for a logarithmic axis.
 function logDomain(values) {
   const low = Math.min(...values), high = Math.max(...values), room = Math.max(1.12, (high / low) ** 0.07);
   return [low / room, high * room];

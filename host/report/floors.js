@@ -1,10 +1,10 @@
-// Each plan's time beside its floor.
+// The time of each plan beside its floor.
 
-/// Each plan's time beside its floor. `rows`: {name, floor, ms, ratio, colour, shape, hover}
+/// Specification of the chart. `rows`: {name, floor, ms, ratio, colour, shape, hover}
 function floorSpec({rows, width}) {
   const colours = theme();
   const domain = logDomain(rows.flatMap((r) => [r.floor, r.ms]));
-  domain[1] *= (domain[1] / domain[0]) ** Math.min(0.5, 60 / width);  // for the text behind the last mark
+  domain[1] *= (domain[1] / domain[0]) ** Math.min(0.5, 60 / width);  // room for the text behind the last mark
   const y = {scale: 'y', field: 'id', band: 0.5};
   return {
     height: rows.length * 24 + 50,

@@ -28,7 +28,7 @@ std::vector<size_t> front_over(const std::vector<size_t>& chosen, const std::vec
 using Setting = std::tuple<std::string, std::string, std::string>;
 Setting setting_of(const Row& row) { return {row.technique, row.preset, row.variant}; }
 
-/// Setting -> scene -> row. Where a setting was measured twice in a scene, the first counts.
+/// Setting -> scene -> row. If a setting was measured twice in a scene, the first row counts.
 using BySetting = std::map<Setting, std::map<std::string, size_t>>;
 
 BySetting rows_by_setting(const std::vector<Row>& rows, const std::vector<std::string>& scenes) {

@@ -14,7 +14,7 @@ function settingButton(row, scene) {
       swatch(techniqueOf(row), row.variant !== ''), nameOf(row));
 }
 
-/// Per technique, on how many of the class's scenes one of its settings is on the front.
+/// Per technique, the number of the class's scenes that have one of its settings on the front.
 function techniqueSentence(each) {
   const parts = techniques
                     .map((name) => {

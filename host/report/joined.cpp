@@ -11,7 +11,7 @@
 namespace gloam::report {
 namespace {
 
-/// Classes in the order in which they are shown; others follow.
+/// Order of the classes; other classes follow.
 constexpr std::array<const char*, 5> class_order{"architecture", "thin", "object", "flat", "own"};
 
 size_t rank(const Scene& scene) {
@@ -22,14 +22,14 @@ std::string size_of(const Scene& scene) {
   return scene.width && scene.height ? fmt::format("{:.0f}x{:.0f}", *scene.width, *scene.height) : "";
 }
 
-/// On what sizes and devices something was measured.
+/// Sizes and devices that something was measured on.
 struct Places {
   std::set<std::string> sizes, devices;
   void add(const Scene& scene, const Source& source) {
     sizes.insert(size_of(scene));
     devices.insert(source.measurements.device);
   }
-  /// " at 480x270 on a device", as far as there are several.
+  /// " at 480x270 on a device": only what differs between sources.
   std::string told(const Scene& scene, const Source& source) const {
     std::string text;
     if (sizes.size() > 1) text += " at " + size_of(scene);
@@ -38,7 +38,7 @@ struct Places {
   }
 };
 
-/// Scenes of one source under names that tell them from those of the others.
+/// The scenes of one source, renamed so that they differ from those of the others.
 Measurements renamed(const Source& source, size_t index, const std::map<std::string, Places>& places) {
   Measurements m = source.measurements;
   std::map<std::string, std::string> names;
@@ -59,7 +59,7 @@ Measurements renamed(const Source& source, size_t index, const std::map<std::str
   return m;
 }
 
-/// Appends what is there once at most.
+/// Appends entries that may occur only once.
 class Joining {
  public:
   explicit Joining(const std::vector<Source>& sources) : sources_(sources) {}
@@ -90,7 +90,7 @@ class Joining {
     }
   }
 
-  /// False for what is there already.
+  /// False for an entry that is there already.
   bool is_new(const std::string& scene, const std::string& what, size_t source) {
     const auto [before, added] = source_of_.emplace(std::make_pair(scene, what), source);
     if (!added && before->second != source)
@@ -106,7 +106,7 @@ class Joining {
   }
 
   const std::vector<Source>& sources_;
-  std::map<std::pair<std::string, std::string>, size_t> source_of_;  ///< scene and what was measured there
+  std::map<std::pair<std::string, std::string>, size_t> source_of_;  ///< scene and what was measured on it
 };
 
 }  // namespace

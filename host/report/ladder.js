@@ -1,11 +1,11 @@
 // The ladder: from the truth to what is shipped, step by step.
 
-/// Bars beside one another, a line for each total. `bars`: {step, index, value, colour, opacity, hover}; `totals`: {value,
-/// colour, opacity, dash, label, picked}.
+/// Specification: bars beside one another, a line for each total. `bars`: {step, index, value, colour, opacity, hover}; `totals`:
+/// {value, colour, opacity, dash, label, picked}.
 function ladderSpec({steps, count, bars, totals, width}) {
   const colours = theme(), height = 280, wide = width >= 620;
   const highest = Math.max(1e-9, ...bars.map((b) => b.value || 0), ...totals.map((t) => t.value)) * 1.06;
-  // A label that would lie on another is left out, but never what is picked: the table has them all.
+  // Leaves out labels that would overlap, except that of the picked setting: the table has them all.
   const labelled = [];
   for (const total of [...totals].sort((a, b) => (b.picked || 0) - (a.picked || 0) || b.value - a.value)) {
     const at = height * (1 - total.value / highest);
@@ -128,7 +128,7 @@ function ladderSpec({steps, count, bars, totals, width}) {
   };
 }
 
-/// The picked one and the chosen, in the order of choosing, with how each is drawn.
+/// The picked setting and the chosen ones, in the order of choosing, with the style of each.
 function compared() {
   const keys = unique([...(state.picked ? [state.picked] : []), ...state.chosen]).filter(rowNow);
   const met = new Map();

@@ -71,7 +71,7 @@ std::string table_of_scenes(const Measurements& all) {
 
 constexpr size_t most_sheets = 3, most_bytes = 600 * 1000;
 
-/// Lower and upper case, digits and what is harmless beside them: a scene's name does not choose the folder.
+/// Letters, digits and harmless characters only: a scene's name must not choose the folder.
 std::string file_name(const std::string& scene) {
   std::string name;
   for (const char c : scene.substr(0, 80)) {
@@ -88,7 +88,7 @@ std::string figures_of(const Row& row) {
   return text;
 }
 
-/// Default settings over one layer on a scene, nearest to the truth first.
+/// Rows of a scene with default settings over one layer, nearest to the truth first.
 std::vector<Row> shown_rows(const Measurements& all, const Scene& scene) {
   std::vector<Row> rows, shown;
   for (const Row& row : all.rows) {
@@ -104,7 +104,7 @@ std::vector<Row> shown_rows(const Measurements& all, const Scene& scene) {
   return shown;
 }
 
-/// The tiles of a scene, and what could not be had of them.
+/// The tiles of a scene, and notes on those that are missing.
 struct Tiles {
   std::vector<Tile> tiles;
   size_t techniques = 0;
@@ -132,7 +132,7 @@ Tiles tiles_of(const Scene& scene, const Measurements& all, const std::vector<So
   return found;
 }
 
-/// A path as the page's links have it.
+/// A path relative to the page, for its links.
 std::string link_to(const fs::path& file, const fs::path& page) {
   const fs::path from = fs::absolute(page).lexically_normal().parent_path();
   return link_target(fs::absolute(file).lexically_normal().lexically_relative(from).generic_string());
@@ -144,7 +144,7 @@ class Sheets {
   Sheets(const Material& material, const MarkdownOptions& options, MarkdownPage& page)
       : material_(material), options_(options), page_(page) {}
 
-  /// The section; empty where there are no pictures.
+  /// The section; empty if there are no pictures.
   std::string section() {
     std::string links;
     std::vector<std::string> classes;
@@ -177,7 +177,7 @@ class Sheets {
       page_.pictures.push_back(
           {path, sheet_png("Ambient occlusion: " + scene.name, about(scene), found.tiles, most_bytes)});
     } else if (fs::is_regular_file(path, unknown)) {
-      // So that a page can be generated anew from a bench.json alone.
+      // The old sheet is kept, so that a page can be generated again from a bench.json alone.
       page_.notes.push_back(fmt::format("{}: its pictures are not beside bench.json; kept as it is", path.string()));
     } else {
       return "";

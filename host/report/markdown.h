@@ -11,7 +11,7 @@
 namespace gloam::report {
 
 struct MarkdownOptions {
-  std::string command;             ///< that makes the page, as it says
+  std::string command;             ///< the command that makes the page, as printed on it
   std::filesystem::path page;      ///< where it will be written: links are relative to its folder
   std::filesystem::path pictures;  ///< folder for sheets; empty: none
 };
@@ -22,7 +22,7 @@ struct PictureFile {
   std::string png;
 };
 
-/// What is best for whom, over the scenes of a group.
+/// The best settings for each need, over the scenes of a group.
 struct GroupChoices {
   std::string name;
   std::vector<std::string> scenes;
@@ -33,10 +33,10 @@ struct MarkdownPage {
   std::string text;
   std::vector<PictureFile> pictures;
   std::vector<GroupChoices> groups;
-  std::vector<std::string> notes;  ///< pictures that could not be had, and why
+  std::vector<std::string> notes;  ///< missing pictures, and why
 };
 
-/// Writes nothing. Throws Error where the sources contradict each other (joined.h).
+/// Makes the page in memory. Throws Error if the sources contradict each other (joined.h).
 MarkdownPage make_markdown(const std::vector<Source>& sources, const MarkdownOptions& options);
 
 }  // namespace gloam::report

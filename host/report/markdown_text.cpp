@@ -18,13 +18,13 @@ constexpr size_t columns = 120;
 /// "0.127" -> ".127"
 std::string without_zero(const std::string& digits) { return digits.starts_with("0.") ? digits.substr(1) : digits; }
 
-/// A line that begins with the word would be taken for a list, a heading, a quotation or a table.
+/// Whether a line may begin with this word: some words would make it a list, a heading, a quotation or a table.
 bool may_begin_a_line(const std::string& word) {
   if (std::isdigit((unsigned char)word.front())) return word.find_first_of(".)") == std::string::npos;
   return std::string("+-*#>|=~").find(word.front()) == std::string::npos;
 }
 
-/// Words in lines, those after the first set in by `indent`.
+/// Words in lines; all lines but the first are indented by `indent`.
 std::string wrapped(const std::string& text, const std::string& first, const std::string& indent) {
   std::istringstream words(text);
   std::string out, line = first;
@@ -69,7 +69,7 @@ std::string error_and_bias(const Number& error, const Number& bias) {
 std::string ratio_text(const Number& ratio) {
   if (!ratio) return "-";
   if (*ratio == 0) return "0";
-  // Rounding may add a digit (9.96 is 10), so the exponent is looked for in what is rounded.
+  // Rounding may add a digit (9.96 is 10), so the exponent is taken from the rounded number.
   const double rounded = std::strtod(fmt::format("{:.1e}", *ratio).c_str(), nullptr);
   const int exponent = int(std::floor(std::log10(std::abs(rounded)) + 1e-9));
   return fmt::format("{:.{}f}", rounded, std::max(0, 1 - exponent));

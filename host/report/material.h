@@ -12,8 +12,8 @@ namespace gloam::report {
 struct Material {
   const std::vector<Source>& sources;
   Measurements all;                  ///< `joined`
-  std::vector<ClassFront> measured;  ///< of each group (`by_group`), over all settings
-  std::vector<ClassFront> fronts;    ///< of each group, over plain settings with one layer; a group may have none
+  std::vector<ClassFront> measured;  ///< fronts of each group (`by_group`), over all settings
+  std::vector<ClassFront> fronts;    ///< fronts of each group, over plain settings with one layer; may be missing
 };
 
 Material material_of(const std::vector<Source>& sources);

@@ -11,7 +11,7 @@
 namespace gloam::report {
 namespace {
 
-/// An object of the file, with its place in it for messages: "results[3]".
+/// An object of the file, and its path in the file for messages: "results[3]".
 class Object {
  public:
   Object(const Json& value, std::string file, std::string place)
@@ -19,18 +19,18 @@ class Object {
     if (!value_.is_object()) fail(place_.empty() ? "the document" : place_, value_, "an object");
   }
 
-  /// Empty where it is null or missing.
+  /// Empty if it is null or missing.
   std::string text(const char* key) const {
     const Json* value = find(key);
     if (!value) return "";
-    if (!value->is_string()) fail(place_of(key), *value, "a text");
+    if (!value->is_string()) fail(path_of(key), *value, "a text");
     return value->get<std::string>();
   }
 
   Number number(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
-    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(place_of(key), *value, "a number");
+    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(path_of(key), *value, "a number");
     return value->get<double>();
   }
 
@@ -46,7 +46,7 @@ class Object {
 
   Object object(const char* key) const {
     const Json* value = find(key);
-    return Object(value ? *value : nothing, file_, place_of(key));
+    return Object(value ? *value : nothing, file_, path_of(key));
   }
 
   Object needed_object(const char* key) const {
@@ -58,9 +58,9 @@ class Object {
     std::vector<Object> items;
     const Json* value = find(key);
     if (!value) return items;
-    if (!value->is_array()) fail(place_of(key), *value, "a list");
+    if (!value->is_array()) fail(path_of(key), *value, "a list");
     for (size_t i = 0; i < value->size(); ++i)
-      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", place_of(key), i));
+      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", path_of(key), i));
     return items;
   }
 
@@ -69,22 +69,22 @@ class Object {
     return list(key);
   }
 
-  /// Empty where it is null or missing.
+  /// Empty if it is null or missing.
   std::optional<std::vector<std::string>> texts(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
     const bool are_texts =
         value->is_array() && std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); });
-    if (!are_texts) fail(place_of(key), *value, "a list of texts");
+    if (!are_texts) fail(path_of(key), *value, "a list of texts");
     return value->get<std::vector<std::string>>();
   }
 
-  /// The two numbers of a size; empty where there is none.
+  /// The two numbers of a size; empty if there is none.
   std::pair<Number, Number> size(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
     if (!value->is_array() || value->size() != 2 || !value->at(0).is_number() || !value->at(1).is_number())
-      fail(place_of(key), *value, "a list of width and height");
+      fail(path_of(key), *value, "a list of width and height");
     return {value->at(0).get<double>(), value->at(1).get<double>()};
   }
 
@@ -97,7 +97,7 @@ class Object {
     const auto found = value_.find(key);
     return found == value_.end() || found->is_null() ? nullptr : &*found;
   }
-  std::string place_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+  std::string path_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
 
   [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
     std::string shown = value.dump(-1, ' ', true, Json::error_handler_t::replace);
@@ -105,7 +105,7 @@ class Object {
     throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file_, place, shown, needed);
   }
   [[noreturn]] void missing(const char* key) const {
-    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, place_of(key));
+    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, path_of(key));
   }
 
   const Json& value_;
@@ -124,7 +124,7 @@ Ladder ladder_of(const Object& l) {
           l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
 }
 
-/// Of files that do not say.
+/// For files that do not state what a technique reads.
 Reads reads_by_name(const std::string& technique) {
   if (technique.starts_with(peeled_prefix)) return {{"depth", "peel"}};
   if (technique.starts_with(stochastic_prefix)) return {{"depth", "stochastic"}};
@@ -237,7 +237,7 @@ Measurements measurements_of(const Object& o) {
   return m;
 }
 
-/// A scene that rows name and the list of scenes does not.
+/// Adds scenes that rows name and the list of scenes lacks.
 void add_scenes_of_rows(Measurements& m) {
   for (const Row& row : m.rows) {
     const auto is_it = [&](const Scene& scene) { return scene.name == row.scene; };

@@ -1,4 +1,4 @@
-// What `gloam bench` measured, read from its bench.json.
+// Measurements of `gloam bench`, read from its bench.json.
 #pragma once
 
 #include <filesystem>
@@ -24,29 +24,29 @@ struct Pass {
 /// A part of a technique's time.
 struct Share {
   std::string what;
-  double share = 0;  ///< of 1
+  double share = 0;  ///< 0 to 1
 };
 
-/// RMSE of each image to the one a step above it (docs/benchmarking.md).
+/// The ladder: RMSE of each image to the one a step above it (docs/benchmarking.md).
 struct Ladder {
   Number t0w, t1, t2, t3, t4_bias, t4_noise, t5;
 };
 
-/// A part of a technique beside naive kernels that compute the same.
+/// Time of a part of a technique relative to naive kernels that compute the same.
 struct AgainstNaive {
   std::string part;  ///< "estimate", "filter" or "both"
   double ratio = 0;  ///< the technique's time over theirs
 };
 
-/// What a technique looks at.
+/// The inputs of a technique.
 struct Reads {
   std::vector<std::string> depths;  ///< "depth", and stacks of further layers: "peel", "stochastic"
-  int views = 1;                    ///< that a frame needs
+  int views = 1;                    ///< views that a frame needs
 };
 
-/// Peeled layers: no choice where a renderer gives one.
+/// Whether it reads peeled layers, which are available only from some renderers.
 bool reads_peeled_layers(const Reads& reads);
-/// Nothing but the depth of its own view, which every renderer has.
+/// Whether it reads only the depth of its own view, which every renderer has.
 bool reads_one_layer(const Reads& reads);
 
 /// One technique with one preset, in one variant, on one scene.
@@ -65,14 +65,14 @@ struct Row {
   std::string resolution, math, storage;
   Json settings = Json::object();
   std::string image;  ///< path below the folder; empty: none
-  size_t source = 0;  ///< which of several files it is from (joined.h)
+  size_t source = 0;  ///< index of its file, of several (joined.h)
 };
 
 struct Scene {
   std::string name, scene_class;
   Number width, height, radius, radius_pixels, truth_noise;
   std::string truth_image;  ///< path below the folder; empty: none
-  size_t source = 0;        ///< which of several files it is from (joined.h)
+  size_t source = 0;        ///< index of its file, of several (joined.h)
 };
 
 struct Growth {
@@ -85,27 +85,27 @@ struct Skipped {
   std::string technique, preset, scene, why;
 };
 
-/// A figure of a paper's table, beside ours.
+/// A figure from a paper's table, with ours.
 struct PaperFigure {
   std::string table, row, column, base;
   Number ms, ratio, paper_ratio;
 };
 
-/// A technique with so many samples that more change nothing, against the truth.
+/// A technique with so many samples that more change nothing, compared with the truth.
 struct Converged {
   std::string technique, scene;
   Number rmse_to_truth, bias;
   Reads reads;
 };
 
-/// What an image computed at one size differs by from the same computed at another.
+/// Difference between an image computed at one size and the same image computed at another.
 struct ScaleChange {
   std::string technique, scene;
   std::string from, to;     ///< sizes: "480x270"
   Number mean_change, mae;  ///< mean of the differences, and of their absolute values
 };
 
-/// What a technique makes of a plane, which is open everywhere: 1.
+/// A technique's result on a plane, which should be open everywhere: 1.
 struct PlaneReading {
   std::string technique, plane;  ///< the plane it made: "ao_raw", "ao"
   double least = 1;
@@ -127,15 +127,15 @@ struct Measurements {
   std::vector<PlaneReading> planes;
 };
 
-/// Reads DIR/bench.json, of this version or an older one: what that did not have is empty, and what a technique reads is
-/// taken from the prefixes of names (technique/ambient_occlusion.h). Throws Error naming the file
-/// and the thing in it that is missing or of another kind.
+/// Reads DIR/bench.json, of this version or an older one: fields that an older version lacks are empty, and a technique's inputs
+/// follow from the prefix of its name (technique/ambient_occlusion.h). Throws Error naming the file and the missing or mistyped
+/// entry.
 Measurements read_measurements(const std::filesystem::path& folder);
 
-/// The bench.json that a path names: the file itself, or that in the folder. Throws Error where there is neither.
+/// The bench.json that a path names: the file itself, or the one in the folder. Throws Error if there is neither.
 std::filesystem::path measurements_file(const std::filesystem::path& folder_or_file);
 
-/// The same from a file of any name, which may also hold nothing but `converged`, `scales` or `planes`.
+/// As `read_measurements`, from a file of any name, which may hold only `converged`, `scales` or `planes`.
 Measurements read_measurements_file(const std::filesystem::path& file);
 
 }  // namespace gloam::report

@@ -16,12 +16,12 @@ enum class Best { time, error };
 struct Need {
   const char* words;
   Kind kind;
-  double most;  ///< time over that of the reference setting, at most
+  double most;  ///< largest time, relative to the reference setting
   Best best;
 };
 
 constexpr double any = std::numeric_limits<double>::infinity();
-/// HBAO+ medium is what gloam bench takes every time in relation to.
+/// All times of gloam bench are relative to HBAO+ medium.
 constexpr std::array<Need, 7> needs{
     {{"least time", Kind::one_layer, any, Best::time},
      {"at most the time of HBAO+ medium", Kind::one_layer, 1, Best::error},
@@ -38,7 +38,7 @@ bool is_of(Kind kind, const ClassPoint& point) {
   return one_layer && point.variant.empty();
 }
 
-/// Smaller is better: what is printed first, then what it was rounded from.
+/// Order, smaller first: by the printed figure, then by the exact one.
 std::tuple<double, double, double, double> order(const ClassPoint& p, Best best) {
   const double time = as_printed(ratio_text(p.ratio)), error = as_printed(error_text(p.error));
   if (best == Best::time) return {time, error, p.ratio, p.error};

@@ -1,4 +1,4 @@
-// Which setting measured best for what someone needs.
+// The best measured setting for each need.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace gloam::report {
 
-/// A preset as it stands, over one layer: what the page's fronts are over.
+/// Whether a row is a plain preset over one layer: the page's fronts are over these.
 bool is_plain_over_one_layer(const Row& row);
 
-/// A need, and what does it best.
+/// A need, and the best setting for it.
 struct Choice {
   std::string need;
-  std::optional<ClassPoint> best;  ///< empty where no setting that was measured meets it
+  std::optional<ClassPoint> best;  ///< empty if no measured setting meets it
 };
 
-/// Needs in the order of a table. A need for which nothing was measured at all (no peeled layers) is left out. Times
-/// and errors are compared as they are printed, so that no setting is chosen for what the table does not show: of those
-/// with the same RMSE the fastest, of the fastest that with the least RMSE. A plain setting that is chosen is on the
-/// Pareto front of the plain settings over one layer.
+/// Needs in the order of a table. A need for which nothing was measured (no peeled layers) is left out. Times and errors are
+/// compared as they are printed, so that no setting is chosen for a difference that the table does not show: of equal RMSE the
+/// fastest, of equal times the one with the least RMSE. A chosen plain setting is on the Pareto front of the plain settings over
+/// one layer.
 std::vector<Choice> choices(const ClassFront& measured);
 
 }  // namespace gloam::report

@@ -32,7 +32,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// Averages over areas; what is transparent does not count.
+/// Averages over areas; transparent pixels do not count.
 cv::Mat reduced(const cv::Mat& grey_alpha, int width) {
   const int height = std::max(1, cvRound(double(grey_alpha.rows) * width / grey_alpha.cols));
   std::vector<cv::Mat> planes;
@@ -48,14 +48,14 @@ cv::Mat reduced(const cv::Mat& grey_alpha, int width) {
   return out;
 }
 
-/// A picture below the folder, not wider than `width`, as grey and alpha. Throws Error.
+/// A picture below the folder, at most `width` wide, as grey and alpha. Throws Error.
 cv::Mat picture(const fs::path& folder, const std::string& name, int width) {
   const cv::Mat stored = stored_picture(folder, name);
   return width > 0 && stored.cols > width ? reduced(stored, width) : stored;
 }
 
-/// Each picture once, in order of first use. Those of a scene share their alpha, the frame's foreground, which would take
-/// a fifth of every file: it is kept once.
+/// Every picture once, in order of first use. The pictures of a scene share their alpha, the frame's foreground, which would take
+/// a fifth of every file: it is stored once.
 class Pictures {
  public:
   void add(const std::string& name) {
@@ -76,7 +76,7 @@ class Pictures {
     }
   }
 
-  /// null where there is none.
+  /// Index of a picture; null if there is none.
   Json index(const std::string& name) const {
     const auto found = index_.find(name);
     return found == index_.end() || found->second < 0 ? Json(nullptr) : Json(found->second);
@@ -84,7 +84,7 @@ class Pictures {
   const std::string& html() const { return html_; }
 
  private:
-  /// As text that is not looked at before the picture is asked for: 200 of them cost nothing at loading.
+  /// Stores a picture as text that the browser ignores until the picture is asked for: 200 of them cost nothing at loading.
   void put_text(const std::string& attributes, const std::string& png) {
     html_ += fmt::format("<script type=\"text/plain\" {}>{}</script>\n", attributes, base64(png));
   }
@@ -96,7 +96,7 @@ class Pictures {
     put_text(fmt::format("id=\"picture-{}\" data-mask=\"{}\"", number, mask(alpha)), encode_png(grey));
   }
 
-  /// The number of a mask: black with that alpha.
+  /// The number of a mask: a black picture with this alpha.
   size_t mask(const cv::Mat& alpha) {
     cv::Mat black = cv::Mat::zeros(alpha.size(), CV_8UC2);
     cv::insertChannel(alpha, black, 1);
@@ -112,7 +112,7 @@ class Pictures {
   std::string html_;
 };
 
-// --- Data for the page. The page computes no front of its own.
+// --- Data for the page, fronts included: the page computes none.
 
 Json json(const Number& number) { return number ? Json(*number) : Json(nullptr); }
 
@@ -214,7 +214,7 @@ Json data_of(const Measurements& m, const Pictures& pictures) {
 
 // --- The document
 
-/// JSON as it may stand in a script element: no text in it can end the element.
+/// JSON for a script element: no text in it can end the element.
 std::string script_text(const Json& data) {
   std::string text;
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
@@ -226,7 +226,7 @@ std::string script_text(const Json& data) {
   return text;
 }
 
-/// The template with each "@@name@@" replaced. What is put in is not looked at again: it may hold anything.
+/// The template with each "@@name@@" replaced. The inserted text is not searched again: it may hold anything.
 std::string filled(const std::string& page, const std::map<std::string, std::string>& parts) {
   std::string text;
   size_t at = 0;

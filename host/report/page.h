@@ -1,4 +1,4 @@
-// The report: measurements and pictures as one HTML file that needs nothing else.
+// The report: measurements and pictures in one self-contained HTML file.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct PageOptions {
 struct Page {
   std::string html;
   int pictures = 0;                ///< embedded
-  std::vector<std::string> notes;  ///< pictures that could not be had, and why
+  std::vector<std::string> notes;  ///< missing pictures, and why
 };
 
 /// Makes the page. Pictures that cannot be read are left out, with a note.

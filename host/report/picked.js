@@ -1,4 +1,4 @@
-// The point that is picked, in figures.
+// The picked point, in figures.
 
 function settingsText(row) {
   return Object.entries(row.settings)
@@ -11,7 +11,7 @@ function spentSentence(row) {
   return shares.length ? enumerate(shares) : '';
 }
 
-/// How a point stands to the front.
+/// The relation of a point to the front.
 function standingOf(point) {
   if (!is(point.rmse)) return 'no truth to tell its error';
   if (!frontNow().includes(point)) return 'not on the front: another setting is as fast and as near to the truth, and better in one of the two';

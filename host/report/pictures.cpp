@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr int margin = 16, gap = 12, header = 52, caption = 32, columns = 3;
 constexpr int widest_tile = 320, narrowest_tile = 80;  ///< pixels
-constexpr int narrowest_box = 160;                     ///< a caption has to be readable
+constexpr int narrowest_box = 160;                     ///< leaves room for a readable caption
 const TextStyle title_style{11, ink, true}, about_style{7, faint}, name_style{8, ink, true}, figures_style{7.5, ink};
 
 void draw(cv::Mat& canvas, const Tile& tile, cv::Point corner, const PanelSize& panel) {
@@ -48,7 +48,7 @@ cv::Mat sheet(const std::string& title, const std::string& about, const std::vec
 
 cv::Mat stored_picture(const fs::path& folder, const std::string& name) {
   const fs::path relative = fs::path(name).lexically_normal();
-  // A bench.json from elsewhere does not choose which files of this machine go into a page that is passed on.
+  // A foreign bench.json must not put other files of this machine into a page that is passed on.
   if (relative.is_absolute() || *relative.begin() == "..") throw Error("{}: is not below {}", name, folder.string());
   std::error_code unknown;
   if (!fs::is_regular_file(folder / relative, unknown)) throw Error("{}: is no file", (folder / relative).string());

@@ -1,4 +1,4 @@
-// Pictures that gloam bench stored, and sheets of them.
+// Pictures stored by gloam bench, and sheets of them.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@ cv::Mat stored_picture(const std::filesystem::path& folder, const std::string& n
 
 /// One picture of a sheet.
 struct Tile {
-  std::string name, figures;  ///< two lines above it
-  cv::Mat grey_alpha;         ///< CV_8UC2; what is transparent is drawn as background
+  std::string name, figures;  ///< two lines above the picture
+  cv::Mat grey_alpha;         ///< CV_8UC2; transparent pixels are drawn as background
 };
 
-/// Tiles in rows of three under a title and a line that explains, as 8-bit grey PNG of `most_bytes` at most: tiles are
-/// 320 pixels wide or, where that takes more, narrower.
+/// Tiles in rows of three under a title and a line of explanation, as 8-bit grey PNG of at most `most_bytes`: tiles are 320
+/// pixels wide, or narrower if the limit requires it.
 std::string sheet_png(const std::string& title, const std::string& about, const std::vector<Tile>& tiles,
                       size_t most_bytes);
 

@@ -1,4 +1,4 @@
-// The picked image beside the truth: a wipe, and the signed difference computed here from the two.
+// The picked image beside the truth: a wipe, and the signed difference, computed here from the two.
 
 const loaded = new Map();
 
@@ -9,8 +9,8 @@ async function decoded(id) {
   return image;
 }
 
-/// A picture of the page by its number: grey and mask put together again. {width, height, grey(i) 0 .. 255, isThere(i),
-/// url}; the last few are kept.
+/// A picture of the page by its number, composed of grey and mask: {width, height, grey(i) 0 .. 255, isThere(i), url}. The last
+/// few are cached.
 function loadPicture(index) {
   if (!loaded.has(index)) {
     const mask = byId('picture-' + index).dataset.mask;
@@ -46,7 +46,7 @@ function pictureOf(grey, alpha) {
   };
 }
 
-/// Below zero blue, above orange, zero the colour of the page.
+/// Blue below zero, orange above, the colour of the page at zero.
 const differenceColours = () =>
     (matchMedia('(prefers-color-scheme: dark)').matches ?
          {below: [96, 165, 250], zero: [24, 26, 29], above: [251, 146, 60]} :
@@ -57,7 +57,7 @@ function mixed(colours, t) {
   return colours.zero.map((zero, i) => Math.round(zero + (end[i] - zero) * share));
 }
 
-/// Paints image - truth; `range` is the difference (of 1) that has the full colour.
+/// Paints image - truth; `range`: the difference (0 to 1) that has the full colour.
 function paintDifference(canvas, image, truth, range) {
   canvas.width = image.width;
   canvas.height = image.height;
@@ -73,8 +73,8 @@ function paintDifference(canvas, image, truth, range) {
   context.putImageData(out, 0, 0);
 }
 
-/// Shows a picture and the truth where there are both, else what there is. `state`: {wipe (of 1), range, fullSize}.
-/// Returns at once; the pictures follow. A later call makes an earlier one void.
+/// Shows a picture and the truth if there are both, else the one that exists. `state`: {wipe (0 to 1), range, fullSize}. Returns
+/// at once; the pictures follow. A later call cancels an earlier one.
 async function showPictures(place, {name, picture, truth}, state) {
   const turn = (place.turn = (place.turn || 0) + 1);
   const images = await Promise.all([picture, truth].map((index) => (is(index) ? loadPicture(index) : null)));

@@ -1,4 +1,4 @@
-// The page: draws all parts, and draws them anew when something changes.
+// The page: draws all parts, and redraws them when something changes.
 
 function renderPicked() {
   const view = byId('scatter').view;
@@ -9,7 +9,7 @@ function renderPicked() {
   renderRows();
 }
 
-/// What the filters change.
+/// Redraws the parts that depend on the filters.
 function renderShown() {
   renderScatter();
   renderAside();
@@ -24,7 +24,7 @@ function render() {
   renderPicked();
 }
 
-/// Charts are as wide as the page and in its colours.
+/// Charts follow the width and the colours of the page.
 function redraw() {
   renderFronts();
   renderOthers();
@@ -35,7 +35,7 @@ function start() {
   state.scene =
       (data.scenes.find((scene) => scene.plain_front.length) || data.scenes.find((scene) => rowsOf(scene.name).length))
           .name;
-  // Where nothing plain was measured there is nothing to show by default.
+  // Without plain rows, variants are shown from the start: otherwise the page would be empty.
   if (!data.rows.some((row) => !row.variant)) state.hidden.variant.clear();
   state.picked = bestKey();
   state.chosen = firstChosen();

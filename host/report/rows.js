@@ -45,7 +45,7 @@ function renderRows() {
   });
 }
 
-/// One row per technique and scene, a column for each thing that was varied.
+/// One row per technique and scene, one column per varied quantity.
 function renderGrowth() {
   const named = (g) => JSON.stringify([g.technique, g.scene]);
   const rows = unique(data.growth.map(named)).map((name) => data.growth.filter((g) => named(g) === name));

@@ -1,7 +1,7 @@
 // Error against time: the chart, its legend and the filters.
 
-/// Error against time. `points`: {key, x, y, technique (number), label, size, hollow, onFront, hover}; `front`: the points
-/// of the front, which may be hidden among `points`.
+/// Specification of the chart. `points`: {key, x, y, technique (number), label, size, hollow, onFront, hover}; `front`: points of
+/// the front, which may be hidden among `points`.
 function scatterSpec({points, front, picked, timeTitle, isRatio, width}) {
   const colours = theme();
   const all = [...points, ...front];
@@ -218,7 +218,7 @@ function renderScatter() {
   });
 }
 
-/// Fingers are wider than points: the nearest within 24 pixels.
+/// The nearest point within 24 pixels: fingers are wider than points.
 function nearestPoint(view, event, place) {
   const box = place.querySelector('svg').getBoundingClientRect(), [left, top] = view.origin();
   const padding = view.padding(), x = view.scale('x'), y = view.scale('y');

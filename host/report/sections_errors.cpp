@@ -17,7 +17,7 @@
 namespace gloam::report {
 namespace {
 
-/// Of some numbers; empty where there are none.
+/// Empty for an empty list.
 Number median_of(const std::vector<double>& values) { return values.empty() ? Number() : Number(median(values)); }
 
 // --- Converged
@@ -29,13 +29,13 @@ const Converged* find(const std::vector<Converged>& list, const std::string& sce
   return found == list.end() ? nullptr : &*found;
 }
 
-/// A technique and the same over all peeled layers; either may be missing, and is empty then.
+/// A technique, and its variant over all peeled layers; either may be missing, and is then empty.
 struct Pair {
   std::string name, given, all_layers;
-  bool is_over_one_layer = false;  ///< `given`: what is compared for the least
+  bool is_over_one_layer = false;  ///< `given` takes part in the comparison for the least error
 };
 
-/// What the technique is called that the same over peeled layers is named after (technique/ambient_occlusion.h).
+/// The name of the technique without the prefix for peeled layers (technique/ambient_occlusion.h).
 std::string name_of_pair(const Converged& each) {
   const bool is_named_after = reads_peeled_layers(each.reads) && each.technique.starts_with(peeled_prefix);
   return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);
@@ -71,7 +71,7 @@ std::string side_by_side(const std::string& one, const std::string& all) {
   return all == "-" ? one : one + " / " + all;
 }
 
-/// Mean over the scenes; empty where one of them lacks it, since the mean would be over others than its neighbours'.
+/// Mean over the scenes; empty if one of them lacks the technique, since its mean would not compare with its neighbours'.
 Number mean_of(const std::vector<Converged>& list, const std::vector<std::string>& scenes, const std::string& technique,
                Number Converged::*figure) {
   double sum = 0;
@@ -134,7 +134,7 @@ std::string steps_of(const ScaleChange& change) {
 }
 
 /// "tilt 80 degrees, direction 45, perspective, pixel (3, 0)": as far as it is known.
-std::string place_of(const PlaneReading& reading) {
+std::string position_in_words(const PlaneReading& reading) {
   std::vector<std::string> parts;
   if (reading.tilt) parts.push_back(fmt::format("tilt {:g}", *reading.tilt));
   if (reading.direction) parts.push_back(fmt::format("direction {:g}", *reading.direction));
@@ -145,7 +145,7 @@ std::string place_of(const PlaneReading& reading) {
   return text;
 }
 
-/// What reads less than this is bold: a plane is seen to be shaded.
+/// Values below this are bold: shading becomes visible.
 constexpr double open = 0.99;
 
 std::string openness(double least) {
@@ -271,7 +271,7 @@ std::string planes_section(const Material& material) {
     std::vector<std::string> cells{plain_text(technique)};
     for (const std::string& plane : planes) {
       const PlaneReading* least = least_of(readings, technique, plane);
-      cells.insert(cells.end(), {least ? openness(least->least) : "", least ? place_of(*least) : ""});
+      cells.insert(cells.end(), {least ? openness(least->least) : "", least ? position_in_words(*least) : ""});
     }
     table.add(cells);
   }

@@ -15,11 +15,11 @@
 namespace gloam::report {
 namespace {
 
-/// Above this many times its own gathers, the page says what the rest is.
+/// Above this many times its own gathers, the page tells where the rest of the time goes.
 constexpr double far_above = 1.5;
 constexpr size_t most_shares = 3;
 
-/// The section once for each device: times of different devices have no median in common.
+/// The section once per device: times of different devices have no common median.
 template <typename Body>
 std::string per_device(const Material& material, const Body& body) {
   std::vector<std::string> devices;
@@ -37,7 +37,7 @@ std::string per_device(const Material& material, const Body& body) {
   return text;
 }
 
-/// The share of each thing; the passes of a filter ("bilateral/horizontal", "bilateral/vertical") count as one.
+/// The share of each part; the passes of a filter ("bilateral/horizontal", "bilateral/vertical") count as one.
 std::map<std::string, double> shares_of(const Row& row) {
   std::map<std::string, double> shares;
   for (const Share& share : row.spent_on) shares[share.what.substr(0, share.what.find('/'))] += share.share;
@@ -94,7 +94,7 @@ constexpr const char* estimate = "estimate";
 constexpr const char* native = "native loop, estimate";
 std::string naive(const std::string& part) { return "naive kernel, " + part; }
 
-/// Column -> ratios over the scenes, of one setting.
+/// Column -> ratios over the scenes, for one setting.
 using Ratios = std::map<std::string, std::vector<double>>;
 
 void add_ratios(const Row& row, Ratios& ratios) {

@@ -1,4 +1,4 @@
-// What the page shows: the measurements, what is picked and chosen of them, and what is at hand now.
+// The state of the page: the measurements, and what is picked, chosen and shown of them.
 
 const data = JSON.parse(byId('data').textContent);
 
@@ -24,7 +24,7 @@ const mostChosen = 6;
 
 const state = {
   scene: data.scenes[0].name,
-  mean: null,  // a class, where its means are shown
+  mean: null,  // a class if its means are shown
   time: 'ratio',
   picked: null,
   chosen: [],
@@ -33,7 +33,7 @@ const state = {
   pictures: {wipe: 0.5, range: 0.25, fullSize: false},
 };
 
-// --- What is at hand
+// --- What is shown now
 
 const sceneNow = () => data.scenes.find((scene) => scene.name === state.scene);
 const rowsOf = (scene) => data.rows.filter((row) => row.scene === scene);
@@ -43,7 +43,7 @@ const showsVariants = () => data.rows.some((row) => row.variant && !state.hidden
 const classNow = () => data.classes.find((each) => each.name === state.mean);
 const classTitle = (name) => name || (data.classes.length > 1 ? 'without a class' : 'all scenes');
 
-/// Who is on the front of the scene or class at hand. While no variants are shown, the front among plain settings.
+/// The points on the front of the shown scene or class. While no variants are shown, the front among plain settings.
 function frontNow() {
   if (state.mean !== null)
     return classNow().points.filter((point) => (showsVariants() ? point.on_front : point.on_plain_front));
@@ -51,7 +51,7 @@ function frontNow() {
   return (showsVariants() ? scene.front : scene.plain_front).map((index) => data.rows[index]);
 }
 
-/// What has an error, and a time on the axis at hand.
+/// The points with an error, and a time on the present axis.
 function pointsNow() {
   const rows = state.mean !== null ? classNow().points : rowsOf(state.scene);
   return rows.filter((row) => is(row.rmse) && timeOf(row) > 0);
@@ -93,7 +93,7 @@ function bestKey() {
   return row ? keyOf(row) : null;
 }
 
-/// To begin with, the setting that the ratios are to, and the fastest of the front.
+/// The initial choice: the reference setting of the ratios, and the fastest of the front.
 function firstChosen() {
   const base = rowsOf(state.scene).find((row) => row.technique === 'hbao+' && row.preset === 'medium' && !row.variant);
   const fastest = data.rows[sceneNow().plain_front[0]];

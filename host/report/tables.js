@@ -16,7 +16,7 @@ function element(tag, attributes, ...children) {
 const byId = (id) => document.getElementById(id);
 const is = (value) => value !== null && value !== undefined;
 
-/// Three figures that tell, as people write them: 0.197, 12.4, 1320, 2.1e−6.
+/// Three significant digits, as people write them: 0.197, 12.4, 1320, 2.1e−6.
 function figure(value) {
   if (!is(value)) return '–';
   if (value === 0) return '0';
@@ -25,10 +25,10 @@ function figure(value) {
   return minus(value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(size)))));
 }
 
-/// A figure that was chosen, not measured: 0.6, not 0.600.
+/// A number that was chosen, not measured: 0.6, not 0.600.
 const setting = (value) => minus(String(Number(value.toPrecision(4))));
 
-/// Errors are compared down a column: four decimals each, unless nothing would be left.
+/// Errors are compared down a column: four decimals, unless they would all be 0.
 function errorFigure(value) {
   if (!is(value)) return '–';
   return value !== 0 && Math.abs(value) < 5e-5 ? minus(value.toExponential(1)) : minus(value.toFixed(4));
@@ -45,8 +45,8 @@ function enumerate(items) {
   return items.slice(0, -1).join(', ') + ' and ' + items[items.length - 1];
 }
 
-/// A table whose headings sort. A column: {name, value(row), text?(value, row), cell?(row), number?, words?, help?}. Rows
-/// without a value go last whichever way it is sorted. `rows.pick(row)`, where there is one, is called for a click on a row.
+/// A table whose headings sort. A column: {name, value(row), text?(value, row), cell?(row), number?, words?, help?}. Rows without
+/// a value come last in either order. `options.pick(row)`, if given, is called for a click on a row.
 function sortedTable(place, columns, rows, options = {}) {
   const sorting = place.sorting || (place.sorting = {column: -1, down: false});
   const compare = (a, b) => {

@@ -27,7 +27,7 @@ namespace {
 #undef NEIGHBOUR_NAME
 static_assert(Layout::guard == FRAME_GUARD);
 
-/// `layout`: of every `scale`-th pixel. The centre of reduced pixel X is that of pixel X * scale.
+/// `layout`: of every `scale`-th pixel. The centre of reduced pixel X is the centre of pixel X * scale.
 template <typename KernelFrame>
 KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout& layout, int scale, int seed) {
   using Scalar = decltype(KernelFrame::scale_x);
@@ -44,7 +44,7 @@ KernelFrame kernel_frame(const Frame& frame, const Camera& camera, const Layout&
           Scalar(camera.orthographic ? 1 : 0)};
 }
 
-/// `frame`: of the neighbour. Differences of places are taken in double, so that views far from the origin stay exact.
+/// `frame`: of the neighbour. Differences of positions are taken in double, so that views far from the origin stay exact.
 template <typename KernelNeighbour, typename KernelFrame>
 KernelNeighbour kernel_neighbour(const KernelFrame& frame, const Pose& own, const Pose& other) {
   KernelNeighbour n;
@@ -70,7 +70,7 @@ void set_frame(cl::Kernel& kernel, cl_uint index, const ViewOnDevice& target, in
     kernel.setArg(index, frame_of<FrameOfFloats>(target, scale, options.seed));
 }
 
-/// Of the resolution of the planes that are bound of it.
+/// Sets the neighbour, at the resolution of those of its planes that are bound.
 void set_neighbour(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned, const ViewOnDevice& target,
                    const ViewOnDevice& other, const RunOptions& options) {
   const auto binding = std::find_if(planned.pass.reads.begin(), planned.pass.reads.end(),
@@ -85,7 +85,7 @@ void set_neighbour(cl::Kernel& kernel, cl_uint index, const PlannedPass& planned
                   kernel_neighbour<NeighbourOfFloats>(frame_of<FrameOfFloats>(other, scale, options.seed), from, to));
 }
 
-/// From a view to where its camera was in the frame before; without both poses to nowhere.
+/// From a view to its camera in the frame before; without both poses, to a position that shows nothing.
 template <typename KernelNeighbour, typename KernelFrame>
 KernelNeighbour neighbour_before(const ViewOnDevice& target, int scale, int seed) {
   const Camera& now = *target.view.camera;
@@ -113,7 +113,7 @@ cl::Buffer constants(Device::Impl& device, const std::vector<Number>& numbers) {
           const_cast<Number*>(numbers.data())};
 }
 
-/// The view's own, then those of the key views.
+/// The projection of the view, then those of the key views.
 cl::Buffer projections_of(Device::Impl& device, const Plan& plan, const PlannedPass& planned,
                           const ViewOnDevice& target, const OtherViews& others, const RunOptions& options) {
   const bool are_computed = !contains(plan.inputs, "position");

@@ -1,4 +1,4 @@
-// What a kernel is called with, in the order that Pass promises.
+// Arguments of a kernel, in the order that Pass states.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace gloam {
 /// Names of the arguments that a pass declares, in order.
 std::vector<std::string> declared_arguments(const PlannedPass& planned, const Layouts& layouts);
 
-/// Sets all of them on a kernel that runs on `view`, which keeps the buffers that the pass alone reads.
+/// Sets all arguments of a kernel that runs on `view`, which keeps the buffers that only this pass reads.
 void set_arguments(cl::Kernel& kernel, const Plan& plan, const PlannedPass& planned, Device::Impl& device,
                    ViewOnDevice& view, const OtherViews& others, const RunOptions& options);
 

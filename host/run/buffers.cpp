@@ -79,7 +79,7 @@ Plane Buffers::download(const std::string& name, const Layout& layout) {
   for (size_t i = 0; i < kind.components.size(); ++i) {
     cl::Buffer& buffer = buffers_.at(name)[i];
     if (device_.info.shares_memory) {
-      // Mapped, the device's result is what the host sees.
+      // Mapping makes the device's result visible to the host.
       void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout.bytes());
       device_.queue.enqueueUnmapMemObject(buffer, mapped);
       plane.channels.push_back(std::move(host_.at(name)[i]));
@@ -90,7 +90,7 @@ Plane Buffers::download(const std::string& name, const Layout& layout) {
     }
   }
   device_.queue.finish();
-  buffers_.erase(name);  // before the host touches the pages that it used
+  buffers_.erase(name);  // before the host touches the pages that the buffer used
   for (Channel& channel : plane.channels) channel.fill_padding(kind.outside);
   return plane;
 }

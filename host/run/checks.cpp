@@ -23,12 +23,12 @@ void check_two_views(const Plan& plan, const Frame& frame) {
         plan.technique, frame.views.size());
 }
 
-/// Of views that look into one another.
+/// Checks the poses of views that read one another.
 void check_poses(const Plan& plan, const Frame& frame) {
   for (const View& view : frame.views) {
     if (!view.camera->pose)
       throw Error(
-          "{}: view '{}' has a camera without a pose, so nothing tells where it stands beside the {}; give "
+          "{}: view '{}' has a camera without a pose, so its position beside the {} is unknown; give "
           "camera_to_world in a --camera file",
           plan.technique, view.name, frame.views.size() > 2 ? "others" : "other");
   }
@@ -42,10 +42,11 @@ const Technique* leading_technique(const Plan& plan) {
   return nullptr;
 }
 
-/// Of a view that is no camera's with an eye. Who asked for a technique that can see it has asked for more, or lacks a plane.
+/// Throws Error for a view of a light-field module, which has no single centre of projection. The message depends on why the
+/// technique that needs one runs: the user asked for it, or a plane is missing.
 [[noreturn]] void refuse_module(const Plan& plan, const Technique& refusing, const View& view) {
-  const std::string what =
-      fmt::format("view '{}' is of a light-field display's module, whose rays meet in no eye", view.name);
+  const std::string what = fmt::format(
+      "view '{}' is of a light-field display's module, which has no single centre of projection", view.name);
   const Technique* leading = leading_technique(plan);
   if (!leading || !leading->any_projection) {
     std::vector<std::string> able;
@@ -58,20 +59,20 @@ const Technique* leading_technique(const Plan& plan) {
     if (contains(leading->reads, plane))
       throw Error("{}: {}, and {} needs one; give a frame with {}", leading->name, what, refusing.name, plane);
   }
-  // What is no technique for anyone to ask for is the plan's own.
+  // Passes that nobody can ask for are the plan's own.
   const bool is_asked_for = contains(technique_names(), refusing.name);
   throw Error("{}: {}, and {} needs one; leave it out", leading->name, what,
               is_asked_for ? refusing.name : "what --resolution or --adaptive adds");
 }
 
-/// What a view has to have for the plan's passes to make sense of it.
+/// Checks that a view has what the plan's passes need to know about its projection.
 void check_projections(const Plan& plan, const Frame& frame) {
   const bool reads_positions = contains(plan.inputs, "position");
   for (const View& view : frame.views) {
     if (reads_positions && !view.camera->pose)
       throw Error(
-          "{}: positions of view '{}' are the world's, and nothing tells where its camera stands; --plane "
-          "position=none has them made from depth",
+          "{}: positions of view '{}' are in world space, and its camera has no pose; --plane "
+          "position=none makes them from depth",
           plan.technique, view.name);
     if (!view.camera->slits) continue;
     for (const PlannedPass& planned : plan.passes) {

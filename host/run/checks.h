@@ -1,18 +1,18 @@
-// What a plan asks of a device and of a frame, told before anything is computed.
+// Checks of a plan against a device and a frame, before anything is computed.
 #pragma once
 
 #include "gloam/run.h"
 
 namespace gloam {
 
-/// Throws Error where the device's memory or its largest buffer is too small.
+/// Throws Error if the device's memory or its largest buffer is too small.
 void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info);
 
-/// Throws UsageError for lanes and repeats that are not allowed, Error where double precision is asked for and the device has none.
+/// Throws UsageError for lanes and repeats that are not allowed, Error if double precision is asked for and the device has none.
 void check_options(const Plan& plan, const DeviceInfo& info, const RunOptions& options);
 
-/// Throws Error for a frame without views or pixels, and where a view lacks the camera, the pose or the projection that the plan's passes need, or where views are
-/// too few.
+/// Throws Error for a frame without views or pixels, for too few views, and for a view that lacks the camera, the pose or the
+/// projection that the plan's passes need.
 void check_views(const Plan& plan, const Frame& frame);
 
 }  // namespace gloam

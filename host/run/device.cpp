@@ -29,7 +29,7 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Vector width that pays: PoCL compiles vectors to vector registers, every other CPU implementation vectorises across
+/// Vector width that pays off: PoCL compiles vectors to vector registers; every other CPU implementation vectorises across
 /// work-items by itself, and GPUs do so in hardware.
 int suitable_lanes(const cl::Device& device, const std::string& platform) {
   if (!(device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) || platform != "Portable Computing Language") return 1;
@@ -48,7 +48,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
   info.shares_memory = info.type == "cpu";
-  // Rusticl gives its timer a resolution of 0, and timestamps that mean nothing.
+  // Rusticl states a timer resolution of 0, and its timestamps mean nothing.
   info.has_timestamps = device.getInfo<CL_DEVICE_PROFILING_TIMER_RESOLUTION>() > 0;
   info.rounds_correctly = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
   info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
@@ -61,7 +61,7 @@ struct Found {
   DeviceInfo info;
 };
 
-/// Whether PoCL can keep its kernels below this folder, making it where it is not there.
+/// Whether PoCL can keep its kernels below this folder, which is made if it is missing.
 bool usable(const std::filesystem::path& folder) {
   std::error_code unknown;
   std::filesystem::create_directories(folder, unknown);
@@ -69,9 +69,9 @@ bool usable(const std::filesystem::path& folder) {
   return mkdtemp(probe.data()) && rmdir(probe.c_str()) == 0;
 }
 
-/// A folder that nobody else can have put kernels into.
+/// A folder into which nobody else can have put kernels.
 std::filesystem::path own_temporary_folder() {
-  std::error_code unset;  // TMPDIR may name a folder that is not there
+  std::error_code unset;  // TMPDIR may name a missing folder
   std::filesystem::path base = std::filesystem::temp_directory_path(unset);
   if (unset || !usable(base)) base = "/tmp";
   const std::filesystem::path folder = base / fmt::format("gloam-kernels-{}", getuid());
@@ -88,7 +88,7 @@ std::filesystem::path own_temporary_folder() {
   return pattern;
 }
 
-/// Why a driver that is installed gives no platform; empty where none is installed. The loader keeps the cause to itself.
+/// The reason why an installed driver gives no platform; empty if none is installed. The loader does not report it.
 std::string why_no_platform() {
   const char* given = std::getenv("OCL_ICD_VENDORS");
   const std::filesystem::path vendors = given && *given ? given : "/etc/OpenCL/vendors";
@@ -108,7 +108,7 @@ std::string why_no_platform() {
   return "";
 }
 
-/// Platforms are enumerated one by one: one without devices (a driver without its hardware) is passed over.
+/// Platforms are enumerated one by one: one without devices (a driver without its hardware) is skipped.
 std::vector<Found> find_devices() {
   const DriverAtWork driver;
   std::vector<cl::Platform> platforms;
@@ -134,7 +134,7 @@ std::vector<Found> find_devices() {
       try {
         found.push_back({device, describe(platform, device)});
       } catch (const cl::Error&) {
-        continue;  // one broken driver is no reason to do without the others
+        continue;  // one broken driver does not hide the others
       }
     }
   }
@@ -167,7 +167,7 @@ const Found& choose_device(const std::vector<Found>& found, const std::string& t
   return *widest;
 }
 
-/// The compiler's log on one line, cut to what a person reads.
+/// The compiler's log on one line, shortened.
 std::string short_log(std::string log) {
   log = trimmed(log);
   for (size_t at = 0; (at = log.find('\n', at)) != std::string::npos;) log.replace(at, 1, "; ");
@@ -177,7 +177,7 @@ std::string short_log(std::string log) {
 }  // namespace
 
 void give_pocl_a_folder() {
-  // The first of these that is set is the one that PoCL takes; it aborts on an empty one.
+  // PoCL uses the first of these that is set; it aborts if that one is empty.
   for (const auto& [name, below] :
        {std::pair("POCL_CACHE_DIR", ""), std::pair("XDG_CACHE_HOME", ""), std::pair("HOME", ".cache")}) {
     const char* folder = std::getenv(name);
@@ -265,7 +265,7 @@ cl::Program& Device::Impl::program(const std::string& source, const std::string&
     throw Error("kernels/{} does not build on {} with {} ({}): {}", source, label(info), options,
                 cl_error_name(error.err()), short_log(built->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device)));
   } catch (const std::exception& error) {
-    // PoCL's compiler has thrown through PoCL, whose locks stay taken: whoever releases the program waits for ever.
+    // PoCL's compiler has thrown through PoCL, whose locks stay taken: releasing the program would wait for ever.
     built.release();
     restart_without_kept_kernels();
     throw Error("kernels/{} cannot be compiled on {}: {}{}", source, label(info), error.what(), memory_limit());

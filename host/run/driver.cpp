@@ -28,25 +28,25 @@ constexpr bool has_handlers_of_its_own = true;
 constexpr bool has_handlers_of_its_own = false;
 #endif
 
-/// Set for the command that was started again: how often, then the signal; and the folder that was not used.
+/// Environment of a restarted command: how often, then the signal; and the folder that was not used.
 constexpr const char *restarted = "GLOAM_RESTARTED", *left_folder = "GLOAM_LEFT_KERNELS";
 constexpr std::array death = {SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE};
 
 std::atomic<int> at_work = 0;
 
-/// All that the handler needs, which can allocate nothing.
+/// Everything that the handler needs: it cannot allocate.
 struct Restart {
   char** arguments = nullptr;
   std::vector<std::string> texts;
   std::vector<char*> environment;
-  char* mark = nullptr;  ///< where the signal's two digits go
+  char* mark = nullptr;  ///< position of the signal's two digits
 };
 Restart& restart() {
   static Restart* const it = new Restart;  // outlives what runs at exit
   return *it;
 }
 
-/// Where PoCL keeps its kernels; the first of these that is set counts.
+/// The folder in which PoCL keeps its kernels: the first of these that is set.
 fs::path kept_kernels() {
   const char* folder = std::getenv("POCL_CACHE_DIR");
   if (folder) return folder;
@@ -55,7 +55,7 @@ fs::path kept_kernels() {
   return fs::path(folder ? folder : "/tmp") / ".cache/pocl/kcache";
 }
 
-/// Beside the kept ones, so that they can be moved; among the temporary files where that cannot be.
+/// A new folder beside that one, so that kernels can be moved; among the temporary files if that fails.
 fs::path folder_for_new_kernels() {
   const fs::path kept = kept_kernels();
   const std::string name = fmt::format(".gloam-kernels-{:08x}{:08x}", std::random_device()(), std::random_device()());
@@ -123,7 +123,7 @@ bool is_in_path(const char* program) {
   return false;
 }
 
-/// What may be the cause, and what to do.
+/// A likely cause, and what to do.
 std::string likely_cause(const std::string& folder) {
   if (!is_in_path("ld")) return "no program 'ld' in PATH, which PoCL links kernels with; install binutils or set PATH";
   if (const std::string limit = memory_limit(); !limit.empty()) return "memory may have run out" + limit;
@@ -139,14 +139,14 @@ std::string likely_cause(const std::string& folder) {
       folder);
 }
 
-/// The folder of this process's own kernels, where it was started again; null where it was not.
+/// The folder of this process's own kernels if it was restarted; else null.
 const char* made_anew() {
   const char* folder = std::getenv("POCL_CACHE_DIR");
   const bool is_ours = folder && fs::path(folder).filename().string().starts_with(".gloam-kernels-");
   return before().times > 0 && is_ours ? folder : nullptr;
 }
 
-/// PoCL's own: folders of two letters, and what it has not finished.
+/// Whether an entry is PoCL's own: folders of two letters, and unfinished kernels.
 bool is_of_pocl(const fs::path& entry) {
   const std::string name = entry.filename().string();
   const bool two_letters =

@@ -17,7 +17,7 @@ void put(double (&rows)[9], const dmat3& m) {
 
 void put(double (&to)[3], const dvec3& v) { std::copy_n(&v.x, 3, to); }
 
-/// Into the view space of the other, where both know where they stand.
+/// Sets the map from this view space into the other's, if both poses are known.
 void set_motion(ProjectionOfDoubles& p, const Camera& own, const Camera& other) {
   put(p.rotation, dmat3(1.0));
   put(p.translation, dvec3(0));
@@ -45,11 +45,11 @@ bool is_straight(const TwoSlits& s) {
   return !s.screen_radius && s.turn == dmat3(1.0) && k[1][0] == 0 && k[2][0] == 0 && k[2][1] == 0;
 }
 
-/// x = (module.x + slope * (z - module.z)) / k: slopes across change evenly from column to column, and so do those up.
+/// x = (module.x + slope * (z - module.z)) / k: slopes across and up change evenly from column to column and from row to row.
 void set_straight_slits(ProjectionOfDoubles& p, const Camera& c) {
   const TwoSlits& s = *c.slits;
   const double kx = s.to_physical[0][0], ky = s.to_physical[1][1], kz = s.to_physical[2][2], behind = -s.module.z;
-  // The row at which light leaves the screen at the observers' height.
+  // The row whose light leaves the screen at the observers' height.
   const double level = c.cy + (s.module.y - s.observer_height) * c.fy / behind;
   set_straight(p, c.cx, level, kz / (kx * c.fx), behind * kz / (s.observer_distance * ky * c.fy));
   p.origin_x = s.module.x / kx;

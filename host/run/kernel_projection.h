@@ -1,4 +1,4 @@
-// What kernels know of a view's projection (kernels/shared/frame/projection.h).
+// A view's projection as kernels get it (kernels/shared/frame/projection.h).
 #pragma once
 
 #include "gloam/frame.h"
@@ -16,11 +16,11 @@ namespace gloam {
 #undef PROJECTION_SCALAR
 #undef PROJECTION_NAME
 
-/// What the plane `position` of a view is relative to, in a run: what its frame says, or where positions are computed the camera.
+/// Origin of the plane `position` of a view in a run: the frame's, or the camera if positions are computed.
 glm::dvec3 position_origin(const View& view, bool are_computed);
 
-/// The projection of `view` as a kernel at work on `own` sees it; every `scale`-th pixel of `frame`. `are_computed`: the positions.
-/// Differences of places are taken in double.
+/// The projection of `view` for a kernel that runs on `own`, for every `scale`-th pixel of `frame`. `are_computed`: the positions
+/// are computed. Differences of positions are taken in double.
 ProjectionOfDoubles kernel_projection(const Frame& frame, const View& own, const View& view, int scale,
                                       bool are_computed);
 

@@ -25,7 +25,7 @@ void append(const std::string& file, std::set<std::string>& seen, std::string& o
   for (int number = 1; std::getline(lines, line); ++number) {
     const std::string inner = included(line);
     if (inner.empty() || kernel_sources().count(inner) == 0) {
-      out += line + "\n";  // an include of the host's branch, or one that the kernel compiler will not find and name
+      out += line + "\n";  // an include for the host, or a missing file, which the kernel compiler will report
       continue;
     }
     append(inner, seen, out);

@@ -9,8 +9,8 @@ namespace gloam {
 /// Path below kernels/ -> text.
 const std::map<std::string, std::string>& kernel_sources();
 
-/// A kernel file with its includes of other kernel files put in, each once, and #line directives so that build logs
-/// name file and line. Throws Error for a file that does not exist.
+/// A kernel file with its includes of other kernel files inserted, each once, and #line directives so that build logs name file
+/// and line. Throws Error for a missing file.
 std::string flatten(const std::string& file);
 
 }  // namespace gloam

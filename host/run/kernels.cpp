@@ -19,7 +19,7 @@ std::string build_options(const PlannedPass& planned, const Device::Impl& device
   return text;
 }
 
-/// The kernel's own argument names; empty where the driver does not tell.
+/// The kernel's own argument names; empty if the driver does not report them.
 std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
   std::vector<std::string> names;
   try {
@@ -49,7 +49,7 @@ cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Devi
   try {
     kernel = cl::Kernel(program, planned.pass.kernel.c_str());
   } catch (const cl::Error& error) {
-    restart_without_kept_kernels();  // a kept program that is damaged may have lost them
+    restart_without_kept_kernels();  // a damaged kept program may have lost them
     throw Error("{}: kernels/{} has no kernel '{}' ({})", planned.label(), source, planned.pass.kernel,
                 cl_error_name(error.err()));
   }

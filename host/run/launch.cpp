@@ -11,9 +11,9 @@ size_t largest_divisor(size_t number, size_t most) {
   return most;
 }
 
-/// A CPU's driver compiles a kernel anew for every size of work-group, and left alone takes a size for each size of image,
-/// for small ones the whole of it: that costs seconds, and what each item keeps overflows the stack. So there is one size
-/// for all small images, and few for large ones. Other devices choose for themselves.
+/// Work-group size. A CPU driver recompiles a kernel for every size, and by itself chooses a size per image size, for small
+/// images the whole image: that costs seconds, and what each work-item keeps overflows the stack. So one size serves all small
+/// images, and few serve large ones. Other devices choose for themselves.
 cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows) {
   if (info.type != "cpu") return cl::NullRange;
   constexpr size_t few_items = 1 << 14, most_per_group = 16;
@@ -22,11 +22,11 @@ cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows) {
   return cl::NDRange(width, largest_divisor(rows, most_per_group / width));
 }
 
-/// Where a pass looks around, a CPU computes the image strip by strip, each from top to bottom, so that what is read
-/// around the pixels at work stays in the cache of their core: rows as wide as the image are slower by 5 to 30 %. Passes
-/// that stream lose as much by it, and other devices need no help. Work-items of a strip: a multiple of the group's.
+/// Work-items per row of a strip, a multiple of the group's. For passes with a wide footprint a CPU computes the image strip by
+/// strip, each from top to bottom, so that the pixels around those at work stay in the core's cache: whole rows are 5 to 30 %
+/// slower. Passes that stream lose as much by it, and other devices do not need it.
 size_t columns_of_strip(const DeviceInfo& info, const Pass& pass, size_t columns, const cl::NDRange& group, int lanes) {
-  constexpr size_t pixels = 480;  // half to twice as many do as well
+  constexpr size_t pixels = 480;  // half to twice as many are as fast
   if (info.type != "cpu" || !pass.footprint.is_wide) return columns;
   return group[0] * std::max(size_t(1), pixels / (group[0] * size_t(lanes)));
 }

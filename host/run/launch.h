@@ -7,8 +7,8 @@
 
 namespace gloam {
 
-/// Runs a pass's kernel on an image of such a layout and waits for the end. Milliseconds that the launch took, by its events;
-/// by the wall clock where the device has no timestamps.
+/// Runs a pass's kernel on an image of this layout and waits for its end. Returns the launch's time in milliseconds, by its
+/// events, or by the wall clock if the device has no timestamps.
 double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, int lanes);
 
 }  // namespace gloam

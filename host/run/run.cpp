@@ -29,7 +29,7 @@ unsigned long long bytes_beside_frame(const Plan& plan, const Layout& layout, si
   }
   for (const std::string& name : plan.outputs) results += bytes_of(plan, layouts, name);
   const size_t at_once = std::min(views_at_once(plan, views), views);
-  // Results of the views before; those of the last ones are their buffers.
+  // Results of the earlier views; those of the last views are still buffers.
   return shares_memory ? at_once * buffers + (views - at_once) * results : views * results;
 }
 

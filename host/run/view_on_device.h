@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gloam/run.h"
-#include "run/buffers.h"
 #include "plan/layouts.h"
+#include "run/buffers.h"
 
 namespace gloam {
 
@@ -19,20 +19,20 @@ struct ViewOnDevice {
   Layout layout;
   Layouts layouts;
   Buffers buffers;
-  bool is_key_view = true;               // whether others look into it, or it into others
-  std::set<std::string> planes = {};     // at hand: inputs, and what passes make here
-  std::vector<cl::Kernel> kernels = {};  // of the passes that run here
+  bool is_key_view = true;               // whether others read it, or it reads others
+  std::set<std::string> planes = {};     // available planes: inputs, and results of passes
+  std::vector<cl::Kernel> kernels = {};  // kernels of the passes that run here
   std::vector<cl::Buffer> numbers = {};  // projections and tables that they read
-  std::vector<size_t> passes = {};       // which these are
-  std::vector<PassTime> times = {};      // of each
+  std::vector<size_t> passes = {};       // numbers of these passes
+  std::vector<PassTime> times = {};      // times of these passes
 };
 
-/// The views that a view's passes may look into; null where there is none.
+/// The views that a view's passes may read; null if there is none.
 struct OtherViews {
-  ViewOnDevice* other = nullptr;                    // of two
+  ViewOnDevice* other = nullptr;                    // the other one of two
   ViewOnDevice *nearest = nullptr, *far = nullptr;  // key views
-  double share_of_far = 0;                          // where both show a point
-  /// The view that a binding's plane is of; null: the view itself.
+  double share_of_far = 0;                          // weight of `far` where both show a point
+  /// The view of a binding's plane; null: the view itself.
   ViewOnDevice* of(const Binding& binding) const {
     if (binding.from == From::other_view) return other;
     if (binding.from == From::nearest_key_view) return nearest;
@@ -40,11 +40,11 @@ struct OtherViews {
   }
 };
 
-/// Brings a view's inputs to the device, and makes room for what is computed.
+/// Uploads a view's inputs, and allocates the planes that are computed.
 ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device);
 
-/// The outputs that the view has, computed or inputs, go to `out`. A plane that the view came with and no pass makes here is
-/// no result of it.
+/// Moves the outputs of the view, computed or inputs, to `out`. A plane that came with the view, and that no pass makes here, is
+/// not a result.
 void download(const Plan& plan, ViewOnDevice& on_device, View& out);
 
 }  // namespace gloam

@@ -40,7 +40,7 @@ bool is_of_other_view(const Binding& binding) {
   return binding.from != From::this_view && binding.from != From::frame_before;
 }
 
-/// Whether a pass runs on a view: it is meant for it, and what it reads of it is there.
+/// Whether a pass runs on a view: its `On` includes the view, and the planes that it reads are there.
 bool runs_on(const PlannedPass& planned, const ViewOnDevice& target, size_t number) {
   if (!is_meant_for(planned.pass, number, target.is_key_view)) return false;
   return std::all_of(planned.pass.reads.begin(), planned.pass.reads.end(),
@@ -57,7 +57,7 @@ void add_kernel(const Plan& plan, size_t k, ViewOnDevice& target, const OtherVie
   for (const Binding& written : planned.pass.writes) target.planes.insert(written.plane);
 }
 
-/// Finds out which passes run on which views, and builds their kernels.
+/// Finds which passes run on which views, and builds their kernels.
 void add_kernels(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device, const RunOptions& options,
                  int lanes) {
   for (size_t k = 0; k < plan.passes.size(); ++k) {
@@ -68,7 +68,7 @@ void add_kernels(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::I
   }
 }
 
-/// Every pass on all views before the next one: it may read what the other view made.
+/// Runs every pass on all views before the next pass, which may read results of the other view.
 template <typename Function>
 void for_each_launch(const Plan& plan, std::vector<ViewOnDevice>& targets, const Function& function) {
   std::vector<size_t> next(targets.size(), 0);
@@ -80,7 +80,7 @@ void for_each_launch(const Plan& plan, std::vector<ViewOnDevice>& targets, const
   }
 }
 
-/// Pixels in rows of lanes of which a plane of bits names at least one.
+/// Number of pixels in rows of lanes with at least one bit set.
 double pixels_in_rows(ViewOnDevice& target, const std::string& bits_name, int lanes) {
   const uint32_t row_of_lanes = uint32_t((1ull << lanes) - 1);
   const Layout layout = target.layouts.of(bits_name);
@@ -95,7 +95,7 @@ double pixels_in_rows(ViewOnDevice& target, const std::string& bits_name, int la
   return pixels;
 }
 
-/// `in_full`: the estimate skips nothing, since others look into it.
+/// `in_full`: the estimate skips nothing, since others reuse the view.
 void count(const Plan& plan, ViewOnDevice& target, int lanes, bool in_full, Counted& counted) {
   const Layout layout = target.layouts.of(plan.wanted);
   const double all = double(layout.width) * layout.height;
@@ -114,7 +114,7 @@ void count_listed(const Plan& plan, ViewOnDevice& target, std::map<std::string, 
   for (const std::string& list : lists) listed[list] += target.buffers.length_of_list(list);
 }
 
-/// Runs pass `k` of a target's once. `counts`: its time is kept.
+/// Runs pass `k` of a target once. `counts`: its time is kept.
 void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl& device, int lanes, bool counts) {
   const PlannedPass& planned = plan.passes[target.passes[k]];
   try {
@@ -131,7 +131,7 @@ void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl&
   }
 }
 
-/// What a view comes to, and what it took.
+/// Adds a view's planes and times to the result.
 void collect(const Plan& plan, ViewOnDevice& target, RunResult& result) {
   View out{.name = target.view.name,
            .camera = target.view.camera,
@@ -139,12 +139,12 @@ void collect(const Plan& plan, ViewOnDevice& target, RunResult& result) {
            .planes = {}};
   count_listed(plan, target, result.listed);
   download(plan, target, out);
-  // A view that is only looked into has no result of its own.
+  // A view that is only read by others has no result of its own.
   if (!out.planes.empty()) result.frame.views.push_back(std::move(out));
   for (PassTime& time : target.times) result.passes.push_back(std::move(time));
 }
 
-/// Views that are on the device together.
+/// Runs views that are on the device together.
 void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
                const RunOptions& options, int lanes, RunResult& result, Counted& counted) {
   std::vector<ViewOnDevice> targets;
@@ -165,8 +165,8 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
   }
 }
 
-/// Runs a frame's views one after another, of which some are key views that others look into. Of these no more are on the device
-/// than are looked into from where the run has come to.
+/// Runs a frame's views one after another, with key views that others reuse. Only those key views are on the device that views
+/// from the present one on may read.
 class KeyViewsRun {
  public:
   KeyViewsRun(const Plan& plan, const Frame& frame, int spacing, Device::Impl& device, const RunOptions& options,
@@ -191,7 +191,7 @@ class KeyViewsRun {
         key(i);
       else
         between(i, key(size_t(role.nearest)), key(size_t(role.far)));
-      // Views come in order: no later one looks into key views before these.
+      // Views come in order: no later view reads key views before these.
       release_before(role.is_key ? i : size_t(std::min(role.nearest, role.far)));
     }
     release_before(roles_.size());
@@ -246,11 +246,11 @@ class KeyViewsRun {
   const Frame& frame_;
   Device::Impl& device_;
   const RunOptions& options_;
-  int lanes_, launches_ = 0, done_ = 0;  // launches: of each repeat
+  int lanes_, launches_ = 0, done_ = 0;  // launches_: per repeat
   Counted& counted_;
   std::vector<KeyViewRole> roles_;
   std::vector<RunResult> results_;       // view by view
-  std::map<size_t, ViewOnDevice> keys_;  // on the device
+  std::map<size_t, ViewOnDevice> keys_;  // key views on the device
 };
 
 }  // namespace

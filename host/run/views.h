@@ -6,12 +6,12 @@
 
 namespace gloam {
 
-/// Pixels that a mask lets an estimate skip, and that a second one sees to, of all that there are.
+/// Numbers of pixels: skipped by a mask's estimate, computed by a second one, and in all.
 struct Counted {
   double skipped = 0, rest = 0, of = 0;
 };
 
-/// Views are computed together where they look at one another, else one after another. Adds to `result` and `counted`.
+/// Computes views together if they read one another, else one after another. Adds to `result` and `counted`.
 void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, const RunOptions& options,
                    RunResult& result, Counted& counted);
 

@@ -37,7 +37,7 @@ long long surfaces_in(const Channel& depth) {
   return count;
 }
 
-/// What a part of the work took.
+/// Seconds of parts of the work.
 struct PartSeconds {
   double stochastic = 0, outlines = 0;
 };
@@ -128,7 +128,7 @@ class Capturer {
 
   void moved(int x, int y, const dvec3& world, double w) const {
     if (!target_.motion[0] || !view_.previous_camera) return;
-    const std::optional<glm::dvec2> before = place_in_world(*view_.previous_camera, world, w);
+    const std::optional<glm::dvec2> before = pixel_of_world(*view_.previous_camera, world, w);
     if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
   }
 
@@ -148,7 +148,7 @@ int thread_count() {
 #endif
 }
 
-/// All rows of a view, on all threads. Returns the seconds of its parts as a mean over the threads.
+/// Captures all rows of a view on all threads. Returns the seconds of the parts as a mean over the threads.
 PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
   const int rows = options.height * int(options.views.size() + (options.second_view ? 1 : 0));
   int done = rows_before;
@@ -193,7 +193,7 @@ void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOp
   result.rays += (options.outlines ? 2LL : 1LL) * options.width * options.height + (lit ? most_sun_rays * surfaces : 0);
 }
 
-/// From what the first view shows.
+/// The second view, from the depths that the first shows.
 CaptureView second_view(const CaptureOptions& options, CaptureResult& result) {
   result.visible = visible_depths(result.frame.views[0].planes.at("depth").channels[0]);
   if (!result.visible)
@@ -202,7 +202,7 @@ CaptureView second_view(const CaptureOptions& options, CaptureResult& result) {
                                              *options.second_view)};
 }
 
-/// With the eyes in place of the camera that is the middle between them.
+/// Options with both eyes instead of the camera in the middle between them.
 CaptureOptions with_both_eyes(CaptureOptions options) {
   if (!options.stereo) return options;
   const auto [left, right] = stereo_cameras(options.views[0].camera, *options.stereo);

@@ -20,10 +20,10 @@ void check_stochastic(const StochasticOptions& options) {
   if (options.seed < 0) throw UsageError("seed {} is negative; give 0 or more", options.seed);
 }
 
-/// `what` makes two views of the only one.
+/// Checks that `what`, which makes two views from the only one, is possible.
 void check_can_become_two(const CaptureOptions& options, const char* what, const char* how) {
   if (options.second_view && options.stereo)
-    throw UsageError("a second view and a pair of eyes cannot be had together; leave out one of them");
+    throw UsageError("a second view and a pair of eyes cannot be captured together; leave out one of them");
   if (options.views.size() != 1) throw UsageError("{} {} one view, and there are {}", what, how, options.views.size());
   if (contains(options.planes, "motion")) throw UsageError("{} has no motion; leave out one of them", what);
 }
@@ -31,7 +31,7 @@ void check_can_become_two(const CaptureOptions& options, const char* what, const
 void check_second_view(const CaptureOptions& options) {
   const double degrees = *options.second_view;
   if (!(std::abs(degrees) <= 90) || degrees == 0)
-    throw UsageError("a second view turned by {:g} degrees cannot be had; -90 to 90 can, but not 0", degrees);
+    throw UsageError("a second view turned by {:g} degrees is not allowed; -90 to 90 is, but not 0", degrees);
   check_can_become_two(options, "a second view", "goes beside");
   if (options.views[0].name == second_view_name)
     throw UsageError("the first view is called '{}', as the second would be; give it another name", second_view_name);

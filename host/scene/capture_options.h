@@ -1,4 +1,4 @@
-// What of a capture can be had.
+// Checks of capture options.
 #pragma once
 
 #include "gloam/scene/capture.h"
@@ -8,7 +8,7 @@ namespace gloam {
 /// The name of the view that `CaptureOptions::second_view` adds.
 inline constexpr const char* second_view_name = "view2";
 
-/// Throws what `capture` says for options that cannot be had.
+/// Throws as `capture` does for impossible options.
 void check_options(const CaptureOptions& options);
 
 }  // namespace gloam

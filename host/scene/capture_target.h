@@ -17,10 +17,10 @@ struct CaptureTarget {
   std::vector<Channel*> peel, stochastic;
 };
 
-/// Adds the planes that are asked for to the view, each with the value of pixels without a surface.
+/// Adds the planes that are asked for to the view, filled with the value of pixels without a surface.
 CaptureTarget capture_target(View& view, const CaptureOptions& options, const Layout& layout);
 
-/// Nothing where the channels are not captured.
+/// Stores a vector; does nothing if the channels are not captured.
 template <size_t n, typename Vector>
 void put(Channel* const (&channels)[n], int x, int y, const Vector& value) {
   if (!channels[0]) return;

@@ -1,11 +1,11 @@
-// What of a scene a camera shows at a pixel.
+// Which part of a scene a camera shows at a pixel.
 #pragma once
 
 #include "gloam/camera.h"
 
 namespace gloam {
 
-/// The depth at which a view's frustum ends; infinite where the camera has no far plane.
+/// The depth at which a view's frustum ends; infinite if the camera has no far plane.
 double far_of(const Camera& camera);
 
 /// Whether the image shows anything at a pixel: light of a display's module may miss the screen there.

@@ -1,4 +1,4 @@
-// What rays pass through and what they gather: filters that Embree calls for each hit.
+// Filters that Embree calls for each hit: they let rays pass through holes, or gather hits.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -14,10 +14,10 @@ namespace gloam {
 /// Weights of a triangle's vertices at a hit.
 glm::vec3 barycentric(float u, float v);
 
-/// Texture coordinates at a hit; 0 where the mesh has none.
+/// Texture coordinates at a hit; 0 if the mesh has none.
 glm::vec2 uv_at(const Mesh& mesh, unsigned triangle, glm::vec3 weights);
 
-/// What a filter needs of a mesh whose texture has holes.
+/// A filter's data for a mesh whose texture has holes.
 struct Cutout {
   const Scene* scene;
   const Mesh* mesh;
@@ -39,18 +39,17 @@ struct GatheringContext {
   std::vector<RawHit>* hits;
 };
 
-/// Takes every hit down and lets the ray go on.
+/// Records every hit and lets the ray go on.
 void gather_hit(const RTCFilterFunctionNArguments* arguments);
 
 /// Embree's context with the scene behind it, for `pass_what_is_behind`.
 struct SceneContext {
   RTCIntersectContext base;
   const Scene* scene;
-  float near;  ///< hits nearer than this are looked at again
+  float near;  ///< hits nearer than this are checked again
 };
 
-/// Lets go on what has only been hit by rounding: a triangle that in double lies behind the ray's start, such as the one
-/// that the ray leaves.
+/// Ignores hits due to rounding: triangles that in double lie behind the ray's start, such as the one that the ray leaves.
 void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments);
 
 }  // namespace gloam

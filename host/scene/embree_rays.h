@@ -1,4 +1,4 @@
-// Rays as Embree takes them, and its objects.
+// Rays in Embree's form, and owners of Embree objects.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -16,10 +16,10 @@ struct FreeScene {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
 
-/// Throws what Embree has to say, if anything.
+/// Throws Error if Embree reports one.
 void check_embree(RTCDevice device, const Scene& scene);
 
-/// A ray as Embree takes it, from `start` along it on.
+/// A ray in Embree's form, beginning at distance `start` along it.
 RTCRay embree_ray(const TracerRay& ray, double start);
 
 /// Up to 16 rays from one point.

@@ -1,4 +1,4 @@
-// Tells what a kept file was made from: a 64-bit FNV-1a hash over the bytes of plain values.
+// Identifies the inputs of a kept file: a 64-bit FNV-1a hash over the bytes of plain values.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class Fingerprint {
     static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
     add_bytes(&value, sizeof value);
   }
-  /// A list and its length, so that neighbours cannot be taken for each other.
+  /// A list and its length, so that neighbouring lists cannot be confused.
   template <typename Value>
   void add(const std::vector<Value>& values) {
     add(values.size());
@@ -33,13 +33,13 @@ class Fingerprint {
     add(text.size());
     add_bytes(text.data(), text.size());
   }
-  /// All that rays can meet: triangles, normals, cut-outs and where they are.
+  /// All that rays can meet: triangles, normals, cut-outs and positions.
   void add(const Scene& scene);
-  /// What they see there: materials, textures and light.
+  /// The light that rays see: materials, textures and lights.
   void add_light(const Scene& scene);
-  /// What surfaces do with light: roughness and reflectance of every view.
+  /// How surfaces reflect: roughness and reflectance of every view.
   void add_gloss(const Frame& frame);
-  /// What rays start from: depth and normals of every view, and its camera.
+  /// The starts of rays: depth and normals of every view, and its camera.
   void add(const Frame& frame);
 
   /// 16 hexadecimal digits.

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// assimp's parser and its walk over nodes call themselves; some ten thousand levels end the program. Its JSON is shallow
-/// as every JSON is that is read (json_text.h).
+/// assimp's parser and its walk over nodes recurse; some ten thousand levels end the program. The JSON is shallow, since only
+/// shallow JSON is read (json_text.h).
 constexpr int deepest_node = 1000;
 
 // --- The JSON text
@@ -132,7 +132,7 @@ struct PlacedNode {
   int depth;
 };
 
-/// The nodes of the scene that is shown, parents before children.
+/// The nodes of the default scene, parents before children.
 std::vector<PlacedNode> placed_nodes(const json& file, const fs::path& path) {
   const json& all = member(file, "nodes");
   std::vector<PlacedNode> placed, open;
@@ -163,7 +163,7 @@ bool finite(const glm::dmat4& m) {
   return std::isfinite(sum);
 }
 
-/// Says false where the camera's numbers are of no use.
+/// Returns false if the camera's numbers are unusable.
 bool set_lens(const json& camera, SceneCamera& to) {
   if (text_of(member(camera, "type")) == "orthographic") {
     to.orthographic = true;
@@ -204,7 +204,7 @@ void add_emissive_strengths(const json& file, GltfJson& to) {
     if (!extension.is_object()) continue;
     const std::string name = text_of(member(material, "name"));
     if (name.empty() || uses[name] > 1)
-      ++lost;  // assimp orders materials anew, so that only the name tells which is which
+      ++lost;  // assimp reorders materials, so only names identify them
     else
       to.emissive_strength[name] = float(number_of(member(extension, "emissiveStrength"), 1));
   }

@@ -15,7 +15,7 @@
 namespace gloam {
 namespace {
 
-/// 16384 x 16384, a gigabyte of texels. A header may claim more than its file could ever hold.
+/// 16384 x 16384: a gigabyte of texels. A header may overstate its size.
 constexpr size_t most_texels = size_t(1) << 28;
 
 std::string failure() {

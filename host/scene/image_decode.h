@@ -10,7 +10,7 @@
 
 namespace gloam {
 
-/// Throws Error with the reason alone ("unknown image type"): the caller knows what the picture is for.
+/// Throws Error with only the reason ("unknown image type"); the caller adds the picture's name.
 Texture decode_image(const std::string& name, const uint8_t* bytes, size_t size);
 /// As above, from a file.
 Texture read_image(const std::filesystem::path& path);

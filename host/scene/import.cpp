@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Counted in place: a small file can ask for any number of instances.
+/// Counted with all instances: a small file can ask for any number of them.
 constexpr size_t most_triangles = 100'000'000;
 
 std::string counted(size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }

@@ -39,13 +39,13 @@ std::string text(const aiMaterial& from, const char* key, unsigned type, unsigne
   return from.Get(key, type, index, value) == aiReturn_SUCCESS ? value.C_Str() : "";
 }
 
-/// Perceptual roughness of a Phong exponent: GGX alpha = sqrt(2 / (exponent + 2)) (Walter et al. 2007, eq. 35 and
-/// around, the match of Phong and Beckmann lobes), and alpha is the square of the perceptual roughness.
+/// Perceptual roughness from a Phong exponent: GGX alpha = sqrt(2 / (exponent + 2)) (Walter et al. 2007, around eq. 35, the match
+/// of Phong and Beckmann lobes); alpha is the square of the perceptual roughness.
 float roughness_of_exponent(float exponent) { return std::pow(2 / (std::max(exponent, 0.0f) + 2), 0.25f); }
 
 // --- Finding textures
 
-/// The path as written, with its escapes decoded, and, for files that came from another machine, the name alone.
+/// The path as written, with its escapes decoded, or, for files from another machine, the file name alone.
 fs::path find_file(const fs::path& folder, std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   const std::string decoded = percent_decoded(name);
@@ -75,8 +75,8 @@ bool has_holes(const Texture& texture) {
   return false;
 }
 
-/// `albedo` (white where null) with the opacity of another picture: its alpha where it has one, else its red. As large
-/// as the larger of both.
+/// `albedo` (white if null) with the opacity of another picture: its alpha if it has one, else its red. The result has the size
+/// of the larger one.
 Texture with_opacity(const Texture* albedo, const Texture& opacity) {
   const size_t channel = has_holes(opacity) ? 3 : 0;
   Texture result;
@@ -101,8 +101,8 @@ Texture with_opacity(const Texture* albedo, const Texture& opacity) {
 
 // --- Texture coordinates
 
-/// assimp turns glTF's transform (scale, rotation about the top left, offset) into one about the centre with v up, and
-/// with rotation its own step does not turn it back; so it is taken apart here, by the formula of its importer.
+/// assimp turns glTF's transform (scale, rotation about the top left, offset) into one about the centre with v up, but does not
+/// invert it correctly if there is a rotation; so it is decomposed here, by the formula of assimp's importer.
 UvUse uv_use(const aiMaterial& from, aiTextureType type, unsigned set) {
   UvUse use;
   use.set = set;
@@ -119,7 +119,7 @@ UvUse uv_use(const aiMaterial& from, aiTextureType type, unsigned set) {
 
 // --- One scene's materials
 
-/// Materials of which a note says the same: "3 materials (the first is 'leaf')".
+/// Materials that share a note: "3 materials (the first is 'leaf')".
 struct Named {
   size_t count = 0;
   std::string first;
@@ -175,7 +175,7 @@ int Importer::loaded(const std::string& name) {
   return entry->second;
 }
 
-/// -1 where the material has none of this type, or it cannot be read.
+/// Index of the texture; -1 if the material has none of this type, or it cannot be read.
 int Importer::texture(const aiMaterial& from, aiTextureType type) {
   const std::string name = text(from, AI_MATKEY_TEXTURE(type, 0));
   if (name.empty()) return -1;
@@ -208,7 +208,7 @@ void Importer::set_base(const aiMaterial& from, Material& to) {
   if (to.albedo_texture < 0) to.albedo_texture = texture(from, aiTextureType_DIFFUSE);
 }
 
-/// Surfaces are there or not: nothing is seen through.
+/// Opacity becomes a mask: nothing is translucent.
 void Importer::set_opacity(const aiMaterial& from, Material& to) {
   const std::string mode = text(from, AI_MATKEY_GLTF_ALPHAMODE);
   const float opacity = number(from, AI_MATKEY_OPACITY).value_or(1);
@@ -230,7 +230,7 @@ void Importer::set_opacity(const aiMaterial& from, Material& to) {
 void Importer::set_reflection(const aiMaterial& from, Material& to) {
   const auto roughness = number(from, AI_MATKEY_ROUGHNESS_FACTOR), metallic = number(from, AI_MATKEY_METALLIC_FACTOR);
   const auto exponent = number(from, AI_MATKEY_SHININESS);
-  // glTF has both in one texture; others have one each, or none.
+  // glTF has both in one texture; other formats have one each, or none.
   const int both = texture(from, aiTextureType_UNKNOWN);
   to.roughness_texture = both >= 0 ? both : texture(from, aiTextureType_DIFFUSE_ROUGHNESS);
   to.metallic_texture = both >= 0 ? both : texture(from, aiTextureType_METALNESS);
@@ -248,7 +248,8 @@ void Importer::set_emission(const aiMaterial& from, float strength, Material& to
   to.emission_texture = texture(from, aiTextureType_EMISSIVE);
   const bool is_gltf = !text(from, AI_MATKEY_GLTF_ALPHAMODE).empty();
   const bool lost = to.emission_texture < 0 && !text(from, AI_MATKEY_TEXTURE(aiTextureType_EMISSIVE, 0)).empty();
-  // Without its texture the whole surface would shine. OBJ files give map_Ke without Ke, which assimp makes black.
+  // A lost texture turns emission off: otherwise the whole surface would shine. OBJ files give map_Ke without Ke, which assimp
+  // makes black.
   if (lost) to.emission = glm::vec3(0);
   if (to.emission_texture >= 0 && to.emission == glm::vec3(0) && !is_gltf) to.emission = glm::vec3(1);
   if (std::isfinite(strength) && strength >= 0) to.emission *= strength;

@@ -8,9 +8,9 @@
 namespace gloam {
 namespace {
 
-/// Float has steps of 1e8 there, and squares of distances still fit it.
+/// Float has steps of 1e8 there; squares of distances still fit it.
 constexpr double largest_coordinate = 1e15;
-/// A triangle is without area where it is thinner than this part of its length: float cannot tell its normal.
+/// A triangle counts as without area if its height is less than this share of its length: float cannot give its normal.
 constexpr double thinnest = 1e-7;
 
 double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -26,7 +26,7 @@ bool degenerate(const std::array<glm::vec3, 3>& p) {
   return !(glm::length(area_vector(p[0], p[1], p[2])) > thinnest * longest * longest);
 }
 
-/// The cofactors: inverse transpose times determinant. Exists where an axis is scaled by zero, too.
+/// The cofactors: inverse transpose times determinant. They exist even if an axis is scaled by zero.
 glm::dmat3 cofactors(const glm::dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -69,7 +69,7 @@ class Placing {
     }
   }
 
-  /// Only what triangles use is kept, so that a stray vertex that is not finite does no harm.
+  /// Keeps only vertices that triangles use, so that a stray vertex that is not finite does no harm.
   unsigned vertex(unsigned from, const glm::vec3& position) {
     if (index_[from] == none) {
       index_[from] = unsigned(source_.size());
@@ -93,11 +93,11 @@ class Placing {
     if (broken.size() == mesh_.normals.size())
       mesh_.normals.clear();
     else if (!broken.empty())
-      mend(broken);
+      repair(broken);
   }
 
-  /// The sum of the faces around a vertex by area, or one of them where they cancel.
-  void mend(const std::vector<unsigned>& broken) {
+  /// Sets a normal to the area-weighted sum of the faces around the vertex, or to one of them if they cancel.
+  void repair(const std::vector<unsigned>& broken) {
     std::vector<glm::dvec3> sum(mesh_.positions.size(), glm::dvec3(0)), last = sum;
     for (const glm::uvec3& t : mesh_.triangles) {
       const glm::dvec3 area = area_vector(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]);
@@ -109,7 +109,7 @@ class Placing {
     }
   }
 
-  /// assimp has v up from the bottom for all formats.
+  /// assimp has v up from the bottom, for all formats.
   void add_uvs(const UvUse& use) {
     const bool has_set = use.set < AI_MAX_NUMBER_OF_TEXTURECOORDS && from_.HasTextureCoords(use.set);
     const unsigned set = has_set ? use.set : 0;

@@ -1,4 +1,4 @@
-// Meshes of an assimp scene, in place.
+// Meshes of an assimp scene, placed.
 #pragma once
 
 #include <assimp/scene.h>
@@ -23,7 +23,7 @@ inline glm::dmat4 matrix_of(const aiMatrix4x4& m) {
   return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
 }
 
-/// A mesh of the file and where it stands.
+/// A mesh of the file and its transform.
 struct Instance {
   const aiMesh* mesh;
   std::string name;
@@ -33,10 +33,10 @@ struct Instance {
   }
 };
 
-/// In the order of the file, parents before children.
+/// Instances in the order of the file, parents before children.
 std::vector<Instance> instances_of(const aiScene& scene);
 
-/// Of what triangles use and is finite, in the world.
+/// Bounds in the world, over finite vertices that triangles use.
 struct Bounds {
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
   double largest_local = 0;  ///< coordinate as assimp holds it: in float, before the transform
@@ -55,8 +55,8 @@ struct Repairs {
   size_t coloured = 0, moving = 0;        ///< instances with vertex colours, with bones or morph targets
 };
 
-/// Adds the instances that have a triangle to `scene`, relative to its origin, with triangles turned round where the
-/// transform mirrors. The last of the scene's materials is for meshes without one. `uv_uses`: by material.
+/// Adds the instances with at least one triangle to `scene`, relative to its origin; triangles are reversed if the transform
+/// mirrors. The last of the scene's materials is for meshes without one. `uv_uses`: by material.
 void add_meshes(const std::vector<Instance>& instances, const std::vector<UvUse>& uv_uses, Scene& scene,
                 Repairs& repairs);
 

@@ -30,7 +30,7 @@ size_t digits_at(std::string_view text, size_t from) {
   return at - from;
 }
 
-/// "-.5" as "-0.5", "+5." as "5.0", "nan" as a number beyond float; none where it is no number.
+/// "-.5" as "-0.5", "+5." as "5.0", "nan" as a number beyond float; none if it is not a number.
 std::optional<std::string> as_number(std::string_view word) {
   std::string sign;
   if (!word.empty() && (word[0] == '-' || word[0] == '+')) {
@@ -85,7 +85,7 @@ class Lines {
   size_t at_ = 0, number_ = 0, first_ = 0;
 };
 
-/// Words of a comment after the values are none of them.
+/// Ignores words of a comment after the values.
 std::string with_numbers(const std::vector<std::string_view>& words, const std::string& file, size_t line) {
   std::string result(words[0]);
   for (size_t i = 1; i < words.size() && words[i][0] != '#'; ++i) {

@@ -1,5 +1,5 @@
-// OBJ and MTL files as assimp reads them right: it passes over numbers that begin with a point, and ends at statements that it takes
-// for others.
+// OBJ and MTL files in a form that assimp reads correctly: it skips numbers that begin with a point, and stops at statements that
+// it mistakes for others.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ struct ObjText {
   size_t faces = 0;  ///< of three vertices and more
 };
 
-/// The same geometry, every number in the form 0.5. What is no number becomes one that is not finite, and a word where a number
-/// has to be throws Error naming `file` and the line.
+/// The same geometry with every number in the form 0.5. Words such as nan become numbers that are not finite. Throws Error naming
+/// `file` and the line if a word stands where a number must be.
 ObjText readable_obj(const std::string& text, const std::string& file);
 
 struct MtlText {
@@ -22,7 +22,7 @@ struct MtlText {
   std::vector<std::string> left_out;  ///< statements whose value is no number: "Kd spectral"
 };
 
-/// The same materials, without statements that assimp takes for others (`aniso`, `d -halo`) or cannot read.
+/// The same materials, without statements that assimp mistakes for others (`aniso`, `d -halo`) or cannot read.
 MtlText readable_mtl(const std::string& text);
 
 }  // namespace gloam

@@ -1,4 +1,4 @@
-// How many outlines the rays of a view are in where they meet what is visible.
+// Counts the outlines that contain the visible surfaces of a view.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace gloam {
 
-/// Counts the outlines that one view's rays are in where they meet what is visible.
+/// Counts the outlines that contain the visible surfaces of one view.
 class OutlineCounter {
  public:
   OutlineCounter(const Outlines* outlines, const Camera& camera, const CaptureTarget& target);
 
-  /// Once the row has its depths.
+  /// Counts for a row whose depths are filled.
   void row(int y) const;
 
  private:

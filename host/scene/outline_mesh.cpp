@@ -16,9 +16,9 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-/// Which vertices are one: those at exactly one position.
+/// Vertices at exactly the same position, as one place.
 struct Places {
-  std::vector<unsigned> of;  ///< of each vertex
+  std::vector<unsigned> of;  ///< place of each vertex
   size_t count = 0;
 };
 
@@ -56,7 +56,7 @@ std::vector<std::vector<dvec3>> distinct_normals(const Mesh& mesh, const Places&
   for (const glm::uvec3& t : mesh.triangles) {
     const dvec3 normal = face_normal(mesh, t);
     if (normal == dvec3(0)) continue;
-    // By sine and cosine: the cosine of a small angle has lost most of its digits.
+    // By sine and cosine: the cosine of a small angle has few digits left.
     const auto is_same = [&](const dvec3& other) {
       return std::atan2(glm::length(glm::cross(normal, other)), glm::dot(normal, other)) <= angle;
     };
@@ -68,7 +68,7 @@ std::vector<std::vector<dvec3>> distinct_normals(const Mesh& mesh, const Places&
   return normals;
 }
 
-/// Step 3: their mean, made unit; zero where they cancel.
+/// Step 3: the normalised mean of the normals; zero if they cancel.
 dvec3 integrated_normal(const std::vector<dvec3>& normals) {
   const dvec3 sum = std::accumulate(normals.begin(), normals.end(), dvec3(0));
   return glm::length(sum) > 1e-6 * double(normals.size()) ? glm::normalize(sum) : dvec3(0);
@@ -107,7 +107,7 @@ void push_faces(Mesh& mesh, double extent) {
   mesh.positions = std::move(positions);
 }
 
-/// Parts of a mesh: places that triangles join.
+/// Connected parts of a mesh: places joined by triangles.
 class Parts {
  public:
   Parts(const Mesh& mesh, const Places& places) : parent_(places.count), open_(places.count, 0) {
@@ -128,7 +128,7 @@ class Parts {
   std::vector<char> open_;
 };
 
-/// Opens what has an edge that is used more often one way than the other.
+/// Marks parts as open that have an edge used more often one way than the other.
 void open_at_borders(Parts& parts, const Mesh& mesh, const Places& places) {
   struct Edge {
     unsigned low, high;
@@ -151,7 +151,7 @@ void open_at_borders(Parts& parts, const Mesh& mesh, const Places& places) {
   }
 }
 
-/// Opens what has come apart: triangles that met in a place and do not any more.
+/// Marks parts as open that have come apart: triangles that met in a place and no longer do.
 void open_where_torn(Parts& parts, const Mesh& mesh, const Places& places, const Mesh& outline) {
   std::vector<const vec3*> moved_to(places.count, nullptr);
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -15,11 +15,11 @@ namespace {
 
 using glm::dvec3;
 
-/// A face nearer to a ray's end than this share of its length is at the end: depths are stored in floats, and outlines may
+/// A face nearer to a ray's end than this share of its length counts as at the end: depths are stored as floats, and outlines may
 /// touch other objects.
 constexpr double at_end = 1e-6;
 
-/// Faces entered less faces left.
+/// Faces entered minus faces left.
 template <typename Counts>
 int entered_less_left(const Tracer& tracer, const TracerRay& ray, const Counts& counts) {
   thread_local std::vector<Crossing> crossings;
@@ -53,7 +53,7 @@ Outlines::Outlines(const Tracer& tracer, const OutlineOptions& options) : object
   for (size_t i = 0; i < objects.meshes.size(); ++i) {
     try {
       Outline outline = outline_of(objects.meshes[i], options);
-      // A ray may pass through an object's holes, which its outline does not have.
+      // A ray may pass through holes that the outline of the object lacks.
       if (has_holes(objects, objects.meshes[i])) std::fill(outline.closed.begin(), outline.closed.end(), char(0));
       scene_.meshes[i] = std::move(outline.mesh);
       closed_[i] = std::move(outline.closed);
@@ -68,19 +68,18 @@ Outlines::Outlines(const Tracer& tracer, const OutlineOptions& options) : object
 }
 
 int Outlines::crossings(const TracerRay& ray) const {
-  TracerRay longer = ray;  // what is at the end is found out in double
+  TracerRay longer = ray;  // faces at the end are decided in double
   longer.far *= 1 + 1e-4;
   return entered_less_left(*outlines_, longer,
                            [&](const Crossing& crossing) { return crossing.distance < ray.far * (1 - at_end); });
 }
 
-/// A closed surface is left once more than it is entered, on the way from a point inside to infinity, in any direction:
-/// minus the crossings of the whole ray say how many times it is around its start. Of the outline alone that would count
-/// an eye in a room whose walls face outwards, as part of a larger solid, and one deep in a room that faces inwards as -1,
-/// since such an outline shrinks. What the object itself is around is taken off, so that only the layer between the two
-/// remains, which is where a ray from free space arrives at the visible surface. A surface with a border has neither inside
-/// nor outside: it would make a difference that depends on the ray, so it is left out, and an eye between such a surface and
-/// its outline counts one too few.
+/// On the way from a point inside to infinity, in any direction, a closed surface is left once more than it is entered: minus the
+/// crossings of the whole ray tell how often it encloses the start. Of the outline alone this would count an eye in a room whose
+/// walls face outwards as inside a larger solid, and one deep in a room that faces inwards as -1, since such an outline shrinks.
+/// Subtracting the object's own count leaves only the layer between the two, where a ray from free space arrives at the visible
+/// surface. A surface with a border has neither inside nor outside: its count would depend on the ray, so it is left out, and an
+/// eye between such a surface and its outline counts one too few.
 int Outlines::around(const dvec3& point, const dvec3& direction) const {
   const TracerRay ray{point, direction};
   const auto is_closed = [&](const Crossing& crossing) {
@@ -90,7 +89,7 @@ int Outlines::around(const dvec3& point, const dvec3& direction) const {
 }
 
 int Outlines::around(const dvec3& point) const {
-  // All agree but those that meet an edge: the middle one is right.
+  // All but those that meet an edge agree: the median is right.
   std::array<int, 15> counts;
   for (size_t i = 0; i < counts.size(); ++i) counts[i] = around(point, direction(int(i), int(counts.size())));
   std::nth_element(counts.begin(), counts.begin() + counts.size() / 2, counts.end());

@@ -13,12 +13,12 @@ namespace {
 
 float twice_area(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// Does `p` lie on the way from a to b, ends excluded?
+/// Whether `p` lies between a and b, ends excluded.
 bool lies_between(vec2 p, vec2 a, vec2 b) {
   return twice_area(a, b, p) == 0 && glm::dot(p - a, b - a) > 0 && glm::dot(p - b, a - b) > 0;
 }
 
-/// Does the way from a to b cross the side from c to d, or run through one of its ends?
+/// Whether the segment from a to b crosses the side from c to d, or passes through one of its ends.
 bool cross(vec2 a, vec2 b, vec2 c, vec2 d) {
   if (lies_between(c, a, b) || lies_between(d, a, b)) return true;
   if (a == c || a == d || b == c || b == d) return false;
@@ -26,7 +26,7 @@ bool cross(vec2 a, vec2 b, vec2 c, vec2 d) {
   return ((ac >= 0) != (bc >= 0)) && ((ca >= 0) != (da >= 0));
 }
 
-/// Does the way from a corner of a counter-clockwise loop to `point` start inside the loop, or along its sides?
+/// Whether the segment from a corner of a counter-clockwise loop to `point` starts inside the loop, or along its sides.
 bool starts_inside(vec2 before, vec2 at, vec2 after, vec2 point) {
   if (point == before || point == after) return true;
   const bool left_of_after = twice_area(at, after, point) > 0, right_of_before = twice_area(at, before, point) < 0;
@@ -62,7 +62,7 @@ bool is_ear(const std::vector<vec2>& left, size_t i) {
   const size_t n = left.size();
   const vec2 a = left[(i + n - 1) % n], b = left[i], c = left[(i + 1) % n];
   if (twice_area(a, b, c) <= 0) return false;
-  // Corners of a seam lie at one place twice: the cut must run on this side of it.
+  // Corners of a seam occur twice: the cut must run on this side of it.
   if (!starts_inside(left[(i + n - 2) % n], a, b, c) || !starts_inside(b, c, left[(i + 2) % n], a)) return false;
   for (const vec2 p : left) {
     if (p == a || p == b || p == c) continue;
@@ -115,7 +115,7 @@ std::vector<glm::uvec3> triangulated(const std::vector<vec2>& outline) {
     while (i > 0 && !is_ear(left, n - i)) --i;
     const size_t ear = i > 0 ? n - i : 0;
     if (i > 0) triangles.push_back({names[(ear + n - 1) % n], names[ear], names[(ear + 1) % n]});
-    remove(ear);  // where there is no ear, what is left is a line: no area to fill
+    remove(ear);  // without an ear, the rest is a line: no area to fill
   }
   return triangles;
 }

@@ -7,11 +7,11 @@
 
 namespace gloam {
 
-/// One loop for an outline with holes: each hole is cut open and joined to the rest by a seam that is walked both ways.
-/// Outline and holes go round counter-clockwise.
+/// Joins an outline and its holes to one loop: each hole is cut open and connected by a seam that is walked both ways. Outline
+/// and holes are counter-clockwise.
 std::vector<glm::vec2> joined(std::vector<glm::vec2> outline, std::vector<std::vector<glm::vec2>> holes);
 
-/// A polygon cut into triangles of its corners' indices, ear by ear. It may touch itself along seams.
+/// Cuts a polygon into triangles of corner indices, ear by ear. It may touch itself along seams.
 std::vector<glm::uvec3> triangulated(const std::vector<glm::vec2>& outline);
 
 }  // namespace gloam

@@ -16,13 +16,13 @@ using glm::vec3;
 
 constexpr int packet = rays_per_packet;
 
-/// What one half of the rays says.
+/// The estimate from one half of the rays.
 class Estimator {
  public:
   Estimator(const Tracer& tracer, const AoReferenceOptions& options)
       : tracer_(tracer), options_(options), half_(rounded_samples(options.samples) / 2) {}
 
-  /// Open share of the hemisphere, from `half_` rays of the set that `seed` names.
+  /// Open share of the hemisphere, from `half_` rays of the set with this `seed`.
   double open_share(const Site& site, uint32_t seed) const {
     double closed = 0;
     for (int first = 0; first < half_; first += packet) closed += closed_by_packet(site, seed, first);
@@ -71,7 +71,7 @@ class Estimator {
 
 void check_inputs(const Frame& frame, const AoReferenceOptions& options) {
   if (!(options.radius > 0))
-    throw UsageError("a reference of radius {:g} sees nothing; more than 0 does", options.radius);
+    throw UsageError("a reference of radius {:g} is open everywhere; give more than 0", options.radius);
   if (options.samples < 1 || options.samples > (1 << 24))
     throw UsageError("{} samples are not allowed; 1 to {} are", options.samples, 1 << 24);
   check_views(frame);

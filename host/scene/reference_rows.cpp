@@ -30,15 +30,15 @@ using Clock = std::chrono::steady_clock;
 /// The attribute that makes a file a checkpoint.
 constexpr const char* key_name = "gloamReferenceKey";
 
-/// What an interrupted run says once something is kept.
+/// Message of an interrupted run once something is saved.
 constexpr const char* goes_on = "run it again and it goes on where it was";
 
-/// Surfaces whose depth is this near to the frame's, as a share of it, are the frame's.
+/// A surface counts as the frame's if its depth differs by at most this share.
 constexpr double same_depth = 0.01;
 
-// --- What is kept between two runs
+// --- Checkpoints
 
-/// Tells one computation from another. The number is raised when the method changes.
+/// Identifies a computation. The leading number is raised when the method changes.
 std::string key_of(const Tracer& tracer, const Frame& frame, const RowsOptions& options) {
   Fingerprint print;
   print.add(tracer.scene());
@@ -46,7 +46,7 @@ std::string key_of(const Tracer& tracer, const Frame& frame, const RowsOptions& 
   return fmt::format("3: {} {}x{} {} {}", print.text(), frame.width(), frame.height(), options.value, options.key);
 }
 
-/// A file in the checkpoint's place that is not a checkpoint belongs to somebody.
+/// Throws Error if another file lies in the checkpoint's place: it may be somebody's.
 void check_checkpoint(const std::filesystem::path& path) {
   std::error_code code;
   if (path.empty() || !std::filesystem::exists(std::filesystem::symlink_status(path, code))) return;
@@ -57,11 +57,11 @@ void check_checkpoint(const std::filesystem::path& path) {
     // Not even an EXR.
   }
   if (!ours)
-    throw Error("{}: is where an unfinished reference would be kept, and is something else; move it away",
+    throw Error("{}: an unfinished reference would be saved here, but this is another file; move it away",
                 path.string());
 }
 
-/// Rows that an interrupted run has finished already: pixels that it has not are NaN.
+/// Takes over rows of an interrupted run; unfinished pixels are NaN.
 void resume(Reference& reference, const std::string& key, const RowsOptions& options) {
   Frame& result = reference.frame;
   if (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) return;
@@ -70,7 +70,7 @@ void resume(Reference& reference, const std::string& key, const RowsOptions& opt
     as_stored.as_stored = true;
     FrameFile file(options.checkpoint, as_stored);
     if (file.text_attribute(key_name) != key) {
-      reference.notes.push_back(fmt::format("{}: was the unfinished reference of other settings, and is given up",
+      reference.notes.push_back(fmt::format("{}: held an unfinished reference with other settings, which is dropped",
                                             options.checkpoint.string()));
       return;
     }
@@ -127,12 +127,12 @@ class RowsTracing {
   }
 
  private:
-  /// Of one row: each component of the value, then the noise.
+  /// One row: each component of the value, then the noise.
   using Row = std::vector<std::vector<float>>;
 
   struct Tally {
     long long surfaces = 0, unlike = 0;
-    int x = -1, y = -1;  ///< one pixel that is unlike
+    int x = -1, y = -1;  ///< a pixel that is unlike the scene
   };
 
   void count_resumed() {
@@ -158,7 +158,7 @@ class RowsTracing {
         Row row(value.size() + 1, std::vector<float>(size_t(frame_.width()), 0.0f));
         const long long rays = trace_row(pixels, y, row);
         const std::lock_guard<std::mutex> lock(mutex_);
-        // The first component tells that the row is done.
+        // The first component is copied last: it marks the row as done.
         for (size_t i = 1; i < value.size(); ++i) std::copy(row[i].begin(), row[i].end(), value[i].row(y));
         std::copy(row.back().begin(), row.back().end(), noise.row(y));
         std::copy(row[0].begin(), row[0].end(), value[0].row(y));
@@ -173,7 +173,7 @@ class RowsTracing {
     out.planes["depth"] = view.planes.at("depth").clone();
   }
 
-  /// Gives the number of rays.
+  /// Returns the number of rays.
   long long trace_row(const ViewTracer& pixels, int y, Row& row) const {
     const size_t components = row.size() - 1;
     std::vector<float> value(components);
@@ -201,7 +201,7 @@ class RowsTracing {
     if (!options_.checkpoint.empty() && seconds_since(saved_) >= options_.checkpoint_seconds) save();
   }
 
-  /// Not being able to is no reason to lose the work itself.
+  /// A failed save does not stop the work.
   void save() {
     saved_ = Clock::now();
     if (!can_save_) return;
@@ -211,12 +211,12 @@ class RowsTracing {
       say_on_interruption(goes_on);
     } catch (const Error& error) {
       can_save_ = false;
-      result_.notes.push_back(fmt::format("an interruption would have lost the work: {}", error.what()));
+      result_.notes.push_back(fmt::format("the work could not be saved against interruptions: {}", error.what()));
     }
     result_.frame.attributes.erase(key_name);
   }
 
-  /// A frame of another scene is found before hours go into it: by a grid of pixels.
+  /// Checks a grid of pixels, so that a frame of another scene is found before hours are spent on it.
   void check_likeness(const View& view, const ViewTracer& pixels) {
     Tally tally;
     const int step_x = std::max(1, frame_.width() / 128), step_y = std::max(1, frame_.height() / 72);
@@ -316,7 +316,7 @@ Site ViewTracer::site(int x, int y, bool& alike) const {
   return site;
 }
 
-/// The first surface; where that is not the frame's, the one behind it that is.
+/// The first surface, or the one behind it that has the frame's depth.
 std::optional<Surface> ViewTracer::surface_at(const TracerRay& ray, double depth, bool& alike) const {
   const auto fits = [depth](const Surface& s) { return std::abs(s.distance - depth) <= same_depth * depth; };
   const std::optional<Surface> first = tracer_.first(ray);

@@ -19,13 +19,13 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
 
-/// What is below is a mirror: all of its rays go one way (kernels/shared/rays/ggx.h has the same bound).
+/// Below this roughness a surface is a mirror: all rays go one way (the same bound as in kernels/shared/rays/ggx.h).
 constexpr float mirror_roughness = 0.03f;
 
-/// Rays of a mirror; they differ in where the sun is looked for from what they meet.
+/// Rays of a mirror; they differ in the points of the sun that their hits are lit by.
 constexpr int mirror_samples = 2 * rays_per_packet;
 
-/// Of the largest component of the pixels that reflect: what is brought to white before a reflection is looked at.
+/// Percentile of the largest component over reflecting pixels that the exposure brings to 1.
 constexpr double white_percentile = 0.99;
 
 struct Gloss {
@@ -34,7 +34,7 @@ struct Gloss {
   bool is_mirror = false;
 };
 
-/// A microfacet's normal as seen from `v`, z up (Dupuy and Benyoub 2023).
+/// A visible microfacet's normal seen from `v`, z up (Dupuy and Benyoub 2023).
 dvec3 visible_normal(const dvec3& v, double alpha, const dvec2& u) {
   const dvec3 w = glm::normalize(dvec3(alpha * v.x, alpha * v.y, v.z));
   const double angle = glm::two_pi<double>() * u.y, z = (1 - u.x) * (1 + w.z) - w.z;
@@ -52,12 +52,12 @@ dvec3 fresnel(const dvec3& reflectance, double cosine) {
   return reflectance + (1.0 - reflectance) * std::pow(std::max(1 - cosine, 0.0), 5.0);
 }
 
-/// What every view of the frame shows, to tell what a screen-space ray could meet.
+/// The points that the views of the frame show: those that a screen-space ray could meet.
 class Shown {
  public:
   explicit Shown(const Tracer& tracer, const Frame& frame) : tracer_(tracer), frame_(frame) {}
 
-  /// Relative to Scene::origin.
+  /// Whether a view shows the point, relative to Scene::origin.
   bool point(const dvec3& position) const {
     return in_a_view(position + tracer_.scene().origin, 1, [](double there, float shown) {
       return !is_background(shown) && std::abs(there - double(shown)) <= 0.01 * there;
@@ -73,7 +73,7 @@ class Shown {
   bool in_a_view(const dvec3& world, double w, const Fits& fits) const {
     return std::any_of(frame_.views.begin(), frame_.views.end(), [&](const View& view) {
       const Camera& camera = *view.camera;
-      const std::optional<glm::dvec2> place = place_in_world(camera, world, w);
+      const std::optional<glm::dvec2> place = pixel_of_world(camera, world, w);
       if (!place) return false;
       const dvec3 p = camera.pose->world_to_view * (world - w * camera.pose->position);
       const double x = std::floor(place->x) - frame_.window.x0, y = std::floor(place->y) - frame_.window.y0;
@@ -133,7 +133,7 @@ class ReflectionTracer {
   Half half(const Site& site, const Gloss& gloss, int samples, uint32_t seed) const {
     Half sum;
     dvec3 v = glm::transpose(site.to_world) * site.to_eye;
-    v.z = std::max(v.z, 1e-3);  // as the kernels have it: a shading normal may face away
+    v.z = std::max(v.z, 1e-3);  // as in the kernels: a shading normal may face away
     v = glm::normalize(v);
     const double hidden_v = hidden_per_seen(gloss.alpha, v);
     for (int i = 0; i < samples; ++i) {
@@ -164,7 +164,7 @@ class ReflectionTracer {
   const ReflectionReferenceOptions& options_;
 };
 
-/// What brings the largest component of nearly all pixels that reflect to 1.
+/// The exposure that brings the largest component of nearly all reflecting pixels to at most 1.
 double exposure_for(const Frame& frame) {
   std::vector<float> largest;
   for (const View& view : frame.views) {

@@ -83,7 +83,7 @@ Camera camera_for(const SceneCamera& from, int width, int height) {
 SceneCamera looking_at(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target, double fov_degrees,
                        const glm::dvec3& up) {
   const glm::dvec3 away = eye - target;
-  // By its largest component first: squares of very small or large numbers are out of double's range.
+  // Divided by its largest component first: squares of very small or large numbers are out of double's range.
   const double largest = std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
   if (!(largest > 0 && std::isfinite(largest)))
     throw UsageError("a camera at ({:g}, {:g}, {:g}) cannot look at ({:g}, {:g}, {:g})", eye.x, eye.y, eye.z, target.x,

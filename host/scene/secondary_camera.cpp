@@ -18,15 +18,15 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-/// Of an image's borders, degrees off the axis.
+/// Largest angle between an image border and the axis, degrees.
 constexpr double widest_degrees = 60;
-/// How much larger the image is than what it has to hold.
+/// Ratio of the image to the part that it must hold.
 constexpr double spare = 1.01;
 
 using Corners = std::array<dvec3, 8>;
 
-/// Of the part of the first camera's frustum that holds what is visible; from the pivot, along the axes of the camera that
-/// is turned: z points at its eye.
+/// Corners of the part of the first camera's frustum that holds the visible surfaces; relative to the pivot, along the axes of
+/// the turned camera: z points at its eye.
 Corners turned_corners(const Camera& first, int width, int height, const VisibleDepths& depths, double degrees) {
   Corners corners;
   size_t i = 0;
@@ -49,8 +49,8 @@ double nearest_to_eye(const Corners& corners) {
   return z;
 }
 
-/// `camera` with the focal lengths and the principal point that bring all corners into the image, from a distance at which
-/// all lie in front.
+/// `camera` with the focal lengths and the principal point that bring all corners into the image, at a distance at which all lie
+/// in front.
 Camera fitted(Camera camera, int width, int height, const Corners& corners, double distance) {
   dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const dvec3& corner : corners) {
@@ -73,7 +73,7 @@ bool is_too_wide(const Camera& camera, int width, int height) {
          std::max(camera.cy, height - camera.cy) > most * camera.fy;
 }
 
-/// The least distance from the pivot, at least `distance`, from which the corners can be seen.
+/// The least distance from the pivot, at least `distance`, from which the corners are visible.
 double fitting_distance(const Camera& camera, int width, int height, const Corners& corners, double distance) {
   const double nearest = nearest_to_eye(corners);
   if (camera.orthographic) {

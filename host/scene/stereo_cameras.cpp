@@ -8,15 +8,15 @@
 namespace gloam {
 namespace {
 
-/// As in a camera JSON: farther off a principal point makes no sense.
+/// As in a camera JSON: a principal point farther off makes no sense.
 constexpr double largest_shift = 1e6;
 
 void check(const Camera& middle, const StereoRig& rig) {
   if (!(rig.interpupillary_distance >= 0) || std::isinf(rig.interpupillary_distance))
-    throw UsageError("eyes {:g} scene units apart cannot be had; a finite distance of 0 or more can",
+    throw UsageError("eyes {:g} scene units apart are not allowed; a finite distance of 0 or more is",
                      rig.interpupillary_distance);
   if (rig.convergence && !(*rig.convergence > 0))
-    throw UsageError("a convergence depth of {:g} lies not before the eyes; give more than 0", *rig.convergence);
+    throw UsageError("a convergence depth of {:g} is not in front of the eyes; give more than 0", *rig.convergence);
   if (rig.toe_in && !rig.convergence)
     throw UsageError("toe-in turns the eyes towards a depth; give the convergence depth too");
   if (middle.orthographic && !rig.toe_in)
@@ -26,7 +26,7 @@ void check(const Camera& middle, const StereoRig& rig) {
         middle.source);
 }
 
-/// Pixels by which the principal point of each eye moves outwards.
+/// Distance that the principal point of each eye moves outwards, pixels.
 double shift_of(const Camera& middle, const StereoRig& rig) {
   if (!rig.convergence || rig.toe_in) return 0;
   const double shift = middle.fx * 0.5 * rig.interpupillary_distance / *rig.convergence;

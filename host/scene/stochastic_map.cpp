@@ -19,7 +19,7 @@ void StochasticMap::row(int y, const RowDepths& row) const {
   }
 }
 
-// Front to back, so that a sample keeps the first that it is offered.
+// Front to back, so that a sample keeps the first depth that it is offered.
 void StochasticMap::pixel(int x, int y, const float* begin, const float* end) const {
   uint32_t empty = (1u << samples_.size()) - 1;
   for (const float* depth = begin; depth < end && empty != 0; ++depth) {

@@ -11,11 +11,11 @@ namespace gloam {
 
 /// Depths of all surfaces under the pixels of a row.
 struct RowDepths {
-  std::vector<float> depths;  ///< of each pixel front to back, one pixel after another
-  std::vector<size_t> ends;   ///< of each pixel's, in `depths`
+  std::vector<float> depths;  ///< pixel after pixel, each front to back
+  std::vector<size_t> ends;   ///< end of each pixel's depths, in `depths`
 };
 
-/// Makes one view's stochastic depth map: the same bits as kernels/stochastic_depth from the same surfaces.
+/// Makes one view's stochastic depth map, with the same bits as kernels/stochastic_depth from the same surfaces.
 class StochasticMap {
  public:
   StochasticMap(const StochasticOptions& options, const std::vector<Channel*>& samples);

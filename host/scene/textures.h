@@ -1,4 +1,4 @@
-// Looking a texture up.
+// Texture lookup.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -8,8 +8,7 @@
 
 namespace gloam {
 
-/// Bilinear, repeating; 0 to 1, colours made linear where the texture is sRGB (alpha never is). (0, 0) is the top left
-/// corner.
+/// Bilinear, repeating; 0 to 1, colours made linear if the texture is sRGB (alpha never is). (0, 0) is the top left corner.
 glm::vec4 texel(const Texture& texture, glm::vec2 uv, bool srgb);
 
 /// Whether rays may pass through holes in a mesh's texture.

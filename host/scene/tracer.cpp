@@ -18,7 +18,7 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-/// Two hits nearer to each other than this share of their distance are one surface: triangles that meet under the ray.
+/// Two hits nearer to each other than this share of their distance are one surface: triangles that join under the ray.
 constexpr double same_place = 1e-6;
 
 dvec3 unit_or(const dvec3& v, const dvec3& otherwise) {
@@ -26,8 +26,8 @@ dvec3 unit_or(const dvec3& v, const dvec3& otherwise) {
   return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
-/// Whether one of the first `count` surfaces or crossings, which are sorted, is the same: met twice where two triangles
-/// join. `joins` says whether two at one place do.
+/// Whether one of the first `count` surfaces or crossings, which are sorted, is the same one, met twice where two triangles join.
+/// `joins`: whether two hits at one position do.
 template <typename Surface, typename Joins>
 bool is_there_already(const std::vector<Surface>& surfaces, size_t count, const Surface& surface, const Joins& joins) {
   for (size_t i = count; i-- > 0;) {
@@ -71,8 +71,8 @@ void Tracer::Impl::bound() {
   extent = 0.5 * glm::length(high - low);
 }
 
-/// Where along a ray Embree is to begin: not before everything, since its floats lose what is far away. None where the
-/// ray ends before.
+/// Where along a ray Embree begins: not far before the scene, since its floats are inexact far away. None if the ray ends before
+/// the scene.
 std::optional<double> Tracer::Impl::start_of(const TracerRay& ray) const {
   const double length = glm::length(ray.direction), far_away = glm::length(ray.origin);
   if (!(length > 0 && std::isfinite(length) && std::isfinite(far_away)) || std::isnan(ray.near) || std::isnan(ray.far))
@@ -85,7 +85,7 @@ std::optional<double> Tracer::Impl::start_of(const TracerRay& ray) const {
         scene.name, far_away, farthest_traced);
   const double middle = glm::dot(centre - ray.origin, ray.direction) / (length * length);
   const double entry = middle - 1.01 * extent / length;
-  // From inside, and from near by, rays start where they start.
+  // From inside or near the scene, rays start at their own start.
   const double start = ray.near < 0 || entry > extent / length ? std::max(entry, ray.near) : std::min(ray.near, 0.0);
   if (!(start < ray.far && ray.near < ray.far)) return {};
   return start;
@@ -131,7 +131,7 @@ dvec3 Tracer::Impl::normal(const TracerRay& ray, const RawHit& hit) const {
 Crossing Tracer::Impl::crossing(const TracerRay& ray, const RawHit& hit, const dvec3& normal) const {
   const Mesh& mesh = scene.meshes[hit.mesh];
   const dvec3 a = mesh.positions[mesh.triangles[hit.triangle].x];
-  // The ray against the triangle's plane, in double; where the ray runs along the plane, Embree's word.
+  // Crossing of the ray with the triangle's plane, in double; Embree's distance if the ray runs along the plane.
   const double approach = glm::dot(ray.direction, normal);
   double distance = glm::dot(a - ray.origin, normal) / approach;
   if (!(std::abs(distance - hit.distance) <= 1e-3 * std::abs(hit.distance))) distance = hit.distance;
@@ -156,7 +156,7 @@ Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
   if (!mesh.normals.empty()) {
     const dvec3 smooth =
         unit_or(weights.x * mesh.normals[t.x] + weights.y * mesh.normals[t.y] + weights.z * mesh.normals[t.z], normal);
-    // Turned to the ray's side, whichever way triangle and normal are wound.
+    // Turned to the ray's side, however triangle and normal are oriented.
     surface.normal = glm::dot(smooth, surface.facing) < 0 ? -smooth : smooth;
   }
   return surface;
@@ -205,7 +205,7 @@ std::optional<Surface> Tracer::first_from(const vec3& lifted, const dvec3& direc
   return impl_->first({dvec3(lifted), direction}, context.base);
 }
 
-/// All that Embree reports, in its order; until the thread's next call.
+/// All hits that Embree reports, in its order; valid until the thread's next call.
 const std::vector<RawHit>& Tracer::Impl::gathered(const TracerRay& ray) const {
   thread_local std::vector<RawHit> hits;
   hits.clear();
@@ -288,7 +288,7 @@ void Tracer::distances(const vec3& origin, const vec3* directions, int count, fl
 }
 
 vec3 Tracer::lifted(const Surface& surface) const {
-  // Some units of the rounding of the point's own coordinates; `pass_what_is_behind` does the rest.
+  // Moved by some units of the rounding of the point's own coordinates; `pass_what_is_behind` handles the rest.
   const dvec3 place = glm::abs(surface.position);
   return vec3(surface.position + std::max({place.x, place.y, place.z}) * 0x1p-21 * surface.facing);
 }

@@ -1,4 +1,4 @@
-// A pose moved and turned along its own axes: how further cameras are placed beside a first.
+// A pose moved and turned along its own axes, to place further cameras beside a first one.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@ inline glm::dmat3 turn(double degrees) {
   return {glm::dvec3(cosine, 0, -sine), glm::dvec3(0, 1, 0), glm::dvec3(sine, 0, cosine)};
 }
 
-/// `pose` moved to `place`, along its own axes (x to the right, y up, z backwards; scene units), and turned there about
-/// its y axis by `degrees`: positive looks to the left.
+/// `pose` moved to `place`, along its own axes (x to the right, y up, z backwards; scene units), and turned there about its y
+/// axis by `degrees`; positive: to the left.
 inline Pose moved(const Pose& pose, const glm::dvec3& place, double degrees) {
   return {glm::transpose(turn(degrees)) * pose.world_to_view,
           pose.position + glm::transpose(pose.world_to_view) * place};

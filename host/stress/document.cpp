@@ -14,7 +14,7 @@ Json document_of(const Place& place) {
   return {{"view", place.view}, {"plane", place.plane}, {"x", place.x}, {"y", place.y}, {"holds", place.holds}};
 }
 
-Place place_of(const Json& document) {
+Place place_from(const Json& document) {
   if (document.is_null()) return {};
   return {document.at("view"), document.at("plane"), document.at("x"), document.at("y"), document.at("holds")};
 }
@@ -33,7 +33,7 @@ Finding finding_of(const Json& document) {
   return {document.at("what"),
           number_of(document.at("worst")),
           number_of(document.at("bound")),
-          place_of(document.at("place")),
+          place_from(document.at("place")),
           document.at("trial"),
           document.at("conditions")};
 }
@@ -70,7 +70,7 @@ CaseResult case_result_of(const Json& document) {
 std::string replay_command(const StressRun& run, const std::string& technique, int number, int trial,
                            const std::string& device_flag) {
   std::string command = fmt::format("gloam stress {} --case {}", technique, number);
-  if (trial > 0) command += fmt::format(" --trial {}", trial);  // 0: it ended before its first
+  if (trial > 0) command += fmt::format(" --trial {}", trial);  // 0: the case ended before its first trial
   if (run.extent == Extent::quick) command += " --quick";
   if (run.seed != 1) command += fmt::format(" --seed {}", run.seed);
   if (run.frames != 0) command += fmt::format(" --frames {}", run.frames);

@@ -1,4 +1,4 @@
-// Results of hard cases as JSON: what `gloam stress --json` writes, and what its own processes tell each other.
+// Results of hard cases as JSON: for `gloam stress --json`, and between its own processes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,30 +11,30 @@ namespace gloam::stress {
 
 using Json = nlohmann::ordered_json;
 
-/// Infinite numbers are null, which JSON has for them.
+/// Infinite numbers become null: JSON has no infinity.
 Json document_of(const CaseResult& result);
 CaseResult case_result_of(const Json& document);
 
-/// Everything that was examined in one run, and with what.
+/// All results of one run, and its conditions.
 struct StressRun {
   std::string device, driver;
-  std::vector<std::string> others;  ///< devices that it was compared with
+  std::vector<std::string> others;  ///< devices that results were compared with
   Extent extent = Extent::full;
   unsigned seed = 1;
-  int frames = 0;  ///< random ones asked for; 0: as many as the extent has
+  int frames = 0;  ///< random frames asked for; 0: as many as the extent has
   std::vector<CaseResult> results;
-  std::vector<std::string> left;  ///< techniques that are still to come
+  std::vector<std::string> left;  ///< techniques not yet examined
 };
 
 /// `{"device", ..., "cases": [{"technique", "case", "worst", "bound", "held", "replay", ...}], "failed"}`: one entry of `cases`
-/// for each finding. `replay` is the command that makes its trial again. `left` are the techniques that had not had their turn
-/// when it was written: none, but for a run that was interrupted.
+/// per finding. `replay` is the command that repeats its trial. `left` lists the techniques not yet examined: none, unless the
+/// run was interrupted.
 Json document_of(const StressRun& run, const std::string& device_flag);
 
-/// Findings beyond their bounds, and cases that broke off.
+/// Number of findings beyond their bounds and of cases that ended early.
 int failures(const StressRun& run);
 
-/// The command that makes one trial again. `device_flag`: as it was given, empty where it was not.
+/// The command that repeats one trial. `device_flag`: as given by the user; may be empty.
 std::string replay_command(const StressRun& run, const std::string& technique, int number, int trial,
                            const std::string& device_flag);
 

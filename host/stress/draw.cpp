@@ -19,7 +19,7 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 
-/// What files are known to hold where they should not, and floats of any size.
+/// Values that files are known to hold in wrong places, and floats of any size.
 float any_value(Random& random) {
   static const std::vector<float> specials = {nan,    inf,    -inf,  0,     -0.0f,  -1,    -1e38f, 1e-45f, 1e-39f,
                                               1e-30f, 1e-20f, 1e-6f, 65504, 9.9e9f, 1e38f, 1,      0.5f,   3.4e38f};
@@ -27,11 +27,11 @@ float any_value(Random& random) {
   if (kind == 0) return random.pick(specials);
   if (kind == 1) return std::bit_cast<float>(uint32_t(random.next()));
   if (kind == 2) return float(random.of_any_size(1e-30, 1e10));
-  return float(random.uniform(1, 2));  // a surface, so that neighbours are near each other somewhere
+  return float(random.uniform(1, 2));  // a surface: some neighbours must be near each other
 }
 
 Shot any_shot(Random& random) {
-  // Few sizes: a CPU compiles for each.
+  // Few sizes: a CPU recompiles for each.
   static const std::vector<std::pair<int, int>> sizes = {{1, 1}, {1, 33}, {33, 1}, {17, 13}, {80, 60}, {93, 61}};
   const auto [width, height] = random.pick(sizes);
   Shot shot =
@@ -58,7 +58,7 @@ Pose any_pose(Random& random) {
   return pose;
 }
 
-/// The second of two views, or the frame before: a little aside, anywhere, or with a camera of its own.
+/// The camera of the second view, or of the frame before: a little aside, anywhere, or with intrinsics of its own.
 Camera beside(const Camera& camera, Random& random) {
   Camera other = camera;
   if (!other.pose) other.pose.emplace();
@@ -77,7 +77,7 @@ void fill_with_anything(Plane& plane, Random& random) {
   }
 }
 
-/// One pixel in so many becomes anything.
+/// Replaces one pixel in `one_of` by any value.
 void sprinkle(Plane& plane, int one_of, Random& random) {
   for (Channel& channel : plane.channels) {
     const Layout& layout = channel.layout();
@@ -89,7 +89,7 @@ void sprinkle(Plane& plane, int one_of, Random& random) {
   }
 }
 
-/// Planes with all that may stand in them: noise everywhere, or here and there in what the room shows.
+/// Fills planes with noise everywhere, or here and there among the values of the room.
 void spoil(Frame& frame, Random& random) {
   const bool everywhere = random.one_in(2);
   const int one_of = random.pick({3, 30, 300});
@@ -103,7 +103,7 @@ void spoil(Frame& frame, Random& random) {
   }
 }
 
-/// Floats of the planned techniques, some of them, at the ends of their range or anywhere between.
+/// Random values for some float parameters of the planned techniques, at the ends of their range or between.
 Settings any_floats(const Plan& plan, Random& random) {
   Settings settings;
   std::set<std::string> seen;
@@ -132,7 +132,7 @@ std::string Draw::text() const {
                      stress::text_of(settings), stress::text_of(options));
 }
 
-/// What any camera, or the modules of a display where the technique takes them, show of the room.
+/// The room, seen by any camera or, if the technique takes them, by the modules of a display.
 Frame any_view(const Technique& technique, Random& random) {
   if (technique.any_projection && random.one_in(3)) {
     static const std::vector<std::pair<int, int>> sizes = {{17, 13}, {33, 1}, {80, 60}};
@@ -151,7 +151,7 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
     if (is_stack(name) || name == "normal") continue;
     for (View& view : drawn.frame.views) plane_of(view, Layout(drawn.frame.width(), drawn.frame.height()), name);
   }
-  // Positions are the world's.
+  // Positions are in world space, so the camera needs a pose.
   if (!is_module && (random.one_in(2) || first.find("position"))) first.camera->pose = any_pose(random);
   const std::vector<Settings> choices = variants(technique, drawn.frame);
   const bool is_choice = random.one_in(extent == Extent::quick ? 24 : 3);
@@ -176,7 +176,7 @@ Draw clone(const Draw& draw) { return {clone(draw.frame), draw.settings, draw.op
 
 namespace {
 
-/// Columns and rows from (x0, y0) on.
+/// The part of a frame from column x0 and row y0 on.
 Frame part_of(const Frame& frame, int x0, int y0, int width, int height) {
   Frame part = clone(frame);
   part.window = part.display = {0, 0, width, height};
@@ -195,7 +195,7 @@ Frame part_of(const Frame& frame, int x0, int y0, int width, int height) {
   return part;
 }
 
-/// What is easy on any technique: a wall before the eye.
+/// Values that are easy for any technique: a wall before the eye.
 float calm_value(const std::string& plane, size_t component) {
   const PlaneKind::Meaning meaning = plane_kind(plane).meaning;
   if (meaning == PlaneKind::view_depth) return 1;
@@ -219,7 +219,7 @@ class Shrinking {
   }
 
  private:
-  static constexpr int most = 400;  ///< a new size or choice is compiled anew
+  static constexpr int most = 400;  ///< limits the time: a new size or choice compiles again
 
   bool keep(Draw candidate) {
     if (++tried_ > most || !fails_(candidate)) return false;
@@ -272,7 +272,7 @@ class Shrinking {
     if (same_bits(calmer.frame, best_.frame)) return false;
     return keep(std::move(calmer));
   }
-  /// Rows, then single pixels.
+  /// Replaces rows, then single pixels, by calm values.
   void pixels() {
     for (size_t view = 0; view < best_.frame.views.size(); ++view) {
       std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// Frames and settings drawn at random, each from its seed and number alone, and the smallest that still shows a fault.
+// Random frames and settings, each determined by seed and number, and the reduction of a failing one.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@ struct Draw {
   std::string text() const;  ///< "33x1, perspective, radius = inf, lanes 1, fast"
 };
 
-/// The frame that a number stands for: any of the sizes, cameras and planes that the technique may meet, with values from a
-/// room's to what no file should hold, and settings from all of their range. Counts that shape loops are the cheapest preset's,
-/// and choices change one at a time, since each combination is compiled anew; in a quick look seldom.
+/// The frame with this number: any size, camera and planes that the technique may get, with values from a room's to any that a
+/// file may hold, and settings from their whole range. Parameters that are loop counts are the cheapest preset's, and choices
+/// change one at a time, since each combination is compiled separately; in a quick run, seldom.
 Draw draw(const Technique& technique, const Device& device, Extent extent, uint32_t seed, uint32_t number);
 
-/// A draw that still `fails`, and from which nothing more can be left out: settings, columns and rows, planes, pixels.
+/// Reduces a draw that `fails`: leaves out settings, columns and rows, planes and pixels while it still fails.
 Draw shrunk(Draw failing, const std::function<bool(const Draw&)>& fails);
 
 Draw clone(const Draw& draw);

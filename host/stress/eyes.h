@@ -14,20 +14,19 @@ struct Eye {
   Pose pose;
 };
 
-/// An eye at a place, turned about the upright axis; degrees, positive to the left.
+/// An eye at a position, turned about the upright axis; degrees, positive to the left.
 Eye eye_at(const Shot& shot, const glm::dvec3& position, double turned = 0);
 
-/// AO painted onto surfaces.
+/// AO as a function of world position, painted onto surfaces.
 using Paint = std::function<double(const glm::dvec3& world)>;
 
-/// Depth, normals and painted `ao` of two views, "left" and "right", of a scene whose rays start in the world. Background
-/// has the AO 1.
+/// Depth, normals and painted `ao` of two views, "left" and "right", of a scene in world space. Background has the AO 1.
 Frame shoot_pair(const std::array<Eye, 2>& eyes, const Scene& world, const Paint& paint);
 
-/// What an eye sees of a scene whose rays start in the world.
+/// A scene in world space, as one eye sees it.
 Scene seen_by(const Pose& pose, const Scene& world);
 
-/// The same frame with its data window elsewhere.
+/// Moves the data window of a frame.
 void move_window(Frame& frame, int x, int y);
 
 }  // namespace gloam::stress

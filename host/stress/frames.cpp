@@ -18,19 +18,19 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 constexpr int invented_layers = 3;
 
-/// Number at the end of "peel.03"; 0 for other names.
+/// The number at the end of "peel.03"; 0 for other names.
 int number_of(const std::string& name) {
   const std::optional<StackLayer> layer = stack_layer(name);
   return layer ? layer->number : 0;
 }
 
-/// 0..1, without order but the same every time.
+/// A value of 0..1, irregular but the same every time.
 float pattern(int x, int y, int component) {
   const uint32_t mixed = hash(uint32_t(x) + 4099u * uint32_t(y) + 65599u * uint32_t(component));
   return float(mixed >> 8) * 0x1p-24f;
 }
 
-/// What a view's camera shows, as a shot of the whole window.
+/// A view's camera as a shot of the whole window.
 Shot shot_of(const Frame& frame, const View& view) { return {*view.camera, frame.width(), frame.height()}; }
 
 float invented_value(const PlaneKind& kind, const Frame& frame, const View& view, int component, int x, int y) {
@@ -44,9 +44,9 @@ float invented_value(const PlaneKind& kind, const Frame& frame, const View& view
     const EyeRay ray = ray_through(shot_of(frame, view), x + 0.5, y + 0.5);
     return is_background(depth) ? 0 : float((ray.origin + double(depth) * ray.direction)[component]);
   }
-  // Whole numbers, in blocks: some are corners, some are not.
+  // Whole numbers in blocks: some blocks are corners, some are not.
   if (kind.name == "outline_count") return float(((x + 40) / 80 + (y + 30) / 60) % 2 * 2);
-  // Past every border of the image.
+  // Leads past every border of the image.
   if (kind.name == "motion") return 6 * pattern(x, y, component) - 3;
   if (kind.name == "history_frames") return std::floor(6 * pattern(x, y, component));
   return pattern(x, y, component);

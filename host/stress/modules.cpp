@@ -21,7 +21,7 @@ std::vector<NamedDisplay> display_cases() {
   convex.screen_radius = 4;
   convex.modules[0].yaw = -4;
   turned.modules[0] = {{-1, 0.5, -6}, 14, -7};
-  // By columns.
+  // Column by column.
   sheared.world->linear = glm::dmat3(1.1, -0.1, 0.2, 0.2, 0.9, 0.1, 0.3, 0.25, 1.3);
   return {{"flat", flat_display()}, {"convex", convex}, {"turned", turned}, {"sheared", sheared}};
 }

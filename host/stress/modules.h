@@ -1,4 +1,4 @@
-// Light-field displays, and what their modules show, in closed form.
+// Light-field displays, and the images of their modules, in closed form.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace gloam::stress {
 
-/// Observers 4 before a screen of 3 x 2.4, one module 6 behind it, a little aside. The world is physical space.
+/// Observers 4 units before a screen of 3 x 2.4, one module 6 behind it, a little aside. World space is physical space.
 LightFieldDisplay flat_display();
 
-/// One module each: flat as above, a convex screen, a turned module, a world that is sheared.
+/// Displays with one module each: flat as above, with a convex screen, with a turned module, and with a sheared world.
 struct NamedDisplay {
   std::string name;
   LightFieldDisplay display;
 };
 std::vector<NamedDisplay> display_cases();
 
-/// A display's module and the size of its image.
+/// A display's module as a shot.
 Shot shot_of_module(const LightFieldDisplay& display, int width, int height, size_t module = 0);
 
-/// A scene through three modules of a display side by side; the room fills the screen of any of `display_cases`.
+/// A scene through three modules of a display side by side; the room fills the screen of every display of `display_cases`.
 Frame shoot_modules(LightFieldDisplay display, int width, int height, const Scene& scene);
 
 }  // namespace gloam::stress

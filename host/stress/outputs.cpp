@@ -30,7 +30,7 @@ bool unit_or_zero(const Plane& plane, int x, int y) {
   return square == 0 || std::abs(std::sqrt(square) - 1) < 1e-5;
 }
 
-/// A second view that shows the same from the same place: what holds for one view holds for both.
+/// Adds a second view equal to the first: a property of one view holds for both.
 void add_second_view(Frame& frame) {
   View& first = frame.views.front();
   if (first.name.empty()) first.name = "first";
@@ -51,7 +51,7 @@ bool same_bits(const Plane& a, const Plane& b) {
   return true;
 }
 
-/// What a pixel holds that its kind does not allow; empty where all is well.
+/// Describes a pixel whose value its kind does not allow; empty if all is well.
 std::string violation_at(const Plane& plane, PlaneKind::Meaning meaning, int x, int y) {
   for (const Channel& channel : plane.channels) {
     if (!allowed(meaning, channel.at(x, y))) return fmt::format("{}", channel.at(x, y));
@@ -236,7 +236,7 @@ Difference distance_from_open(const Plan& plan, const Frame& outputs) {
   for (const View& view : outputs.views) {
     for (const std::string& name : unit_interval_outputs(plan)) {
       const Plane* plane = view.find(name);
-      if (!plane) continue;  // of the first of two views
+      if (!plane) continue;  // techniques for the first of two views make only its plane
       const Channel& values = plane->channels[0];
       const float nothing = plane_kind(name).outside;
       for (int y = 0; y < outputs.height(); ++y) {

@@ -22,7 +22,7 @@ struct Row {
 
 double number_of(const Json& value) { return value.is_null() ? INFINITY : value.get<double>(); }
 
-/// Of text that stands in a table.
+/// Escapes text for a table.
 std::string cell(std::string text) {
   std::string out;
   for (const char c : text) out += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
@@ -49,7 +49,7 @@ std::vector<Row> rows_of(const Json& document) {
 std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.2g}", value) : "inf"; }
 std::string bound_of(const Row& row) { return std::isfinite(row.bound) ? shown(row.bound) : "stated"; }
 
-/// How much of its bound a figure takes; more than 1 fails.
+/// Ratio of a figure to its bound; above 1 it fails.
 double taken(const Row& row) {
   if (row.bound == 0) return row.worst == 0 ? 0 : INFINITY;
   return row.worst / row.bound;
@@ -67,7 +67,7 @@ std::string listed(const std::set<std::string>& names) {
   return quoted.empty() ? "none" : fmt::format("{}", fmt::join(quoted, ", "));
 }
 
-/// What a command needs beside the case and the trial: a quick look has other trials.
+/// Flag that a command needs besides the case and the trial: a quick run has other trials.
 std::string quick_flag(const Json& document) { return document.at("extent") == "quick" ? "--quick " : ""; }
 
 std::string introduction(const Json& document) {
@@ -112,8 +112,8 @@ std::string table_of_cases(const Json& document) {
   return text + "\n";
 }
 
-/// A column of the table of comparisons: figures whose names hold these words. `where` heads the column that says where
-/// the largest is; no such column where it is empty.
+/// A column of the table of comparisons: figures whose names contain these words. `where`: heading of the column with the
+/// position of the largest; empty: no such column.
 struct Comparison {
   const char* name;
   std::vector<std::string> words;
@@ -149,7 +149,7 @@ std::string table_head(const std::string& columns) {
   return text + "---|\n";
 }
 
-/// A row for each technique; `cell_of` tells what is in which column of it.
+/// A row per technique; `cell_of` gives the text of a column.
 std::string table_by_technique(const std::vector<std::string>& techniques, const std::vector<std::string>& columns,
                                const std::function<std::string(const std::string& technique, size_t column)>& cell_of) {
   std::string text = table_head(fmt::format("technique | {}", fmt::join(columns, " | ")));
@@ -161,11 +161,11 @@ std::string table_by_technique(const std::vector<std::string>& techniques, const
   return text + "\n";
 }
 
-/// Null where the technique has no such figure.
+/// Null if the technique has no such figure.
 const Row* largest(const std::vector<Row>& rows, const std::string& technique, const Comparison& comparison) {
   const Row* worst = nullptr;
   for (const Row& row : rows) {
-    const bool is_fast_double = row.what.starts_with("fast float against double");  // the sum of both
+    const bool is_fast_double = row.what.starts_with("fast float against double");  // this figure is the sum of both
     if (row.technique != technique || is_fast_double || !holds_all(row.what, comparison.words)) continue;
     if (!worst || row.worst > worst->worst) worst = &row;
   }
@@ -212,7 +212,7 @@ std::string table_row(const Row& row) {
                      cell(row.place), row.trial);
 }
 
-/// Of each technique the figure that is nearest to its bound.
+/// The figure of each technique that is nearest to its bound.
 std::string nearest_to_bounds(const std::vector<Row>& rows) {
   std::map<std::string, const Row*> nearest;
   for (const Row& row : rows) {
@@ -233,7 +233,7 @@ std::string nearest_to_bounds(const std::vector<Row>& rows) {
   return table;
 }
 
-/// What has no bound, a column each, with the trial. The pixel where each is worst, `gloam stress --json` has.
+/// Figures without a bound, a column each, with the trial. `gloam stress --json` has the pixel where each is worst.
 std::string stated_figures(std::vector<Row> rows) {
   std::erase_if(rows, [](const Row& row) { return std::isfinite(row.bound); });
   if (rows.empty()) return "";
@@ -259,7 +259,7 @@ std::string section_of_case(const Case& one, const Json& document) {
 
 std::string table_of_reasons(const std::string& title, const std::string& explanation, const Json& entries) {
   std::string text = fmt::format("## {}\n\n{}\n\n", title, explanation);
-  // The same reason of many techniques is one row.
+  // A reason shared by many techniques is one row.
   std::map<std::pair<int, std::string>, std::set<std::string>> reasons;
   for (const Json& entry : entries)
     reasons[{entry.at("case").get<int>(), entry.at("why").get<std::string>()}].insert(
@@ -296,11 +296,12 @@ std::string stability_page(const std::vector<Json>& documents) {
         introduction(first) + table_of_cases(first) + table_of_comparisons(rows_of(first)) + table_of_places(first);
     page += "## Worst values\n\nOf each technique the figure that takes most of its bound, and all that have none.\n\n";
     for (const Case& one : cases()) page += section_of_case(one, first);
-    page += table_of_reasons("Opted out", "Cases that a technique is not held to, and why its page says so.",
+    page += table_of_reasons("Opted out", "Cases that a technique is not held to, and the reason on its page.",
                              first.at("opted_out"));
-    page += table_of_reasons("Opted out in part", "Held to the case, but for this part of it.",
+    page += table_of_reasons("Opted out in part", "Held to the case, except for this part of it.",
                              first.at("opted_out_in_part"));
-    page += table_of_reasons("Not asked", "What a case has nothing to ask of.", first.at("passed_over"));
+    page += table_of_reasons("Not asked", "Cases, or parts of them, that do not apply to a technique.",
+                             first.at("passed_over"));
     for (size_t i = 1; i < documents.size(); ++i) page += section_of_device(documents[i]);
     while (page.ends_with("\n\n")) page.pop_back();
     return page;

@@ -1,4 +1,4 @@
-// What hard cases have found, as a page of documentation.
+// The findings of hard cases as a page of documentation.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace gloam::stress {
 
-/// docs/stability.md, from documents of `gloam stress --json`: the first in full, of further ones (other devices) what differs
-/// between devices. Throws Error for a document that is none.
+/// docs/stability.md, from documents of `gloam stress --json`: the first in full; of further ones (other devices), what differs
+/// between devices. Throws Error for a document of another kind.
 std::string stability_page(const std::vector<Json>& documents);
 
 }  // namespace gloam::stress

@@ -49,7 +49,7 @@ void Probe::measure_violation(const std::string& what, const Frame& outputs) {
 void Probe::measure_bits(const std::string& what, const Frame& outputs, const Frame& expected) {
   if (same_bits(outputs, expected)) return measure(what, 0.0, 0);
   Difference d = difference(outputs, expected);
-  // Zeros of different signs, or NaNs.
+  // Zeros of different signs, or NaNs, differ although their difference is 0.
   d.max = std::max(d.max, double(std::numeric_limits<float>::denorm_min()));
   measure(what, d, 0);
 }
@@ -75,7 +75,7 @@ Frame Probe::outputs(const Plan& plan, const Frame& frame, const RunOptions& opt
 
 namespace {
 
-/// What a trial was run with, for people: every parameter of every technique of the plan.
+/// The settings of a trial as text: every parameter of every technique of the plan.
 std::string settings_text(const std::string& conditions, const Plan& plan, const RunOptions& options) {
   std::string text = fmt::format("{}\n{}, seed {}\n", conditions, text_of(options), options.seed);
   std::vector<std::string> lines;

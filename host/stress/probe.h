@@ -1,4 +1,4 @@
-// What a hard case has at hand while it looks at one technique, and what it says of it.
+// The tools with which a hard case examines one technique, and its findings.
 #pragma once
 
 #include <cmath>
@@ -12,10 +12,10 @@
 
 namespace gloam::stress {
 
-/// How much is tried: what a build can afford each time, or all there is.
+/// How much is tried: as much as every build can afford, or everything.
 enum class Extent { quick, full };
 
-/// What is looked at, and with what.
+/// The technique to examine, and the means.
 struct Subject {
   const Technique* technique = nullptr;
   Device* device = nullptr;
@@ -23,24 +23,24 @@ struct Subject {
   Extent extent = Extent::full;
   int frames = 0;                 ///< random frames; 0: as many as the extent has
   unsigned seed = 1;              ///< of random frames
-  std::optional<int> trial = {};  ///< only this one
-  std::string folder = {};        ///< where frames and what was made of them are written; empty: nowhere
-  /// Called as each trial begins; for watchdogs and bars of progress.
+  std::optional<int> trial = {};  ///< only this trial
+  std::string folder = {};        ///< folder for frames and results; empty: not written
+  /// Called at the start of each trial; for watchdogs and progress bars.
   std::function<void(int number, const std::string& conditions)> begins = {};
 };
 
-/// The worst that a case has seen in one sense.
+/// The worst value of one measured quantity.
 struct Finding {
-  std::string what;         ///< what was measured: "distance from open, exact normals"
+  std::string what;         ///< the quantity: "distance from open, exact normals"
   double worst = 0;         ///< NaN counts as worse than anything
-  double bound = INFINITY;  ///< infinite: stated, and not judged
-  Place place;              ///< the worst pixel; no plane where it is none's
-  int trial = 0;            ///< in which it was found
+  double bound = INFINITY;  ///< infinite: stated, not judged
+  Place place;              ///< the worst pixel; no plane if no pixel is meant
+  int trial = 0;            ///< trial in which it was found
   std::string conditions;   ///< of that trial: "tilt 35, lanes 16, fast"
   bool held() const { return worst <= bound; }
 };
 
-/// A number with the pixel that it is of.
+/// A number, and the pixel that it belongs to.
 struct Measured {
   double value = 0;
   Place place = {};
@@ -49,7 +49,8 @@ struct Measured {
   Measured(const Difference& difference) : value(difference.max), place(difference.place) {}
 };
 
-/// A case goes through trials: a frame, settings and a way to run them, each by itself, so that any one can be made again alone.
+/// A case consists of trials: a frame, settings and a way to run them, independent of one another, so that any one can be
+/// repeated alone.
 ///
 ///   for (each ...) {
 ///     if (!probe.tries("tilt 35, lanes 16")) continue;
@@ -65,56 +66,56 @@ class Probe {
   Extent extent() const { return subject_.extent; }
   bool is_quick() const { return subject_.extent == Extent::quick; }
   unsigned seed() const { return subject_.seed; }
-  /// Random frames to draw where the extent has so many.
+  /// Number of random frames to draw, by extent.
   int frames(int quick, int full) const { return subject_.frames > 0 ? subject_.frames : is_quick() ? quick : full; }
 
-  /// The next trial begins; false where only another one is wanted.
+  /// Begins the next trial; returns false if only another one is wanted.
   bool tries(const std::string& conditions);
-  /// Keeps the worst of everything measured under the same name, which has one bound.
+  /// Keeps the worst value of each quantity, by name; a quantity has one bound.
   void measure(const std::string& what, const Measured& measured, double bound);
-  /// Values that their plane does not allow: 1 where there is one.
+  /// Measures values that their plane does not allow: 1 if there is one.
   void measure_violation(const std::string& what, const Frame& outputs);
-  /// The largest difference of images that should have the same bits.
+  /// Measures the largest difference of images that should have the same bits.
   void measure_bits(const std::string& what, const Frame& outputs, const Frame& expected);
-  /// Tells that a trial that takes long goes on.
+  /// Signals that a long trial is still running.
   void goes_on() const;
-  /// Whether something measured under this name is beyond its bound.
+  /// Whether this quantity is beyond its bound.
   bool has_failed(const std::string& what) const;
-  /// Why some of what the case asks is not asked of this technique: "makes no reflection".
+  /// Notes why a part of the case does not apply to this technique: "makes no reflection".
   void passes_over(const std::string& reason);
 
-  /// What the technique makes of the frame on the device at hand, or on another.
+  /// The technique's results for a frame, on the present device or on another.
   Frame outputs(Frame& frame, const Settings& settings, const RunOptions& options) const;
   Frame outputs(Frame& frame, const Settings& settings, const RunOptions& options, Device& device) const;
-  /// The same by a plan that is known.
+  /// The same, by a given plan.
   Frame outputs(const Plan& plan, const Frame& frame, const RunOptions& options) const;
 
-  /// Each kind of mathematics on each number of lanes that the device is used with; two of these in a quick look, and where
-  /// many settings or sizes are tried.
+  /// Each kind of mathematics with each number of lanes that the device is used with; two of these in a quick run, and if many
+  /// settings or sizes are tried.
   std::vector<RunOptions> all_ways() const;
   std::vector<RunOptions> two_ways() const;
-  /// The same for settings that no other case has, each of which is compiled anew: one of the two in a quick look.
+  /// The same for settings that no other case uses, each of which compiles separately: in a quick run one of the two.
   std::vector<RunOptions> ways_of_rare_settings() const;
-  /// The defaults; in a quick look the cheapest preset, for properties that hold for any number of samples.
+  /// The defaults; in a quick run the cheapest preset, for properties that hold for any number of samples.
   Settings usual_samples() const;
 
-  /// The reason of a line "hard case 13, fast: reason" in the README.md of the technique's folder, or of one that names the
-  /// technique, "hard case 13, fast (sd-gtao): reason". Empty where there is none.
+  /// The reason of a line "hard case 13, fast: reason" in the README.md of the technique's folder, or of a line for this
+  /// technique, "hard case 13, fast (sd-gtao): reason". Empty if there is none.
   std::string opt_out(const std::string& part) const;
 
   const std::vector<Finding>& findings() const { return findings_; }
-  /// Parts that were asked for and that the technique opts out of: "open: reason".
+  /// Parts that the case asked for and the technique opts out of: "open: reason".
   const std::vector<std::string>& opted_out_parts() const { return opted_out_parts_; }
   const std::vector<std::string>& passed_over() const { return passed_over_; }
   int trials() const { return trial_; }
-  /// Of the trial that began last.
+  /// Conditions of the latest trial.
   const std::string& conditions() const { return conditions_; }
 
  private:
   void keep(const Frame& frame, const Frame& outputs, const Plan& plan, const RunOptions& options) const;
 
   const Subject& subject_;
-  int number_;  ///< of the case
+  int number_;  ///< number of the case
   int trial_ = 0;
   std::string conditions_;
   std::vector<Finding> findings_;
@@ -125,12 +126,13 @@ class Probe {
 
 /// "lanes 16, fast"
 std::string text_of(const RunOptions& options);
-/// "exact normals", or "normals from depth" for frames that have none.
+/// "exact normals", or "normals from depth" for frames without normals.
 std::string normals_text(bool with_normals);
 /// "perspective", "orthographic"
 std::string text_of(const Camera& camera);
 
-/// What is computed when it is first asked for: trials share what they are compared with, and one made alone needs only its own.
+/// A value that is computed at its first use: trials share what they are compared with, and a trial that is repeated alone
+/// computes only its own.
 template <typename T>
 class Lazy {
  public:

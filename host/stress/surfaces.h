@@ -1,4 +1,4 @@
-// Scenes of a few surfaces in closed form, beside those of frames.h, and what they show.
+// Scenes of a few surfaces in closed form, in addition to those of frames.h, and their depths.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,10 +11,10 @@ namespace gloam::stress {
 
 glm::dvec3 point_at(const EyeRay& ray, double depth);
 
-/// Depth at the centre of a pixel, rounded to float; +inf where nothing is seen.
+/// Depth at the centre of a pixel, rounded to float; +inf if nothing is seen.
 float depth_at(const Shot& shot, const Scene& scene, int x, int y);
 
-/// What is nearest of several scenes.
+/// The nearest surface of several scenes.
 Scene nearest_of(const std::vector<Scene>& scenes);
 
 /// A ball in view space.
@@ -24,10 +24,10 @@ Scene ball(const glm::dvec3& centre, double radius);
 /// upper one by `tilt`, radians. By default a right angle.
 Scene corner(double tilt = std::numbers::pi / 4);
 
-/// For an orthographic eye: a wall at depth 4 on the left (x < 0), and on the right one that is nearer by `rise`.
+/// For an orthographic eye: a wall at depth 4 on the left (x < 0), and one nearer by `rise` on the right.
 Scene step(double rise);
 
-/// A hand's breadth before the eye, at 1e-6, beside a mountain at 1e6: in halves above, pixel by pixel below.
+/// A hand before the eye at 1e-6, beside a mountain at 1e6: in halves in the upper part, pixel by pixel below.
 Scene near_and_far();
 
 }  // namespace gloam::stress

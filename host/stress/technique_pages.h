@@ -6,7 +6,7 @@
 
 namespace gloam::stress {
 
-/// README.md of each folder of kernels/, by "gtao/README.md".
+/// Path below kernels/ ("gtao/README.md") -> text, for each technique's folder.
 const std::map<std::string, std::string>& technique_pages();
 
 }  // namespace gloam::stress

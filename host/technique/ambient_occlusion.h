@@ -1,5 +1,4 @@
-// Rows of the registry that techniques for ambient occlusion share: what such a technique is, its estimate, and the same
-// over all peeled layers.
+// What techniques for ambient occlusion share: their rows in the registry, their estimate, and variants over layers.
 #pragma once
 
 #include <functional>
@@ -12,10 +11,10 @@
 
 namespace gloam {
 
-/// Before the names of techniques over all peeled layers, and over stochastic depth.
+/// Name prefixes of techniques over all peeled layers and over stochastic depth.
 inline constexpr std::string_view peeled_prefix = "dp-", stochastic_prefix = "sd-";
 
-/// An estimate from depth and normals that a bilateral filter of 5 x 5 pixels follows. The rest is the technique's own:
+/// A technique with an estimate from depth and normals, followed by a bilateral filter of 5 x 5 pixels. The caller adds
 /// parameters, passes, presets.
 Technique ambient_occlusion(std::string name, std::string summary, std::string paper, std::string source);
 
@@ -26,7 +25,8 @@ std::vector<Preset> presets_of_samples();
 int value_of_samples(const ParameterValues& values);
 int directions_times_steps(const ParameterValues& values);
 
-/// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/sampling/ambient_occlusion.h) beside `defines`.
+/// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/sampling/ambient_occlusion.h) besides
+/// `defines`.
 template <typename Params>
 Pass ambient_occlusion_estimate(const Params& p, std::string kernel, Defines defines) {
   defines.insert(defines.end(), {{"JITTER", p.jitter}, {"OUTSIDE_OPEN", p.outside == Params::outside_values::open}});
@@ -39,30 +39,29 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, Defines def
           .can_skip = true};
 }
 
-/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from "ao_raw" to `result`, along rows and then columns, or over all
-/// taps of a square at once. `half_width`: taps on either side, pixels.
+/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from "ao_raw" to `result`: one pass along rows and one along
+/// columns, or one pass over a square. `half_width`: taps on either side, pixels.
 std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& result);
 
-/// The same technique with every layer of the peeled depth as an occluder: "dp-" before its name, and its estimate reads
+/// A variant of a technique with every layer of the peeled depth as an occluder: "dp-" before its name; its estimate also reads
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);
 
-/// The pass that makes of so many stochastic depths what kernels read (shared/sampling/hidden_depths.h); then `estimate`, with that as
-/// occluders behind the depth too: the last of its `reads`.
+/// The pass that sorts a number of stochastic depths for kernels (shared/sampling/hidden_depths.h), and `estimate` with the
+/// result as occluders behind the depth: the last of its `reads`.
 std::vector<Pass> behind_depth(Pass estimate, int samples);
 
-/// The same with the choices of STOCHASTIC_PARAMS.
+/// As above, with the choices of STOCHASTIC_PARAMS.
 template <typename Params>
 std::vector<Pass> behind_depth(Pass estimate, const Params& p) {
   estimate.defines.insert(estimate.defines.end(), {{"EARLY_OUT", p.early_out}, {"COMPENSATED", p.compensation != 1}});
   return behind_depth(std::move(estimate), p.samples);
 }
 
-/// The first of these passes for every `scale`-th pixel each way. Writes the depth of these, and what is hidden there.
+/// The sorting pass for every `scale`-th pixel each way. Writes the depth of these pixels, and the hidden depths there.
 Pass at_lower_resolution(Pass sort, int scale);
 
-/// The same technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its
-/// own.
+/// A variant of a technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its own.
 Technique over_stochastic_depth(Technique technique, ParameterList parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes);
 

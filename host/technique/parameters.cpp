@@ -36,7 +36,7 @@ std::optional<double> parse_number(const std::string& text, Parameter::Type type
   return value;
 }
 
-/// Choices are written as C names; people write no-back-check as well.
+/// Choices are C names; users may also write no-back-check.
 std::string with_underscores(std::string text) {
   std::replace(text.begin(), text.end(), '-', '_');
   return text;

@@ -12,8 +12,8 @@
 namespace gloam {
 namespace {
 
-/// A stream of random numbers. Integers decide everything, and what is made of them is exact in double: the same bits
-/// with and without fused multiply-adds.
+/// A stream of random numbers. All decisions are made on integers, and the results are exact in double: the same bits with and
+/// without fused multiply-adds.
 class RandomStream {
  public:
   explicit RandomStream(uint32_t seed) : start_(hash_of(seed)), mask_(hash_of(seed ^ 0x9e3779b9u)) {}
@@ -49,7 +49,7 @@ std::vector<glm::dvec2> random_points(int count, RandomStream& random) {
   return points;
 }
 
-/// Rows differ by one cell at most, and a row is as high as its share of the cells, so that all cells have the same area.
+/// Rows differ by at most one cell, and a row's height is its share of the cells, so that all cells have the same area.
 std::vector<glm::dvec2> jittered_points(int count, RandomStream& random) {
   const int rows = int(std::lround(std::sqrt(count)));
   std::vector<glm::dvec2> points;
@@ -70,8 +70,8 @@ std::vector<glm::dvec2> latin_points(int count, RandomStream& random) {
   return points;
 }
 
-/// Points on the unit square with v periodic, in cells no smaller than `distance`: what is near a point is in its cell or
-/// in one beside it.
+/// Points on the unit square with v periodic, in cells no smaller than `distance`: the neighbours of a point are in its cell and
+/// those around it.
 class Disks {
  public:
   explicit Disks(double distance)
@@ -112,11 +112,11 @@ class Disks {
   Points points_;
 };
 
-/// No more than `count` points keep this distance on a strip that is 1 wide and closed in v: the densest packing of disks
-/// over the strip and a margin of half a disk (Groemer 1960), 2 / (sqrt(3) d^2) + 1 / d = count.
+/// Largest distance that `count` points can keep on a strip that is 1 wide and periodic in v: the densest packing of disks over
+/// the strip and a margin of half a disk (Groemer 1960), 2 / (sqrt(3) d^2) + 1 / d = count.
 double largest_distance(int count) { return (1 + std::sqrt(1 + 8 / std::sqrt(3.0) * count)) / (2 * count); }
 
-/// Points that keep `distance`; nothing when the darts leave no room before there are `count`.
+/// Points that keep `distance`; none if the darts leave no room before there are `count`.
 std::optional<std::vector<glm::dvec2>> throw_darts(int count, double distance, RandomStream& random) {
   Disks disks(distance);
   for (int tries = 500 * count; tries > 0; --tries) {
@@ -129,7 +129,7 @@ std::optional<std::vector<glm::dvec2>> throw_darts(int count, double distance, R
   return std::nullopt;
 }
 
-/// Darts fill up a plane at 0.777 of the largest distance (Feder 1980), but take for ever; a little below, they do not.
+/// Darts fill a plane at 0.777 of the largest distance (Feder 1980), but take for ever; a little below, they do not.
 std::vector<glm::dvec2> poisson_points(int count, RandomStream& random) {
   double distance = 0.74 * largest_distance(count);
   while (true) {

@@ -20,7 +20,7 @@ Pass visibility(const StereoChoices& c) {
   return pass;
 }
 
-/// Of the eye that the other one's estimate looks at.
+/// The pass on the eye that the other eye's estimate reads.
 Pass half_occlusion(const StereoChoices& c) {
   return {.name = "half-occlusion",
           .kernel = "stereo_half_occlusion",
@@ -29,7 +29,7 @@ Pass half_occlusion(const StereoChoices& c) {
           .on = c.reproject ? on_view(1 - c.primary) : On::every_view};
 }
 
-/// Of both eyes: the same planes of the other one, but for the normals.
+/// The estimate from both eyes: it also reads the same planes of the other eye, except the normals.
 Pass from_both(Pass estimate, const std::string& kernel) {
   estimate.kernel = kernel;
   estimate.reads.front().plane = "stereo_depth";
@@ -54,7 +54,7 @@ Pass reprojection(const StereoChoices& c) {
           .on = on_view(1 - c.primary)};
 }
 
-/// What the second eye alone sees.
+/// The estimate for pixels that only the second eye sees.
 Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& c) {
   estimate.reads.push_back("newly_visible");
   Pass pass = from_both(std::move(estimate), both + "_list");
@@ -64,7 +64,7 @@ Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& 
   return pass;
 }
 
-/// Each pass leaves the sum of its weights too, times that of the one before.
+/// Makes each pass also write the sum of its weights, times that of the pass before.
 void keep_weights(std::vector<Pass>& passes) {
   for (size_t i = 0; i < passes.size(); ++i) {
     Pass& pass = passes[i];
@@ -89,7 +89,7 @@ Pass blend(const Pass& last) {
   return pass;
 }
 
-/// The filter is the technique's own, and has its settings.
+/// Sets a default: the filter is part of the technique, with its own settings.
 void set_initial(ParameterList& parameters, const std::string& name, const std::string& value) {
   for (Parameter& p : parameters) {
     if (p.name == name) p.initial = std::stod(value);
@@ -142,7 +142,7 @@ std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both,
   }
   for (Pass& pass : stereo_filter_passes(c.filter, c.half_width)) passes.push_back(std::move(pass));
   for (Pass& pass : passes) {
-    // The whole program needs what its estimate does.
+    // The whole program needs the defines of its estimate.
     for (const auto& define : estimate.defines) {
       if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
         pass.defines.push_back(define);

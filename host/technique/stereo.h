@@ -1,5 +1,4 @@
-// Techniques that estimate for two eyes together (Shi, Billeter, Eisemann 2022): what they have in common, whatever they
-// estimate.
+// What techniques for two eyes have in common (Shi, Billeter, Eisemann 2022), whatever they estimate.
 #pragma once
 
 #include <functional>
@@ -12,24 +11,24 @@ namespace gloam {
 
 /// The choices of STEREO_PARAMS (shared/stereo/params.h).
 struct StereoChoices {
-  bool estimate_both = true;  ///< estimate from what both eyes see, not from what one does
+  bool estimate_both = true;  ///< estimate from both eyes' depths, not from one
   bool reproject = true, back_check = true;
   enum class Filter { mono, stereo, stereo2d } filter = Filter::stereo;
   int primary = 0;  ///< the view that is estimated first
   int half_width = 0;
-  bool everywhere = false;  ///< look at the other eye for every pixel, not only near what it alone sees
+  bool everywhere = false;  ///< use the other eye for every pixel, not only near surfaces that only it sees
   bool near_half_occluded() const { return estimate_both && !everywhere; }
 };
 
-/// The passes of a technique for two eyes. `mono`: its passes for one eye up to the estimate, the last, which is from "depth"
-/// and "normal" (the first two that it reads) to "ao_raw". The kernel of both eyes is called `both`, that for a list of
-/// pixels `both`_list: their arguments are the estimate's, with stereo_depth (shared/stereo/passes.h) instead of the depth,
-/// the list, and the same planes of the other eye but for normals; the first also takes HALF_OCCLUDED_ARGUMENT
-/// (shared/stereo/half_occlusion.h). Extra planes are not made.
+/// The passes of a technique for two eyes. `mono`: its passes for one eye; the last is the estimate, from "depth" and "normal"
+/// (its first two reads) to "ao_raw". `both` is the kernel for both eyes, `both`_list the one for a list of pixels. Their
+/// arguments are the estimate's, with stereo_depth (shared/stereo/passes.h) instead of the depth, the list, and the same planes
+/// of the other eye except normals; the first also takes HALF_OCCLUDED_ARGUMENT (shared/stereo/half_occlusion.h). Extras are not
+/// made.
 std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& choices);
 
-/// The technique `mono` for two eyes: "stereo-" before its name, with parameters and passes of its own, and no extra
-/// planes. The filter, which follows `mono`, is one of its passes.
+/// The technique `mono` for two eyes: "stereo-" before its name, with parameters and passes of its own, and no extras. The
+/// filter, which follows `mono`, is one of its passes.
 Technique over_two_eyes(Technique mono, ParameterList parameters,
                         std::function<std::vector<Pass>(const ParameterValues&)> passes);
 

@@ -1,9 +1,9 @@
-// Where AO varies: tiles by a base pass, as ASSAO (McLaren 2016) and CACAO (AMD 2020) weigh theirs. What is smooth needs few
-// samples.
+// Adaptive sampling: tiles in which the AO of a base pass varies, as in ASSAO (McLaren 2016) and CACAO (AMD 2020). Smooth tiles
+// need few samples.
 //
-// important_tiles  `frame` is that of the tiles, `other` the base pass's
+// important_tiles  `frame`: the tiles; `other`: the base pass
 //   in : ao         of the base pass, 1 = open .. 0 = closed; 1 on background
-//   out: important  1 where AO varies by least_range and more, in a tile and one pixel of the base pass around it; else 0
+//   out: important  1 where AO varies by least_range or more within a tile and one pixel of the base pass around it; else 0
 // -D PIXELS (of the base pass, per tile and axis)
 #include "adaptive/params.h"
 #include "shared/lanes/load.h"

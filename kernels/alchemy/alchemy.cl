@@ -2,12 +2,12 @@
 // (McGuire, Mara, Luebke 2012): mean obscurance over samples on a spiral on the screen.
 //   AO = max(0, 1 - 2 strength / n * sum max(0, v.n - bias) / (v.v + epsilon))^power
 //   AO = max(0, 1 - 5 strength / n * sum (1 - v.v)^3 max(0, v.n - bias) / (v.v + epsilon))^power   with SCALABLE
-// v in radii, from the pixel to an occluder; of all layers at a sample the largest counts.
+// v: from the pixel's point to an occluder, in radii. Of the layers at a sample, the one that contributes most counts.
 //
 // in : depth         view-space z, scene units, +inf = background
 //      normal        unit, view space
-//      occluders     further depth layers (layers.h); without them the depth is the only one
-//      depth_levels  what sao_level makes, for levels 1 to LEVELS (LEVELS > 0, without occluders)
+//      occluders     further depth layers (layers.h); without them, depth is the only layer
+//      depth_levels  levels 1 to LEVELS, made by sao_level (LEVELS > 0, without occluders)
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED; LEVEL (sao_level)
 #include "alchemy/params.h"
@@ -39,16 +39,16 @@ static inline real obscurance(real3 v, real3 n, Params params, Falloff falloff) 
 #endif
 }
 
-// --- Levels of the depth, after the second paper. Level 0 is the depth itself. Level k has one pixel for 2^k x 2^k
-// of the image: of each 2 x 2 pixels of the level below it is (2x + (y & 1), 2y + (x & 1)), a rotated grid. The next step
-// down then starts with the bits of x and y exchanged, so that the lowest bits of both alternate all the way down: which
-// pixel of the image was picked is known without the levels between, and its position is exact.
+// --- Levels of the depth, after the second paper. Level 0 is the depth itself. Level k has one pixel for 2^k x 2^k pixels
+// of the image. A level picks one of each 2 x 2 pixels of the level below: (2x + (y & 1), 2y + (x & 1)), a rotated grid.
+// Each step down exchanges the lowest bits of x and y, so that the bits of both alternate: the picked pixel of the image
+// follows from (x, y) alone, and its position is exact.
 #if LEVELS
 
 // Every second bit from bit 29 down.
 #define ALTERNATING ((integer)(0x2AAAAAAA))
 
-// Column and row in the image of pixel (x, y) of a level. A block over the border has its pixel on the border.
+// The pixel of the image that pixel (x, y) of a level was picked from; for a block that crosses the border, the border's.
 static inline void picked_pixel(Frame image, integer level, integer x, integer y, integer* column, integer* row) {
   const integer first = ALTERNATING >> (30 - level), second = ALTERNATING >> (31 - level);
   const integer odd_x = -(x & 1), odd_y = -(y & 1);
@@ -56,8 +56,8 @@ static inline void picked_pixel(Frame image, integer level, integer x, integer y
   *row = min((y << level) | (odd_x & first) | (odd_y & second), image.height - 1);
 }
 
-// The level for a sample so many pixels away: floor(log2(distance)) - level_offset. A frame of more than 2^31 / LEVELS
-// pixels has only those that an int can index.
+// The level for a sample `distance` pixels away: floor(log2(distance)) - level_offset. In a frame of more than 2^31 / LEVELS
+// pixels it is capped at the levels that an int can index.
 static inline integer level_of(Frame frame, Params params, real distance) {
   const integer exponent = (as_integer(to_stored(distance)) >> 23) - 127;
   const int highest = min(LEVELS, 0x7fffffff / (2 * FRAME_GUARD + frame.pitch * frame.height));
@@ -65,7 +65,7 @@ static inline integer level_of(Frame frame, Params params, real distance) {
 }
 
 #ifdef LEVEL
-// `frame` is the level, `other` the image. Makes layer LEVEL - 1, of the image's layout, in its left top part.
+// `frame`: the level; `other`: the image. Writes layer LEVEL - 1, laid out like the image, in its left top part.
 kernel void sao_level(Frame frame, Frame other, SaoParams params, PLANE depth, PLANE_OUT depth_levels) {
   integer column, row;
   picked_pixel(other, (integer)(LEVEL), FIRST_X + IOTA, (integer)(ROW_Y), &column, &row);
@@ -101,7 +101,7 @@ static inline Place place_at(Frame frame, Params params, Receiver r, integer dx,
   return p;
 }
 
-// The depth there in the first layer. Further ones hold every pixel that a level would.
+// Depth of the first layer at a place. Further layers are read at full resolution: they have no levels.
 static inline real depth_at(Frame frame, DepthLayers layers, global const float* depth_levels, Receiver r, Place p,
                             int within) {
 #ifdef READS_LEVELS
@@ -114,7 +114,7 @@ static inline real depth_at(Frame frame, DepthLayers layers, global const float*
   return sample_near(layers.first, frame, r.here, within, p.dx, p.dy);
 }
 
-// The largest contribution of all layers.
+// The contribution of the layer that contributes most.
 static inline real obscurance_near(Frame frame, Params params, DepthLayers layers, global const float* depth_levels,
                                    Receiver r, Falloff falloff, Place p, int within) {
   const real depth = depth_at(frame, layers, depth_levels, r, p, within), x = to_real(p.dx), y = to_real(p.dy);

@@ -10,8 +10,8 @@ namespace {
 /// Levels above the depth itself, as in the paper.
 constexpr int levels = 5;
 
-/// Turns of the spiral: of all numbers coprime to that of samples the one nearest to (3 - sqrt(5)) / 2 of it. That angle
-/// from sample to sample spreads any run of them over all directions.
+/// Turns of the spiral: the number coprime to `samples` that is nearest to (3 - sqrt(5)) / 2 * samples. With the resulting
+/// angle between samples, any run of samples is spread over all directions.
 int turns_for(int samples) {
   const double wanted = samples * 0.5 * (3 - std::sqrt(5.0));
   int nearest = 1;

@@ -1,3 +1,3 @@
-// The cross-bilateral filter by itself.
+// The cross-bilateral filter as a technique of its own (shared/filter/bilateral_filter.h).
 #include "bilateral/params.h"
 #include "shared/filter/bilateral_filter.h"

@@ -1,11 +1,10 @@
 #include "shared/filter/bilateral_params.h"
 #include "shared/lanes/params.h"
 
-#define BILATERAL_FILTER_PARAMS(P)                                     \
-  P(float, radius, 0.5f, 0, INFINITY, "scene units",                   \
-    "radius of the AO to be filtered: the measure of depth_tolerance") \
-  BILATERAL_PARAMS(P)                                                  \
-  P(choice, form, separable, (separable, square),                      \
-    "along rows and then along columns, or all taps of the square at once")
+#define BILATERAL_FILTER_PARAMS(P)                                                                                   \
+  P(float, radius, 0.5f, 0, INFINITY, "scene units", "radius of the AO to be filtered: the unit of depth_tolerance") \
+  BILATERAL_PARAMS(P)                                                                                                \
+  P(choice, form, separable, (separable, square),                                                                    \
+    "one pass along rows and one along columns, or one pass over the whole square")
 
 PARAMS(BilateralParams, BILATERAL_FILTER_PARAMS)

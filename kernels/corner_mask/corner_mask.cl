@@ -1,21 +1,21 @@
 // Where something within the radius may occlude, from depth and normals alone: the question of OdSSAO (2020), answered
-// without a mesh. One pixel stands for each cell of the image; a cell is wanted where any sample around its pixel rises over
-// the pixel's tangent plane, and so are the cells around it, whose own samples lie elsewhere.
+// without a mesh. One pixel stands for each cell of the image. A cell is wanted where any sample around its pixel rises over
+// the pixel's tangent plane; the cells around it are wanted too, as their own samples lie elsewhere.
 //
-// corner_subsample  `frame` is that of the cells, `other` the image
+// corner_subsample  `frame`: the cells; `other`: the image
 //   in : depth, normal       view-space z, scene units, +inf = background; unit, view space
-//   out: low_depth, low_normal  of the pixels that stand for cells: the left top one of each
+//   out: low_depth, low_normal  of the pixel that stands for each cell: its left top one
 // corner_find
-//   in : depth, normal       of these pixels
+//   in : depth, normal       of the pixels that stand for cells
 //   out: found               1 where something rises, else 0; 0 on background
 // then                       shared/sampling/cells.h
-// Of what is hidden behind the depth the same question is asked by hidden-mask:
+// hidden-mask asks the same about surfaces that the depth hides:
 //
 // corner_subsample_hidden
 //   in : depth, stochastic   stack of OCCLUDERS_LAYERS depths behind the depth, the depth among them, +inf where there is none
 //   out: hidden              of the pixels that stand for cells, +inf where the depth itself was drawn
 // corner_find
-//   in : occluders           these, in place of the depth
+//   in : occluders           the hidden depths, in place of the depth
 // -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
 #include "corner_mask/params.h"
 #include "shared/filter/subsample.h"
@@ -49,7 +49,7 @@ kernel void corner_subsample_hidden(Frame frame, Frame other, Params params, PLA
 #define SEARCHED
 #endif
 
-// The sine of the elevation over the tangent plane, squared, of a sample within reach; 0 of others and below the plane.
+// Squared sine of a sample's elevation over the tangent plane; 0 for samples below it or out of reach.
 static inline __attribute__((always_inline)) real squared_sine(Frame frame, Receiver r, integer dx, integer dy,
                                                                real sample, real farthest, mask* is_above) {
   const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, sample));
@@ -59,8 +59,8 @@ static inline __attribute__((always_inline)) real squared_sine(Frame frame, Rece
 }
 
 #ifdef OCCLUDERS_LAYERS
-// The largest of the hidden depths at a place. What lies behind a point below the tangent plane lies lower still, as
-// surfaces face the eye: so nothing is asked where no lane `asks`.
+// The largest squared sine of the hidden depths at a sample. Surfaces face the eye, so behind a point below the tangent
+// plane everything lies lower still: nothing is read where no lane `asks`.
 static inline __attribute__((always_inline)) real hidden_sine(Frame frame, global const float* occluders, Receiver r,
                                                               int within, integer dx, integer dy, real farthest,
                                                               mask asks) {
@@ -76,12 +76,12 @@ static inline __attribute__((always_inline)) real hidden_sine(Frame frame, globa
 }
 #endif
 
-// Whether in any direction what is searched rises as high as counts, and what is hidden higher than what is seen. Ends where
-// that is so for each lane.
+// Whether a sample in any direction rises high enough to count. Of hidden depths only those count that rise higher than the
+// visible one. Ends as soon as this holds for every lane.
 static inline __attribute__((always_inline)) mask something_rises(Frame frame, Params params, global const float* depth,
                                                                   SEARCHED_PLANE Receiver r, Fan fan, int within) {
-  // In units of the depth. Both cells stand for pixels that may be nearer to one another, and a range allows as much along
-  // the line to the eye as SSAO does (estimators/ball.h).
+  // In units of the pixel's depth. One pixel wider than the radius, since other pixels of the two cells may be nearer to each
+  // other; deeper by the range, as far as SSAO lets occluders stand before the point (estimators/ball.h).
   const real radius = 1 / sqrt(r.reach.inverse_square) + (r.point.across_x + r.point.across_y);
   const real farthest = radius * radius * (1 + 4 * params.range * params.range);
   mask rises = r.point.background;
@@ -114,7 +114,7 @@ kernel void corner_find(Frame frame, Params params, PLANE depth, PLANE normal_x,
                         OCCLUDERS_ARGUMENT PLANE_OUT found) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   mask rises = (mask)(0);
-  // Nothing is within a radius of 0, not even what lies in the same cell.
+  // Within a radius of 0 lies nothing, not even in the same cell.
   if (params.radius > 0 && ANY(!r.point.background)) {
     const Fan fan = fan_of(r.reach, r.noise);
     LOOK_AROUND(rises, frame, r, r.reach, something_rises(frame, params, depth, SEARCHED r, fan, within))

@@ -31,7 +31,7 @@ std::vector<Pass> passes_in_cells(int cell, const Defines& defines) {
 
 std::vector<Pass> corner_passes(const CornerMaskParams& p) { return passes_in_cells(p.cell, defines_of(p)); }
 
-/// The same among the depths behind the first.
+/// The passes of hidden-mask: the same search among the depths behind the first.
 std::vector<Pass> hidden_passes(const HiddenMaskParams& p) {
   Defines defines = defines_of(p);
   defines.insert(defines.end(), {{"STOCHASTIC", 1}, {"OCCLUDERS_LAYERS", p.samples}});

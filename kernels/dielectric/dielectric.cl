@@ -1,7 +1,7 @@
-// Reflectance of surfaces of which nothing is known but that they are no metals: the same everywhere.
+// One reflectance for all surfaces, for frames that have none: that of a dielectric.
 //
 // in : depth        view-space z, +inf = background
-// out: reflectance  at normal incidence; 0 on background
+// out: reflectance  at normal incidence, 0 to 1; 0 on background
 #include "dielectric/params.h"
 #include "shared/frame/camera.h"
 

@@ -2,6 +2,6 @@
 
 #define DIELECTRIC_PARAMS(P)             \
   P(float, reflectance, 0.04f, 0, 1, "", \
-    "of every surface at normal incidence; 0.04 is that of glass, varnish and most paints")
+    "reflectance of every surface at normal incidence; 0.04: glass, varnish and most paints")
 
 PARAMS(DielectricParams, DIELECTRIC_PARAMS)

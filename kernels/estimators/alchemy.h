@@ -6,13 +6,13 @@
 
 #include "shared/sampling/sample.h"
 
-// What the contributions need of the radius at a pixel. Lengths are in units of the pixel's depth.
+// Constants of the falloff at a pixel, made from the radius. Lengths are in units of the pixel's depth.
 typedef struct {
   real radius;
-  real epsilon;         // what is added to squared distances
-  real limit;           // the squared radius, with epsilon
+  real epsilon;         // added to squared distances
+  real limit;           // squared radius + epsilon
   real inverse_square;  // 1 / radius^2
-  scalar beginning;     // of the fade: 1, with epsilon
+  scalar beginning;     // 1 + epsilon / radius^2, where the fade begins
 } Falloff;
 
 // `epsilon`: squared radii.
@@ -21,7 +21,7 @@ static inline Falloff falloff_of(Reach reach, scalar epsilon) {
   const real square = quick_inverse(reach.inverse_square);
   f.inverse_square = reach.inverse_square;
   f.radius = square * sqrt(reach.inverse_square);
-  // What is far below any squared distance keeps 0/0 away on the point itself.
+  // A value far below any squared distance that counts keeps the point itself from 0/0.
   f.epsilon = multiply_add((real)(epsilon), square, (real)(1e-30f));
   f.limit = square + f.epsilon;
   f.beginning = 1 + epsilon;
@@ -39,7 +39,7 @@ static inline real height_over(real square, real3 v, real3 n, scalar bias) {
   return larger(height, (real)(0)) * quick_inverse(square);
 }
 
-// Both are to be multiplied by the radius.
+// The two contributions below are still to be multiplied by the radius.
 
 // Alchemy's: occluders within the radius count in full.
 static inline real obscurance_alchemy(real3 v, real3 n, scalar bias, Falloff f) {
@@ -47,8 +47,8 @@ static inline real obscurance_alchemy(real3 v, real3 n, scalar bias, Falloff f) 
   return choose(square < f.limit, height_over(square, v, n, bias), (real)(0));
 }
 
-// Of the contributions in the source that the authors of Scalable Ambient Obscurance published the one that they
-// recommend: fading to 0 at the radius by (1 - v.v / radius^2)^3.
+// Fades to 0 at the radius by (1 - v.v / radius^2)^3: of the contributions in the published source of Scalable Ambient
+// Obscurance the one that its authors recommend.
 static inline real obscurance_scalable(real3 v, real3 n, scalar bias, Falloff f) {
   const real square = padded_square(v, f);
   const real fade = larger(multiply_add(-square, f.inverse_square, (real)(f.beginning)), (real)(0));

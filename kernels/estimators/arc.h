@@ -1,20 +1,20 @@
-// What an occluder takes from one side of a slice: all below it, so that the highest one counts (Jimenez, Wu, Pesce,
+// What an occluder takes from one side of a slice: everything below it, so that the highest one counts (Jimenez, Wu, Pesce,
 // Jarabo 2016, equation 7, from the tangent instead of the line to the eye).
 #ifndef GLOAM_ARC_H
 #define GLOAM_ARC_H
 
 #include "shared/sampling/slice.h"
 
-// Elevations are kept as cotangents: one division, exact for flat ones, no angle. This one is that of nothing: 0 degrees.
+// Elevations are kept as cotangents: one division, exact for flat ones, no angle. NO_HORIZON: 0 degrees.
 #define NO_HORIZON ((scalar)1e9f)
 
-// The horizon after a point `along` the tangent and `above` it, where `counts`; above > 0 there.
+// The horizon raised to a point `along` the tangent and `above` it, where the point `counts`; above > 0 there.
 static inline real raised(real horizon, real along, real above, mask counts) {
   return choose(counts, smaller(along * quick_inverse(above), horizon), horizon);
 }
 
-// The same, but a sample below the horizon draws it down by `share` of the way, in cosines (the thickness heuristic of the
-// paper's section 5.2): thin occluders do not close all behind them.
+// As `raised`, but a sample below the horizon lowers it by `share` of the difference in cosines (thickness heuristic,
+// section 5.2): thin occluders do not close everything behind them.
 static inline real raised_or_lowered(real horizon, real along, real above, scalar share, mask counts) {
   const real point = along * quick_inverse(above);
   const real own = horizon * inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
@@ -24,7 +24,7 @@ static inline real raised_or_lowered(real horizon, real along, real above, scala
   return choose(counts, choose(point < horizon, point, drawn), horizon);
 }
 
-// Share of a slice's mass below a horizon; (cosine, sine): the normal's lean towards this side.
+// Share of a slice's mass below a horizon. (cosine, sine): how far the normal leans towards this side.
 static inline real share_below(real horizon, real cosine, real sine, real mass) {
   const real inverse = inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
   return mass_below(horizon * inverse, inverse * inverse, cosine, sine) * ((scalar)0.5 * quick_inverse(mass));

@@ -1,5 +1,5 @@
-// Bent normal and cone: the mean of the directions that are open, each of them counting by its solid angle, and the cone
-// about it that is as open (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
+// Bent normal: mean of the open directions, weighted by solid angle. Cone: the cone about it that is as open as the directions
+// are (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
 // -D WITH_BENT_NORMAL, WITH_CONE: a kernel's last arguments and last line are
 //   ... PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
 //   STORE_OPEN_DIRECTIONS(directions, receiver)
@@ -22,8 +22,8 @@ static inline OpenDirections no_directions(void) {
   return d;
 }
 
-// All of the hemisphere about the normal (unit). What is closed is then taken away, so that few samples of what is closed
-// leave an open surface exact.
+// All of the hemisphere about the normal (unit). The closed directions are then taken away, so that an open surface is exact
+// with any number of samples.
 static inline OpenDirections whole_hemisphere(real3 normal) {
   OpenDirections d;
   d.sum = scale3(normal, (real)((scalar)3.14159265358979));
@@ -31,7 +31,7 @@ static inline OpenDirections whole_hemisphere(real3 normal) {
   return d;
 }
 
-// `weight`: solid angle, 0 where the direction (unit) is closed; negative to take away.
+// `direction`: unit. `weight`: its solid angle; 0 where it is closed, negative to take it away.
 static inline void add_open(OpenDirections* d, real3 direction, real weight) {
   d->sum.x += weight * direction.x;
   d->sum.y += weight * direction.y;
@@ -46,8 +46,8 @@ static inline real3 bent_normal_of(OpenDirections d, real3 normal) {
   return choose3(is_there, scale3(d.sum, inverse_sqrt(choose(is_there, square, (real)(1)))), normal);
 }
 
-// Cosine of the cone's half angle: directions spread evenly over a cap of that size have a mean of length
-// (1 + cosine) / 2. 0 where a whole hemisphere is open, 1 where nothing is.
+// Cosine of the cone's half angle: directions spread evenly over a cap of that size have a mean of length (1 + cosine) / 2.
+// 0 where a whole hemisphere is open, 1 where nothing is.
 static inline real cone_of(OpenDirections d) {
   const real length = sqrt(dot3(d.sum, d.sum)), cosine = 2 * length / larger(d.weight, (real)(1e-12f)) - 1;
   return choose(d.weight > (scalar)1e-6f, smaller(larger(cosine, (real)(0)), (real)(1)), (real)(1));
@@ -76,7 +76,7 @@ static inline real cone_of(OpenDirections d) {
 #endif
 #define OPEN_DIRECTIONS_ARGUMENTS BENT_NORMAL_ARGUMENTS CONE_ARGUMENT
 #define STORE_OPEN_DIRECTIONS(d, r) STORE_BENT_NORMAL(d, r) STORE_CONE(d, r)
-// At index `here`, where nothing is known (SKIP_UNWANTED).
+// For pixels that are left out (SKIP_UNWANTED), at index `here`.
 #define STORE_NO_DIRECTIONS STORE_NO_BENT_NORMAL STORE_NO_CONE
 
 // Zero on background.

@@ -1,4 +1,4 @@
-// What an occluder adds as the highest one so far in its direction: horizon-based ambient occlusion (Bavoil, Sainz,
+// What an occluder adds if it is the highest one so far in its direction: horizon-based ambient occlusion (Bavoil, Sainz,
 // Dimitrov 2008; Vermeer, Scandolo, Eisemann 2021, Algorithm 2).
 // -D COSINE_WEIGHTED, NO_FALLOFF, LINEAR_FALLOFF
 #ifndef GLOAM_HORIZON_H
@@ -7,8 +7,8 @@
 #include "estimators/bent_normal.h"
 #include "shared/sampling/slice.h"
 
-// Heights are elevations above the tangent plane, kept as the share of a direction's wedge that lies below: the sine, by
-// which all directions count alike; or its square, by which they count by their cosine to the normal.
+// Heights are elevations above the tangent plane, kept as the share of a direction's wedge that lies below: the sine where
+// all directions count alike, its square where they count by their cosine to the normal.
 #if COSINE_WEIGHTED
 #define HEIGHT_OF_SINE(s) ((s) * (s))
 #define SINE_OF_HEIGHT(h) sqrt(h)
@@ -18,10 +18,10 @@
 #endif
 
 typedef struct {
-  real height, taken;  // both 0 to 1: of the highest occluder; of the wedge, less what distance spares
+  real height, taken;  // 0 to 1: height of the highest occluder; share of the wedge taken, with falloff
 } Horizon;
 
-// What one sample does to a horizon: how high it stands, 0 or less if out of reach, and what that takes away.
+// One sample: its height, 0 or less if out of reach, and the share of the wedge that it takes.
 typedef struct {
   real height, taken;
 } Rise;
@@ -56,12 +56,12 @@ static inline Rise rise_to(Horizon horizon, real3 v, real3 n, real inverse_squar
   const real weight = attenuation(vv * inverse_square);
   Rise r;
   r.height = choose(counts & (weight > 0), height, (real)(0));
-  // One sample waits for another only here.
+  // The only dependency between samples.
   r.taken = (larger(r.height, horizon.height) - horizon.height) * weight;
   return r;
 }
 
-// Of several layers at a sample the one that takes most, all measured from the same horizon.
+// Of several layers at a sample the one that takes most; both are measured from the same horizon.
 static inline Rise greater_rise(Rise a, Rise b) {
   const mask second = b.taken > a.taken;
   a.height = choose(second, b.height, a.height);
@@ -74,8 +74,8 @@ static inline void raise_by(Horizon* horizon, Rise rise) {
   horizon->taken += rise.taken;
 }
 
-// Takes away the directions of a narrow wedge about the normal n up to a horizon. t: unit, along the tangent plane; `sine`
-// of the horizon's elevation; `width`: the wedge's, radians. In closed form: cosine * (t cosine + n sine) over elevations.
+// Takes away the directions of a narrow wedge about the normal n from the tangent plane up to a horizon. t: unit, along the
+// tangent plane; `sine`: of the horizon's elevation; `width`: radians. The integral of cosine * (t cosine + n sine).
 static inline void take_closed_wedge(OpenDirections* open, real3 t, real3 n, real sine, real width) {
   const real along = width * ((scalar)0.5 * arc_mass(sine)), up = width * ((scalar)0.5 * sine * sine);
   open->sum.x -= t.x * along + n.x * up;

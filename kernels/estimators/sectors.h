@@ -1,17 +1,17 @@
 // What an occluder of some thickness takes from one side of a slice: the sectors between its front and its back (Therrien,
-// Levesque, Gilet 2023, section 3), here of equal cosine-weighted mass, so that the number left is what is open.
+// Levesque, Gilet 2023, section 3). Sectors here have equal cosine-weighted mass: the share of open ones is the result.
 #ifndef GLOAM_SECTORS_H
 #define GLOAM_SECTORS_H
 
 #include "shared/sampling/slice.h"
 
-// Of a slice. Less than the bits of a mask by one and a little: no shift by all of them, whatever the rounding.
+// Sectors of a slice. A little more than one below the bits of a mask: no shift reaches all of them, whatever the rounding.
 #define SECTORS ((scalar)30.9f)
 
-// How the mass on one side of a slice is divided.
+// How the mass on one side of a slice is divided into sectors.
 typedef struct {
-  real cosine, sine;  // of the normal's lean towards this side, times sectors per twice the mass
-  real shift;         // 0 to just below 1: where counting begins, so that rounding is fair on average
+  real cosine, sine;  // of the normal's lean towards this side, times SECTORS / (2 mass)
+  real shift;         // 0 to just below 1: start of the count, so that rounding is unbiased
 } Scale;
 
 static inline Scale scale_of(real cosine, real sine, real mass, real shift) {
@@ -23,13 +23,13 @@ static inline Scale scale_of(real cosine, real sine, real mass, real shift) {
   return s;
 }
 
-// Number of sectors up to the elevation whose cotangent is `horizon` (arc.h); with the shift.
+// Number of sectors up to the elevation whose cotangent is `horizon` (arc.h), plus the shift.
 static inline real sectors_below_horizon(real horizon, Scale s) {
   const real inverse = inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
   return mass_below(horizon * inverse, inverse * inverse, s.cosine, s.sine) + s.shift;
 }
 
-// The same up to a point `along` the tangent and `above` it, above >= 0; with the shift.
+// Number of sectors up to a point `along` the tangent and `above` it, above >= 0, plus the shift.
 static inline real sectors_below(real along, real above, Scale s) {
   const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
   const real inverse = inverse_sqrt(square), sine = above * inverse;

@@ -1,6 +1,6 @@
-// Gaussian filter of raw AO without regard to edges, along one axis and then along the other. Background and what lies
-// beyond the border have no weight; both sums are carried from pass to pass, so that the result is that of the filter
-// in two dimensions everywhere (normalised convolution: Knutsson, Westin 1993).
+// Gaussian filter of raw AO that ignores edges, along rows and then along columns. Background and pixels beyond the border
+// have no weight. The sums of values and of weights are both passed on, so that the result is that of the two-dimensional
+// filter everywhere (normalised convolution: Knutsson, Westin 1993).
 //
 // gaussian_horizontal
 // in : source  to be filtered      depth  +inf = background
@@ -13,7 +13,7 @@
 #include "shared/frame/camera.h"
 #include "shared/lanes/wanted.h"
 
-// exp(-x) for x >= 0, relative error below 3e-7. In plain operations: the same bits everywhere.
+// exp(-x) for x >= 0, relative error below 3e-7. Additions and multiplications only: the same bits on every device.
 static inline scalar exp_of_minus(scalar x) {
   // exp(-x) = 2^-n exp(-r) with |r| <= ln(2) / 2; ln(2) in two parts, the first of which has few bits.
   const scalar n = floor(x * (scalar)1.4426950408889634 + (scalar)0.5);
@@ -27,7 +27,7 @@ static inline scalar exp_of_minus(scalar x) {
   return ldexp(series, -(int)n);
 }
 
-// 1 at the pixel itself. Narrower than a hundredth of a pixel, the others have none.
+// 1 at the pixel itself; 0 elsewhere if sigma is below a hundredth of a pixel.
 static inline scalar weight_of(int k, scalar sigma) {
   const scalar narrow = (scalar)0.01f, t = (scalar)k / (sigma > narrow ? sigma : narrow);
   return exp_of_minus((scalar)0.5 * t * t);
@@ -43,7 +43,7 @@ kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source
   for (int k = -HALF_WIDTH; k <= HALF_WIDTH; ++k) {
     const mask inside = to_mask(to_natural(x + k) < (natural)((uint)frame.width));
     const mask counts = inside & !is_background(load(depth, here + k));
-    // Chosen before it is multiplied: what lies beside the image may hold anything.
+    // Chosen before the multiplication: memory beside the image may hold anything.
     const real value = choose(counts, load(source, here + k), (real)(0));
     const scalar w = weight_of(k, params.sigma);
     values = multiply_add((real)(w), value, values);
@@ -67,7 +67,7 @@ kernel void gaussian_vertical(Frame frame, GaussianParams params, PLANE sum, PLA
     values = multiply_add((real)(w), load(sum, there), values);
     weights = multiply_add((real)(w), load(weight, there), weights);
   }
-  // The pixel itself has a weight of 1 unless it is background.
+  // The sum is at least 1, the pixel's own weight, unless the pixel is background.
   const real filtered = values / choose(background, (real)(1), weights);
   store(choose(background | !is_wanted, (real)(1), filtered), result, here);
 }

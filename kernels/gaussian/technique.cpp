@@ -28,7 +28,7 @@ std::vector<Pass> passes(const GaussianParams& p) {
 std::vector<Technique> gaussian() {
   return {{
       .name = "gaussian",
-      .summary = "Gaussian filter for raw AO without regard to edges; background has no weight",
+      .summary = "Gaussian filter for raw AO that ignores edges; background has no weight",
       .paper = "Knutsson, Westin 1993",
       .source = "gaussian/gaussian.cl",
       .reads = {"ao_raw", "depth"},

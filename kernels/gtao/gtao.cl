@@ -1,12 +1,12 @@
-// Ambient occlusion by slices: GTAO's sampling and integral (Jimenez, Wu, Pesce, Jarabo 2016, sections 4 and 5), where all
-// below the highest occluder is closed; or with BITMASK what lies between front and back of occluders of one thickness
-// (Therrien, Levesque, Gilet 2023). AO = weighted mean over slices of the open share of their cosine-weighted mass.
+// Ambient occlusion by slices: GTAO's sampling and integral (Jimenez, Wu, Pesce, Jarabo 2016, sections 4 and 5), where the
+// highest occluder closes everything below it; or with BITMASK occluders of one thickness that close what lies between their
+// front and back (Therrien, Levesque, Gilet 2023). AO = weighted mean over slices of the open share of their cosine-weighted mass.
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (layers.h); without them the depth is the only one
-//      other_depth  of the other eye (gtao_stereo); both with the sign of visibility.h
-//      newly_visible  which pixels gtao_stereo_list computes
+//      occluders  further depth layers (layers.h); without them, depth is the only layer
+//      other_depth  of the other eye (gtao_stereo); both depths with the sign of visibility.h
+//      newly_visible  the pixels that gtao_stereo_list computes
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
@@ -25,7 +25,7 @@
 #include "shared/stereo/passes.h"
 #endif
 
-// What a row of pixels looks for, the same on both sides of all slices.
+// What is the same for all slices of a row of pixels.
 typedef struct {
   Receiver receiver;
   Surface surface;
@@ -37,7 +37,7 @@ static inline Search search_of(Params params, Receiver r) {
   search.receiver = r;
   search.surface = surface_at(r.point, r.normal);
   const real radius = (scalar)params.radius * r.point.inverse_depth;
-  // Background is further away than any radius, an infinite one too.
+  // Capped so that background is out of reach of an infinite radius too.
   search.radius_square = smaller(radius * radius, (real)(FARTHEST));
 #if BITMASK
   search.thickness = (scalar)params.thickness * radius;
@@ -47,23 +47,23 @@ static inline Search search_of(Params params, Receiver r) {
   return search;
 }
 
-// What is closed of one side of a slice.
+// The closed part of one side of a slice.
 typedef struct {
-  real horizon;     // of what has no back that matters (arc.h)
-  natural covered;  // sectors.h
+  real horizon;     // of occluders that reach down to the tangent (arc.h)
+  natural covered;  // sectors of the other occluders (sectors.h)
 } Closed;
 
 // One side of a slice.
 typedef struct {
-  real along, above;                // of a sample on the pixel's own depth (slice.h)
-  real least;                       // height above the tangent from which an occluder counts
+  real along, above;                // of the sample, if it had the pixel's depth (slice.h)
+  real least;                       // height above the tangent above which an occluder counts
   real slope, above_e;              // slice.h
   real deeper_along, deeper_above;  // from the front of an occluder to its back
   Scale scale;
-  Closed closed;           // of two eyes: by what this one alone sees
+  Closed closed;           // with two eyes: by surfaces that this eye alone sees
   Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
 #if STEREO
-  Closed closed_for_both;  // by what both eyes see
+  Closed closed_for_both;  // by surfaces that both eyes see
 #endif
 } Side;
 
@@ -87,7 +87,7 @@ static inline void take_point(Closed* closed, const Side* side, Params params, S
                               real square, mask in_frame) {
   const mask counts = in_frame & (square < search.radius_square) & (above > side->least);
 #if BITMASK
-  // What reaches down to the tangent only raises the horizon, which is cheap; few occluders float above it.
+  // An occluder that reaches down to the tangent only raises the horizon, which is cheap; few float above it.
   const real back = above + side->deeper_above;
   const mask floats = counts & (back > 0);
   closed->horizon = raised(closed->horizon, along, above, counts & (back <= 0));
@@ -109,7 +109,7 @@ static inline void take_point(Closed* closed, const Side* side, Params params, S
 #endif
 }
 
-// What a depth at a side's offset closes. Returns where further layers are asked.
+// Takes the occluder at a side's offset and this depth. Returns where further layers are needed.
 static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params params, Search search,
                                                              const Side* side, real depth, mask counts,
                                                              Closed* closed) {
@@ -122,7 +122,7 @@ static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params
   return counts & asks_further(above > side->least, e < 0, square >= search.radius_square);
 }
 
-// Every layer at an index from `here`. `is_shared`: where the point is one that two eyes compare (STEREO).
+// Takes every layer at an index from `here`. `is_shared`: where both eyes see the point (STEREO).
 static inline __attribute__((always_inline)) void look(Frame frame, Params params, DepthLayers layers, Search search,
                                                        int here, integer place, mask in_frame, mask is_shared,
                                                        Side* side) {
@@ -147,22 +147,22 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
   }
 }
 
-// How far from the pixel sample k lies, in reaches: denser towards the pixel.
-static inline real place_of_step(int k, Noise noise) {
+// Distance of sample k from the pixel, in reaches: denser towards the pixel.
+static inline real distance_of_step(int k, Noise noise) {
   const real even = (k + noise.shift) * (scalar)(1.0f / STEPS);
   return even * ((scalar)0.4f + (scalar)0.6f * even);
 }
 
-// Samples on both sides.
+// Samples both sides of a slice.
 static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params, DepthLayers layers,
                                                                Search search, Slice slice, int within, Side* right,
                                                                Side* left) {
   const Receiver r = search.receiver;
   const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
   for (int k = 0; k < STEPS; ++k) {
-    const real t = place_of_step(k, r.noise);
+    const real t = distance_of_step(k, r.noise);
     integer dx = nearest(reach_x * t), dy = nearest(reach_y * t), other_dx = -dx, other_dy = -dy;
-    // Of the sample's own place: at the border `along` may come down to rounding.
+    // From the unclamped position: at the border `along` may shrink to rounding.
     right->least = left->least = params.bias * (to_real(dx) * slice.along_x + to_real(dy) * slice.along_y);
     const mask in_frame = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     right->along = to_real(dx) * slice.along_x + to_real(dy) * slice.along_y;
@@ -181,14 +181,14 @@ static inline __attribute__((always_inline)) void search_slice(Frame frame, Para
   }
 }
 
-// What is taken of a slice's mass on one side: sectors, or the share of all.
+// The part of a slice's mass that is closed on one side: sectors, or a share.
 #if BITMASK
 typedef natural Taken;
 #else
 typedef real Taken;
 #endif
 
-// `sine` is the normal's lean towards this side. Horizons become sectors.
+// `sine`: of the normal's lean towards this side. The horizon is turned into sectors.
 static inline Taken taken_of(Slice slice, real sine, Scale scale, Closed* closed) {
 #if BITMASK
   closed->covered |= sectors_between((real)(0), sectors_below_horizon(closed->horizon, scale));
@@ -217,10 +217,10 @@ static inline real closed_side(Params params, Slice slice, real sine, Side* side
 
 #if WITH_OPEN_DIRECTIONS
 #define BENT_STEPS 32
-// Takes away the closed directions on one side, by angle from the line to the eye.
+// Takes away the closed directions on one side, in steps of the angle to the line to the eye.
 static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
   const scalar wedge = (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
-  // Half a step, then whole ones: cosine and sine of pi / 64 and pi / 32.
+  // Half a step, pi / 64, then whole ones, pi / 32.
   scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
   for (int k = 0; k < BENT_STEPS; ++k) {
     // Elevation above the tangent.
@@ -276,7 +276,7 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
   real open = 1;
   if (ANY(!r.point.background)) {
     const Search search = search_of(params, r);
-    // Along a slice that is not square to the view the radius reaches further on the screen.
+    // A slice that is not parallel to the image plane reaches further on the screen than the radius at the pixel's depth.
     const Reach widest = longer(r.reach, search.surface.length);
     LOOK_AROUND(open, frame, r, widest, open_share(frame, params, layers, search, within, &directions))
   }
@@ -285,8 +285,8 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 }
 
 #if STEREO
-// One slice as one eye sees it. Each eye has its own, at the same angle about its own line to the point, and measures in it what
-// it finds: there its samples lie. Moved into the other eye's slice they lie beside it, and the eyes agree less.
+// One slice as one eye sees it. Each eye measures its samples in a slice of its own, at the same angle about its own line to the
+// point. Moved into the other eye's slice they would lie beside it, and the eyes would agree less.
 typedef struct {
   Slice slice;
   Side right, left;
@@ -298,18 +298,18 @@ static inline void start_view(View* view, Search search, real cosine, real sine)
   view->left = side_of(view->slice, search, (real)(-1));
 }
 
-// The sample of a side that is to lie (x, y) pixels from a centre. `least_along`: from where along the tangent it counts.
+// The sample of a side nearest to (x, y) pixels from a centre. Samples nearer than `least_along` along the tangent are left out.
 static inline __attribute__((always_inline)) void look_around(Frame frame, Params params, DepthLayers layers,
                                                               Search search, Slice slice, Centre c, real x, real y,
                                                               real sign, real least_along, mask is_read, mask is_seen,
                                                               int within, Side* side) {
   integer dx = nearest(x - c.left), dy = nearest(y - c.up);
   const real along = sign * ((to_real(dx) + c.left) * slice.along_x + (to_real(dy) + c.up) * slice.along_y);
-  // Of the sample's own place, as in search_slice.
+  // From the unclamped position, as in search_slice.
   side->least = params.bias * along;
   mask is_inside;
   const integer place = place_around(frame, c, within, &dx, &dy, &is_inside);
-  // Of the point's own pixel only rounding is left.
+  // A sample on the point's own pixel would hold nothing but rounding.
   mask counts = is_read & (along >= least_along) & to_mask((dx != 0) | (dy != 0));
   if (OUTSIDE_OPEN) counts &= is_inside;
   const real right = to_real(dx) + c.left, below = to_real(dy) + c.up;
@@ -318,7 +318,7 @@ static inline __attribute__((always_inline)) void look_around(Frame frame, Param
   look(frame, params, layers, search, 0, place, counts, is_seen & is_inside, side);
 }
 
-// search_slice around a point that need not lie on a pixel.
+// As search_slice, around a point that need not lie on a pixel centre.
 static inline __attribute__((always_inline)) void search_view(Frame frame, Params params, DepthLayers layers,
                                                               Search search, mask is_read, mask is_seen, int within,
                                                               View* view) {
@@ -326,13 +326,13 @@ static inline __attribute__((always_inline)) void search_view(Frame frame, Param
   const Slice slice = view->slice;
   const Centre c = centre_of(frame, r.point);
   const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
-  // Around a point between pixels some lie beside it rather than along the slice, so that the little they rise would look steep.
-  // From a point on a pixel no other is less than this away.
+  // Around a point between pixels, samples nearer than this lie beside the point rather than along the slice: the little that
+  // they rise would look steep. Around a pixel centre no sample is that near.
   const real half_a_pixel = (scalar)0.5 * (reach_x * slice.along_x + reach_y * slice.along_y) *
                             inverse_sqrt(reach_x * reach_x + reach_y * reach_y);
   const real least_along = choose((c.left == 0) & (c.up == 0), (real)(0), half_a_pixel);
   for (int k = 0; k < STEPS; ++k) {
-    const real t = place_of_step(k, r.noise), x = reach_x * t, y = reach_y * t;
+    const real t = distance_of_step(k, r.noise), x = reach_x * t, y = reach_y * t;
     look_around(frame, params, layers, search, slice, c, x, y, (real)(1), least_along, is_read, is_seen, within,
                 &view->right);
     look_around(frame, params, layers, search, slice, c, -x, -y, (real)(-1), least_along, is_read, is_seen, within,
@@ -348,9 +348,9 @@ static inline Taken taken_by_either(Taken a, Taken b) {
 #endif
 }
 
-// What both eyes see is closed as each of them sees it, and the mean counts; what one eye alone sees is closed for both. Section
-// 3.1 combines obscurance sample by sample; horizons combined so are too low, as two samples rarely meet the highest occluder
-// alike, and sectors of one eye alone are noisier.
+// A surface that both eyes see closes each eye's slice as that eye sees it, and the mean of both counts; a surface that one eye
+// alone sees closes both. Section 3.1 combines obscurance sample by sample. Horizons combined so are too low, as two samples
+// rarely meet the highest occluder alike; sectors of one eye alone are noisier.
 static inline real closed_by_both(View* own, View* other, real sine, real other_sine, Side* side, Side* other_side) {
   const Taken alone = taken_by_either(taken_of(own->slice, sine, side->scale, &side->closed),
                                       taken_of(other->slice, other_sine, other_side->scale, &other_side->closed));
@@ -359,7 +359,7 @@ static inline real closed_by_both(View* own, View* other, real sine, real other_
   return (scalar)0.5 * (share_of(taken_by_either(by_own, alone)) + share_of(taken_by_either(by_other, alone)));
 }
 
-// `there`: the point as the other eye shows it, of use where `is_seen`.
+// `there`: the point as the other eye shows it, valid where `is_seen`.
 static inline __attribute__((always_inline)) real share_open_to_both(Frame frame, Frame other, Params params,
                                                                      DepthLayers layers, DepthLayers other_layers,
                                                                      Search here, Search there, mask is_seen,
@@ -383,7 +383,7 @@ static inline __attribute__((always_inline)) real share_open_to_both(Frame frame
   return open / weights;
 }
 
-// The estimate for one point of each lane. `may_differ`: for which the other eye is looked at.
+// AO of one point per lane. `may_differ`: lanes that use the other eye.
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
                                 DepthLayers other_layers, Receiver receiver, mask may_differ) {
   const Frame other = neighbour.frame;
@@ -413,7 +413,7 @@ kernel void gtao_stereo(Frame frame, Neighbour neighbour, Params params, PLANE d
   store(open, ao_raw, r.here);
 }
 
-// The same for the pixels of a list.
+// gtao_stereo for the pixels of a list.
 kernel void gtao_stereo_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
                              PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible, PLANE other_depth,
                              PLANE_OUT ao_raw) {

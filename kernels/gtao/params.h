@@ -1,22 +1,21 @@
 #include "shared/sampling/ambient_occlusion.h"
 #include "shared/stereo/params.h"
 
-#define SLICE_PARAMS(P)                                                                             \
-  REACH_PARAMS(P)                                                                                   \
-  P(int, directions, 1, 1, 64, "", "slices searched per pixel")                                     \
-  P(float, bias, 0.01f, 0, 1, "", "slope above the tangent below which an occluder does not count") \
+#define SLICE_PARAMS(P)                                                                        \
+  REACH_PARAMS(P)                                                                              \
+  P(int, directions, 1, 1, 64, "", "slices searched per pixel")                                \
+  P(float, bias, 0.01f, 0, 1, "", "occluders at a lower slope above the tangent do not count") \
   P(int, steps, 9, 1, 1024, "", "samples on each side of a slice")
 
-#define GTAO_PARAMS(P)                                                                                               \
-  SLICE_PARAMS(P)                                                                                                    \
-  P(float, fade, 0, 0, 1, "radii", "width of the outer part of the radius over which occluders sink to the tangent") \
-  P(float, thickness_heuristic, 0, 0, 1, "",                                                                         \
-    "how far the horizon falls back to a sample below it; 0: occluders have no "                                     \
-    "back")
+#define GTAO_PARAMS(P)                                                                                 \
+  SLICE_PARAMS(P)                                                                                      \
+  P(float, fade, 0, 0, 1, "radii", "over this outer part of the radius occluders sink to the tangent") \
+  P(float, thickness_heuristic, 0, 0, 1, "",                                                           \
+    "how far the horizon falls back to a sample below it; 0: occluders close everything behind them")
 
 #define BITMASK_PARAMS(P) \
   SLICE_PARAMS(P)         \
-  P(float, thickness, 0.4f, 0, INFINITY, "radii", "how far an occluder reaches behind what is seen of it")
+  P(float, thickness, 0.4f, 0, INFINITY, "radii", "how far an occluder reaches behind its visible front")
 
 #define SD_GTAO_PARAMS(P) \
   GTAO_PARAMS(P)          \

@@ -57,14 +57,13 @@ Technique gtao_over_depth() {
   t.parameters = GtaoParams::table();
   t.passes = passes_of(gtao_passes);
   t.caution =
-      "more steps may be farther from the truth: they find more occluders, and none has a back, so outdoors and among "
-      "thin "
-      "things high and ultra read too dark";
+      "more steps may be farther from the truth: they find more occluders, and every occluder closes all behind it, so "
+      "outdoors and among thin things high and ultra read too dark";
   return t;
 }
 
-/// The one that `ao` stands for, and that `gloam auto` runs: of those over one layer the nearest to the truth on most frames
-/// (docs/accuracy.md).
+/// The technique that `ao` stands for, and that `gloam auto` runs: of those over one layer the nearest to the truth on most
+/// frames (docs/accuracy.md).
 Technique bitmask_over_depth() {
   Technique t = row("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
                     "Therrien, Levesque, Gilet 2023");
@@ -87,12 +86,12 @@ Technique bitmask_over_stochastic_depth() {
               .mask = "hidden-mask",
               .probe = {{"cell", "16"}, {"search_steps", "2"}},
               .most_share = 0.5,
-              .somewhere = "something that the depth hides rises over what is seen",
-              .nowhere = "nothing that the depth hides rises over what is seen"};
+              .somewhere = "a hidden surface rises over a visible one",
+              .nowhere = "no hidden surface rises over a visible one"};
   return t;
 }
 
-/// The second eye takes over what the first finds wherever both see the same: only where they differ is there work for it.
+/// The second eye reuses what the first finds wherever both see the same surface: only the rest is computed for it.
 Technique bitmask_over_two_eyes() {
   Technique t = over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes));
   t.effect = {.name = "two views alike",
@@ -101,7 +100,7 @@ Technique bitmask_over_two_eyes() {
               .probe_resolution = 4,
               .least_share = 0.5,
               .settings = {{"estimate", "mono"}, {"filter", "mono"}},
-              .somewhere = "the second view takes over what the first finds, and both see the same",
+              .somewhere = "the second view reuses the result of the first, and both see the same",
               .nowhere = "the two views have too little in common"};
   return t;
 }

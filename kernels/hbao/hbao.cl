@@ -1,14 +1,15 @@
-// Horizon-based ambient occlusion (Bavoil, Sainz, Dimitrov 2008; written out in Vermeer, Scandolo, Eisemann 2021,
-// Algorithm 2). Along each direction the horizon only rises; each rise takes W(|v|) (sin h_new - sin h_old), and AO = 1 -
-// mean over directions of what was taken. Of all layers at a sample the one that takes most counts.
+// Horizon-based ambient occlusion (Bavoil, Sainz, Dimitrov 2008; written out in Vermeer, Scandolo, Eisemann 2021, Algorithm 2).
+// Along each direction the horizon only rises; each rise takes W(|v|) (sin h_new - sin h_old), and AO = 1 - mean over directions
+// of what was taken. Of all layers at a sample, the one that takes most counts.
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (layers.h); without them the depth is the only one
+//      occluders  further depth layers (layers.h); without them, depth is the only layer
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
-// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED
+// -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED,
+//    STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/horizon.h"
 #include "hbao/params.h"
 #include "shared/sampling/fan.h"
@@ -17,8 +18,8 @@
 #include "shared/sampling/hidden_depths.h"
 #endif
 
-// Lifts a horizon by what the layers at an offset in pixels do to it. Inlined by order, and returns no struct: oclgrind
-// does not know what becomes of that.
+// Raises a horizon by the layers at an offset in pixels. Always inlined, and returns no struct: oclgrind mishandles returned
+// structs here.
 static inline __attribute__((always_inline)) void rise_near(Frame frame, Params params, DepthLayers layers, Receiver r,
                                                             integer dx, integer dy, mask counts, int within,
                                                             Horizon* horizon) {
@@ -31,7 +32,7 @@ static inline __attribute__((always_inline)) void rise_near(Frame frame, Params 
   const real3 v = towards_depth(frame, r, x, y, depth);
   Rise rise = rise_to(*horizon, v, r.normal, r.reach.inverse_square, counts);
   const real by_first = rise.taken;
-  // A height is no more than its sine.
+  // Bound: a height is at most its sine.
   const mask rises = fused_dot3(r.normal, v) > horizon->height * least_distance(r, x, y);
   const mask asked = counts & asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
   FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, place, asked, r.farthest) {
@@ -55,15 +56,15 @@ static inline __attribute__((always_inline)) void sweep(Frame frame, Params para
 }
 
 #if WITH_OPEN_DIRECTIONS
-// Takes away the closed part of the wedge about a direction of the fan. Directions are even on the screen, so the wedge is
-// as wide as their turn about the normal is for one on the screen.
+// Takes away the closed part of the wedge about a direction of the fan. Directions are evenly spread on the screen; a wedge is as
+// wide as the direction's share of the turn about the normal.
 static inline void take_closed_direction(OpenDirections* open, Receiver r, Surface surface, Fan fan, Horizon horizon,
                                          scalar lowest) {
   const Anchor p = r.point;
   const real pixel_x = (1 + fan.stride_x) * p.across_x, pixel_y = -(1 + fan.stride_y) * p.across_y;
   const real x = fan.cosine * pixel_x, y = fan.sine * pixel_y;
   const real inverse_away = (scalar)1 / surface.away;
-  // Along the pixel's ray onto the tangent plane.
+  // Moved along the pixel's ray onto the tangent plane.
   const real e = -(surface.normal.x * x + surface.normal.y * y) * inverse_away;
   const real3 tangent = make3(x + p.ray_x * e, y + p.ray_y * e, -e);
   const real square = larger(dot3(tangent, tangent), (real)(1e-30f));
@@ -74,7 +75,7 @@ static inline void take_closed_direction(OpenDirections* open, Receiver r, Surfa
 }
 #endif
 
-// Sum over directions of what is taken from each.
+// Sum over directions of what the horizons take.
 static inline __attribute__((always_inline)) real taken_around(Frame frame, Params params, DepthLayers layers,
                                                                Receiver r, Fan fan, scalar lowest, int within,
                                                                OpenDirections* directions) {
@@ -94,7 +95,7 @@ static inline __attribute__((always_inline)) real taken_around(Frame frame, Para
   return taken;
 }
 
-// Height of the bias: an angle in radians.
+// The bias, an angle in radians, as a height.
 static inline scalar lowest_height(Params params) {
   real cosine, sine;
   cosine_sine_of_turns((real)((scalar)params.bias * (scalar)0.15915494309189535), &cosine, &sine);

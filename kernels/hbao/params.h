@@ -1,13 +1,13 @@
 #include "shared/sampling/ambient_occlusion.h"
 
-#define HBAO_PARAMS(P)                                                                                             \
-  REACH_PARAMS(P)                                                                                                  \
-  P(float, bias, 0.1f, 0, 1.5f, "radians", "angle above the tangent plane below which an occluder does not count") \
-  P(int, directions, 2, 1, 64, "", "directions searched per pixel")                                                \
-  P(int, steps, 9, 1, 256, "", "samples along each direction")                                                     \
-  P(choice, falloff, quadratic, (quadratic, linear, none), "how an occluder fades towards the radius")             \
-  P(choice, weighting, uniform, (uniform, cosine),                                                                 \
-    "whether all directions count alike, or by their cosine to the normal")
+#define HBAO_PARAMS(P)                                                                                          \
+  REACH_PARAMS(P)                                                                                               \
+  P(float, bias, 0.1f, 0, 1.5f, "radians", "occluders at a smaller angle above the tangent plane do not count") \
+  P(int, directions, 2, 1, 64, "", "directions searched per pixel")                                             \
+  P(int, steps, 9, 1, 256, "", "samples along each direction")                                                  \
+  P(choice, falloff, quadratic, (quadratic, linear, none), "how an occluder fades towards the radius")          \
+  P(choice, weighting, uniform, (uniform, cosine),                                                              \
+    "weight of a direction: the same for all, or its cosine to the normal")
 
 #define SD_HBAO_PARAMS(P) \
   HBAO_PARAMS(P)          \

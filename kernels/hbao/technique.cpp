@@ -29,8 +29,8 @@ double weight_of(const HbaoParams& p, double distance) {
   return p.falloff == Falloff::linear ? 1 - distance : 1 - distance * distance;
 }
 
-/// The estimate's limit for many samples, as an integral over directions: a sweep outwards meets each elevation first where
-/// a ray of that elevation hits. Where all directions count alike, one of the cosine-weighted ones counts by 1 / cosine.
+/// The estimate's limit for many samples, as an integral over directions: a sweep outwards first meets each elevation where a
+/// ray of that elevation hits. Where all directions have the same weight, a cosine-weighted one counts by 1 / cosine.
 double contribution(const HbaoParams& p, double cosine, double distance) {
   if (distance >= 1 || cosine <= std::sin(double(p.bias))) return 0;
   return weight_of(p, distance) * (p.weighting == Weighting::cosine ? 1 : 0.5 / cosine);

@@ -1,12 +1,12 @@
-// HBAO+: mean obscurance over directions x steps on the screen (Bavoil, Sainz 2008; NVIDIA 2016; written out in
-// Vermeer, Scandolo, Eisemann 2021, Algorithm 3). AO = 1 - 2 / samples * sum of W(|v|) max(0, n.v/|v| - bias), of all
-// layers at a sample the largest.
+// HBAO+: mean obscurance over directions x steps on the screen (Bavoil, Sainz 2008; NVIDIA 2016; written out in Vermeer,
+// Scandolo, Eisemann 2021, Algorithm 3). AO = 1 - 2 / samples * sum of W(|v|) max(0, n.v/|v| - bias); of all layers at a sample,
+// the one that contributes most counts.
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (layers.h); without them the depth is the only one
-//      other_depth, occluders  of the other view, at a resolution of their own (hbao_plus_other_view)
-//      own        what hbao_plus_estimate found
+//      occluders  further depth layers (layers.h); without them, depth is the only layer
+//      other_depth, occluders  of the other view, at its own resolution (hbao_plus_other_view)
+//      own        result of hbao_plus_estimate
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
 // -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED,
 //    MULTIVIEW, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
@@ -26,7 +26,7 @@
 #endif
 
 // The largest contribution of all layers at an index from `here`, which lies (dx, dy) pixels from the point. `by_both`: whether
-// two eyes see the first layer (STEREO).
+// both eyes see the first layer (STEREO).
 static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Params params, DepthLayers layers,
                                                                 Receiver r, real dx, real dy, int here, integer place,
                                                                 mask* by_both) {
@@ -48,7 +48,7 @@ static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Par
   return COMPENSATE(params, largest, by_first);
 }
 
-// Inlined by order: called, it is 8 % slower.
+// Always inlined: as a call it is 8 % slower.
 static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params, DepthLayers layers,
                                                                     Receiver r, Fan fan, int within) {
   real sum = 0;
@@ -93,7 +93,7 @@ kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE no
 }
 
 #if MULTIVIEW || STEREO
-// What step k finds around a point. `within`: place_around.
+// Obscurance of step k around a point. `within`: as for place_around.
 static inline __attribute__((always_inline)) real obscurance_around(Frame f, Params params, DepthLayers layers,
                                                                     Receiver r, Centre c, Fan fan, int k, int within,
                                                                     mask* by_both) {
@@ -104,13 +104,13 @@ static inline __attribute__((always_inline)) real obscurance_around(Frame f, Par
   const real found = obscurance_at(f, params, layers, r, to_real(dx) + c.left, to_real(dy) + c.up, 0, place, by_both);
   if (within == SAMPLES_INSIDE) return found;
   *by_both &= is_inside;
-  // At the border a sample may come down to the point's own pixel, of which only rounding is left.
+  // At the border a sample may be clamped to the point's own pixel, which holds nothing but rounding.
   mask counts = to_mask((dx != 0) | (dy != 0));
   if (OUTSIDE_OPEN) counts &= is_inside;
   return choose(counts, found, (real)(0));
 }
 
-// What one view shows around a point that need not lie on a pixel.
+// Sum of obscurance in one view around a point that need not lie on a pixel centre.
 static inline __attribute__((always_inline)) real sum_around(Frame f, Params params, DepthLayers layers, Receiver r,
                                                              Fan fan, int within) {
   const Centre centre = centre_of(f, r.point);
@@ -126,7 +126,7 @@ static inline __attribute__((always_inline)) real sum_around(Frame f, Params par
 #endif
 
 #if MULTIVIEW
-// Algorithm 3: of both views the one that occludes more.
+// Algorithm 3: the result of the view that occludes more.
 kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
                                  PLANE normal_y, PLANE normal_z, PLANE own, PLANE other_depth, PLANE occluders,
                                  PLANE_OUT ao_raw) {
@@ -147,8 +147,8 @@ kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params
 #endif
 
 #if STEREO
-// Mean over samples of what both eyes find at them: their mean where both see the surface, else the larger (section 3.1).
-// `there`: the point as the other eye shows it, of use where `is_seen`.
+// Sum over samples of what both eyes find: their mean where both see the occluder, else the larger value (section 3.1). `there`:
+// the point as the other eye shows it, valid where `is_seen`.
 static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame other, Params params,
                                                               DepthLayers layers, DepthLayers other_layers,
                                                               Receiver here, Receiver there, mask is_seen, int within) {
@@ -159,7 +159,7 @@ static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame
 #if LAYERS == 1
 #pragma unroll 4
 #else
-// As fast, and a third less to compile.
+// As fast as unrolled, and compiles in a third less time.
 #pragma unroll 1
 #endif
     for (int k = 0; k < STEPS; ++k) {
@@ -176,7 +176,7 @@ static inline __attribute__((always_inline)) real sum_of_both(Frame frame, Frame
   return sum;
 }
 
-// The estimate for one point of each lane. `may_differ`: for which the other eye is looked at.
+// AO of one point per lane. `may_differ`: lanes that use the other eye.
 static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
                                 DepthLayers other_layers, Receiver here, mask may_differ) {
   const Frame other = neighbour.frame;
@@ -208,7 +208,7 @@ kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PL
   store(choose(r.point.background, (real)(1), open), ao_raw, r.here);
 }
 
-// The same for the pixels of a list.
+// hbao_plus_stereo for the pixels of a list.
 kernel void hbao_plus_stereo_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
                                   PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PIXEL_LIST newly_visible,
                                   PLANE other_depth, OTHER_OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {

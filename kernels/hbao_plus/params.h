@@ -1,13 +1,13 @@
 #include "shared/sampling/ambient_occlusion.h"
 #include "shared/stereo/params.h"
 
-#define HBAO_PLUS_PARAMS(P)                                                                                   \
-  REACH_PARAMS(P)                                                                                             \
-  P(float, bias, 0.1f, 0, 0.99f, "", "cosine above the tangent plane below which an occluder does not count") \
-  P(int, directions, 8, 1, 32, "", "directions searched per pixel")                                           \
-  P(int, steps, 4, 1, 32, "", "samples along each direction")                                                 \
-  P(float, strength, 1, 0, 8, "", "factor on the obscurance")                                                 \
-  P(int, power, 1, 1, 4, "", "exponent on the result: NVIDIA's library uses 2 for contrast")                  \
+#define HBAO_PLUS_PARAMS(P)                                                                         \
+  REACH_PARAMS(P)                                                                                   \
+  P(float, bias, 0.1f, 0, 0.99f, "", "cosine to the normal below which an occluder does not count") \
+  P(int, directions, 8, 1, 32, "", "directions searched per pixel")                                 \
+  P(int, steps, 4, 1, 32, "", "samples along each direction")                                       \
+  P(float, strength, 1, 0, 8, "", "factor on the obscurance")                                       \
+  P(int, power, 1, 1, 4, "", "exponent on the result: NVIDIA's library uses 2 for contrast")        \
   P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")
 
 #define SD_HBAO_PLUS_PARAMS(P) \
@@ -16,7 +16,7 @@
 
 #define MULTIVIEW_PARAMS(P) \
   SD_HBAO_PLUS_PARAMS(P)    \
-  P(choice, other_resolution, full, (full, half, quarter), "of what is looked at of the second view")
+  P(choice, other_resolution, full, (full, half, quarter), "resolution at which the second view is read")
 
 #define STEREO_AO_PARAMS(P) \
   HBAO_PLUS_PARAMS(P)       \

@@ -19,14 +19,14 @@ Pass estimate_of(const Params& p) {
 std::vector<Pass> passes(const HbaoPlusParams& p) { return {estimate_of(p)}; }
 std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return behind_depth(estimate_of(p), p); }
 
-/// Algorithm 3, for the first view; stochastic depths of both, of the second at a resolution of its own.
+/// Algorithm 3, for the first view. Reads stochastic depths of both views, of the second at its own resolution.
 std::vector<Pass> multiview_passes(const MultiviewParams& p) {
   Pass estimate = estimate_of(p);
   estimate.writes = {{"ao_raw", "multiview_own"}};
   estimate.on = On::first_view;
   estimate.defines.push_back({"MULTIVIEW", 1});
   std::vector<Pass> passes = behind_depth(std::move(estimate), p);
-  Binding other_depth = "depth", other_hidden = passes.back().reads.back();  // what behind_depth has it read
+  Binding other_depth = "depth", other_hidden = passes.back().reads.back();  // added by behind_depth
   if (const int scale = 1 << p.other_resolution; scale > 1) {
     Pass sort = at_lower_resolution(passes.front(), scale);
     passes.front().on = On::first_view;
@@ -48,7 +48,7 @@ std::vector<Pass> multiview_passes(const MultiviewParams& p) {
   return passes;
 }
 
-/// The estimate's limit for many samples, as an integral over directions; `power` comes after it and is no part of it.
+/// The estimate's limit for many samples, as an integral over directions; `power` is applied after it and left out here.
 double contribution(const HbaoPlusParams& p, double cosine, double distance) {
   if (distance >= 1 || cosine <= p.bias) return 0;
   const double weight = p.falloff == Falloff::none ? 1 : 1 - distance * distance;
@@ -58,7 +58,7 @@ double contribution(const HbaoPlusParams& p, double cosine, double distance) {
 Technique over_depth() {
   Technique t = ambient_occlusion("hbao+", "ambient occlusion: mean obscurance over directions x steps on the screen",
                                   "Bavoil, Sainz 2008; NVIDIA 2016", "hbao_plus/hbao_plus.cl");
-  // The filter as wide as it is by itself: these few directions leave more noise.
+  // The filter keeps its own default width: so few directions leave more noise.
   t.then_with.clear();
   t.parameters = HbaoPlusParams::table();
   t.presets = {{"low", {{"directions", "4"}, {"steps", "4"}}},
@@ -79,7 +79,7 @@ Technique over_stochastic() {
 Technique multiview() {
   Technique t = over_stochastic();
   t.name = "multiview";
-  t.summary = "sd-hbao+ for the first of two views, where what either of them shows occludes";
+  t.summary = "sd-hbao+ for the first of two views, with occluders from both";
   t.paper = "Vermeer, Scandolo, Eisemann 2021";
   t.views = 2;
   t.parameters = MultiviewParams::table();
@@ -91,7 +91,7 @@ std::vector<Pass> stereo_ao_passes(const StereoAoParams& p) {
   return stereo_passes({estimate_of(p)}, "hbao_plus_stereo", stereo_choices(p));
 }
 
-/// Each eye with its own hidden depths.
+/// Each eye uses its own hidden depths.
 std::vector<Pass> stereo_sd_passes(const StereoSdHbaoPlusParams& p) {
   return stereo_passes(behind_depth(estimate_of(p), p), "hbao_plus_stereo", stereo_choices(p));
 }

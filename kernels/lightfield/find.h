@@ -1,4 +1,4 @@
-// The mask: whether anything within the radius rises over a pixel's tangent plane, one pixel for each cell.
+// The mask: whether anything within the radius rises over a pixel's tangent plane, for the one pixel that stands for each cell.
 #ifndef GLOAM_LIGHTFIELD_FIND_H
 #define GLOAM_LIGHTFIELD_FIND_H
 
@@ -16,7 +16,7 @@ kernel void lightfield_subsample(Frame frame, Frame other, Params params, PLANE 
   subsample_vector(frame, other, position_x, position_y, position_z, low_position_x, low_position_y, low_position_z);
 }
 
-// Whether in any direction something rises as high as counts. Ends where that is so for each lane.
+// Whether a sample in any direction rises high enough to count. Ends as soon as this holds for every lane.
 static inline __attribute__((always_inline)) real something_rises(Frame f, Params params, Surfaces planes,
                                                                   const Spot* s, Fan fan, real farthest, int straight,
                                                                   int within) {
@@ -45,10 +45,10 @@ kernel void lightfield_find(Frame frame, PROJECTIONS projections, Params params,
   const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);
   const Spot s = spot_in_row(frame, projections, planes, normal_x, normal_y, normal_z);
   real rises = 0;
-  // Nothing is within a radius of 0, not even what lies in the same cell.
+  // Within a radius of 0 lies nothing, not even in the same cell.
   if (params.radius > 0 && ANY(!s.point.background)) {
     const Reach reach = reach_in_image(frame, &s, params.radius, params.max_reach);
-    // Both cells stand for pixels that may be nearer to one another. Background is out of any reach.
+    // Wider, since other pixels of the two cells may be nearer to each other. Background is out of any reach.
     const real farthest = 1 / sqrt(reach.inverse_square) + s.point.across_x + s.point.across_y;
     const Fan fan = fan_of(reach, s.noise);
     LOOK_THROUGH(rises, frame, projections, s, reach,

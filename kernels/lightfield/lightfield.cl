@@ -1,25 +1,28 @@
-// Ambient occlusion for light-field displays (Doronin, Kara, Barsi, Martini 2017). A display's module has no eye: from an
-// image and its depths no matrix leads back to points. So a point is taken from the plane `position`, and only the map from
-// points to pixels is asked (Algorithm 2; shared/frame/projection.h). With a camera's map it is what `ssao` and `hbao+` are.
+// Ambient occlusion for light-field displays (Doronin, Kara, Barsi, Martini 2017). A display's module has no single centre of
+// projection: no matrix leads from its image and depths back to points. So points are read from the plane `position`, and only
+// the map from points to pixels is used (Algorithm 2; shared/frame/projection.h). With a camera's map, the results are `ssao` and
+// `hbao+`.
 //
-// lightfield_ssao_estimate       share of the points in balls around the pixel's point with something seen before them; of
+// lightfield_ssao_estimate       share of the points in a ball around the pixel's point that lie behind what the image shows; of
 //                                several radii (section 6, after Hoang, Low 2010) the one that takes most
 // lightfield_hbao_plus_estimate  mean obscurance over directions x steps in the image
 // in : depth     planar distance, scene units, +inf = background
 //      normal    unit, view space
 //      position  scene units, the world's axes
-//      points    of the balls: x, y, share of the axis, share of the volume; SAMPLES for each of RADII
+//      points    points of the balls: x, y, share of the axis, share of the volume; SAMPLES for each of RADII
 // out: ao_raw    1 = open .. 0 = closed, unfiltered; 1 on background
-// ..._list: the same for the pixels of a list (shared/lanes/pixel_list.h), whatever their order
+// ..._list: for the pixels of a list (shared/lanes/pixel_list.h)
 //
-// lightfield_find: where something within the radius may occlude, as `corner-mask` asks it, one pixel for each cell
+// lightfield_find: where something within the radius may occlude, as in `corner-mask`, for one pixel of each cell
 // in : depth, normal, position  of the pixels that stand for cells (lightfield_subsample)
 // out: found     1 where something rises over the tangent plane, else 0; 0 on background; then shared/sampling/cells.h
 //
-// lightfield_reuse: what key views show of the same points
+// lightfield_reuse: AO from key views that show the same points
 // in : key_depth, key_position, key_ao      of the nearest key view; far_...: of the next one on the other side
-// out: ao_raw    of those of them that show the point, their mean by `share` (projection.h); of none 1, and the pixel is in `newly_visible`
-// -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, FROM_BOTH, MASKED (wanted.h), OUTSIDE_OPEN, JITTER, SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
+// out: ao_raw    mean over the key views that show the point, weighted by `share` (projection.h). Where none does: 1, and the pixel
+//                joins `newly_visible`
+// -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, FROM_BOTH, MASKED (wanted.h), OUTSIDE_OPEN, JITTER,
+//    SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
 #include "lightfield/params.h"
 #include "lightfield/spot.h"
 #if ESTIMATE > 1

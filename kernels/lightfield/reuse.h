@@ -1,16 +1,16 @@
-// What key views show of the same points.
+// Reuses the AO of key views that show the same points.
 #ifndef GLOAM_LIGHTFIELD_REUSE_H
 #define GLOAM_LIGHTFIELD_REUSE_H
 
 #include "lightfield/spot.h"
 
-// Pixels as far away as the nearest one, to within so many radii, count as the same surface.
+// Pixels within this many radii of the nearest pixel's depth count as the same surface.
 #define SAME_DEPTH ((scalar)0.1f)
 
-// A plane between pixels, of those around a place that show the same surface as the nearest, at `nearest_place` and at this depth.
+// A plane read between pixels. Of the four pixels around (x, y) those count that are at the depth of the nearest one, `depth`.
 static inline real fetched_at(Frame f, real x, real y, integer nearest_place, real depth, scalar tolerance,
                               global const float* depths, global const float* plane) {
-  // In 256ths of a pixel, so that what rounding moves off a pixel's centre is that pixel.
+  // Rounded to 1/256 pixel, so that a pixel centre stays one in spite of rounding.
   const real snapped_x = to_real(nearest(x * 256)) * (scalar)(1.0f / 256);
   const real snapped_y = to_real(nearest(y * 256)) * (scalar)(1.0f / 256);
   const integer column = nearest(floor(snapped_x)), row = nearest(floor(snapped_y));
@@ -33,13 +33,13 @@ static inline real fetched_at(Frame f, real x, real y, integer nearest_place, re
   return choose(is_known, sum / choose(is_known, weights, (real)(1)), gather(plane, nearest_place));
 }
 
-// What a key view has at the pixel where it shows a point (view space of the pixel at hand), and whether it shows that point: the
-// way back from what it shows there ends within `back_check` pixels of the pixel.
+// AO that a key view has at the pixel where it shows a point `v` (view space of the pixel at hand), and whether it shows that
+// point: what it shows there projects back to within `back_check` pixels of the pixel.
 static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params params, real x, real y, real3 v,
                             mask is_asked, Surfaces planes, global const float* ao, mask* is_found) {
   real there_x, there_y, back_x, back_y;
   mask is_inside, is_back;
-  place_in(key, f, into_view(key, v), is_asked, &there_x, &there_y, &is_inside);
+  project_within(key, f, into_view(key, v), is_asked, &there_x, &there_y, &is_inside);
   *is_found = is_inside;
   if (!ANY(is_inside)) return (real)(1);
   const integer column = nearest(there_x), row = nearest(there_y);
@@ -51,14 +51,14 @@ static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params pa
     seen = point_at(key, to_real(column), to_real(row), choose(is_surface, depth, (real)(1)));
   else
     seen = view_of_position(key, gather3(planes.position_x, planes.position_y, planes.position_z, place));
-  place_in(own, f, back_from_view(key, seen), is_surface, &back_x, &back_y, &is_back);
+  project_within(own, f, back_from_view(key, seen), is_surface, &back_x, &back_y, &is_back);
   const real dx = back_x - x, dy = back_y - y;
   *is_found = is_back & (dx * dx + dy * dy <= params.back_check * params.back_check);
   if (!ANY(*is_found)) return (real)(1);
   return fetched_at(f, there_x, there_y, place, depth, SAME_DEPTH * params.radius, planes.depth, ao);
 }
 
-// What a key view shows of what was computed for all.
+// Copies a key view's AO, which was computed without the mask, for the pixels that the mask wants.
 kernel void lightfield_key(Frame frame, Params params, PLANE ao_of_key, WANTED_ARGUMENT PLANE_OUT ao_raw) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
@@ -80,7 +80,7 @@ kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params
   real open = found_in(frame, projections, projections + 1, params, x, y, v, is_surface,
                        surfaces_of(key_depth, key_position_x, key_position_y, key_position_z), key_ao, &is_found);
 #if FROM_BOTH
-  // A mean of both has less noise, and AO in screen space, which goes with what each view shows, fades from one to the other.
+  // A mean of both has less noise, and fades between views whose screen-space AO differs.
   const mask is_asked = is_surface;
   const scalar share = projections[2].share;
 #else

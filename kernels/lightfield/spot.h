@@ -1,4 +1,4 @@
-// The pixels that a work-item computes, and what is around them, through any projection.
+// The pixels that a work-item computes, and their surroundings, for any projection.
 #ifndef GLOAM_LIGHTFIELD_SPOT_H
 #define GLOAM_LIGHTFIELD_SPOT_H
 
@@ -6,7 +6,7 @@
 #include "shared/frame/projection.h"
 #include "shared/lanes/pixel_list.h"
 
-// The planes that tell surfaces.
+// The planes that describe surfaces.
 typedef struct {
   global const float *depth, *position_x, *position_y, *position_z;
 } Surfaces;
@@ -24,19 +24,19 @@ static inline Surfaces surfaces_of(global const float* depth, global const float
 // The pixels that a work-item computes: a row of them, or some from a list.
 typedef struct {
   integer x, y;
-  int here;        // an index, from which on
-  integer places;  // they lie
+  int here;        // index that `places` are relative to
+  integer places;  // indices of the pixels
   real depth;
   real3 normal, position;  // view space
-  real3 stored_position;   // the plane's
-  real3 stored_normal;     // the normal in that plane's axes
-  Anchor point;            // of what is around, in depths of the pixel
-  // How much faster than depth distances across and up grow: 1 with one eye, 0 without; negative of slits
+  real3 stored_position;   // as in the plane `position`
+  real3 stored_normal;     // normal along that plane's axes
+  Anchor point;            // for the surroundings, in depths of the pixel
+  // Growth of distances across and up relative to depth: 1 perspective, 0 orthographic, negative with slits
   real spread_x, spread_y;
   Noise noise;
 } Spot;
 
-// What is seen one pixel aside, and along the pixel's own ray, where both change evenly over the image.
+// Steps to the next pixel and along the pixel's own ray, for projections where both change evenly over the image.
 static inline void set_straight(Spot* s, Frame f, PROJECTIONS p) {
   const real wide = p->grow_x * s->depth + p->base_x, high = p->grow_y * s->depth + p->base_y;
   s->point.across_x = p->scale_x * wide * s->point.inverse_depth;
@@ -47,33 +47,33 @@ static inline void set_straight(Spot* s, Frame f, PROJECTIONS p) {
   s->spread_y = p->grow_y * s->depth / high;
 }
 
-// Where they do not: about the point itself.
+// The same steps where they change unevenly: those at the point itself.
 static inline void set_skewed(Spot* s, Frame f, PROJECTIONS p) {
   const real3 q = physical_of(p, s->position);
-  // Towards the middle of a curved screen: on the other side there may be none.
+  // Towards the middle of a curved screen: on the other side there may be no screen.
   const real far = (scalar)(1.0f / 64) * s->depth, step = choose(q.x > 0, -far, far);
   real x, y, right, up, aside;
   mask unused;
-  place_through_slits(p, q, &x, &y, &unused);
-  place_through_slits(p, physical_of(p, make3(s->position.x + step, s->position.y, s->position.z)), &right, &aside,
-                      &unused);
-  place_through_slits(p, physical_of(p, make3(s->position.x, s->position.y + step, s->position.z)), &aside, &up,
-                      &unused);
+  project_through_slits(p, q, &x, &y, &unused);
+  project_through_slits(p, physical_of(p, make3(s->position.x + step, s->position.y, s->position.z)), &right, &aside,
+                        &unused);
+  project_through_slits(p, physical_of(p, make3(s->position.x, s->position.y + step, s->position.z)), &aside, &up,
+                        &unused);
   s->point.across_x = (scalar)(1.0f / 64) / larger(fabs(right - x), (real)(1e-6f));
   s->point.across_y = (scalar)(1.0f / 64) / larger(fabs(up - y), (real)(1e-6f));
   const Slopes slopes = slopes_through(p, q);
   const real3 ahead = times3(p->from_physical, make3(slopes.across, slopes.up, (real)(1)));
   s->point.ray_x = -ahead.x / ahead.z;
   s->point.ray_y = -ahead.y / ahead.z;
-  // For bounds alone: how near the module and the observers are.
+  // Only for bounds: relates the distances to the module and to the observers.
   s->spread_x = -(p->observer_ahead - q.z) / q.z;
   s->spread_y = (real)(1);
 }
 
 static inline void finish_spot(Spot* s, Frame f, PROJECTIONS p) {
   s->position = view_of_position(p, s->stored_position);
-  // Where nothing is seen, or what can only be an error, any point will do that has a place.
-  const mask background = is_background(s->depth) | !has_place(p, s->depth, s->position);
+  // For background and for depths that can only be errors, any point serves that can be shown.
+  const mask background = is_background(s->depth) | !can_be_shown(p, s->depth, s->position);
   const scalar safe = safe_depth(p);
   s->depth = choose(background, (real)(safe), s->depth);
   s->position = choose3(background, make3((real)(0), (real)(0), (real)(-safe)), s->position);
@@ -118,7 +118,7 @@ static inline Spot spot_of_list(Frame f, PROJECTIONS p, Surfaces planes, PLANE n
   return s;
 }
 
-// Moves an offset onto the image, and makes it an index from `here`. Returns which samples count (keep_in_frame, sample.h).
+// Clamps an offset to the image and makes it an index from `here`. Returns which samples count (keep_in_frame, sample.h).
 static inline __attribute__((always_inline)) mask place_sample(Frame f, const Spot* s, int within, integer* dx,
                                                                integer* dy, integer* place) {
   mask counts = EVERY_LANE;
@@ -135,7 +135,7 @@ static inline __attribute__((always_inline)) mask place_sample(Frame f, const Sp
   return counts;
 }
 
-// RESULT = CALL, with `straight` and `within` as constants that hold for all samples up to `widest`.
+// RESULT = CALL, with constants `straight` and `within` that hold for all samples up to `widest`.
 #define LOOK_THROUGH(RESULT, f, p, spot, widest, CALL)       \
   if (!(p)->is_straight) {                                   \
     const int straight = 0, within = SAMPLES_IN_WIDE_FRAME;  \
@@ -151,7 +151,7 @@ static inline __attribute__((always_inline)) mask place_sample(Frame f, const Sp
     RESULT = CALL;                                           \
   }
 
-// A radius in scene units as the image shows it, in pixels of each axis, capped (reach_of, sample.h).
+// Reach of a radius (scene units) in the image, in pixels along each axis, capped (reach_of, sample.h).
 static inline Reach reach_in_image(Frame f, const Spot* s, scalar radius, scalar max_reach) {
   const real most = (real)(max_reach * (scalar)f.width), relative = radius * s->point.inverse_depth;
   Reach r;
@@ -162,7 +162,7 @@ static inline Reach reach_in_image(Frame f, const Spot* s, scalar radius, scalar
   return r;
 }
 
-// From the point to what is seen at an offset in pixels, in depths, and the normal in the same axes; background is far away.
+// From the point to the surface seen at an offset, in depths, and the normal, both along the same axes; background is far away.
 static inline __attribute__((always_inline)) void look_at(Surfaces planes, const Spot* s, real depth, integer dx,
                                                           integer dy, integer place, int straight, real3* v,
                                                           real3* normal) {

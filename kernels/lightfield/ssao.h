@@ -1,4 +1,4 @@
-// Of the points in balls around a pixel's point, how many have something seen before them (Algorithms 2 to 4).
+// Share of the points in balls around a pixel's point that lie behind what the image shows (Algorithms 2 to 4).
 #ifndef GLOAM_LIGHTFIELD_SSAO_H
 #define GLOAM_LIGHTFIELD_SSAO_H
 
@@ -15,7 +15,7 @@ typedef struct {
 
 // One ball in the image.
 typedef struct {
-  Axes axes;  // straight: pixels to the right and down, and in depths how much nearer; skewed: physical
+  Axes axes;  // straight: pixels to the right and down, depths towards the eye; skewed: physical
   real3 from_module;
   Heights heights;
   Reach reach;
@@ -23,7 +23,7 @@ typedef struct {
   real per_range;
 } Sphere;
 
-// As large as the reach on both axes allows, and so small that it lies before the observers and the module by half at least.
+// As large as the reach on both axes allows, and at most half the distance to the observers and to the module.
 static inline Sphere sphere_at(Frame f, PROJECTIONS p, Params params, const Spot* s, const Directions* d,
                                scalar radius) {
   Sphere b;
@@ -36,12 +36,12 @@ static inline Sphere sphere_at(Frame f, PROJECTIONS p, Params params, const Spot
   b.reach.pixels_y = b.radius / s->point.across_y;
   b.per_range = per_range_of(params.range, b.radius);
   b.heights = heights_of(s->point, d->surface, d->axis, b.reach.pixels_x);
-  // Positions are rounded by their own size, whatever the depth: beside an observer who stands aside they are far longer.
+  // Positions round by their own size: beside an observer who stands aside, they are far longer than the depth.
   if (!p->is_straight)
     b.heights.rounding += (scalar)0x1p-21 *
                           (fabs(s->stored_position.x) + fabs(s->stored_position.y) + fabs(s->stored_position.z)) *
                           s->point.inverse_depth;
-  // What bounds the offsets of all points.
+  // Bounds the offsets of all points.
   b.reach = longer(b.reach, (scalar)1.01 * d->surface.length / (1 - b.radius * spread));
   return b;
 }
@@ -66,7 +66,7 @@ static inline void set_skewed_axes(Sphere* b, PROJECTIONS p, const Spot* s, Axes
   b->from_module = physical_of(p, s->position);
 }
 
-// Where the image shows a point, in pixels from the pixel.
+// Offset of a point in the image, in pixels from the pixel.
 static inline __attribute__((always_inline)) void project_point(PROJECTIONS p, const Spot* s, const Sphere* b,
                                                                 BallPoint point, int straight, integer* dx,
                                                                 integer* dy) {
@@ -80,13 +80,13 @@ static inline __attribute__((always_inline)) void project_point(PROJECTIONS p, c
                         b->from_module.z + point.distance * v.z);
   real x, y;
   mask is_shown;
-  place_through_slits(p, q, &x, &y, &is_shown);
-  // Light that misses a curved screen has no place: the pixel itself stands for it.
+  project_through_slits(p, q, &x, &y, &is_shown);
+  // Light that misses a curved screen has no pixel: the pixel at hand stands for it.
   *dx = nearest(choose(is_shown, x - s->point.x, (real)(0)));
   *dy = nearest(choose(is_shown, y - s->point.y, (real)(0)));
 }
 
-// How much a point is occluded, 0 to 1.
+// Occlusion of a point, 0 to 1.
 static inline __attribute__((always_inline)) real occlusion_at(PROJECTIONS p, Surfaces planes, const Spot* s,
                                                                const Sphere* b, integer dx, integer dy, integer place,
                                                                real height, int straight) {
@@ -105,8 +105,8 @@ static inline __attribute__((always_inline)) real occlusion_at(PROJECTIONS p, Su
         gather3(planes.position_x + s->here, planes.position_y + s->here, planes.position_z + s->here, place);
     const real3 off = minus3(there, s->stored_position);
     const real above = dot3(s->stored_normal, off) * s->point.inverse_depth;
-    // Along the light's way to the observers height grows by what it falls along depth: along that of what is seen, which lies
-    // beside the point's. Of the two, on a plane that is seen edge-on, one may come down to it and the other not.
+    // Height above the tangent plane is compared along the light's way to the observers. It is taken for the visible surface, not
+    // for the point beside it: on a plane seen edge-on, one way may come down to the plane and the other not.
     const real3 seen = times3(p->to_physical, times3(p->to_view, off));
     const Slopes slopes =
         slopes_through(p, make3(b->from_module.x + seen.x, b->from_module.y + seen.y, b->from_module.z + seen.z));
@@ -144,7 +144,7 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, TABLE point
   const real3 n = normal_towards_eye(d.surface, s.normal);
   d.axis = scale3(n, (scalar)1 / sqrt(dot3(n, n)));
   d.ball = ball_of(d.axis, params.inner, s.noise);
-  // The plane's axes serve what is read from that plane.
+  // Normals along the axes of the plane `position`, for positions read from it.
   s.normal = d.axis;
   s.stored_normal = transposed_times3(p->to_view, d.axis);
   real most = 0;

@@ -11,7 +11,8 @@ namespace {
 
 using Points = LightfieldSsaoParams::points_values;
 
-/// As `ssao` has them (shared/sampling/ball.h): a Fibonacci spiral, and distances by a sequence beside it. Further radii go on with both.
+/// Points as in `ssao` (shared/sampling/ball.h): a Fibonacci spiral, and distances by a second sequence. Further radii go
+/// on with both.
 glm::dvec3 of_spiral(int k, int radius, int samples) {
   constexpr double golden_turns = 0.38196601125010515;
   constexpr uint32_t distance_step = 0xbb67ae85u;
@@ -31,7 +32,7 @@ std::vector<glm::dvec3> points_of(const LightfieldSsaoParams& p, int radius) {
   return points;
 }
 
-/// Algorithms 3 and 4: by the height on the axis, the angle about it and the share of the volume.
+/// Algorithms 3 and 4: points by their height on the axis, angle about the axis and share of the volume.
 std::vector<float> table_of(const LightfieldSsaoParams& p) {
   std::vector<float> table;
   for (int radius = 0; radius < p.radii; ++radius) {
@@ -47,8 +48,8 @@ std::vector<float> table_of(const LightfieldSsaoParams& p) {
   return table;
 }
 
-/// With --set reuse=on: the estimate on key views, and on the others what these do not show. What others may take over is
-/// computed whatever a mask leaves out of the key view itself.
+/// With --set reuse=on: estimates key views, and on the other views only what the key views do not show. A mask does not reduce the
+/// work on a key view, since other views may reuse any of its pixels.
 template <typename Params>
 std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
   estimate.reads.push_back("position");
@@ -188,7 +189,7 @@ Technique mask() {
           .passes = passes_of(mask_passes)};
 }
 
-/// Key views need no mask, and the others compute little: where anything occludes all of it is computed.
+/// No mask: key views do not use one, and the other views compute little. If anything occludes, the whole image is computed.
 Effect effect_of_displays() {
   return {.name = "ambient occlusion",
           .for_displays = true,

@@ -1,17 +1,17 @@
-// From a mask to the work that it leaves: no technique, but the plan's own passes (host/plan/mask.h). A work-item sees to the word
-// (shared/lanes/wanted.h) that begins with its row of pixels, if one does.
+// From a mask to the pixels left to compute: passes of the plan itself (host/plan/mask.h), not of a technique. A work-item
+// computes the word (shared/lanes/wanted.h) that begins with its row of pixels, if one does.
 //
-// mask_bits     in : source  above 0 where an effect is wanted; with CELL > 1 of cells of CELL x CELL pixels, whose frame is
+// mask_bits     in : source  above 0 where an effect is wanted; with CELL > 1 for cells of CELL x CELL pixels, whose frame is
 //                            `other`
-//                    asked   bits of what is asked for at all (WITH_ASKED)
-//               out: wanted  bits; with WITH_REST of all pixels of a row of 16 of which one is, so that each row of lanes is of one
-//                            kind
-//                    rest    of the others (WITH_REST)
-// mask_reduced  `frame` is the reduced one, `other` the whole
+//                    asked   bits of the pixels that are asked for (WITH_ASKED)
+//               out: wanted  bits; with WITH_REST of whole groups of 16 pixels if one of them is wanted, so that every row of lanes
+//                            is of one kind
+//                    rest    bits of the other pixels (WITH_REST)
+// mask_reduced  `frame`: the reduced one; `other`: the whole image
 //               in : whole   bits of the whole image
-//               out: wanted  those of every SCALE-th pixel
+//               out: wanted  bits of every SCALE-th pixel
 // mask_grown    in : wanted
-//               out: grown   wanted, and REACH_X columns and REACH_Y rows around; beside the image anything
+//               out: grown   wanted, and REACH_X columns and REACH_Y rows around it; undefined beside the image
 // -D CELL, WITH_ASKED, WITH_REST (mask_bits); SCALE (mask_reduced); REACH_X (at most 32), REACH_Y (mask_grown)
 #include "shared/lanes/wanted.h"
 
@@ -76,7 +76,7 @@ kernel void mask_reduced(Frame frame, Frame other, WANTED whole, WANTED_OUT want
 #endif
 
 #ifdef REACH_X
-// Words, one for each lane, from the k-th of a row on. Beside the row nothing is wanted.
+// Words of a row from the k-th on, one per lane; 0 beside the row.
 static inline natural words_at(WANTED row, Frame f, int k) {
   const integer number = k + IOTA;
 #if LANES == 1
@@ -87,7 +87,7 @@ static inline natural words_at(WANTED row, Frame f, int k) {
 #endif
 }
 
-// Here a work-item sees to LANES words.
+// A work-item computes LANES words.
 kernel void mask_grown(Frame frame, WANTED wanted, WANTED_OUT grown) {
   if (FIRST_X >= words_of_row(frame)) return;
   natural before = 0, word = 0, after = 0;
@@ -99,7 +99,7 @@ kernel void mask_grown(Frame frame, WANTED wanted, WANTED_OUT grown) {
   }
   natural upwards = word, downwards = word;
   for (int done = 0; done < REACH_X;) {
-    // What is grown by `done` may be shifted by up to 2 done + 1 without a gap; by done + 1 is enough.
+    // Bits grown by `done` may be shifted by up to 2 done + 1 without leaving a gap; done + 1 is enough.
     const uint step = (uint)min(done + 1, REACH_X - done);
     upwards |= (upwards << step) | (before >> (32 - step));
     downwards |= (downwards >> step) | (after << (32 - step));

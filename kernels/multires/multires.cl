@@ -1,13 +1,13 @@
-// Ambient occlusion from several resolutions (Hoang, Low 2010 and 2012). Each looks at a ring around the pixel, as wide in
-// its own pixels as all others; together the rings cover the radius. From the coarsest on, what was found is brought up by
-// joint bilateral upsampling and combined with what the next resolution finds.
+// Ambient occlusion from several resolutions (Hoang, Low 2010 and 2012). Each resolution samples a ring around the pixel that is
+// equally wide in its own pixels; together the rings cover the radius. From the coarsest on, a result is brought to the next
+// resolution by joint bilateral upsampling, and combined with that one's own.
 //
 // subsample: shared/filter/subsample.h
 //
 // estimate: level 0 is the whole image, each further one half as wide and high as the one before.
 // in : depth, normal          of this level; view-space z, scene units, +inf = background; unit, view space
 //      low_depth, low_normal  of the next coarser level (COARSER)
-//      low_most, low_sum      what was found from there on (COARSER; the sum WITH_MEAN)
+//      low_most, low_sum      results of the coarser levels (COARSER; the sum WITH_MEAN)
 // out: most    largest mean obscurance of any level so far (level 1 and up)
 //      sum     of the mean obscurances of all levels so far (level 1 and up, WITH_MEAN)
 //      ao_raw  1 = open .. 0 = closed; 1 on background (level 0)
@@ -28,12 +28,12 @@ kernel void multires_subsample(Frame frame, Frame other, MultiresParams params, 
 
 #ifdef LEVEL
 
-// The ring that this level covers, in its own pixels along each axis: up to the radius, where that ends first. Of
-// `most_pixels`, to which all levels together reach, the coarsest covers the outer half, the next one half of the rest.
+// The ring that this level covers, in its own pixels along each axis, ending at the radius. All levels together reach
+// `most_pixels`: the coarsest covers the outer half, the next one the outer half of the rest, and so on.
 typedef struct {
   real from_x, from_y, to_x, to_y;
   mask is_empty;
-  mask goes_on;  // beyond it, for coarser levels
+  mask goes_on;  // the radius reaches beyond the ring, into coarser levels
 } Ring;
 
 #define OUTER ((scalar)1 / (1 << (LEVELS - 1 - LEVEL)))
@@ -54,8 +54,8 @@ static inline Ring ring_of(Reach reach, scalar most_pixels) {
   return r;
 }
 
-// Samples at even steps from the ring's inner to its outer edge, each turned on from the last by the golden angle, so that
-// any number of them in a row is spread over all directions.
+// Samples at even steps from the inner to the outer edge of the ring, the direction turned by the golden angle from sample to
+// sample: any run of samples is spread over all directions.
 static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, MultiresParams params,
                                                                     global const float* depth, Receiver r, Ring ring,
                                                                     int within) {
@@ -85,7 +85,7 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
   return sum;
 }
 
-// Levels whose rings lie within a reach of so many pixels of level 0.
+// Number of levels whose rings lie within a reach of this many pixels of level 0.
 static inline real levels_within(real pixels, scalar most_pixels) {
   real count = 1;
   for (int level = 1; level < LEVELS; ++level) {
@@ -147,7 +147,7 @@ kernel void multires_estimate(TWO_FRAMES, MultiresParams params, COARSER_ARGUMEN
 #endif
 #if LEVEL == 0
 #if WITH_MEAN
-  // Each factor takes about half of what the occluders take.
+  // The maximum and the mean each account for about half of the occlusion.
   const real mean = sum * quick_inverse(levels_within(r.reach.pixels_x, most_pixels));
   const real open = (1 - smaller(most, (real)(1))) * (1 - smaller(mean, (real)(1)));
 #else

@@ -4,7 +4,7 @@
 namespace gloam::techniques {
 namespace {
 
-/// The name of a plane at a level: what it means is told by what stands before the @ (planes.h).
+/// The name of a plane at a level; the part before the @ tells its meaning (planes.h).
 std::string at(const std::string& plane, int level) {
   return level == 0 ? plane : plane + "@multires" + std::to_string(level);
 }
@@ -42,7 +42,7 @@ Pass estimate_at(int level, const MultiresParams& p) {
   pass.reads.push_back({"depth", at("depth", level)});
   pass.reads.push_back({"normal", at("normal", level)});
   if (level == 0) {
-    // The lower resolutions are little work.
+    // Masks are used at full resolution only: the lower ones are little work.
     pass.can_skip = true;
     pass.writes.push_back("ao_raw");
   } else {
@@ -71,7 +71,7 @@ std::vector<Technique> multires() {
                {"ultra", {{"samples", "40"}}}};
   t.converged = {{"samples", "512"}};
   t.passes = passes_of(passes);
-  // Of the whole image; the lower resolutions add at most a third.
+  // At full resolution; the lower ones add at most a third.
   t.samples = value_of_samples;
   return {t};
 }

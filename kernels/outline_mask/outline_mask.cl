@@ -1,9 +1,9 @@
-// Outline-dependent ambient occlusion (OdSSAO 2020), from how many outlines of objects the visible surface lies in
-// (`gloam capture --outlines`): two and more in a corner.
+// Outline-dependent ambient occlusion (OdSSAO 2020): counts the outlines of objects that contain the visible surface
+// (`gloam capture --outlines`); in a corner there are two or more.
 //
 // in : outline_count  signed crossings with outlines in front of the surface
 //      depth          view-space z, +inf = background (outline_ao)
-// out: result         1 where the surface lies in `least_count` outlines and more, else 0 (outline_mask, section 3.1)
+// out: result         1 where the surface lies in at least `least_count` outlines, else 0 (outline_mask, section 3.1)
 //                     1 - occlusion there, else 1; 1 on background (outline_ao, section 5, before the filter)
 // -D STAND_ALONE, MASKED
 #include "outline_mask/params.h"

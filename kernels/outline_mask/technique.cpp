@@ -19,7 +19,7 @@ std::vector<Pass> ao_passes(const OutlineAoParams&) {
 
 Technique mask() {
   return {.name = "outline-mask",
-          .summary = "where surfaces lie in the outlines of two objects and more",
+          .summary = "where surfaces lie in the outlines of two or more objects",
           .paper = "OdSSAO 2020",
           .source = "outline_mask/outline_mask.cl",
           .reads = {"outline_count"},
@@ -28,7 +28,7 @@ Technique mask() {
           .passes = passes_of(mask_passes)};
 }
 
-/// The mask stands for the estimate; what filters read besides it is the filter's affair.
+/// The mask stands for the estimate, so it reads only what the mask needs; the filter names its own inputs.
 Technique stand_alone() {
   Technique t = ambient_occlusion("outline-ao", "the mask of outline-mask itself as ambient occlusion, filtered",
                                   "OdSSAO 2020", "outline_mask/outline_mask.cl");

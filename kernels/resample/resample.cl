@@ -1,11 +1,11 @@
 // From the whole image to every `scale`-th pixel each way, and back by joint bilateral upsampling (Kopf, Cohen,
 // Lischinski, Uyttendaele 2007).
 //
-// subsample: `frame` is the reduced one, `other` the whole. Pixel (x, y) is pixel (x, y) * SCALE of the whole.
-// joint_upsample (OpenCL has an `upsample` of its own): `frame` is the whole, `other` the reduced one (upsample.h).
-// joint_upsample_of_both: the same from the reduced pixels of two views that agree (shared/stereo/upsample.h); `neighbour` is the other
-// view, reduced.
-// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of what is unknown),
+// subsample: `frame`: the reduced one; `other`: the whole. Pixel (x, y) is pixel (x, y) * SCALE of the whole.
+// joint_upsample (OpenCL has an `upsample` of its own): `frame`: the whole; `other`: the reduced one (upsample.h).
+// joint_upsample_of_both: from the reduced pixels of two views that agree (shared/stereo/upsample.h); `neighbour`: the other view,
+// reduced.
+// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of unknown pixels),
 //    TWO_VIEWS (joint_upsample_of_both)
 #include "resample/params.h"
 #include "shared/filter/upsample.h"
@@ -56,7 +56,7 @@ kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLAN
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
   const mask known = !is_background(s.plane.depth) & (w.total > 0);
-  // Divided exactly: not even rounding leads beyond the values at hand.
+  // Divided exactly, so that rounding does not lead beyond the values that are mixed.
   const real mean = weighted(w, s, source) / choose(known, w.total, (real)(1));
   store(choose(known & is_wanted, mean, (real)(OUTSIDE)), result, s.here);
 }

@@ -1,12 +1,12 @@
 #include "shared/sampling/ambient_occlusion.h"
 
-#define BALL_PARAMS(P)                                                                                            \
-  P(bool, hemisphere, on, "points in the half of the ball above the surface; off: in all of it, as in the paper") \
-  P(float, inner, 0, 0, 0.99f, "radii", "points lie further away than this: a shell instead of a ball")           \
-  P(float, bias, 0.02f, 0, 0.99f, "",                                                                             \
-    "slope above the surface up to which what is seen occludes no point of the half ball")                        \
-  P(float, range, 2, 0, INFINITY, "radii",                                                                        \
-    "how far before the pixel's point an occluder counts in full; nothing from twice that on")
+#define BALL_PARAMS(P)                                                                                          \
+  P(bool, hemisphere, on, "points in the half ball above the surface; off: in the whole ball, as in the paper") \
+  P(float, inner, 0, 0, 0.99f, "radii", "least distance of the points: a shell instead of a ball")              \
+  P(float, bias, 0.02f, 0, 0.99f, "",                                                                           \
+    "slope above the surface up to which a visible surface occludes no point of the half ball")                 \
+  P(float, range, 2, 0, INFINITY, "radii",                                                                      \
+    "an occluder up to this far before the pixel's point counts in full, from twice that on not at all")
 
 #define SSAO_PARAMS(P)                                           \
   REACH_PARAMS(P)                                                \

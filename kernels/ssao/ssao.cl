@@ -1,8 +1,8 @@
-// SSAO: share of the points in a ball that the screen shows no surface before (Mittring 2007).
+// SSAO: AO = share of the points in a ball that no visible surface stands before (Mittring 2007).
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (layers.h); without them the depth is the only one
+//      occluders  further depth layers (layers.h); without them, depth is the only layer
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
@@ -16,7 +16,7 @@
 #include "shared/sampling/hidden_depths.h"
 #endif
 
-// What a row of pixels looks for.
+// What is the same for all samples of a row of pixels.
 typedef struct {
   Receiver receiver;
   Surface surface;
@@ -40,7 +40,7 @@ static inline Search search_of(Frame frame, Params params, Receiver r) {
   return s;
 }
 
-// How much a point is occluded, 0 to 1: of all layers at its pixel the largest.
+// Occlusion of a point, 0 to 1, by the layer at its pixel that occludes most.
 static inline __attribute__((always_inline)) real occlusion_at(Frame frame, Params params, DepthLayers layers, Search s,
                                                                integer dx, integer dy, real height, int within) {
   const Receiver r = s.receiver;
@@ -52,7 +52,7 @@ static inline __attribute__((always_inline)) real occlusion_at(Frame frame, Para
   const real e = relative_depth(r.point, r.depth, gather(layers.first + r.here, place));
   const mask is_behind = stands_before(e, fall, there - height);
   const real by_first = choose(is_behind, range_weight(e, s.per_range), (real)(0));
-  // What is in reach occludes the point as much as it can, or by a part in the outer range.
+  // An occluder within the range occludes the point fully, one in the outer range by a part.
   const mask asked = asks_further(is_behind & (by_first < 1), is_behind, by_first <= 0);
   real largest = by_first;
   FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, place, asked, r.farthest) {
@@ -67,7 +67,7 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, P
                                                                   Search s, int within, OpenDirections* open) {
   const Receiver r = s.receiver;
   real sum = 0;
-// Unrolled it is no faster, and takes far longer to compile.
+// Unrolled, it is no faster and takes far longer to compile.
 #pragma unroll 1
   for (int k = 0; k < SAMPLES; ++k) {
     const BallPoint point = next_point(&s.ball, k);

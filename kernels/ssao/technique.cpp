@@ -29,7 +29,7 @@ Technique over_depth() {
   return t;
 }
 
-/// Its `samples` are those of the stochastic depth, as in all techniques over it.
+/// `samples` is the number of stochastic depths, as in all techniques over these; the points of the ball are `points`.
 Technique over_stochastic() {
   Technique t = over_stochastic_depth(over_depth(), SdSsaoParams::table(), passes_of(sd_passes));
   for (Preset& preset : t.presets) preset.settings.front().first = "points";

@@ -1,4 +1,4 @@
-// Reflections of a sequence: the mean over the frames that showed a surface (Stachowiak and Uludag 2015; Yang, Liu, Salvi 2020).
+// Reflections of a sequence: the mean over the frames that showed each surface (Stachowiak and Uludag 2015; Yang, Liu, Salvi 2020).
 //
 // in : depth, normal, roughness, reflectance  reflector.h
 //      motion     pixels, from this frame to the one before, y down
@@ -12,9 +12,9 @@
 #include "ssr/params.h"
 #include "ssr/virtual_image.h"
 
-// Each surface's mean over the frames that showed it. What it reflects moves as its virtual image does, if that stands still; else,
-// and where it is rough, as the surface. Of the two places in the frame before, the one counts that is more like the neighbours
-// are now. Mirrors have no noise: they are of this frame alone.
+// A reflection moves as its virtual image does, if what it shows stands still; otherwise, and on rough surfaces, it moves with the
+// surface. Of these two positions in the frame before, the one counts whose value is nearer to the present neighbours. Mirrors have
+// no noise: they use this frame alone.
 kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                            PLANE normal_z, PLANE roughness, PLANE reflectance_r, PLANE reflectance_g,
                            PLANE reflectance_b, PLANE motion_x, PLANE motion_y, PLANE reach, PLANE now_r, PLANE now_g,
@@ -44,7 +44,7 @@ kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLAN
   const Alike alike = alike_around(frame, depth, s.depth, params.same_depth);
   Around around_here[4];
   real of_surface[4], of_image[4],
-      unlike = 0;  // by how much the surface's past is less like the neighbours than the image's
+      unlike = 0;  // excess of the surface's distance to the neighbours over the image's
   for (int c = 0; c < 4; ++c) {
     around_here[c] = around_of(frame, alike, now[c]);
     of_surface[c] = value_of(as_surface, history[c]);

@@ -1,4 +1,4 @@
-// Where a surface reflects something that the image shows (reflection-mask).
+// Where a surface reflects something that the image shows (technique reflection-mask).
 //
 // in : roughness         perceptual
 //      ray_density, met  ray.h
@@ -6,8 +6,7 @@
 #include "ssr/params.h"
 #include "ssr/ray.h"
 
-// 1 where a surface reflects something that the image shows: its mirror's ray meets something, or it is so rough that this one does
-// not tell.
+// 1 where a surface's mirror ray meets something, or where the surface is so rough that this ray alone does not tell.
 kernel void ssr_found(Frame frame, Params params, PLANE roughness, PLANE ray_density, PLANE met, PLANE_OUT found) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real rough = load(roughness, here);

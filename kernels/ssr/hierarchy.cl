@@ -1,5 +1,5 @@
-// The hierarchy of depths that rays are followed through (Stachowiak and Uludag 2015; screen_ray.h): of each cell the nearest and
-// the farthest surface.
+// The hierarchy of depths through which rays are followed (Stachowiak and Uludag 2015; screen_ray.h): the nearest and the farthest
+// surface of each cell.
 //
 // in : depth       view-space z, scene units, +inf = background
 //      back_depth  of the back of what is seen (TRAVERSAL)
@@ -27,7 +27,7 @@ kernel void ssr_nearness(Frame frame, Params params, PLANE depth,
   store(nearest, nearness, cell);
   if (FIRST_X == 0 && ROW_Y == 0) empty_list(list);
 #if TRAVERSAL
-  // As far as a surface reaches: to its back, where that is known.
+  // A surface extends to its back, where that is known.
   const real back = load(back_depth, here);
   const mask has_back = is_inside & !is_background(back);
   store(choose(has_back, smaller(nearness_of(frame, choose(has_back, back, (real)(1))), nearest), nearest), farness,
@@ -37,14 +37,14 @@ kernel void ssr_nearness(Frame frame, Params params, PLANE depth,
 }
 
 #ifdef LEVEL
-// Of each two cells that follow one another in row y, the first and the second; for the row of cells above them.
+// Row y of a level, for the row of cells above it: the first and the second of each two neighbouring cells.
 static inline void load_pairs(PLANE level, Frame image, int y, real* first, real* second) {
 #if LANES == 1
   *first = load(level, index_of_tile_row(image, 2 * FIRST_X, y));
   *second = load(level, index_of_tile_row(image, 2 * FIRST_X + 1, y));
 #else
   const stored a = JOIN(vload, LANES)(0, level + index_of_tile_row(image, 2 * FIRST_X, y));
-  // Beyond the last tile there is nothing, and nothing is made of it.
+  // Beyond the last tile there is nothing, and nothing there is used.
   const int next = min(2 * FIRST_X + LANES, image.pitch - LANES);
   const stored b = JOIN(vload, LANES)(0, level + index_of_tile_row(image, next, y));
   stored even, odd;
@@ -57,7 +57,7 @@ static inline void load_pairs(PLANE level, Frame image, int y, real* first, real
 #endif
 }
 
-// Rows `y` and `next` of the level below.
+// The largest of each four cells in the rows `y` and `next` of the level below.
 static inline real larger_of_four(PLANE level, Frame image, int y, int next) {
   real a, b, c, d;
   load_pairs(level, image, y, &a, &b);
@@ -65,7 +65,7 @@ static inline real larger_of_four(PLANE level, Frame image, int y, int next) {
   return larger(larger(a, b), larger(c, d));
 }
 
-// Columns beyond `columns` do not count.
+// The smallest of each four cells. Columns beyond `columns` do not count.
 static inline real smaller_of_four(PLANE level, Frame image, int y, int next, int columns) {
   real a, b, c, d;
   load_pairs(level, image, y, &a, &b);
@@ -74,7 +74,7 @@ static inline real smaller_of_four(PLANE level, Frame image, int y, int next, in
   return choose(has_second, smaller(smaller(a, b), smaller(c, d)), smaller(a, c));
 }
 
-// `frame` is the level, `other` the image.
+// `frame`: the level; `other`: the image.
 kernel void ssr_level(Frame frame, Frame other, Params params, global float* nearness, global float* farness) {
   const int below = LEVEL - 1, columns = (other.width + (1 << below) - 1) >> below;
   const int rows = (other.height + (1 << below) - 1) >> below, y = 2 * ROW_Y, next = min(y + 1, rows - 1);
@@ -85,7 +85,7 @@ kernel void ssr_level(Frame frame, Frame other, Params params, global float* nea
   store(choose(is_inside, nearest, (real)(nearness_of_background(other))), nearness + (size_t)LAYER_OF(LEVEL) * layer,
         here);
 #if LEVEL == 1 && !TRAVERSAL
-  // Of single pixels the nearest is the farthest too.
+  // In a single pixel the nearest surface is the farthest too.
   global const float* far_below = near_below;
 #else
   global const float* far_below = farness + (size_t)LAYER_OF(below) * layer;

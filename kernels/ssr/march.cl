@@ -1,8 +1,8 @@
-// Rays followed through the hierarchy until they meet a surface (Stachowiak and Uludag 2015). With TRAVERSAL a ray that this eye
-// loses, behind a surface or beyond the border, goes on in the other eye's image (IN_OTHER; Wu, Xu, Wang 2024, section 4).
+// Follows rays through the hierarchy until they meet a surface (Stachowiak and Uludag 2015). With TRAVERSAL, a ray that leaves this
+// eye's image or passes behind a surface goes on in the other eye's image (IN_OTHER; Wu, Xu, Wang 2024, section 4).
 //
 // in : depth, normal     of the surfaces that rays start from; view-space z, scene units; unit, view space
-//      nearness, farness hierarchy.cl; of the image that is gone through
+//      nearness, farness hierarchy.cl; of the image that is traversed
 //      list, ray_x, _y, _z, left_at  ray.h
 //      back_depth        of the back of what is seen (TRAVERSAL); other_normal (IN_OTHER)
 // out: met               ray.h
@@ -13,7 +13,7 @@
 #include "ssr/params.h"
 #include "ssr/ray.h"
 
-// Whether what a pixel shows rises over the surface that the ray starts from: else it is that surface.
+// Whether what a pixel shows rises over the surface that the ray starts from. If not, it is that surface.
 static inline mask rises(Frame frame, Start s, Place p, real nearest) {
   const real e = frame.perspective > 0 ? -nearest / (1 + nearest) : -nearest;
   const real3 u = exactly_towards(frame, s.point, to_real(p.column), to_real(p.row), e);
@@ -22,7 +22,7 @@ static inline mask rises(Frame frame, Start s, Place p, real nearest) {
   return height > 0 & height * height > s.least_sine * s.least_sine * dot3(v, v);
 }
 
-// How far the back of what a pixel shows lies, as the ray has it; `nearest` where that is not known.
+// Relative nearness of the back of what a pixel shows; `nearest` where the back is not known.
 static inline real back_of(Frame frame, Start s, Hierarchy cells, global const float* back_depth, Place p, Cell cell,
                            real nearest, mask counts) {
 #if BOTH_DEPTHS
@@ -34,7 +34,7 @@ static inline real back_of(Frame frame, Start s, Hierarchy cells, global const f
 #endif
 }
 
-// Whether rays enter a pixel behind what that shows: its back, where that is known, else farther than surfaces reach.
+// Whether rays enter a pixel behind the surface it shows: behind its back, or where that is not known, deeper than the thickness.
 static inline mask is_behind(Frame frame, Params params, Start s, Hierarchy cells, global const float* back_depth,
                              Place p, Cell cell, real nearest, mask counts) {
   const real entry = smaller(s.line.slope * p.t, nearest);
@@ -48,7 +48,7 @@ static inline mask is_behind(Frame frame, Params params, Start s, Hierarchy cell
 #endif
 }
 
-// The pixel after its own, or in the other eye its own.
+// The pixel after the one where a ray starts; in the other eye, that pixel itself.
 static inline Place first_place(Start s) {
   Place p;
   p.t = (real)(0);
@@ -62,14 +62,14 @@ static inline Place first_place(Start s) {
 #endif
 }
 
-// Whether a ray has come to its end: the border, infinity or its greatest length.
+// Whether a ray has ended: at the border, at infinity or at its greatest length.
 static inline mask ends_at(Frame frame, Start s, Place p) {
   return (p.t >= s.line.end) |
          to_mask((p.column < 0) | (p.column >= frame.width) | (p.row < 0) | (p.row >= frame.height));
 }
 
-// One cell further, or into smaller ones, for rays that are `active` and within the image. Returns which of them meet a surface
-// where they are; `hidden`: which are behind one.
+// Moves `active` rays within the image to the next cell, or into a smaller one. Returns which of them meet a surface where they
+// are; `hidden`: which are behind a surface.
 static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells, global const float* back_depth,
                            mask active, Place* place, mask* hidden) {
   const int top = LEVELS - 1;
@@ -117,12 +117,12 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
 #define HIERARCHY hierarchy_of(nearness, nearness)
 #endif
 
-// Rays that one work-item follows. Where a pixel is a lane, lanes whose ray has come to its end take the next ones, so that few
-// wait for the longest: rays take 10 to 200 steps.
+// Rays per work-item. Where a lane follows a ray, lanes whose ray has ended take the next rays, so that few wait for the longest:
+// rays take 10 to 200 steps.
 #define RAYS_PER_ITEM (LANES == 1 ? RAYS : 32 * LANES)
 #define LANES_WORTH_FILLING (LANES == 1 ? 1 : LANES / 2)
 
-// One value per lane to one place each in a plane's memory, where a mask holds.
+// Writes one value per lane to one index each in a plane's memory, where a mask holds.
 static inline void scatter_where(mask counts, integer value, global float* plane, integer place) {
   global int* values = (global int*)plane;
 #if LANES == 1
@@ -145,7 +145,7 @@ static inline void keep_met(global float* met, Frame frame, Place p, integer ray
 
 #if TRAVERSAL && !IN_OTHER
 #define GOES_ON_IN_OTHER 1
-// Rays that a work-item has for another list: put there together, so that work-items seldom wait for one another.
+// Rays that a work-item adds to another list, appended together so that work-items seldom wait for one another.
 typedef struct {
   int rays[RAYS_PER_ITEM + 1], count;  // one more, since what does not count is written too
 } Batch;
@@ -172,7 +172,7 @@ static inline void put_rays(const Batch* batch, PIXEL_LIST_OUT list) {
 }
 #endif
 
-// Gives the lanes that are idle the next rays of a list, and says which have one.
+// Gives idle lanes the next rays of a list. Returns which lanes have a ray.
 static inline mask fill_lanes(global const int* rays, int* next, int last, integer* ray, mask active) {
 #if LANES == 1
   if (active || *next == last) return active;
@@ -190,7 +190,7 @@ static inline mask fill_lanes(global const int* rays, int* next, int last, integ
 #endif
 }
 
-// Whether rays meet the front of what the pixels show that they are at; what has no normal has no back.
+// Whether rays meet the front of the surface at their pixel. A surface without a normal has no back.
 static inline mask is_front(Frame frame, Place p, Start s, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                             mask counts) {
   if (!ANY(counts)) return counts;
@@ -199,7 +199,7 @@ static inline mask is_front(Frame frame, Place p, Start s, PLANE normal_x, PLANE
   return dot3(s.direction, gather3(normal_x, normal_y, normal_z, FRAME_GUARD + row * frame.pitch + column)) <= 0;
 }
 
-// Where the rays of a list start.
+// The planes in which a list's rays start.
 typedef struct {
   global const float *depth, *normal_x, *normal_y, *normal_z, *ray_x, *ray_y, *ray_z;
 } Rays;
@@ -211,8 +211,8 @@ static inline Start start_of_ray(Frame frame, Params params, Rays rays, integer 
                   gather3(rays.ray_x, rays.ray_y, rays.ray_z, ray));
 }
 
-// Rays of this eye, through its own image or, IN_OTHER, through the other's, as far as that sees them. `met`: what they meet there.
-// `left_at`: steps after which a ray is hidden from this eye, or beyond its image; `others` lists these.
+// Follows this eye's rays through its own image or, IN_OTHER, through the other's. `met`: what they meet there. `left_at`: steps
+// after which a ray is hidden from this eye, or beyond its image; `others`: the list of these rays.
 #if IN_OTHER
 kernel void ssr_march(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                       PLANE normal_z, HIERARCHY_ARGUMENT PIXEL_LIST list, PLANE ray_x, PLANE ray_y, PLANE ray_z,
@@ -231,9 +231,9 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
   global const float* back_depth = 0;
 #endif
   global const int* entries = (global const int*)list;
-  // Down the columns of items: devices hand out the image row by row, and the first rows would get all there is to do.
+  // Down the columns of work-items: devices start the image row by row, and the first rows would get all the work.
   const int item = (int)(get_global_id(0) * get_global_size(1) + get_global_id(1)), count = entries[0];
-  // Divided rather than multiplied: of a large image most items are beyond what an int counts.
+  // Divided rather than multiplied: in a large image the product would overflow an int.
   if (count == 0 || item > (count - 1) / RAYS_PER_ITEM) return;
   int next = item * RAYS_PER_ITEM;
   const int last = next + min(RAYS_PER_ITEM, count - next);
@@ -253,7 +253,7 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
     if (idle >= LANES_WORTH_FILLING && next < last) {
       const mask before = active;
       active = fill_lanes(entries + FRAME_GUARD, &next, last, &ray, active);
-      // What a ray starts from depends on nothing but its pixel: it is made anew for all.
+      // A ray's start depends on nothing but its pixel: recomputing it for all lanes changes none.
       start = start_of_ray(frame, params, rays, ray);
 #if IN_OTHER
       mask goes_on = active;

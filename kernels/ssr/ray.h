@@ -1,8 +1,8 @@
-// A ray from a surface, and what is known of it between the passes.
+// A ray from a surface, as the passes hand it on.
 //
-// ray_x, _y, _z  direction, unit, view space; ray_density  per solid angle, 0 where there is no ray, +inf of a mirror
+// ray_x, _y, _z  direction, unit, view space; ray_density  its density per solid angle, 0 where there is no ray, +inf for a mirror
 // list           rays that are followed: layer * floats per layer + pixel (pixel_list.h)
-// met            what each met: the index of a pixel, or one of the values below; met_in_other  the same in the other eye's image
+// met            what each ray met: a pixel's index, or a value below; met_in_other  the same in the other eye's image
 // left_at        steps after which a ray left this eye's image
 // RAYS layers of each.
 #ifndef GLOAM_SSR_RAY_H
@@ -13,14 +13,14 @@
 #include "shared/frame/neighbour.h"
 #endif
 
-// Where a ray starts, and what it is measured against.
+// The start of a ray, and the surface that it is compared with.
 typedef struct {
   Anchor point;
   real depth;
   real3 direction;     // unit, view space
-  real3 from_surface;  // to here from where the surface reflects, in units of the depth; not 0 in the other eye
-  real3 normal;        // of the surface that reflects
-  real least_sine;     // to it, of what is not the surface itself
+  real3 from_surface;  // from the reflecting point to the start, in depths; not 0 in the other eye
+  real3 normal;        // of the reflecting surface
+  real least_sine;     // least sine of the angle to that surface for a hit to be another surface
   ScreenRay line;
 } Start;
 
@@ -53,14 +53,14 @@ static inline real3 point_along(Frame frame, Start s, real length) {
   return make3(p.x + s.direction.x * length, p.y + s.direction.y * length, p.z + s.direction.z * length);
 }
 
-// Where a ray goes on in the other eye, once it has come so many steps in this one's image. `length`: so far, scene units.
-// `goes_on`: that is in the other's image.
+// The start of a ray in the other eye's image, after `t` steps in this eye's. `length`: of the ray so far, scene units. `goes_on`:
+// the start lies in the other's image.
 static inline Start start_in_other(Frame frame, Neighbour n, Params params, Start own, real t, mask* goes_on,
                                    real* length) {
   *length = length_at(frame, own.line, t) * own.depth;
   const real3 at = point_along(frame, own, *length);
   const Projection there = project_into(n, at, *goes_on & (*length < FARTHEST * own.depth));
-  // Between centres of pixels: at the border of two images that show the same, rounding would decide.
+  // Between the outermost pixel centres: at the border of two images that show the same, rounding would decide.
   *goes_on = there.is_seen & (there.x >= 0) & (there.y >= 0) & (there.x <= n.frame.width - 1) &
              (there.y <= n.frame.height - 1);
   const real3 reflector = into_other(n, position_at(frame, own.point.x, own.point.y, own.depth)),
@@ -75,11 +75,11 @@ static inline Start start_in_other(Frame frame, Neighbour n, Params params, Star
 }
 #endif
 
-// What a ray met, in the memory of a plane: the index of the pixel, or one of these.
+// What a ray met, as an int in a plane's memory: the index of the pixel, or one of these.
 #define MET_NOTHING 0
 #define MET_BACKGROUND -1
 
-// Of the rays of a row.
+// What the rays of a row met.
 static inline integer met_in_row(global const float* met, int here) {
 #if LANES == 1
   return ((global const int*)met)[here];

@@ -1,8 +1,8 @@
-// Rays chosen by what a surface reflects (Stachowiak and Uludag 2015; visible normals of GGX, Heitz 2018).
+// Draws rays by the BRDF of each surface (Stachowiak and Uludag 2015; visible normals of GGX, Heitz 2018).
 //
 // in : depth, normal, roughness, reflectance  reflector.h
 // out: ray_x, _y, _z, ray_density, list       ray.h
-//      met, met_in_other                      nothing yet
+//      met, met_in_other                      set to MET_NOTHING
 // -D RAYS, JITTER, TRAVERSAL, MASKED, MASK_ALONE (reflection-mask: a mirror's ray from every surface)
 #include "shared/lanes/pixel_list.h"
 #include "shared/lanes/wanted.h"
@@ -11,9 +11,9 @@
 #include "ssr/params.h"
 #include "ssr/reflector.h"
 
-// Where ray k of a pixel goes, and its density; 0 where it would go under the surface.
+// Direction of ray k of a pixel, and its density: 0 where the ray would lead below the surface.
 static inline real3 ray_of(Reflector s, Noise noise, int k, real* density) {
-  // Further rays of a pixel along the R2 sequence (Roberts 2018).
+  // The rays of a pixel follow the R2 sequence (Roberts 2018).
   const real u = noise.shift + k * (scalar)0.7548776662, turn = noise.turn + k * (scalar)0.5698402910;
   real3 h = visible_normal(s.to_eye, s.alpha, u - floor(u), turn - floor(turn));
   const mask is_mirror = s.is_mirror | (MASK_ALONE ? EVERY_LANE : (mask)(0));

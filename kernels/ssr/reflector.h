@@ -1,4 +1,4 @@
-// The surface that a pixel shows, as what reflects.
+// The reflecting surface that a pixel shows.
 //
 // depth      view-space z, scene units, +inf = background
 // normal     unit, view space
@@ -29,7 +29,7 @@ static inline real3 out_of_frame(Reflector s, real3 v) {
                s.first.z * v.x + s.second.z * v.y + s.normal.z * v.z);
 }
 
-// At normal incidence; more than all cannot be reflected.
+// Reflectance at normal incidence, at most 1.
 static inline real3 reflectance_at(PLANE r, PLANE g, PLANE b, int here) {
   const real3 f = load3(r, g, b, here);
   return make3(clamp(f.x, (real)(0), (real)(1)), clamp(f.y, (real)(0), (real)(1)), clamp(f.z, (real)(0), (real)(1)));

@@ -4,7 +4,7 @@
 // in : depth, normal, roughness, reflectance  reflector.h
 //      ray_...             rays.cl and shade.cl, of this eye and, with REPROJECTION, of the other
 //      instance            id of what is seen (REPROJECTION)
-// out: reflection          radiance towards the eye; a = share of it that was found in the image
+// out: reflection          radiance towards the eye; a = share of it that the image showed
 //      reach               mean length of the rays that met something, scene units (TEMPORAL)
 // -D RAYS, NEIGHBOURS, OTHER_NEIGHBOURS, REPROJECTION, TEMPORAL, MASKED
 #include "shared/lanes/wanted.h"
@@ -15,22 +15,23 @@
 #include "ssr/virtual_image.h"
 #endif
 
-// Pixels around one, the nearest first.
+// Offsets of the pixels around one, the nearest first.
 constant char2 around[25] = {{0, 0},  {1, 0},   {-1, 0}, {0, 1},  {0, -1},  {1, 1},   {-1, -1}, {1, -1}, {-1, 1},
                              {2, 0},  {-2, 0},  {0, 2},  {0, -2}, {2, 1},   {-2, -1}, {1, -2},  {-1, 2}, {2, -1},
                              {-2, 1}, {-1, -2}, {1, 2},  {2, 2},  {-2, -2}, {2, -2},  {-2, 2}};
 
-// Sums over rays. Fresnel's term is reflectance + (1 - reflectance) * grazing: kept apart, it is taken once.
+// Weighted sums over rays. Fresnel's term is reflectance + (1 - reflectance) * grazing; the two parts are summed separately and
+// combined once.
 typedef struct {
   real weights, confidence;
   real3 straight, grazing;  // radiance
-  real length, met;         // weights times length, and weights, of rays that met something
+  real length, met;         // sums of weight * length and of weight over rays that met something
 } Reflected;
 
-// Lengths in depths from which on it is the direction that matters; background is as far.
+// From this length on, in depths, only the direction matters; background counts as this far.
 #define FAR_ENOUGH ((scalar)1e4)
 
-// What is known of the rays of a pixel (LANES pixels).
+// One ray as the passes before found it, of LANES pixels.
 typedef struct {
   real3 direction, radiance;
   real length, density, confidence;
@@ -55,7 +56,7 @@ static inline void take_ray(Reflected* sum, Reflector s, SeenRay ray, mask count
                        sum->grazing.z + grazing * radiance.z);
 }
 
-// The direction from the pixel at hand to what the ray of another one meets: `v` to that pixel, in depths of the pixel at hand.
+// Direction from the pixel at hand to what another pixel's ray meets. `v`: to that pixel, in depths of the pixel at hand.
 static inline real3 towards_met(Reflector s, real3 v, real3 direction, real length) {
   const real reach = length / s.depth;
   const mask is_near = (reach > 0) & (reach < FAR_ENOUGH);
@@ -63,7 +64,7 @@ static inline real3 towards_met(Reflector s, real3 v, real3 direction, real leng
   return choose3(is_near, exactly_normalised(choose3(is_near, met, s.normal)), direction);
 }
 
-// Whether a point beside the pixel at hand lies on its surface: what lies before or behind that is another one.
+// Whether a point near the pixel at hand lies on its surface, not before or behind it.
 static inline mask on_surface(Reflector s, real3 v) {
   const real height = dot3(v, s.normal);
   return height * height <= (scalar)0.25f * dot3(v, v) + (scalar)1e-6f;
@@ -74,9 +75,9 @@ typedef struct {
   global const float *depth, *instance, *x, *y, *z, *r, *g, *b, *length, *density, *confidence;
 } OtherRays;
 
-// Each ray is judged by itself: turned from the pixel at hand to what it met, it weighs by the lobe that the surface has there for
-// that direction. How long it is does not matter: rays of a rough surface meet things near and far. A miss does not count: it says
-// that the images show nothing there, not that nothing is there.
+// Each ray is turned to lead from the pixel at hand to what it met, and weighted by the surface's lobe for that direction. Its
+// length does not matter: rays of a rough surface meet things near and far. A miss does not count: it tells only that the images
+// show nothing there.
 static inline void take_rays_of_other(Frame frame, Neighbour n, Reflector s, OtherRays rays, real instance, mask counts,
                                       Reflected* sum) {
   const mask has_met = counts & (sum->met > 0);
@@ -154,7 +155,7 @@ kernel void ssr_resolve(Frame frame,
   for (int i = 0; i < NEIGHBOURS; ++i) {
     const int dx = around[i].x, dy = around[i].y;
     if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;
-    // A mirror has one direction, and its neighbours have others.
+    // A mirror reflects one direction; its neighbours' rays do not help.
     if (i > 0 && !ANY(s.reflects & !s.is_mirror)) break;
     const int there = index_of(frame, column + dx, ROW_Y + dy);
     const integer x = column + dx + IOTA;
@@ -172,7 +173,7 @@ kernel void ssr_resolve(Frame frame,
       seen.radiance = load3(layer_of(ray_r, frame, k), layer_of(ray_g, frame, k), layer_of(ray_b, frame, k), there);
       seen.confidence = load(layer_of(ray_confidence, frame, k), there);
       if (i > 0) seen.direction = towards_met(s, v, seen.direction, seen.length);
-      // A mirror's own ray has no density: any weight does.
+      // A mirror's own ray has no density: any weight serves.
       const mask is_own = s.is_mirror & (i == 0 ? EVERY_LANE : (mask)(0));
       seen.density =
           choose(is_own & (seen.density > 0), (real)(1), choose(isinf(seen.density), (real)(0), seen.density));
@@ -193,10 +194,10 @@ kernel void ssr_resolve(Frame frame,
   const real albedo = choose(s.is_mirror, (real)(1), directional_albedo(s.roughness, s.to_eye.z));
   const real scale = choose(is_known, albedo / choose(is_known, sum.weights, (real)(1)), (real)(0));
   const real3 f0 = reflectance_at(reflectance_r, reflectance_g, reflectance_b, here);
-  // What is too rough for rays reflects the environment, about as much as its middle direction does.
+  // Surfaces too rough for rays reflect the environment, with Fresnel's term for the mirror direction.
   const mask has_environment = is_rough & is_wanted;
   const real evenly = choose(has_environment, albedo, (real)(0)), middle = grazing_share(s.to_eye.z);
-  // straight + grazing is all; Fresnel's term takes reflectance of the first and all of the second.
+  // straight + grazing is the whole; Fresnel's term takes `reflectance` of the former and all of the latter.
   store(choose(is_known, scale * (f0.x * sum.straight.x + sum.grazing.x),
                evenly * (f0.x + (1 - f0.x) * middle) * params.environment_r),
         reflection_r, here);

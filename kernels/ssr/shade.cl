@@ -1,19 +1,19 @@
-// What rays see (Stachowiak and Uludag 2015), with a confidence that fades towards the border of the image. With FADE the border
-// of the image that shows the hit farther from its border counts (Wu, Xu, Wang 2024, section 4).
+// Radiance that rays see (Stachowiak and Uludag 2015), with a confidence that fades towards the border of the image. With FADE, of
+// the two images the one counts that shows the hit farther from its border (Wu, Xu, Wang 2024, section 4).
 //
-// in : depth, normal, color    of this eye and, with TRAVERSAL or FADE, of the other; color: radiance, the same in every direction,
-//                              of background too, where rays that meet nothing end
+// in : depth, normal, color    of this eye and, with TRAVERSAL or FADE, of the other; color: radiance, the same in every direction;
+//                              the color of background is what rays see that meet nothing
 //      ray_x, _y, _z, ray_density, met, met_in_other, left_at  ray.h
-// out: hit_length       of the first reflected ray, scene units; 0 where nothing was met, and of background
+// out: hit_length       of the first reflected ray, scene units; 0 for a miss and for background
 //      ray_r, _g, _b    what the ray sees
-//      ray_length       scene units, +inf towards background, 0 of a miss
-//      ray_confidence   0 of a miss .. 1
+//      ray_length       scene units, +inf towards background, 0 for a miss
+//      ray_confidence   0 for a miss .. 1
 // -D RAYS, STEREO, TRAVERSAL, FADE
 #include "shared/lanes/pixel_list.h"
 #include "ssr/params.h"
 #include "ssr/ray.h"
 
-// Light is what a surface can send out: neither less than nothing nor more than sums can hold.
+// Colour clamped to radiance that sums can hold.
 static inline real radiance_of(real color) { return clamp(color, (real)(0), (real)(1e20f)); }
 
 static inline real3 gather_radiance(PLANE r, PLANE g, PLANE b, integer i) {
@@ -21,7 +21,7 @@ static inline real3 gather_radiance(PLANE r, PLANE g, PLANE b, integer i) {
   return make3(radiance_of(c.x), radiance_of(c.y), radiance_of(c.z));
 }
 
-// What an eye's image holds.
+// The planes of an eye's image.
 typedef struct {
   global const float *depth, *normal_x, *normal_y, *normal_z, *color_r, *color_g, *color_b;
 } Image;
@@ -47,7 +47,7 @@ static inline Hit hit_of(Frame frame, integer met, mask counts) {
   return hit;
 }
 
-// What is seen of what a ray meets.
+// What the image shows of what a ray meets.
 typedef struct {
   mask is_known;
   real x, y;    // where in the image, pixels
@@ -55,7 +55,7 @@ typedef struct {
   real3 color;
 } Sight;
 
-// Colour about a point of the image, from those of the four pixels around it that lie on the plane of the pixel that was met.
+// Colour at a point of the image, from those of its four pixels that lie on the plane of the pixel that was met.
 static inline real3 color_at(Frame frame, Image image, Start s, Hit hit, real3 met, real3 normal, real x, real y) {
   const real left = floor(x - (scalar)0.5), top = floor(y - (scalar)0.5);
   const real right_share = x - (scalar)0.5 - left, lower_share = y - (scalar)0.5 - top;
@@ -81,7 +81,7 @@ static inline real3 color_at(Frame frame, Image image, Start s, Hit hit, real3 m
   return choose3(is_known, scale3(sum, scale), gather_radiance(image.color_r, image.color_g, image.color_b, here));
 }
 
-// Steps at which a ray passes the middle of a pixel.
+// Steps after which a ray passes the middle of a pixel.
 static inline real steps_past(ScreenRay r, Hit hit) {
   const real right = (to_real(hit.column) + (scalar)0.5 - r.x) * r.inverse_x;
   const real down = (to_real(hit.row) + (scalar)0.5 - r.y) * r.inverse_y;
@@ -96,7 +96,7 @@ static inline Sight sight_of(Frame frame, Image image, Start s, Hit hit) {
       exactly_towards(frame, s.point, to_real(hit.column), to_real(hit.row), choose(hit.surface, e, (real)(0)));
   const real facing = dot3(s.direction, n);
   const mask has_normal = dot3(n, n) > (scalar)0.25f, faces = !has_normal | (facing <= 0);
-  // Where the ray crosses the plane of the pixel that it meets, if that is about there.
+  // Where the ray crosses the plane of the pixel that it meets, if that is near the pixel.
   const real to_plane = dot3(met, n) / smaller(facing, (real)(-1e-3f));
   const real past = choose(hit.background, s.line.end, steps_past(s.line, hit));
   const real crossing = steps_to(frame, s.line, larger(to_plane, (real)(0)));

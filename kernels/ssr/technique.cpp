@@ -12,11 +12,11 @@ using Bindings = std::vector<Binding>;
 /// Levels of the hierarchy: the largest cells have 64 x 64 pixels.
 constexpr int hierarchy_levels = 7;
 
-/// What shapes passes, of whichever parameters.
+/// The parameters of all variants that shape passes.
 struct Choices {
   int rays = 1, neighbours = 0;
   bool jitter = false;
-  bool traversal = false, fade = false, reprojection = false;  ///< what of the other eye counts
+  bool traversal = false, fade = false, reprojection = false;  ///< what is used of the other eye
   int other_neighbours = 0;
   bool accumulates = false;  ///< over frames
 };
@@ -46,7 +46,7 @@ Bindings operator+(Bindings a, const Bindings& b) {
   return a;
 }
 
-/// The same planes of the other eye: "other_depth".
+/// These planes of the other eye: "other_depth".
 Bindings of_other_eye(const Bindings& planes) {
   Bindings bindings;
   for (const Binding& plane : planes)
@@ -60,7 +60,7 @@ class Passes {
  public:
   explicit Passes(const Params& p) : p_(p), c_(choices_of(p)) {}
 
-  /// What mirrors meet, alone.
+  /// The passes of reflection-mask: mirror rays alone.
   std::vector<Pass> mask() const {
     std::vector<Pass> passes = until_met();
     passes.push_back({.name = "found",
@@ -159,7 +159,7 @@ class Passes {
     return pass;
   }
 
-  /// A ray ends there where it comes to be behind something: it has no use for what is farthest.
+  /// In the other eye a ray ends where it passes behind a surface, so it does not use the farthest depth.
   Pass march_in_other() const {
     Bindings cells_of_other = cells(false);
     for (Binding& cell : cells_of_other) cell.from = From::other_view;
@@ -252,7 +252,7 @@ Technique plain() {
                {"high", {{"rays", "2"}, {"neighbours", "21"}}},
                {"ultra", {{"rays", "4"}, {"neighbours", "25"}}}};
   t.passes = passes_of(sssr_passes);
-  // Rays are listed one by one: a mask over the image has little to add where surfaces reflect at all.
+  // No mask: rays are listed one by one, so a mask saves little where surfaces reflect at all.
   t.effect = {.name = "reflections",
               .mask = "reflection-mask",
               .probe_resolution = 4,
@@ -271,7 +271,7 @@ Technique for_two_eyes() {
   t.default_for.clear();
   t.views = 2;
   t.parameters = StereoSsrParams::table();
-  // As many pixels of either eye.
+  // The same number of pixels in the other eye.
   for (Preset& preset : t.presets) {
     const auto own = preset.settings;
     for (const auto& [name, value] : own) {
@@ -284,7 +284,7 @@ Technique for_two_eyes() {
               .mask = "stereo-visibility",
               .probe_resolution = 4,
               .least_share = 0.3,
-              .somewhere = "each view has rays for the other, since both see the same",
+              .somewhere = "each view's rays serve the other, since both see the same",
               .nowhere = "the two views have too little in common"};
   return t;
 }
@@ -292,7 +292,7 @@ Technique for_two_eyes() {
 Technique over_frames() {
   Technique t = plain();
   t.name = "temporal-sssr";
-  t.summary = "reflections of a sequence: each frame takes over what the frame before showed of the same surfaces";
+  t.summary = "reflections of a sequence: each frame reuses those of the frame before on the same surfaces";
   t.paper = "Stachowiak, Uludag 2015; Yang, Liu, Salvi 2020";
   t.reads.insert(t.reads.end(), {"motion", "history", "history_depth", "history_frames"});
   t.outputs = {"reflection", "hit", "frames"};

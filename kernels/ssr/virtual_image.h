@@ -1,12 +1,12 @@
-// What a mirror shows lies, as an eye sees it, behind the mirror: the virtual image.
+// The virtual image: to an eye, what a mirror shows seems to lie behind the mirror.
 #ifndef GLOAM_SSR_VIRTUAL_IMAGE_H
 #define GLOAM_SSR_VIRTUAL_IMAGE_H
 
 #include "shared/frame/neighbour.h"
 #include "ssr/reflector.h"
 
-// Where the other eye, or the eye of the frame before, sees the virtual image of what the pixel's rays meet at this distance:
-// on the plane of the surface, on the way from the image behind the surface to that eye.
+// Where the other eye, or the eye of the frame before, sees the virtual image of what the pixel's rays meet at this distance: on
+// the plane of the surface, on the line from the virtual image to that eye.
 static inline Projection same_virtual_image(Frame frame, Neighbour n, Reflector s, real length, mask counts) {
   const real3 p = position_at(frame, s.point.x, s.point.y, s.depth);
   const real3 away = out_of_frame(s, scale3(s.to_eye, (real)(-1)));

@@ -1,5 +1,5 @@
-// Passes for two eyes by themselves (Shi, Billeter, Eisemann 2022): which pixels both eyes see (section 3.1), and the filter
-// over what both see (section 3.3; shared/stereo/filter.h).
+// Passes for two eyes as techniques of their own (Shi, Billeter, Eisemann 2022): which pixels both eyes see (section 3.1), and the
+// filter over both eyes (section 3.3; shared/stereo/filter.h).
 //
 // in : depth, other_depth  view-space z of either eye, scene units, +inf = background
 // out: seen_by_both        1 where both eyes see the surface, else 0

@@ -21,7 +21,7 @@ std::vector<Pass> bilateral_passes(const StereoBilateralParams& p) {
 
 std::vector<Technique> stereo() {
   return {{.name = "stereo-visibility",
-           .summary = "which pixels both of two eyes see, by projection there and back",
+           .summary = "which pixels both of two eyes see, by projection to the other eye and back",
            .paper = "Shi, Billeter, Eisemann 2022, section 3.1",
            .source = "stereo/stereo.cl",
            .reads = {"depth"},
@@ -30,7 +30,7 @@ std::vector<Technique> stereo() {
            .parameters = StereoVisibilityParams::table(),
            .passes = passes_of(visibility_passes)},
           {.name = "stereo-bilateral",
-           .summary = "bilateral filter for raw AO over what both of two eyes see, so that they agree",
+           .summary = "bilateral filter for raw AO over both of two eyes, so that they agree",
            .paper = "Shi, Billeter, Eisemann 2022, section 3.3",
            .source = "stereo/stereo.cl",
            .reads = {"ao_raw", "depth", "normal"},

@@ -1,23 +1,23 @@
-// Volumetric obscurance: share of the half ball above the surface that lies before what the screen shows (Loos, Sloan
-// 2010, line samples). Each sample on a disk is a column of the ball, clipped by the depth there.
+// Volumetric obscurance: AO = share of the half ball above the surface that lies before what the screen shows (Loos, Sloan 2010,
+// line samples). Each sample on a disk is a column of the ball, cut off by the depth there.
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
-//      occluders  further depth layers (layers.h); without them the depth is the only one
+//      occluders  further depth layers (layers.h); without them, depth is the only layer
 // out: ao_raw     1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED
 #include "estimators/column.h"
 #include "shared/sampling/disk.h"
 #include "volumetric/params.h"
 
-// What a row of pixels looks for.
+// What is the same for all samples of a row of pixels.
 typedef struct {
   Receiver receiver;
   Disk disk;
   Heights heights;
-  real middle_x, middle_y;  // height of a column's middle, for each pixel to the right and down
-  real rise;                // of the column through the pixel's point, from there to the sphere
-  real bias;                // height up to which what is seen at the radius occludes nothing
+  real middle_x, middle_y;  // height of a column's middle, per pixel to the right and down
+  real rise;                // from the pixel's point to the sphere, along its own column
+  real bias;                // height up to which a surface at the radius occludes nothing
   real per_range;
 } Search;
 
@@ -37,13 +37,13 @@ static inline Search search_of(Frame frame, VolumetricParams params, Receiver r,
   return s;
 }
 
-// How much of a column something at a depth occludes.
+// Length of a column that a surface at this depth occludes.
 static inline real occlusion_by(Search s, Column column, real depth, real fall, real counts_from) {
   const real e = relative_depth(s.receiver.point, s.receiver.depth, depth);
   return below(column, surface_height(e, fall, counts_from, s.heights)) * range_weight(e, s.per_range);
 }
 
-// How much of a column is occluded: of all layers at its pixel the largest.
+// Occluded length of a column, by the layer at its pixel that occludes most.
 static inline real occlusion_at(Frame frame, DepthLayers layers, Search s, integer dx, integer dy, Column column,
                                 real bias, int within) {
   const Receiver r = s.receiver;
@@ -60,7 +60,7 @@ static inline real occlusion_at(Frame frame, DepthLayers layers, Search s, integ
   return largest;
 }
 
-// Share of all columns together.
+// Occluded share of all columns together.
 static inline __attribute__((always_inline)) real occluded_share(Frame frame, DepthLayers layers, Search s,
                                                                  int within) {
   const Receiver r = s.receiver;
@@ -92,7 +92,7 @@ kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE dept
   if (ANY(!r.point.background)) {
     const Surface surface = surface_at(r.point, r.normal);
     const Search s = search_of(frame, params, r, surface);
-    // The disk is not square to the image's depth: it reaches further on the screen.
+    // The disk is not parallel to the image plane: it reaches further on the screen.
     const Reach widest = longer(r.reach, surface.length);
     LOOK_AROUND(occluded, frame, r, widest, occluded_share(frame, layers, s, within))
   }

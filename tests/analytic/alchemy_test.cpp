@@ -1,11 +1,11 @@
-// Alchemy and Scalable Ambient Obscurance against the integral that their samples estimate, over surfaces known in closed
-// form, and what their parameters do.
+// Alchemy and Scalable Ambient Obscurance against the integral that their samples estimate, over surfaces in closed form, and the
+// effects of their parameters.
 //
 // With ever more samples the spiral tends to
 //   AO = 1 - factor * strength * mean over screen directions and over distances t (pixels, uniform from 1 to the projected
 //        radius P) of weight(v.v) max(0, v.n - bias) / (v.v + epsilon),
-// v going from the point to what is seen at distance t, in radii; alchemy: factor 2, weight 1 below 1; sao: factor 5,
-// weight (1 - v.v)^3. The kernel differs from that by noise, which is measured, by float, and by looking at pixel centres.
+// v: from the point to the surface seen at distance t, in radii; alchemy: factor 2, weight 1 below 1; sao: factor 5, weight (1 -
+// v.v)^3. The kernel differs from that by noise, which is measured, by float, and because it reads pixel centres.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 constexpr double radius = 0.8;
 const RunOptions precise{.math = Math::precise};
 
-/// What both have in common; `bias` in depths.
+/// Parameters of both; `bias` in depths.
 struct Values {
   double strength = 0.5, bias = 1e-3, epsilon = 0.01;
 };
@@ -40,7 +40,7 @@ double contribution(const std::string& technique, const Values& values, double h
   return values.strength * over * (technique == "sao" ? 5 * std::pow(1 - square, 3) : 2);
 }
 
-/// By midpoints.
+/// By the midpoint rule.
 Integral integral_of(const std::string& technique, const Values& values) {
   return [=](const IntegralCase& test, glm::ivec2 pixel) {
     const double reach = pixels_across(test.shot, radius, receiver_at(test, pixel).surface.depth);
@@ -53,7 +53,7 @@ Integral integral_of(const std::string& technique, const Values& values) {
   };
 }
 
-/// Through a perspective and an orthographic camera that see the radius as 160 pixels.
+/// With a perspective and an orthographic camera that see the radius as 160 pixels.
 void expect_integrals(const std::string& what, const Scene& scene, const std::vector<glm::ivec2>& pixels,
                       double bound) {
   for (const std::string technique : {"alchemy", "sao"}) {
@@ -75,7 +75,7 @@ TEST(AlchemyIntegral, RightAngledCorner) {
 TEST(AlchemyIntegral, BallOverTiltedPlane) {
   std::vector<glm::ivec2> pixels;
   for (int i = 0; i < 14; ++i) pixels.push_back({220 + 92 + 2 * i, 172 + i});
-  // Pixels on an outline are wholly on it or wholly off: 0.0021 of 0.05 at the worst pixel measured, a few pixels from the
+  // Pixels on an outline are wholly on the ball or wholly off: 0.0021 of 0.05 at the worst pixel measured, a few pixels from the
   // ball with a radius of 160 pixels, and of either sign, so that the mean stays within 3e-4.
   const Scene scene = nearest_of({ball({0, 0, -3.9}, 0.4), tilted_plane(4, 0.4, 0.3)});
   expect_integrals("ball over a tilted plane", scene, pixels, 2e-3);
@@ -90,8 +90,8 @@ TEST(AlchemyIntegral, Plane) {
             largest_occlusion(raw_of(technique, frame, settings_of({.strength = 1, .bias = bias}), precise));
         std::printf("%s, plane tilted by %.1f, bias %g: largest distance from open %.2g\n", technique.c_str(), tilt,
                     bias, worst);
-        // Without a bias nothing is left to swallow the rounding of depths: 6e-8 of 3.75 radii, times 5 / (v.v + 0.01)
-        // for the worst sample, and half of that for what is above the plane.
+        // Without a bias nothing hides the rounding of depths: 6e-8 of 3.75 radii, times 5 / (v.v + 0.01) for the worst sample,
+        // and half of that for the part above the plane.
         EXPECT_LE(worst, bias > 0 ? 0 : 5e-5);
       }
     }
@@ -128,13 +128,13 @@ TEST(AlchemyParameters, DoWhatTheySay) {
   }
 }
 
-/// Alchemy counts all within the radius, and nothing beyond; sao fades.
+/// Alchemy counts everything within the radius and nothing beyond; sao fades.
 TEST(AlchemyParameters, TheRadiusIsALimit) {
   const Values values{.strength = 0.2, .bias = 0, .epsilon = 0.01};
   for (const std::string technique : {"alchemy", "sao"}) EXPECT_EQ(occlusion(technique, 0.81, values), 0) << technique;
   EXPECT_GT(occlusion("alchemy", 0.6, values), 0.01);
   EXPECT_GT(occlusion("sao", 0.6, values), 0);
-  // In relation to alchemy: 5/2 (1 - v.v)^3, v.v being 0.56 and more of the squared radius.
+  // Relative to alchemy: 5/2 (1 - v.v)^3, v.v being 0.56 and more of the squared radius.
   EXPECT_LT(occlusion("sao", 0.6, values), 2.5 * std::pow(1 - 0.56, 3) * occlusion("alchemy", 0.6, values));
 }
 

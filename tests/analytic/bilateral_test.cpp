@@ -77,7 +77,7 @@ TEST_P(BilateralForm, DoesNotBleedOverADepthEdge) {
   }
 }
 
-/// What the pixel shows, view space.
+/// The point that a pixel shows, view space.
 glm::dvec3 point_at(const Frame& frame, int x, int y) {
   const EyeRay ray = ray_through({*frame.views[0].camera, frame.width(), frame.height()}, x + 0.5, y + 0.5);
   return test::point_at(ray, value_at(frame, "depth", x, y));
@@ -89,7 +89,7 @@ struct Tolerances {
   double distance, angle;
 };
 
-/// The sum over the square of taps that the filter is defined by.
+/// The sum over the square of taps that defines the filter.
 double expected(const Frame& frame, int half_width, const Tolerances& tolerances, int x, int y) {
   const Channel& depth = frame.views[0].find("depth")->channels[0];
   const Channel& raw = frame.views[0].find("ao_raw")->channels[0];
@@ -184,7 +184,7 @@ TEST(Bilateral, ReducesNoiseAsItsWindowSays) {
     }
     std::printf("bilateral, half width %d: variance of noise times %.5f, the window says %.5f\n", half_width,
                 after / before, predicted);
-    // 160000 pixels an image, of which one in 1/predicted is independent: standard error of a variance sqrt(2/n).
+    // An image has 160000 pixels, of which one in 1/predicted is independent: the standard error of a variance is sqrt(2/n).
     EXPECT_NEAR(after / before / predicted, 1, 3 * std::sqrt(2 / (images * 160000 * predicted)));
   }
 }
@@ -196,7 +196,7 @@ Frame transposed(const Frame& frame) {
   for (const auto& [name, plane] : frame.views[0].planes) {
     Plane& to = plane_of(other, name);
     for (size_t i = 0; i < plane.channels.size(); ++i) {
-      // Rows become columns: x and -y of a normal change places.
+      // Rows become columns: x and -y of a normal are exchanged.
       const size_t from = name == "normal" && i < 2 ? 1 - i : i;
       const float sign = name == "normal" && i < 2 ? -1.0f : 1.0f;
       for (int y = 0; y < other.height(); ++y) {

@@ -1,4 +1,4 @@
-// Where corner-mask wants AO, against surfaces of which it is known where something rises over the tangent plane.
+// The pixels that corner-mask wants, for surfaces with known pixels at which something rises over the tangent plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(CornerMask, AnEmptyFrameCallsForNothing) {
 }
 
 TEST(CornerMask, ABallCallsForNothingButAtItsRim) {
-  // Convex, so open all over; beyond the rim is background.
+  // Convex, so open everywhere; background beyond the rim.
   EXPECT_EQ(wanted_share(mask_of(shoot(perspective(131, 77), ball({0, 0, -3}, 0.8)))), 0);
 }
 
@@ -85,7 +85,7 @@ TEST(CornerMask, AConvexEdgeIsNotWanted) {
 TEST(CornerMask, AStepIsWantedBelowAndNotAbove) {
   const Shot shot = orthographic(160, 120, 4);
   const Frame mask = mask_of(shoot(shot, step(0.2)), {{"radius", "0.5"}, {"max_reach", "1"}});
-  // 40 pixels per unit; the step is in the middle, and its own cell and those around it may be wanted too.
+  // 40 pixels per unit; the step is in the middle, and its own cell and the cells around that may be wanted too.
   for (int y = 16; y < 104; ++y) {
     for (int x = 62; x < 80; ++x) ASSERT_GT(value_at(mask, "mask", x, y), 0) << x;
     for (int x = 0; x < 52; ++x) ASSERT_EQ(value_at(mask, "mask", x, y), 0) << x;

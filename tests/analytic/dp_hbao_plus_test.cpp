@@ -1,6 +1,6 @@
-// HBAO+ over all peeled layers against HBAO+ over one depth, at all lane widths: where the layers say what the depth says,
-// both are the same to the bit; what a layer adds is told from closed forms. What all techniques over layers have in common
-// is in layers_test.cpp.
+// HBAO+ over all peeled layers against HBAO+ over one depth, at all lane widths: if the layers hold the same as the depth, both
+// have the same bits; the effect of another layer is known in closed form. Common properties of techniques over layers are in
+// layers_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::vector<Frame> frames() {
   return all;
 }
 
-/// Rows of more than 32767 floats take another way to their samples.
+/// Rows of more than 32767 floats take another code path to their samples.
 TEST(DpHbaoPlus, OneLayerOfAWideFrame) {
   expect_hbao_plus("wide frame", shoot(perspective(32800, 3), tilted_plane(2, 1.2, 0.3)), {same_depth});
 }
@@ -47,16 +47,16 @@ TEST(DpHbaoPlus, LayersThatRepeatChangeNothing) {
   for (const Frame& frame : frames()) expect_hbao_plus("twice", frame, {same_depth, same_depth});
 }
 
-/// All layers are read, and each at its place. One layer is the depth itself.
+/// All layers are read, each at its position. One layer is the depth itself.
 TEST(DpHbaoPlus, SurfacesSpreadOverTheLayers) {
   for (const int count : {1, 2, 8, 64}) {
-    if (count > 8 && !is_long_run()) continue;  // a loop over so many takes half a minute to compile
+    if (count > 8 && !is_long_run()) continue;  // a loop over more takes half a minute to compile
     for (const Frame& frame : frames()) expect_hbao_plus("spread", frame, spread_over(count));
   }
 }
 
-/// Layers that both occlude: at each sample the larger contribution counts, so their order is of no matter, and together
-/// they take away more than either and less than the sum.
+/// Layers that both occlude: the larger contribution counts at each sample, so their order does not matter, and together they
+/// take more than either and less than the sum.
 TEST(DpHbaoPlus, TheLargestContributionCounts) {
   const Layer nearer = [](int x, int, float depth) { return x % 3 == 0 ? inf : 0.97f * depth; };
   const Layer further = [](int, int y, float depth) { return y % 3 == 0 ? inf : 0.9f * depth; };

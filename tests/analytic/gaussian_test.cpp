@@ -102,7 +102,7 @@ TEST(Gaussian, ImpulseGivesTheGaussian) {
   }
 }
 
-/// With a hole of background and the borders of the image, where weights are normalised anew.
+/// With a hole of background, and at the borders of the image, where the weights are normalised.
 TEST(Gaussian, IsTheSumInTwoDimensionsEverywhere) {
   for (const Filter& filter : filters) {
     Frame frame = shoot(perspective(width, height), room());

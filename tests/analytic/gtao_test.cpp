@@ -1,13 +1,13 @@
 // gtao and bitmask against the integrals that their samples estimate, in double.
 //
-// About the line from the point to the eye the hemisphere is cut into slices. In each, what is seen along its line on the
-// screen and lies within the radius has an elevation above the tangent; gtao closes all below the highest on each side,
-// bitmask what lies between each one's elevation and that of the point `thickness` further from the eye. AO is the mass of
-// what is left,
+// Slices about the line from the point to the eye divide the hemisphere. In each, every surface seen along the slice's line on
+// the screen, and within the radius, has an elevation above the tangent. gtao closes everything below the highest one on each
+// side; bitmask closes the range between each elevation and that of the point `thickness` further from the eye. AO is the
+// remaining mass,
 //   1/pi * integral over slices and angles of max(0, n.d) |sin(angle to the eye)|.
 //
-// Once over the surface that the pixels show, each as deep as its centre: the estimate converges to that everywhere, beside
-// outlines too. Once over the smooth surface itself: what looking at pixel centres costs is in it.
+// Once over the surface of the pixels, each as deep as its centre: the estimate converges to that everywhere, also beside
+// outlines. Once over the smooth surface itself: this includes the error of reading pixel centres.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double radius = 0.8, pi = std::numbers::pi;
 
-/// The pixel at hand and a slice through its point: angles count from the line to the eye, positive towards `tangent`.
+/// A pixel, and a slice through its point. Angles count from the line to the eye, positive towards `tangent`.
 struct Slice {
   Receiver receiver;
   glm::dvec3 to_eye, tangent;
@@ -37,17 +37,17 @@ struct Slice {
 constexpr int bins = 4096;
 using Closed = std::vector<char>;
 
-/// Those whose centres lie between.
+/// Closes the bins whose centres lie between two angles.
 void close(Closed& closed, double from, double to) {
   const auto first_above = [](double angle) { return int(std::ceil((angle + pi) / (2 * pi) * bins - 0.5)); };
   const int first = std::max(0, first_above(std::min(from, to))), end = std::min(bins, first_above(std::max(from, to)));
   std::fill(closed.begin() + std::min(first, end), closed.begin() + end, 1);
 }
 
-/// Where something seen lies in the slice: towards the tangent, and towards the eye.
+/// Position of a visible surface in the slice: towards the tangent, and towards the eye.
 using Place = std::function<std::optional<glm::dvec2>(const Slice&, double x, double y)>;
 
-/// On the smooth surface: on the slice exactly.
+/// For the smooth surface: exactly on the slice.
 Place on_surface(const IntegralCase& test) {
   return [&test](const Slice& slice, double x, double y) -> std::optional<glm::dvec2> {
     const auto v = towards(test, slice.receiver, {x, y});
@@ -56,7 +56,7 @@ Place on_surface(const IntegralCase& test) {
   };
 }
 
-/// On what the pixels show: a pixel's centre is beside the slice, and is moved into it along the tangent plane.
+/// For the surface of the pixels: a pixel's centre lies beside the slice, and is moved into it along the tangent plane.
 Place on_pixels(const IntegralCase& test, const Channel& depths) {
   return [&test, &depths](const Slice& slice, double x, double y) -> std::optional<glm::dvec2> {
     const int px = int(std::floor(x)), py = int(std::floor(y));
@@ -64,7 +64,7 @@ Place on_pixels(const IntegralCase& test, const Channel& depths) {
       return {};
     const EyeRay ray = ray_through(test.shot, px + 0.5, py + 0.5);
     const glm::dvec3 v = point_at(ray, depths.at(px, py)) - slice.receiver.point;
-    // The pixel's centre in the plane of the point's depth, onto the slice's line there.
+    // The pixel's centre in the plane of the point's depth, projected onto the slice's line there.
     const glm::dvec3 line = slice.on_screen(), offset = point_at(ray, slice.depth()) - slice.receiver.point;
     const double grown = test.shot.camera.orthographic ? 1 : depths.at(px, py) / slice.depth();
     const double along = grown * glm::dot(offset, line) / glm::dot(line, line);
@@ -129,7 +129,7 @@ Settings converged(int steps) {
   return {{"radius", "0.8"}, {"directions", "32"}, {"steps", std::to_string(steps)}, {"bias", "0"}};
 }
 
-/// A smaller image and half of the places to look at.
+/// A smaller image, and half as many sample positions.
 IntegralCase coarse(IntegralCase test) {
   constexpr int factor = 4;
   Camera& camera = test.shot.camera;
@@ -191,7 +191,8 @@ TEST(GtaoIntegral, BentNormalsAndCones) {
   }
 }
 
-// Pixel centres lie up to half a pixel, 1/150 of the radius, beside the slice: what ends at the radius is off by that much.
+// Pixel centres lie up to half a pixel, 1/150 of the radius, beside the slice: a surface that ends at the radius is off by that
+// much.
 TEST(GtaoIntegral, HorizonsOverSmoothSurfaces) {
   for (const IntegralCase& test : integral_cases()) {
     if (test.name.find("corner") == std::string::npos) continue;

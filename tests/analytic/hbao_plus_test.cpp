@@ -3,9 +3,8 @@
 // With ever more directions and steps the estimate tends to
 //   AO = 1 - 2 * mean over screen directions and over distances t (pixels, uniform from 1 to the projected radius P) of
 //        W(|v|) max(0, n.v/|v| - bias),   W = max(0, 1 - v^2 / R^2),
-// v going from the point to what is seen at distance t. The kernel differs from that by noise, which is measured, by
-// float, and by looking at pixel centres: an error of second order in 1/P where the surface is smooth, of first order
-// around outlines.
+// v: from the point to the surface seen at distance t. The kernel differs from that by noise, which is measured, by float, and
+// because it reads pixel centres: an error of second order in 1/P on smooth surfaces, of first order around outlines.
 #include <gtest/gtest.h>
 
 #include "support/integral.h"
@@ -15,7 +14,7 @@ namespace {
 
 constexpr double radius = 0.8, bias = 0.1;
 
-/// By midpoints.
+/// By the midpoint rule.
 double integral(const IntegralCase& test, glm::ivec2 pixel) {
   const double reach = pixels_across(test.shot, radius, receiver_at(test, pixel).surface.depth);
   return 1 - 2 * mean_on_screen(test, pixel, 1, reach, 360, 600, obscurance(radius, bias));
@@ -34,7 +33,7 @@ TEST(HbaoPlusIntegral, Plane) {
       const Settings settings = joined({{"bias", bias}}, find_technique("hbao+").converged);
       const double worst = largest_occlusion(raw_of("hbao+", frame, settings, {.math = Math::precise}));
       std::printf("hbao+, plane tilted by %.1f, bias %s: largest distance from open %.2g\n", tilt, bias, worst);
-      // Without a bias nothing is left to swallow the rounding of depths: 6e-8 over the width of a pixel, 1/139.
+      // Without a bias nothing hides the rounding of depths: 6e-8 over the width of a pixel, 1/139.
       EXPECT_LE(worst, bias[1] == '\0' ? 2e-5 : 0);
     }
   }

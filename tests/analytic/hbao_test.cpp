@@ -1,10 +1,9 @@
-// HBAO against the expectation of its own sweep, over surfaces known in closed form; and what its parameters do.
+// HBAO against the expectation of its own sweep, over surfaces known in closed form; and the effects of its parameters.
 //
 // With ever more directions the estimate of any number of steps tends to
 //   AO = 1 - mean over screen directions and over shifts s of sum over k of W(|v_k|) max(0, h(v_k) - highest h so far),
-// v_k going from the point to what is seen at distance 1 + (s + k) (P - 1) / steps, h(v) = n.v/|v| (or its square), from
-// the height of the bias on. The kernel differs from that by noise, which is measured, by float, and by looking at pixel
-// centres.
+// v_k: from the point to the surface seen at distance 1 + (s + k) (P - 1) / steps; h(v) = n.v/|v| (or its square), from the
+// height of the bias on. The kernel differs from that by noise, which is measured, by float, and because it reads pixel centres.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +39,7 @@ struct Method {
   }
 };
 
-/// By midpoints.
+/// By the midpoint rule.
 double expectation(const Method& method, const IntegralCase& test, glm::ivec2 pixel) {
   constexpr int directions = 128;
   const int shifts = std::max(4, 128 / method.steps);
@@ -93,7 +92,7 @@ TEST(HbaoExpectation, Corner) {
 
 TEST(HbaoExpectation, WavesOffTheCentre) {
   ONLY_IN_LONG_RUN();
-  // Smooth all over: no outline between pixels, and horizons that rise in many small steps.
+  // Smooth everywhere: no outline between pixels, and horizons that rise in many small steps.
   const Scene waves = [](const EyeRay& ray) -> std::optional<Surface> {
     const auto height = [](double x, double y) { return -4 + 0.45 * std::sin(2.5 * x + 1) * std::cos(2 * y); };
     double depth = 4;
@@ -109,17 +108,17 @@ TEST(HbaoExpectation, WavesOffTheCentre) {
   std::vector<glm::ivec2> pixels;
   for (int i = 0; i < 6; ++i) pixels.push_back({210 + 5 * i, 170 - 4 * i});
   for (const Method& method : methods()) {
-    if (method.bias > 0.2) continue;  // nothing here stands that high
+    if (method.bias > 0.2) continue;  // nothing here is that high
     Method flat = method;
     flat.bias = 0.02;
-    if (method.weighting == "cosine") flat.falloff = "none";  // else too little is left of low hills
+    if (method.weighting == "cosine") flat.falloff = "none";  // otherwise low hills occlude too little
     expect_method({"waves, perspective", perspective(320, 256), waves, pixels}, flat);
     expect_method({"waves, orthographic", orthographic(320, 256, 4), waves, pixels}, flat);
   }
 }
 
-/// The limit for many steps where the horizon is known: beside a step, on a surface that faces the eye, half of all
-/// directions lead to its edge.
+/// The limit for many steps with a known horizon: beside a step, on a surface that faces the eye, half of all directions lead to
+/// its edge.
 TEST(Hbao, ConvergesToTheHorizonWithoutFalloff) {
   const double rise = 0.3, pixel = 4.0 / 480, radius = 0.8;
   const IntegralCase beside{"step", orthographic(480, 360, 4), step(rise), {{240 - 18, 180}}};
@@ -128,7 +127,7 @@ TEST(Hbao, ConvergesToTheHorizonWithoutFalloff) {
                                {"falloff", "none"},  {"weighting", cosine ? "cosine" : "uniform"},
                                {"directions", "64"}, {"steps", "128"}};
     const double found = estimates(beside, "hbao", settings, 4)[0].mean;
-    // The edge lies half a pixel beyond the last one before it.
+    // The edge lies half a pixel beyond the last pixel before it.
     const double near = 18 * pixel - pixel / 2;
     double taken = 0;
     constexpr int azimuths = 4000;
@@ -140,7 +139,7 @@ TEST(Hbao, ConvergesToTheHorizonWithoutFalloff) {
     std::printf("hbao, step, %s: closed form %.4f, found %.4f\n", cosine ? "cosine" : "uniform", 1 - taken, found);
     EXPECT_LT(taken, 0.5);
     EXPECT_GT(taken, 0.1);
-    // Pixels are 1/18 of the distance: where the stair of pixels stands in for a straight edge, second order remains.
+    // A pixel is 1/18 of the distance: where a staircase of pixels replaces a straight edge, an error of second order remains.
     EXPECT_NEAR(found, 1 - taken, 4e-3);
   }
 }
@@ -162,8 +161,7 @@ TEST(Hbao, AHigherBiasNeverDarkens) {
   }
 }
 
-/// A wall so high and near (2 pixels) that it takes nearly half: the rest is a quarter of the sphere, with its mean at 45
-/// degrees.
+/// A wall so high and near (2 pixels) that it takes nearly half: a quarter of the sphere is left, with its mean at 45 degrees.
 TEST(HbaoBentNormal, BesideAWall) {
   const Frame out = open_directions_of(
       "hbao", shoot(orthographic(480, 360, 4), step(0.9)),

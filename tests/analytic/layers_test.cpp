@@ -1,5 +1,5 @@
-// What every technique over depth layers (dp-X) has in common with X: where the layers say what the depth says, both are the
-// same to the bit, and an occluder that the depth hides counts. A technique joins by being in the registry.
+// Common properties of every technique over depth layers (dp-X) and X: if the layers hold the same as the depth, both have the
+// same bits, and an occluder that the depth hides counts. A technique is included by being in the registry.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class DepthLayers : public testing::TestWithParam<std::string> {
     return std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == parameter; });
   }
 
-  /// What lets far and near samples of low hills count, in each weighting.
+  /// Settings with which far and near samples of low hills count, for each weighting.
   std::vector<Settings> variants() const {
     std::vector<Settings> all = {{{"radius", "0.5"}}, {{"radius", "3"}}};
     if (has("weighting") && is_long_run()) all.push_back({{"weighting", "cosine"}, {"bias", "0.01"}});
@@ -51,7 +51,7 @@ TEST_P(DepthLayers, ThatSayWhatTheDepthSays) {
       {"the depth at last", {nothing, nothing, same_depth}},
       {"every other pixel", {odd, even, nothing}}};
   for (const Shot& shot : {perspective(93, 61), orthographic(93, 61, 4)}) {
-    // Cameras and layers are read by what all techniques share.
+    // All techniques share the code that reads cameras and layers.
     if (shot.camera.orthographic && GetParam() != "hbao" && !is_long_run()) continue;
     const Frame frame = shoot(shot, room());
     for (const auto& [what, layers] : all) {

@@ -1,5 +1,5 @@
-// Ambient occlusion through any projection: with a camera's map what the techniques of that camera find; with two slits what a
-// closed form says, on screens that are flat and convex, for modules that are turned and worlds that are sheared.
+// Ambient occlusion through any projection: with a camera's map, the same as the techniques for that camera; with two slits, a
+// closed form, on flat and convex screens, for turned modules and sheared worlds.
 #include "support/light_field.h"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ Shot off_axis() {
   return shot;
 }
 
-/// Share of pixels where the two differ by more than rounding. A sample that another order of multiplications moves to the
-/// neighbouring pixel may count otherwise.
+/// Share of pixels that differ by more than rounding. Another order of multiplications may move a sample to the neighbouring
+/// pixel, where it counts differently.
 double share_that_differs(const Frame& a, const Frame& b) {
   int differ = 0;
   for (int y = 0; y < a.height(); ++y) {
@@ -78,8 +78,9 @@ TEST(LightFieldCamera, HbaoPlus) {
 
 // --- The map itself
 
-/// Of the captured position of a pixel, how far the map takes it from the pixel's centre; the largest of a frame. But for what lies
-/// within a hundredth of the way between the slits before one of them: there a float's last digit is ever more of a pixel.
+/// The largest distance of a frame's captured positions, mapped to the image, from their pixels' centres. Positions within a
+/// hundredth of the way between the slits from one of them are left out: a float's last digit there is an ever larger part of a
+/// pixel.
 double largest_slip(const Frame& frame, const Frame& positions) {
   double worst = 0, worst_depth = 0;
   for (size_t i = 0; i < frame.views.size(); ++i) {
@@ -92,7 +93,7 @@ double largest_slip(const Frame& frame, const Frame& positions) {
         const double depth = view.planes.at("depth").channels[0].at(x, y);
         if (!(depth > 0.01 * slit && depth < 0.99 * slit)) continue;
         const dvec3 world = positions.views[i].origin + dvec3(p[0].at(x, y), p[1].at(x, y), p[2].at(x, y));
-        const auto place = place_of(*view.camera, pose.world_to_view * (world - pose.position));
+        const auto place = pixel_of(*view.camera, pose.world_to_view * (world - pose.position));
         const double slip = place ? glm::length(*place - dvec2(x + 0.5, y + 0.5)) : 1e9;
         if (slip > worst) worst = slip, worst_depth = depth / slit;
       }
@@ -125,7 +126,7 @@ TEST(LightFieldMap, PositionsProjectToTheirPixels) {
   }
 }
 
-/// Of a screen that is almost flat, the cylinder's middle lies a thousand screens behind.
+/// The centre of an almost flat screen's cylinder lies a thousand screens behind it.
 TEST(LightFieldMap, AnAlmostFlatScreenKeepsItsDigits) {
   LightFieldDisplay display = flat_display();
   display.screen_radius = 3000;
@@ -160,7 +161,7 @@ TEST(LightFieldPlane, IsOpenAtEveryTilt) {
   }
 }
 
-/// A right angle between two walls that meet in a line through the middle of the image; radians.
+/// Two walls that meet at a right angle, in a line through the middle of the image; radians.
 struct RightAngle {
   dvec3 normals[2], point;
   test::Scene scene;
@@ -177,7 +178,7 @@ RightAngle right_angle(const Shot& shot, double roll) {
   return walls;
 }
 
-/// Share of a half ball of radius 1 before one wall that lies behind the other, `height` away, between the spheres of radius
+/// Share of a half ball of radius 1 above one wall that lies behind the other wall, `height` away, between the spheres of radius
 /// `inner` and 1.
 double share_behind(double height, double inner) {
   const auto cap = [height](double r) { return height < r ? (r - height) * (r - height) * (2 * r + height) : 0; };
@@ -202,7 +203,7 @@ struct Errors {
   int pixels = 0;
 };
 
-/// What the points that the pixels show should read, against what they do; where the ball's image is inside of the image.
+/// Expected AO of the pixels' points compared with the results, where the ball's image lies inside the image.
 Errors errors_in_corner(const Shot& shot, const RightAngle& walls, double radius, double inner,
                         const Settings& settings) {
   const Frame frame = shoot(shot, walls.scene);
@@ -228,8 +229,8 @@ Errors errors_in_corner(const Shot& shot, const RightAngle& walls, double radius
   return e;
 }
 
-/// Whatever the projection, a point beside a wall has so much of its half ball behind that. The walls hide nothing of each other,
-/// so no direction is a special one. Without a bias, which lifts points along rays.
+/// For every projection, a certain share of the half ball of a point beside a wall lies behind the wall. The walls do not hide
+/// each other, so no direction is special. Without a bias, which lifts points along rays.
 TEST(LightFieldCorner, ReadsTheShareOfTheBallBehindTheOtherWall) {
   const double radius = 0.5;
   for (const auto& [name, display] : display_cases()) {
@@ -254,15 +255,15 @@ TEST(LightFieldCorner, ReadsTheShareOfTheBallBehindTheOtherWall) {
   }
 }
 
-/// How far 1 scene unit reaches in the image at a point, pixels of each axis.
+/// Length of 1 scene unit in the image at a point, pixels along each axis.
 dvec2 pixels_per_length(const Shot& shot, const dvec3& point) {
   const double step = 1e-4;
-  const dvec2 here = place_of(shot, point);
-  return {std::abs(place_of(shot, point + dvec3(step, 0, 0)).x - here.x) / step,
-          std::abs(place_of(shot, point + dvec3(0, step, 0)).y - here.y) / step};
+  const dvec2 here = pixel_of(shot, point);
+  return {std::abs(pixel_of(shot, point + dvec3(step, 0, 0)).x - here.x) / step,
+          std::abs(pixel_of(shot, point + dvec3(0, step, 0)).y - here.y) / step};
 }
 
-/// 1 less twice the mean obscurance over an ellipse in the image, which is what a disc of the radius covers.
+/// 1 - 2 * mean obscurance over an ellipse in the image, the image of a disc of the radius.
 double obscurance_integral(const IntegralCase& test, glm::ivec2 pixel, double radius, double bias) {
   constexpr int directions = 96, distances = 96;
   const Receiver here = receiver_at(test, pixel);
@@ -326,7 +327,7 @@ TEST(LightFieldPoints, AllSetsTendToTheSame) {
   }
 }
 
-/// Of several radii that which takes most.
+/// Of several radii the one that takes most counts.
 TEST(LightFieldPoints, EachRadiusIsARunOfItsOwn) {
   const Frame frame = shoot(room_shot(), room());
   const auto with = [&](const char* radius, const char* radii) {
@@ -369,8 +370,8 @@ bool same_ao(const View& a, const View& b) { return difference(a.planes.at("ao_r
 
 const std::vector<std::string> both_techniques = {"lightfield-ssao", "lightfield-hbao+"};
 
-/// A module that stands there twice: its second view shows the points of the first, and takes them all over. With normals of its
-/// own, so that a pixel that were computed would differ.
+/// A module that occurs twice: its second view shows the points of the first, and reuses all of them. It has other normals, so
+/// that a computed pixel would differ.
 TEST(LightFieldReuse, FindsEveryPixelOfTheSameModule) {
   for (auto& [name, display] : display_cases()) {
     display.modules.push_back(display.modules[0]);
@@ -389,10 +390,10 @@ TEST(LightFieldReuse, FindsEveryPixelOfTheSameModule) {
   }
 }
 
-/// The technique's settings of so many samples that the image hardly changes.
+/// The technique's settings with so many samples that the image hardly changes.
 Settings converged(const std::string& technique) { return find_technique(technique).converged; }
 
-/// With normals that no surface has: what is computed changes, what is taken over does not.
+/// Gives views normals that no surface has: computed pixels change, reused ones do not.
 Frame with_other_normals(Frame frame, const std::vector<KeyViewRole>& roles) {
   for (size_t i = 0; i < roles.size(); ++i) {
     if (roles[i].is_key) continue;
@@ -405,7 +406,7 @@ Frame with_other_normals(Frame frame, const std::vector<KeyViewRole>& roles) {
   return frame;
 }
 
-/// Of the surfaces in a view those whose AO is the same in both results.
+/// Share of a view's surfaces whose AO is the same in both results.
 double share_of_equals(const Frame& a, const Frame& b, const Frame& frame, size_t view) {
   const Channel& depth = frame.views[view].planes.at("depth").channels[0];
   double equal = 0, surfaces = 0;
@@ -433,15 +434,16 @@ TEST(LightFieldReuse, TakesOverWhatKeyViewsShow) {
     const double taken = share_of_equals(with, with_others, frame, i);
     const double by_chance = share_of_equals(without, without_others, frame, i);
     std::printf("view %zu: %.3f taken over (%.3f are equal by chance)\n", i, taken, by_chance);
-    // 80 to 98 % were; the first and the last view have key views on one side only.
+    // Measured: 80 to 98 %; the first and the last view have key views on one side only.
     EXPECT_GT(taken, 0.75) << i;
     EXPECT_LT(by_chance, 0.4) << i;
   }
 }
 
-/// Nine modules, every fourth a key view. Measured on the views between, RMSE to what they converge to by themselves: lightfield-ssao
-/// 0.065, computed 0.038; lightfield-hbao+ 0.028, computed 0.010. Another module sees other occluders, and its pixels lie half a pixel
-/// aside. That the key's own image were taken as it is would read 0.133 and 0.071. From the nearest key view alone lightfield-ssao takes 0.069, and from both lightfield-hbao+ 0.026.
+/// Nine modules, every fourth a key view. Measured RMSE, on the views between, to their own converged AO: lightfield-ssao 0.065,
+/// computed 0.038; lightfield-hbao+ 0.028, computed 0.010. Another module sees other occluders, and its pixels are half a pixel
+/// aside. The key view's own image, unmoved, would have 0.133 and 0.071. From the nearest key view alone lightfield-ssao has
+/// 0.069, and from both lightfield-hbao+ 0.026.
 TEST(LightFieldReuse, IsNotMuchFurtherFromConvergedThanWithout) {
   const Frame frame = captured(row_of(9), 160, 128);
   const std::vector<KeyViewRole> roles = key_view_roles(9, 4);
@@ -537,7 +539,7 @@ TEST(LightFieldReuse, InsideAMaskNoBitChanges) {
   }
 }
 
-/// What has no place beside the others cannot be found in them.
+/// A view without a pose cannot be found in the others.
 TEST(LightFieldReuse, NeedsToKnowWhereViewsStand) {
   const Shot shot = perspective(40, 30);
   const std::array<Eye, 2> eyes = {eye_at(shot, {-0.05, 0, 0}, -1), eye_at(shot, {0.05, 0, 0}, 1)};
@@ -552,7 +554,7 @@ TEST(LightFieldReuse, NeedsToKnowWhereViewsStand) {
   }
 }
 
-/// The same view twice, of which one has normals of its own: what were computed there would differ.
+/// The same view twice, one with other normals: pixels computed there would differ.
 TEST(LightFieldReuse, AtHalfResolution) {
   const Shot shot = perspective(121, 90);
   const std::array<Eye, 2> eyes = {eye_at(shot, {0, 0, 0}, -1), eye_at(shot, {0, 0, 0}, 1)};
@@ -620,7 +622,7 @@ TEST(LightFieldReuse, SameBitsAtEveryWidth) {
   }
 }
 
-/// Nine views have their key views at the same distances from both ends; the middle one may take either for the nearest.
+/// Nine views have key views at the same distances from both ends; the middle one may count either as the nearest.
 TEST(LightFieldReuse, ViewsInReverseOrder) {
   Frame frame = captured(row_of(9), 80, 64);
   const Settings settings = {{"radius", "0.6"}, {"reuse", "on"}};
@@ -645,7 +647,7 @@ TEST(LightFieldReuse, AViewThatShowsNothing) {
     EXPECT_EQ(violation(with), "");
     for (size_t i = 0; i < 3; ++i) EXPECT_LT(rmse(with.views[i], without.views[i]), i == empty ? 1e-9 : 0.15) << i;
     EXPECT_EQ(rmse(with.views[1], without.views[1]), 0) << "the key view";
-    // Views beside an empty key view have nothing to look into, and are computed.
+    // Views beside an empty key view have nothing to reuse, and are computed.
     if (empty != 1) continue;
     EXPECT_TRUE(same_ao(with.views[0], without.views[0]));
     EXPECT_TRUE(same_ao(with.views[2], without.views[2]));

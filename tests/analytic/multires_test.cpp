@@ -1,9 +1,9 @@
-// Multi-resolution AO against the expectation of what each resolution finds, over surfaces known in closed form.
+// Multi-resolution AO against the expected result of each resolution, over surfaces known in closed form.
 //
 // With ever more samples level i tends to A_i = mean over screen directions and over distances in its ring (pixels of the
 // whole image, uniform) of W(|v|) max(0, n.v/|v| - bias), and the result to 1 - 2 max A_i, or to
-// (1 - max A_i) (1 - mean A_i) over the levels whose rings the radius reaches. The kernel differs from that by noise, which
-// is measured, by looking at pixel centres of each level, and by interpolation between them.
+// (1 - max A_i) (1 - mean A_i) over the levels whose rings the radius reaches. The kernel differs from that by noise, which is
+// measured, because it reads pixel centres of each level, and by interpolation between them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ IntegralCase corner_through(const Shot& shot, const std::string& more, const std
   return {(shot.camera.orthographic ? "corner, orthographic" : "corner, perspective") + more, shot, corner(1), pixels};
 }
 
-/// Pixels that all levels have, so that nothing is interpolated; the levels' own pixels are up to 4 wide.
+/// Pixels that all levels have, so that nothing is interpolated; a level's own pixels are up to 4 wide.
 TEST(MultiresExpectation, PixelsOfAllLevels) {
   ONLY_IN_LONG_RUN();
   std::vector<glm::ivec2> pixels;
@@ -72,9 +72,9 @@ TEST(MultiresExpectation, PixelsOfAllLevels) {
   expect_expectation(corner_through(orthographic(480, 360, 4), "", pixels), 1e-3);
 }
 
-/// Pixels between: the upsampled part is a straight line between pixels that are 4 apart, which cuts where the obscurance
-/// of a ring bends: at the distance where the wall comes into the ring. There it is off by up to 5e-3 (measured: see what
-/// is printed); twice the resolution leaves less of it, and the mean over pixels is within 1e-3.
+/// Pixels between: the upsampled part is linear between pixels that are 4 apart, which is wrong where the obscurance of a ring
+/// bends: at the distance at which the wall enters the ring. There it is off by up to 5e-3 (the measured values are printed);
+/// twice the resolution is off by less, and the mean over pixels is within 1e-3.
 TEST(MultiresExpectation, PixelsBetween) {
   ONLY_IN_LONG_RUN();
   std::vector<glm::ivec2> pixels, finer;
@@ -85,7 +85,7 @@ TEST(MultiresExpectation, PixelsBetween) {
   expect_expectation(corner_through(orthographic(960, 720, 4), ", between, finer", finer), 3e-3);
 }
 
-/// Where the radius ends within the finest ring, coarser levels are of no matter.
+/// If the radius ends within the finest ring, coarser levels do not matter.
 TEST(Multires, LevelsBeyondTheRadiusChangeNothing) {
   ONLY_IN_LONG_RUN();
   for (const Shot& shot : {perspective(320, 240), orthographic(320, 240, 4)}) {
@@ -96,7 +96,7 @@ TEST(Multires, LevelsBeyondTheRadiusChangeNothing) {
           const Settings settings = {{"radius", "0.07"}, {"samples", "4"}, {"levels", count}, {"combine", combine}};
           return raw_of("multires", frame, settings, {.lanes = lanes});
         };
-        // 0.07 is at most 20 pixels, where the finest of three rings ends, and at least 5, where that of five does.
+        // 0.07 is at most 20 pixels, the end of the finest of three rings, and at least 5, the end of the finest of five.
         EXPECT_TRUE(same_bits(with_levels("1"), with_levels("3"))) << "lanes " << lanes << ", " << combine;
         EXPECT_FALSE(same_bits(with_levels("1"), with_levels("5"))) << "lanes " << lanes << ", " << combine;
       }

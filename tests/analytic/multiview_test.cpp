@@ -1,5 +1,5 @@
-// What a second view adds (Vermeer, Scandolo, Eisemann 2021, section 3.4): found where it is, from any pose, and against
-// the truth where the first view sees nothing of the occluder.
+// The effect of a second view (Vermeer, Scandolo, Eisemann 2021, section 3.4): occluders are found at their position, from any
+// pose, and the result is nearer to the truth where the first view does not see the occluder.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Scene plane_through(const glm::dvec3& point, const glm::dvec3& normal) {
   };
 }
 
-/// In the world, which is the first view's space: a plane that faces neither eye squarely, and a ball on it.
+/// In world space, which is the first view's space: a plane that faces neither eye squarely, and a ball on it.
 const glm::dvec3 on_plane(0, 0, -4), up_from_plane = glm::normalize(glm::dvec3(0.2, 0.3, 1)),
                                      along_plane = glm::normalize(glm::cross(up_from_plane, {0.3, 1, 0}));
 const glm::dvec3 foot = on_plane + 0.4 * along_plane;
@@ -47,7 +47,7 @@ Shot off_axis(int width, int height) {
   return shot;
 }
 
-/// The plane as the first view sees it, and as a turned camera does: with the ball, if there is one.
+/// The plane seen by the first view and by a turned camera: with the ball, if there is one.
 Frame two_views(const Shot& first, const Shot& second, double degrees, bool with_ball) {
   Frame frame = shoot(first, plane_through(on_plane, up_from_plane));
   frame.views[0].camera->pose = Pose{};
@@ -93,7 +93,7 @@ TEST(Multiview, APlaneIsOpenFromEveryPose) {
   }
 }
 
-/// The ball stands in the second view alone: what it darkens lies around its foot, wherever the first view shows that.
+/// Only the second view has the ball: the pixels that it darkens lie around its foot, wherever the first view shows that.
 TEST(Multiview, AnOccluderIsFoundWhereItStands) {
   for (const Cameras& c : cameras()) {
     const Camera& camera = c.first.camera;
@@ -114,9 +114,9 @@ TEST(Multiview, AnOccluderIsFoundWhereItStands) {
           }
         }
         const std::string where = fmt::format("{}, turned by {}, second view {}", c.name, degrees, resolution);
-        // Where they touch it is darkest, and that is narrower than a quarter's pixel.
+        // It is darkest where they touch, on an area narrower than a pixel at a quarter of the resolution.
         EXPECT_GT(most, resolution == "full" ? 0.3 : resolution == "half" ? 0.25 : 0.12) << where;
-        // The second eye sees the ball and its surroundings from aside: a pixel of the first is 0.04 to 0.05 units.
+        // The second eye sees the ball and its surroundings from the side: a pixel of the first is 0.04 to 0.05 units.
         EXPECT_NEAR(sum_x / sum, x, 3.5) << where;
         EXPECT_NEAR(sum_y / sum, y, 3.5) << where;
       }

@@ -25,7 +25,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Whether something is seen on either side of a pixel, along both axes: else nothing tells the tilt along one.
+/// Whether a pixel has a surface on either side along both axes: otherwise the tilt along one is unknown.
 bool has_neighbours(const Frame& frame, int x, int y) {
   const auto seen = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < frame.width() && y < frame.height() && glm::length(normal_at(frame, x, y)) > 0;
@@ -48,8 +48,8 @@ double worst_on_plane(const Shot& shot, double tilt, double turn) {
   return worst;
 }
 
-/// Each depth is rounded by up to 6e-8 of itself: two of them over the width of a pixel, on two axes; seen at an angle, a
-/// pixel's ray is longer than its depth by as much as it is at the image's corner.
+/// Each depth is rounded by up to 6e-8 of itself: two of them over the width of a pixel, on two axes. Away from the axis of view,
+/// a pixel's ray is longer than its depth, most in the corner of the image.
 double rounding_bound(const Shot& shot, double depth) {
   const double per_axis = 1.2e-7 * shot.camera.fx * (shot.camera.orthographic ? depth : 1);
   return std::sqrt(2.0) * per_axis * glm::length(ray_through(shot, 0, 0).direction);
@@ -87,8 +87,8 @@ TEST(NormalsFromDepth, Ball) {
     for (int x = 0; x < shot.width; ++x) {
       const auto seen = ball(ray_through(shot, x + 0.5, y + 0.5));
       if (!seen || seen->normal.z < 0.5) continue;
-      // A chord from the pixel to its neighbour is tangent halfway: half a pixel off on each axis, and steeper pixels
-      // hold more of the ball.
+      // A chord from the pixel to its neighbour is tangent halfway: half a pixel off on each axis, and a steeper pixel covers
+      // more of the ball.
       const double half_pixel = 0.5 / shot.camera.fx, bound = std::sqrt(2.0) * half_pixel / seen->normal.z;
       const double error = angle_between(normal_at(out, x, y), seen->normal);
       worst = std::max(worst, error / bound);

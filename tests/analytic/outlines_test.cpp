@@ -1,5 +1,5 @@
-// Outlines of boxes against closed forms: a point is in a box's outline or it is not, and a pixel's count is in how many its
-// point is.
+// Outlines of boxes against closed forms: a point is either in a box's outline or not, and a pixel's count is the number of
+// outlines that contain its point.
 #include "gloam/scene/outlines.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ Scene scene_of(const std::vector<Box>& boxes) {
   return scene;
 }
 
-/// A floor at y = 0 that faces up; far larger than what is seen of it.
+/// A floor at y = 0 that faces up, far larger than its visible part.
 void add_floor(Scene& scene) {
   scenes::add_quad(scenes::add_mesh(scene, "floor", 0), {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
 }
@@ -83,16 +83,16 @@ void for_pixels(Visit visit) {
   }
 }
 
-/// How far outside of a box a point is, by its farthest coordinate; negative within.
+/// Distance of a point outside a box, by its farthest coordinate; negative within.
 double outside(const Box& box, const dvec3& p) {
   const dvec3 over = glm::max(dvec3(box.low) - p, p - dvec3(box.high));
   return std::max({over.x, over.y, over.z});
 }
 
-/// Faces of a box move by that: its vertices move by `extent` along (1, 1, 1) / sqrt 3.
+/// Distance that the faces of a box move: its vertices move by `extent` along (1, 1, 1) / sqrt 3.
 double thickness(double extent) { return extent / std::sqrt(3.0); }
 
-/// How often each count was met.
+/// Count -> number of pixels.
 using Tally = std::map<int, int>;
 
 int sum_of(const Tally& tally) {
@@ -101,8 +101,8 @@ int sum_of(const Tally& tally) {
   return sum;
 }
 
-/// Every pixel's count is the number of boxes whose outline its point is in, and one for the floor's outline, a sheet at
-/// `extent` above it, where the point is below and the eye above; background is in none. Points on an outline are left out.
+/// Every pixel's count is the number of boxes whose outline contains its point, plus one for the floor's outline, a sheet at
+/// `extent` above it, if the point is below and the eye above; background is in none. Points on an outline are left out.
 Tally expect_closed_form(const Shot& shot, const std::vector<Box>& boxes, double extent, bool floor,
                          const std::string& what) {
   Tally tally;
@@ -122,7 +122,7 @@ Tally expect_closed_form(const Shot& shot, const std::vector<Box>& boxes, double
         is_clear &= std::abs(p.y - extent) > 1e-4;
       }
     } else if (floor) {
-      is_clear = false;  // past the floor's end a ray may have met its outline
+      is_clear = false;  // beyond the floor's end a ray may have met its outline
     }
     if (!is_clear) {
       ++left_out;
@@ -144,7 +144,7 @@ Tally expect_closed_form(const Shot& shot, const std::vector<Box>& boxes, double
 
 // --- The meshes
 
-/// The places that a mesh's vertices are at, to a millionth.
+/// Positions of a mesh's vertices, to a millionth.
 std::set<std::tuple<long, long, long>> places(const Mesh& mesh) {
   std::set<std::tuple<long, long, long>> found;
   for (const glm::uvec3& t : mesh.triangles) {
@@ -183,8 +183,8 @@ TEST(OutlineMesh, ACubesCornersMoveAlongTheirDiagonals) {
   }
 }
 
-/// Two faces that meet at an angle a, both turned up: the edge moves up, while with a larger --outline-angle it moves along
-/// the first face's normal.
+/// Two faces that meet at an angle a, both turned up: the edge moves up; with a larger --outline-angle it moves along the first
+/// face's normal.
 TEST(OutlineMesh, TheAngleSaysWhichNormalsAreTheSame) {
   for (const double degrees : {0.5, 5.0}) {
     const double half = degrees * M_PI / 360;
@@ -228,7 +228,7 @@ TEST(OutlineMesh, TheMethodsDifferAsInFigure4) {
   }
 }
 
-/// A file with one box of half extents 1 in two places: once as it is, and once stretched, mirrored and moved.
+/// A file with one box of half extents 1 in two instances: one as it is, and one stretched, mirrored and moved.
 TEST(OutlineMesh, InstancesArePushedInTheWorld) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / fmt::format("gloam-outlines-{}", getpid());
@@ -277,7 +277,7 @@ TEST(OutlineMesh, SmoothNormalsKeepItWhole) {
   }
 }
 
-/// A sheet with both sides has no direction to go; a box beside it in the same mesh has.
+/// The normals of a two-sided sheet cancel; a box beside it in the same mesh moves.
 TEST(OutlineMesh, WhereNormalsCancelNothingMoves) {
   Mesh mesh;
   scenes::add_quad(mesh, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
@@ -335,8 +335,8 @@ TEST(OutlineCount, BoxOnAFloor) {
   }
 }
 
-/// The floor between two boxes is in both outlines where the gap is below two thicknesses, and walls that face each other
-/// are where it is below one.
+/// The floor between two boxes is in both outlines if the gap is below two thicknesses, and so are walls that face each other if
+/// it is below one.
 TEST(OutlineCount, TwoBoxesAndTheGapBetween) {
   const double extent = 0.5;
   for (const double share : {0.6, 1.4, 2.5}) {
@@ -385,7 +385,7 @@ TEST(OutlineCount, FacesOfOneMeshInOnePlane) {
   }
 }
 
-/// From within outlines, the counts are those of the point all the same.
+/// From within outlines, the counts still are those of the point.
 TEST(OutlineCount, EyeInsideOfOutlines) {
   const double extent = 0.6;
   const std::vector<Box> boxes = {{{-4, -1, -1}, {-1, 3, 1}}, {{1, -1, -1}, {4, 3, 1}}, {{-1, -1, -3}, {1, 0, -2}}};
@@ -402,7 +402,7 @@ TEST(OutlineCount, EyeInsideOfOutlines) {
   }
 }
 
-/// Rays side by side, of which the outer ones start in outlines and the others do not.
+/// Rays side by side; the outer ones start in outlines, the others do not.
 TEST(OutlineCount, OrthographicRaysThatStartInOutlines) {
   const double extent = 0.6;
   const std::vector<Box> boxes = {{{-4, -1, -1}, {-1, 3, 1}}, {{1, -1, -1}, {4, 3, 1}}, {{-1, -1, -3}, {1, 0, -2}}};
@@ -426,11 +426,11 @@ TEST(OutlineCount, HowManyOutlinesAPointIsIn) {
   EXPECT_EQ(outlines.around({0, 1 + 0.9 * d, 0}), 1);
   EXPECT_EQ(outlines.around({0, 1 + 1.1 * d, 0}), 0);
   EXPECT_EQ(outlines.around({0.2, 0.1, 0}), 0) << "inside of the object itself";
-  // A ray at the middle of a face runs along the edge of its triangles, and says nothing wrong.
+  // A ray at the middle of a face runs along the edge of its triangles, and still counts correctly.
   EXPECT_EQ(outlines.around({0, 1 + 0.9 * d, 0}, {0, -1, 0}), 1);
 }
 
-/// The near plane hides a box, not its outline: the count of what is seen past it is of its place.
+/// The near plane hides a box, but not its outline: the count of a surface behind it is that of its position.
 TEST(OutlineCount, NearAndFarPlanes) {
   const std::vector<Box> boxes = {{{-1, -1, -1}, {1, 1, 1}}, {{-1, -1, -4}, {1, 1, -3}}};
   Scene scene = scene_of(boxes);
@@ -453,11 +453,11 @@ TEST(OutlineCount, NearAndFarPlanes) {
   EXPECT_EQ(count({}, 3.5), 0);
 }
 
-/// A room in one piece: its outline shrinks, and is around everything between itself and the walls, the corners too, so
-/// these stay at 1. The paper says so of its scene Corridor: concave corners of one object are not found.
+/// A room in one piece: its outline shrinks, and contains everything between itself and the walls, also the corners, so these
+/// stay at 1. The paper says so of its scene Corridor: concave corners of one object are not found.
 TEST(OutlineCount, ARoomSeenFromInsideHasOnesInItsCorners) {
   const Box room{{-3, 0, -3}, {3, 3, 3}};
-  for (const double z : {0.0, 2.95}) {  // in the middle, and within the outline of the wall behind
+  for (const double z : {0.0, 2.95}) {  // eye in the middle, and within the outline of the wall behind
     Scene scene = scene_of({});
     add_room(scene, room);
     const Shot shot = shot_of(scene, looking_at("main", {0.1, 1.5, z}, {0, 1.2, -3}, 90), {0.5});
@@ -467,7 +467,7 @@ TEST(OutlineCount, ARoomSeenFromInsideHasOnesInItsCorners) {
   }
 }
 
-/// An object in the room makes two of them, on the floor around it and on itself near the floor: corners between objects.
+/// An object in the room makes the count two, on the floor around it and on the object near the floor: corners between objects.
 TEST(OutlineCount, AnObjectInARoomIsFound) {
   const Box room{{-3, 0, -3}, {3, 3, 3}}, box{{-1, 0, -1.5f}, {0, 1, -0.5f}};
   const double extent = 0.5, d = thickness(extent);
@@ -493,8 +493,8 @@ TEST(OutlineCount, AnObjectInARoomIsFound) {
   }
 }
 
-/// Walls that face outwards, as of a house around its rooms: the outline lies beyond them, so that within only what stands in
-/// the room has one.
+/// Walls that face outwards, as of a house around its rooms: the outline lies beyond them, so that within, only objects in the
+/// room have one.
 TEST(OutlineCount, FromInsideOfASolidItsOwnOutlineIsNotCounted) {
   const Box house{{-3, 0, -3}, {3, 3, 3}}, box{{-1, 0, -1.5f}, {0, 1, -0.5f}};
   Scene scene = scene_of({house, box});
@@ -502,7 +502,7 @@ TEST(OutlineCount, FromInsideOfASolidItsOwnOutlineIsNotCounted) {
   expect_closed_form(shot, {box}, 0.5, false, "in a house");
 }
 
-/// Rays that leave a torn outline by a face without having entered it by one: the paper's miscount (figure 4, middle).
+/// Rays that leave a torn outline by a face without having entered it: the paper's miscount (figure 4, middle).
 TEST(OutlineCount, AlongNormalsBackgroundIsMiscountedAndOtherwiseNot) {
   const std::vector<Box> boxes = {{vec3(-1), vec3(1)}};
   Scene scene = scene_of(boxes);
@@ -541,7 +541,7 @@ TEST(OutlineCount, WhatLiesAtTheSurfaceIsNotBeforeIt) {
   EXPECT_EQ(count_on_sheet(-2, {-1.9f, 0, 0}), 1) << "on its bottom, which is left there, as is the sheet's own";
 }
 
-/// An open sheet's outline is a sheet too: 1 from its front, and nothing begins inside of it.
+/// An open sheet's outline is a sheet too: 1 from its front, and no start is inside it.
 TEST(OutlineCount, AnOpenSheetHasNoInside) {
   Scene scene = scene_of({});
   add_floor(scene);
@@ -569,7 +569,7 @@ TEST(OutlineCount, TheSameFarFromTheOrigin) {
   EXPECT_LE(differing, 10) << "along outlines only";
 }
 
-/// Closed outlines are left as often as they are entered, along every ray: no edge lets one through.
+/// Closed outlines are left as often as they are entered, along every ray: no ray slips through an edge.
 TEST(OutlineCount, NoRaySlipsThroughAnEdge) {
   Scene scene = load_scene("statue", {{"faces", "20000"}});
   const Tracer tracer(scene);

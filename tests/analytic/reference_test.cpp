@@ -60,7 +60,7 @@ AoReferenceOptions options_with(double radius) {
   return options;
 }
 
-/// Compares with `truth(position, mesh)` wherever that is a number; at least a quarter of the pixels must be.
+/// Compares with `truth(position, mesh)` where that is a number; it must be one for at least a quarter of the pixels.
 template <typename Truth>
 void expect_truth(const Traced& traced, Truth truth) {
   const View& view = traced.captured.views[0];
@@ -88,7 +88,7 @@ void expect_truth(const Traced& traced, Truth truth) {
   EXPECT_GE(4 * compared, traced.captured.width() * traced.captured.height());
   std::printf("compared %d pixels: worst %.1e, RMS %.1e; own estimate of the noise %.1e\n", compared, worst,
               std::sqrt(sum / std::max(1, compared)), traced.reference.noise);
-  // The noise that the reference states must be of the size of the error that it has.
+  // The stated noise must be of the size of the actual error.
   if (worst > 1e-4) {
     EXPECT_GT(traced.reference.noise, 0.2 * std::sqrt(sum / compared));
   }
@@ -137,7 +137,7 @@ TEST(Reference, CanyonFloor) {
   });
 }
 
-/// Floor and a wall at x = 0, in a corner of 90 degrees.
+/// A floor and a wall at x = 0: a corner of 90 degrees.
 Scene corner() {
   Scene scene = scene_with(looking_at("main", {1.2, 1.0, 1.2}, {0.2, 0, 0}, 60));
   add_floor(scene, 40);
@@ -157,7 +157,7 @@ TEST(Reference, CornerWithinARadius) {
   });
 }
 
-// The same corner with HBAO+'s own falloff, against the integral over the disc by fine steps.
+// The same corner with HBAO+'s own falloff, against the integral over the disc in fine steps.
 TEST(Reference, CornerWithAFalloff) {
   const double radius = 0.8;
   const Technique& hbao_plus = find_technique("hbao+");
@@ -188,7 +188,7 @@ TEST(Reference, CornerWithAFalloff) {
   });
 }
 
-// --- What the reference promises besides
+// --- Other promises of the reference
 
 TEST(Reference, NothingDependsOnTheOrigin) {
   Scene near = corner(), far = corner();
@@ -235,7 +235,7 @@ TEST(Reference, GoesOnWhereItWasInterrupted) {
   EXPECT_THROW(ao_reference(tracer, whole.captured, options), std::runtime_error);
   ASSERT_TRUE(std::filesystem::exists(options.checkpoint));
   options.progress = {};
-  // Another computation does not take it up ...
+  // Another computation does not resume the checkpoint ...
   AoReferenceOptions other = options;
   other.checkpoint_seconds = 1e9;
   other.seed = 1;
@@ -246,7 +246,7 @@ TEST(Reference, GoesOnWhereItWasInterrupted) {
   other.seed = options.seed;
   other.falloff_parameters = "bias=0.5";
   EXPECT_EQ(ao_reference(tracer, whole.captured, other).resumed_share, 0);
-  // ... and the same one does, with the same bits in the end.
+  // ... and the same one does, and ends with the same bits.
   const AoReference resumed = ao_reference(tracer, whole.captured, options);
   EXPECT_GE(resumed.resumed_share, 0.4);
   EXPECT_LT(resumed.rays, whole.reference.rays);
@@ -259,7 +259,7 @@ TEST(Reference, GoesOnWhereItWasInterrupted) {
   std::filesystem::remove_all(folder);
 }
 
-// A disk that is full loses the checkpoint, not the work.
+// A full disk loses the checkpoint, not the result.
 TEST(Reference, ACheckpointThatCannotBeWrittenIsOnlyANote) {
   const Scene scene = corner();
   AoReferenceOptions options = options_with(0.8);
@@ -271,7 +271,7 @@ TEST(Reference, ACheckpointThatCannotBeWrittenIsOnlyANote) {
   EXPECT_NE(result.reference.notes[0].find("interruption"), std::string::npos) << result.reference.notes[0];
 }
 
-// A small thing on a floor of any size: the floor's triangles must not move what starts on them.
+// A small object on a huge floor: the floor's large triangles must not move the start of rays.
 TEST(Reference, LargeTrianglesDoNoHarm) {
   const auto with_floor = [](float half) {
     Scene scene = scene_with(looking_at("main", {0.5, 0.6, 1}, {0, 0, 0}, 50));

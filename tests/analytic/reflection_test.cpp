@@ -1,4 +1,4 @@
-// Screen-space reflections against what a mirror must show, solved for in double.
+// Screen-space reflections against the exact image in a mirror, solved for in double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,9 +47,9 @@ double from_edge(const dvec3& p) {
 /// A post before the wall, as a box of the room's space.
 struct Post {
   double low_x = 0, high_x = -1, near_z = -3, far_z = -3.2, bottom = -10,
-         top = 0.6;  ///< none where high_x is below low_x
+         top = 0.6;  ///< no post if high_x is below low_x
 
-  /// Steps of d from o to it and out of it again; infinite where the ray passes it.
+  /// Multiples of d from o at which the ray enters and leaves the post; infinite if it misses.
   std::pair<double, double> crossing(const dvec3& o, const dvec3& d) const {
     double in = 0, out = std::numeric_limits<double>::infinity();
     const dvec3 low(low_x, bottom, far_z), high(high_x, top, near_z);
@@ -63,7 +63,7 @@ struct Post {
   }
 };
 
-/// A room without sides: a mirror for a floor, a checker wall at its end, perhaps a post, seen by an eye that looks down.
+/// A room without side walls: a mirror as floor, a checker wall at its end, perhaps a post, seen by an eye that looks down.
 struct MirrorRoom {
   Shot shot;
   dvec3 eye;
@@ -125,7 +125,7 @@ struct MirrorRoom {
            p.y > std::max(floor_height, post.bottom) - 1e-4 && p.y > floor_height + 1e-4;
   }
 
-  /// In the room's own space: the floor is level.
+  /// In the room's own space, where the floor is level.
   dvec3 point(int x, int y) const {
     const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5);
     const double depth = frame.views[0].find("depth")->channels[0].at(x, y);
@@ -133,7 +133,7 @@ struct MirrorRoom {
   }
   bool is_floor(int x, int y) const { return point(x, y).y < floor_height + 1e-4; }
 
-  /// Where the mirror sends the eye's ray to, on the wall. `meets_post`: it does not get there.
+  /// The point of the wall to which the mirror sends the eye's ray. `meets_post`: the ray does not get there.
   dvec3 reflected(int x, int y, bool* meets_post = nullptr) const {
     dvec3 d = turned(ray_through(shot, x + 0.5, y + 0.5).direction, -down);
     d.y = -d.y;
@@ -142,7 +142,7 @@ struct MirrorRoom {
     return p + d * ((-wall_distance - p.z) / d.z);
   }
 
-  /// Where the image shows a point, in pixels.
+  /// The pixel of a point.
   glm::dvec2 projected(const dvec3& room) const {
     const dvec3 p = turned(room - eye, down);
     const double lateral = shot.camera.orthographic ? 1 : -p.z;
@@ -172,14 +172,14 @@ TEST(Reflection, MirrorFloorShowsTheCheckerWall) {
         if (!room.is_floor(x, y)) continue;
         const dvec3 met = room.reflected(x, y);
         if (!room.shows(met, -0.5)) {
-          // Beyond the image nothing can be met: the environment.
+          // Nothing can be met beyond the image: the environment.
           ++missed;
           EXPECT_EQ(reflection[3].at(x, y), 0) << x << ", " << y;
           EXPECT_NEAR(reflection[0].at(x, y), 5, 1e-5) << x << ", " << y;
           EXPECT_EQ(hit.at(x, y), 0) << x << ", " << y;
           continue;
         }
-        // Two pixels from an edge, colours are a mean of both sides.
+        // Within two pixels of an edge, colours are a mean of both sides.
         if (!room.shows(met, 1) || from_edge(met) < 0.09) continue;
         ++compared;
         EXPECT_NEAR(reflection[3].at(x, y), 1, 1e-6) << x << ", " << y;
@@ -197,7 +197,7 @@ TEST(Reflection, MirrorFloorShowsTheCheckerWall) {
   }
 }
 
-// Each pixel has what it has with all steps, or the environment: never something that a ray has not come to.
+// Each pixel has the value it has with all steps, or the environment: never something that its ray has not reached.
 TEST(Reflection, RayWithoutStepsLeftIsAMiss) {
   for (const Shot& shot : shots()) {
     MirrorRoom room(shot);
@@ -231,7 +231,7 @@ TEST(Reflection, RayWithoutStepsLeftIsAMiss) {
   }
 }
 
-// Cells pass over what pixels would not have met.
+// Cells skip only pixels that would not have been met.
 TEST(Reflection, HierarchyFindsWhatPixelsFind) {
   for (const Shot& shot : {perspective(157, 101, 70), orthographic(157, 101, 4)}) {
     Frame frame = shoot(shot, room());
@@ -258,7 +258,7 @@ TEST(Reflection, HierarchyFindsWhatPixelsFind) {
   }
 }
 
-// Each pixel's rays are followed, however many they are and however many pixels a work-item has.
+// Each pixel's rays are followed, whatever their number and the number of pixels of a work-item.
 TEST(Reflection, ManyRaysGiveTheSameBitsAtEveryLaneWidth) {
   Frame frame = shoot(perspective(93, 61, 70), gloam::test::room());
   const Technique& sssr = find_technique("sssr");
@@ -284,7 +284,7 @@ const Channel& confidence(const Frame& frame, size_t view) {
   return frame.views.at(view).find("reflection")->channels[3];
 }
 
-/// How often the wall that a pixel's mirror ray comes to has been found, of all times that it is in `asked`.
+/// How often the wall that a pixel's mirror ray reaches was found, out of `asked`.
 struct Found {
   int asked = 0, found = 0, wrong = 0;
 };
@@ -317,7 +317,7 @@ Frame traversed(Frame& pair, const char* traversal) {
                     {.math = Math::precise});
 }
 
-// What lies beyond the border of one image is found in the other's.
+// Objects beyond the border of one image are found in the other's.
 TEST(StereoReflection, GoesOnInTheOtherEyeBeyondTheBorder) {
   const Shot shot = perspective(160, 120, 70);
   const MirrorRoom left(shot, -0.2), right(shot, 0.2);
@@ -353,13 +353,13 @@ TEST(StereoReflection, GoesOnInTheOtherEyeBehindThings) {
   std::printf("%d of %d found behind the post and %d wrong; without the other eye %d and %d\n", with.found, with.asked,
               with.wrong, without.found, without.wrong);
   EXPECT_GT(with.asked, 30);
-  // The rest is behind the post for the other eye too, when it comes to be behind it for this one.
+  // The other rays are behind the post for the other eye too when they pass behind it for this one.
   EXPECT_GT(3 * with.found, 2 * with.asked);
   EXPECT_EQ(with.wrong, 0);
   EXPECT_LT(without.found, 0.05 * with.asked);  // at the post's very edge
 }
 
-// However large the cells are that a ray is behind, the other eye follows it from where it comes to be behind them.
+// However large the cells are that hide a ray, the other eye follows it from where it passed behind them.
 TEST(StereoReflection, LargeCellsHideNothingFromTheOtherEye) {
   const Shot shot = perspective(240, 180, 70);
   const Post post{.low_x = -0.5, .high_x = 0.3, .bottom = -0.35};
@@ -430,7 +430,7 @@ struct SmoothRoom : MirrorRoom {
   }
   static dvec3 smooth(const dvec3& p) { return {0.5 + 0.4 * std::sin(4 * p.x), 0.5 + 0.4 * std::cos(4 * p.y), 0.5}; }
 
-  /// Takes over `reflection`, made of so many frames, from where the eye was before.
+  /// Adds the history `reflection`, of a number of frames, from the eye's earlier position.
   void follow(const MirrorRoom& before, const Plane& reflection, float frames) {
     View& view = frame.views[0];
     view.camera_before = before.frame.views[0].camera;
@@ -450,7 +450,7 @@ struct SmoothRoom : MirrorRoom {
     }
   }
 
-  /// What a mirror shows; a 1.
+  /// The exact image in the mirror; a is 1.
   Plane exact() const {
     Plane reflection{"reflection", {}};
     for (int c = 0; c < 4; ++c) reflection.channels.emplace_back(Layout(shot.width, shot.height), c == 3 ? 1.0f : 0.0f);
@@ -466,7 +466,7 @@ struct SmoothRoom : MirrorRoom {
 
 const Settings all_of_history = {{"most_frames", "1024"}, {"kept_within", "1000000"}, {"fade_border", "0"}};
 
-/// Where the floor shows what both images do, away from their borders.
+/// RMSE over the part of the floor that both images show, away from their borders.
 double rmse_on_floor(const SmoothRoom& room, const SmoothRoom& before, const Plane& test) {
   const Plane exact = room.exact();
   double squares = 0;
@@ -500,7 +500,7 @@ TEST(TemporalReflection, WhatAMirrorShowsMovesAsItsVirtualImage) {
       const double b = rmse_on_floor(now, before, *as_surface.views[0].find("reflection"));
       std::printf("as its image %.4f, as the surface %.4f\n", a, b);
       EXPECT_LT(a, 0.02);
-      // Rays that are all parallel move with the surface.
+      // Reflections of parallel rays move with the surface.
       EXPECT_GT(b, shot.camera.orthographic ? 0.99 * a : 5 * a);
     }
   }
@@ -520,7 +520,7 @@ TEST(TemporalReflection, AStandingImageIsTheMeanOfItsFrames) {
     for (int x = 0; x < shot.width; ++x) {
       if (!room.is_floor(x, y)) continue;
       EXPECT_NEAR(both.views[0].find("frames")->channels[0].at(x, y), 4, 1e-4);
-      // Where no neighbour finds anything now, nothing is kept.
+      // Pixels without any find among their neighbours now keep nothing.
       if (b.views[0].find("reflection")->channels[3].at(x, y) < 0.01) continue;
       ++compared;
       for (size_t c = 0; c < 4; ++c) {
@@ -582,7 +582,7 @@ TEST(TemporalReflection, MirrorsAndWhatWasHiddenAreOfThisFrameAlone) {
 
 // --- Fade
 
-/// What is left of a hit so far from the border of an image, in sizes of the image.
+/// Confidence of a hit at this distance from the border of an image, in sizes of the image.
 double faded(double from_border, double width) {
   const double t = std::clamp(from_border / width, 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -594,7 +594,8 @@ double to_border(const MirrorRoom& room, const dvec3& point) {
   return std::max(std::min({at.x, 1 - at.x, at.y, 1 - at.y}), 0.0);
 }
 
-/// How far confidence and colour are from what fades by `border_of`, and at how many pixels another border would tell.
+/// Largest errors of confidence and colour for fading by `border_of`, and the number of pixels at which another border would
+/// differ.
 struct Fading {
   int compared = 0, told_apart = 0;
   double worst = 0, worst_color = 0;
@@ -610,7 +611,7 @@ Fading fading_of(const Frame& out, const std::array<const MirrorRoom*, 2>& eyes,
       for (int x = 0; x < own.shot.width; ++x) {
         if (!own.is_floor(x, y)) continue;
         const dvec3 met = own.reflected(x, y);
-        // Which image shows what lies within a pixel of a border, rounding decides.
+        // Within a pixel of a border, rounding decides which image shows the point.
         const bool is_shown = own.shows(met, 1) || (other.shows(met, 1) && !own.shows(met, -1));
         if (!is_shown || from_edge(met) < 0.1) continue;
         const double here = to_border(own, met), there = to_border(other, met);
@@ -627,8 +628,8 @@ Fading fading_of(const Frame& out, const std::array<const MirrorRoom*, 2>& eyes,
   return f;
 }
 
-// Of the places that a hit has in both images, the one farther from the border decides for both eyes alike; without the stereo
-// fade, that of the image that the hit was found in.
+// The position of a hit that is farther from the border of its image decides, for both eyes alike; without the stereo fade, the
+// one in the image that found the hit.
 TEST(StereoReflection, HitsFadeByTheImageThatShowsThemFartherFromItsBorder) {
   for (const Shot& shot : shots()) {
     const MirrorRoom left(shot, -0.2), right(shot, 0.2);
@@ -653,9 +654,8 @@ TEST(StereoReflection, HitsFadeByTheImageThatShowsThemFartherFromItsBorder) {
 
 // --- Rays of the other eye
 
-/// Two eyes before a glossy floor of strips that are alternately one object and another, and a post before the wall.
-/// Colours tell whose ray it was: what the left eye shows is red alone, what the right one shows is green, each pixel in
-/// a shade of its own.
+/// Two eyes before a glossy floor of strips that belong to two objects alternately, and a post before the wall. Colours tell a
+/// ray's origin: the left eye's image is red, the right one's green, each pixel in a shade of its own.
 struct GlossyPair {
   std::array<SmoothRoom, 2> eyes;
   Frame frame;
@@ -680,7 +680,7 @@ struct GlossyPair {
     return SmoothRoom(shot, eye_x, 0.2f, {.low_x = -0.5, .high_x = 0.5, .bottom = -0.7});
   }
 
-  /// One ray per pixel and no neighbours, so that each pixel has its own ray, and at most one of the other eye.
+  /// One ray per pixel and no neighbours, so that each pixel has its own ray and at most one of the other eye.
   Frame reflections(const char* reprojection) {
     return outputs_of(find_technique("stereo-ssr"), frame,
                       {{"neighbours", "1"},
@@ -692,8 +692,8 @@ struct GlossyPair {
                       {.math = Math::precise});
   }
 
-  /// Where the other eye sees the virtual image of what lies so far along the mirror ray of a pixel, in pixels: on the
-  /// way from the image, which stands behind the floor, to that eye.
+  /// Pixel in which the other eye sees the virtual image of a point this far along the mirror ray of a pixel: on the line from
+  /// the virtual image, behind the floor, to that eye.
   glm::dvec2 same_virtual_image(size_t eye, int x, int y, double length) const {
     const MirrorRoom &own = eyes[eye], &other = eyes[1 - eye];
     const dvec3 away = glm::normalize(turned(ray_through(own.shot, x + 0.5, y + 0.5).direction, -down));
@@ -703,10 +703,10 @@ struct GlossyPair {
   }
 };
 
-/// Rays of one kind that the other eye has where it sees a pixel's virtual image.
+/// The other eye's rays of one kind at the virtual images of pixels.
 struct Counted {
   int asked = 0, taken = 0,
-      wrong = 0;  ///< of which so many changed what the pixel has, and so many brought another pixel's ray
+      wrong = 0;  ///< rays that changed the pixel, and that came from another pixel
 };
 
 struct Shared {
@@ -729,7 +729,7 @@ Shared shared_by(const GlossyPair& pair, const Frame& alone, const Frame& togeth
       const glm::dvec2 place = pair.same_virtual_image(eye, x, y, length), off = glm::fract(place) - 0.5;
       const glm::ivec2 there(glm::floor(place));
       const bool is_inside = there.x >= 0 && there.y >= 0 && there.x < width && there.y < height;
-      // Between two pixels rounding decides.
+      // Halfway between two pixels rounding decides.
       if (!is_inside || std::max(std::abs(off.x), std::abs(off.y)) > 0.49) continue;
       const bool is_same = at(pair.frame, eye, "instance", 0, here) == at(pair.frame, other, "instance", 0, there);
       const double of_other = at(alone, other, "hit", 0, there), ratio = of_other / length;
@@ -748,8 +748,8 @@ Shared shared_by(const GlossyPair& pair, const Frame& alone, const Frame& togeth
   return shared;
 }
 
-// Of the other eye the ray counts of the one pixel where that eye sees the same virtual image, if that is of the same
-// object and has met something, however near.
+// The one ray of the other eye counts that belongs to the pixel where that eye sees the same virtual image, if that pixel shows
+// the same object and the ray has met something, however near.
 TEST(StereoReflection, RaysOfTheOtherEyeComeFromWhereItSeesTheSameVirtualImage) {
   for (const Shot& shot : shots()) {
     GlossyPair pair(shot);
@@ -768,7 +768,7 @@ TEST(StereoReflection, RaysOfTheOtherEyeComeFromWhereItSeesTheSameVirtualImage) 
       EXPECT_GT(s.longer.taken, 10);
       EXPECT_GT(s.missed.asked, 20);
       EXPECT_EQ(s.missed.taken, 0);
-      // Eyes whose rays are all parallel see each strip where the other does.
+      // Eyes whose rays are all parallel see each strip at the same position.
       EXPECT_GT(s.of_another_object.asked, shot.camera.orthographic ? 10 : 500);
       EXPECT_EQ(s.of_another_object.taken, 0);
     }
@@ -818,8 +818,8 @@ TEST(StereoReflection, IsNearerToTheTruthThanThePlainOne) {
   }
 }
 
-/// A kitchen that Cycles has rendered, with the light that its surfaces reflect (two bounces): GlossInd is what they have from
-/// other surfaces; what comes of lamps, which the image does not show, and of the sky is GlossDir.
+/// A kitchen rendered by Cycles, with the light that its surfaces reflect (two bounces): GlossInd is light from other surfaces;
+/// light from the sky, and from lamps, which the image does not show, is GlossDir.
 class Kitchen : public testing::Test {
  protected:
   void SetUp() override {
@@ -834,7 +834,7 @@ class Kitchen : public testing::Test {
     }
   }
 
-  /// Surfaces up to this roughness; with `shown` only those of which 90 % of what they reflect was found, on a surface.
+  /// Surfaces up to this roughness; with `shown`, only those for which 90 % of the reflected light was found on a surface.
   Mask where(const Frame& reflections, double most_roughness, bool shown = true) const {
     const View &found = reflections.views[0], &frame = frames[0].views[0];
     Mask mask;

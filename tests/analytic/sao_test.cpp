@@ -1,5 +1,5 @@
-// The depth levels of Scalable Ambient Obscurance: which pixels they hold, and that a sample read from them lies where the
-// surface of its pixel is.
+// The depth levels of Scalable Ambient Obscurance: the pixels that they hold, and that a sample read from them lies on the
+// surface of its pixel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::vector<Shot> shots() {
           perspective(1, 9),   perspective(300, 1),     perspective(33, 32)};
 }
 
-/// A pass of the technique that makes the first level, by itself, so that what it holds can be looked at.
+/// The pass that makes the first level, alone, so that the level can be read.
 Plan first_level_alone() {
   const Technique& technique = find_technique("sao");
   ParameterValues values(technique.parameters);
@@ -60,8 +60,8 @@ TEST(SaoLevels, TheFirstIsARotatedGridOfTheDepth) {
   }
 }
 
-/// The technique over layers reads the same pixels from the layers themselves: what the levels hold, and where a sample
-/// finds it, is the same to the bit, at any resolution.
+/// The technique over layers reads the same pixels from the layers themselves: the levels' values, and the positions of samples,
+/// are the same to the bit, at any resolution.
 TEST(SaoLevels, HoldThePixelsThatTheyStandFor) {
   for (const Shot& shot : {perspective(93, 61), orthographic(93, 61, 4), perspective(300, 1)}) {
     const Frame frame = with_layers(shoot(shot, room()), {same_depth});
@@ -103,7 +103,7 @@ TEST(SaoLevels, APlaneStaysFlat) {
   }
 }
 
-/// What reading far samples from levels changes where samples are many: nothing on average, little at a pixel.
+/// With many samples, reading far ones from levels changes nothing on average, and little at a pixel.
 TEST(SaoLevels, ChangeLittle) {
   for (const Shot& shot : {perspective(480, 360), orthographic(480, 360, 4)}) {
     const Frame frame = shoot(shot, room());

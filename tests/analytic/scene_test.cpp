@@ -38,8 +38,8 @@ TEST(AnalyticAo, OpenPlaneIsOne) {
   for (const double x : {-3.0, 0.0, 0.25, 1234.5}) EXPECT_EQ(ao(scene, {x, 0, 0.1}, up, 2), 1);
 }
 
-/// A ball wholly above the horizon and within reach hides (r/d)^2 of a hemisphere weighted by the cosine, times the
-/// cosine of the angle at which its centre stands (Nusselt's analogue).
+/// A ball wholly above the horizon and within reach hides (r/d)^2 of a cosine-weighted hemisphere, times the cosine of its
+/// centre's angle (Nusselt's analogue).
 TEST(AnalyticAo, BallOverPlane) {
   const double r = 0.3;
   for (const dvec3& centre : {dvec3(0, 0.5, 0), dvec3(0, 1.2, 0), dvec3(0.5, 0.6, 0.2), dvec3(-1.0, 0.4, 0.7)}) {
@@ -56,15 +56,15 @@ TEST(AnalyticAo, BallBeyondReachHidesNothing) {
   EXPECT_LT(ao(scene, dvec3(0), up, 0.71), 1);
 }
 
-/// A wall without end, at right angles to the floor and `a` away, meets a direction w after a / w_x. Within reach R it
-/// hides w_x > a/R. Projected onto the floor's unit disk, where cosine-weighted directions are uniform, that is a
-/// circular segment at s = a/R of area acos(s) - s sqrt(1 - s^2), out of pi.
+/// An infinite wall at right angles to the floor, `a` away, meets a direction w after a / w_x. Within reach R it hides w_x > a/R.
+/// On the floor's unit disk, where projected cosine-weighted directions are uniform, that is a circular segment at s = a/R with
+/// the area acos(s) - s sqrt(1 - s^2), out of pi.
 double wall_closed_form(double a, double reach) {
   const double s = a / reach;
   return s >= 1 ? 1 : 1 - (std::acos(s) - s * std::sqrt(1 - s * s)) / M_PI;
 }
 
-/// The same from its definition: midpoints over elevation and azimuth, cosine and solid angle spelled out.
+/// The same from the definition: midpoints over elevation and azimuth, with cosine and solid angle written out.
 double wall_by_quadrature(double a, double reach) {
   constexpr int n = 1500;
   double open = 0;
@@ -91,7 +91,7 @@ TEST(AnalyticAo, FloorBesideWall) {
   }
 }
 
-/// The same corner turned about y and laid on its side: no axis is special.
+/// The same corner turned about y and laid on its side: the result does not depend on the axis.
 TEST(AnalyticAo, FloorBesideTurnedWall) {
   const double a = 0.2, reach = 0.5, yaw = 0.7;
   const dvec3 normal(std::sin(yaw), 0, std::cos(yaw));  // of the "floor", which now stands
@@ -101,7 +101,7 @@ TEST(AnalyticAo, FloorBesideTurnedWall) {
   EXPECT_NEAR(ao(scene, dvec3(0), normal, reach), wall_closed_form(a, reach), tolerance);
 }
 
-/// From the middle of the bottom of a round pit the sky is a disk: it counts sin^2 of its half angle.
+/// From the middle of the bottom of a round pit the sky is a disk: its share is sin^2 of its half angle.
 TEST(AnalyticAo, BottomOfRoundPit) {
   for (const double rim : {0.3, 0.5, 0.7}) {
     const double floor_radius = 0.5, depth = 0.6;
@@ -119,7 +119,7 @@ TEST(AnalyticAo, BottomOfBowl) {
   EXPECT_NEAR(ao(scene, {0, -1, 0}, up, unlimited), 0.5, tolerance);
 }
 
-/// Halves that agree with the truth and an error that the half difference predicts.
+/// The halves agree with the truth, and their difference predicts the error.
 TEST(AnalyticAo, NoiseIsWhatTheHalvesSay) {
   const Scene scene = scene_of({ground(), make_sphere({0.5, 0.6, 0.2}, 0.3)});
   const double d2 = 0.65, truth = 1 - 0.09 / d2 * 0.6 / std::sqrt(d2);
@@ -149,7 +149,7 @@ TEST(ScrambledSobol, EveryPowerOfTwoIsStratified) {
   }
 }
 
-/// What the bundled frame relies on, at pixels spread over the image.
+/// Properties that the bundled frame relies on, at pixels spread over the image.
 class Loggia : public testing::Test {
  protected:
   static constexpr int width = 480, height = 270;
@@ -194,8 +194,8 @@ TEST_F(Loggia, NormalsAreUnitAndFaceTheCamera) {
   });
 }
 
-/// A small step along the normal is outside, one against it is inside: so the point is on the surface, and the normal
-/// is the surface's.
+/// A small step along the normal leads outside, one against it inside: so the point is on the surface, and the normal is the
+/// surface's.
 TEST_F(Loggia, SurfaceIsWhereTheHitIs) {
   at_pixels(5, [&](int x, int y, const Ray& ray, const Hit& hit) {
     const dvec3 position = ray.origin + hit.distance * ray.direction;
@@ -216,7 +216,7 @@ TEST_F(Loggia, SameSeedSameOcclusion) {
   });
 }
 
-/// Asking only what is near must not change the answer: the same rays against everything.
+/// Testing only nearby objects must not change the answer: compared with the same rays against all objects.
 TEST_F(Loggia, NearbyObjectsAreAllThatMatters) {
   at_pixels(53, [&](int x, int y, const Ray& ray, const Hit& hit) {
     const dvec3 position = ray.origin + hit.distance * ray.direction;

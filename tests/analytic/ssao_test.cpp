@@ -1,6 +1,6 @@
-// SSAO against the integral that its points estimate, over surfaces known in closed form: the share of a half ball, a ball
-// or a shell about the point whose places lie behind what the screen shows there. The kernel looks at pixel centres, which
-// is an error of second order where a surface is smooth and of first order around outlines.
+// SSAO against the integral that its points estimate, over surfaces in closed form: the share of a half ball, ball or shell about
+// the point that lies behind what the screen shows. The kernel reads pixel centres: an error of second order on smooth surfaces
+// and of first order around outlines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,10 +27,10 @@ Settings settings_of(const Model& m) {
           {"bias", fmt::format("{}", m.bias)},         {"range", fmt::format("{}", m.range)}};
 }
 
-/// 1 where a place, `offset` from the surface, lies behind what is seen on its way, less for what is far before.
+/// 1 if a point, `offset` from the surface, lies behind the visible surface in its direction; less if that is far before it.
 double occlusion_at(const IntegralCase& test, const Receiver& here, const glm::dvec3& offset, const Model& m) {
   const glm::dvec3 point = here.point + offset;
-  const glm::dvec2 place = place_of(test.shot, point);
+  const glm::dvec2 place = pixel_of(test.shot, point);
   const EyeRay ray = ray_through(test.shot, place.x, place.y);
   const auto seen = test.scene(ray);
   if (!seen) return 0;
@@ -75,7 +75,7 @@ TEST(SsaoIntegral, OtherSettings) {
   expect_model(named(ball, "no bias, short range"), {.bias = 0, .range = 0.6});
 }
 
-/// As in the paper: half of the ball lies behind a plane. The points of a pixel lie half above it, half below.
+/// As in the paper: half of the ball lies behind a plane. Half of a pixel's points lie above it, half below.
 TEST(SsaoPlane, ReadsAHalfInTheWholeBall) {
   for (const double tilt : {0.0, 0.5, 0.95}) {
     const Frame frame = shoot(perspective(93, 61), tilted_plane(3, tilt, 0.4));

@@ -1,5 +1,5 @@
-// Ambient occlusion for two eyes (Shi, Billeter, Eisemann 2022): what must hold whatever the scene, and what both eyes see of
-// one whose hidden parts are known.
+// Ambient occlusion for two eyes (Shi, Billeter, Eisemann 2022): properties for every scene, and the pixels that both eyes see in
+// a scene with known hidden parts.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Frame captured(const std::string& scene_name, double distance, int width = 192, 
   return capture(tracer, options).frame;
 }
 
-/// The same frame, where nothing is hidden behind the depth.
+/// The frame with stochastic layers that hold no hidden surface.
 Frame with_nothing_hidden(Frame frame) {
   Frame copy = clone(frame);
   for (size_t i = 0; i < frame.views.size(); ++i)
@@ -73,7 +73,7 @@ double largest_difference(const Channel& a, const Channel& b) {
   return largest;
 }
 
-/// Share of the pixels that differ by more, as given, than rounding does where all samples stay in place.
+/// Share of the pixels that differ by more than this; the default is the effect of rounding if all samples stay in place.
 double changed_share(const Channel& a, const Channel& b, double more_than = 2e-3) {
   int changed = 0;
   for (int y = 0; y < a.layout().height; ++y) {
@@ -109,7 +109,7 @@ double rmse_of_eye(const Frame& result, const Frame& truth, size_t eye) {
   return std::sqrt(squares / pixels);
 }
 
-/// Of the AO of both eyes.
+/// RMSE of the AO of both eyes.
 double rmse(const Frame& result, const Frame& truth) {
   return std::hypot(rmse_of_eye(result, truth, 0), rmse_of_eye(result, truth, 1)) / std::sqrt(2.0);
 }
@@ -119,7 +119,7 @@ struct Variant {
   Settings settings;
 };
 
-/// The ablation of figure 10, and what else there is to choose.
+/// The ablation of figure 10, and the other choices.
 std::vector<Variant> variants() {
   return {{"A", {{"estimate", "mono"}, {"reproject", "off"}, {"filter", "mono"}}},
           {"B", {{"estimate", "stereo"}, {"reproject", "off"}, {"filter", "mono"}}},
@@ -131,11 +131,12 @@ std::vector<Variant> variants() {
           {"no back-check", {{"reproject", "no-back-check"}}}};
 }
 
-/// A technique for two eyes, and what it is for one.
+/// A technique for two eyes, and the one for one eye.
 struct Estimator {
   const char *mono, *stereo;
-  /// Share of the pixels that rounding may change: of the estimate, where it moves a sample to the next pixel; of the filtered
-  /// image; of the estimate of eyes a hair apart, where it changes a stochastic depth map. And the share that sparing the second look may change by .1.
+  /// Share of pixels that rounding may change: in the estimate, by moving a sample to the next pixel; in the filtered image; in
+  /// the estimate for eyes a hair apart, by changing a stochastic depth map. And the share that sparing the second look may
+  /// change by .1.
   double estimate, filtered, hair_apart, spared;
 };
 
@@ -160,8 +161,7 @@ TEST_P(StereoAo, WithoutAnythingStereoItIsTheMonoTechnique) {
   }
 }
 
-/// What rounding leaves of a point that is projected to where it is.
-/// Of every variant; of the default hard case 18 asks the same.
+/// Differences are the rounding of a point projected onto itself. For every variant; hard case 18 tests the default.
 TEST_P(StereoAo, EyesInOnePlaceSeeWhatOneDoes) {
   ONLY_IN_LONG_RUN();
   const Frame frame = captured("courtyard", 0), of_one = run_on(mono, frame);
@@ -179,7 +179,7 @@ TEST_P(StereoAo, EyesInOnePlaceSeeWhatOneDoes) {
   }
 }
 
-/// Of every variant; hard case 18 holds the defaults to it each time.
+/// For every variant; hard case 18 tests the default in every run.
 TEST_P(StereoAo, SwappedEyesAndPrimarySwapTheResult) {
   ONLY_IN_LONG_RUN();
   for (const double distance : {0.065, 0.5}) {
@@ -197,7 +197,7 @@ TEST_P(StereoAo, SwappedEyesAndPrimarySwapTheResult) {
   }
 }
 
-/// An eye that sees nothing, or nothing that is a number. What there is to choose is the same code in all techniques.
+/// An eye that sees nothing, or only NaN. The code for the choices is the same in all techniques.
 TEST_P(StereoAo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
   const bool is_for_all = stereo == "stereo-ao" || is_long_run();
   const std::vector<Variant> tried = is_for_all ? variants() : std::vector<Variant>{{"the defaults", {}}};
@@ -218,7 +218,7 @@ TEST_P(StereoAo, AnEyeThatSeesNothingLeavesTheOtherItsOwnResult) {
   }
 }
 
-/// What a perspective camera shows at a pixel's centre, in its space.
+/// The point that a perspective camera shows at a pixel's centre, in its space.
 glm::dvec3 point_of(const Camera& c, int x, int y, double depth) {
   return {(x + 0.5 - c.cx) / c.fx * depth, (c.cy - (y + 0.5)) / c.fy * depth, -depth};
 }
@@ -228,7 +228,7 @@ glm::dvec3 normal_of(const View& view, int x, int y) {
   return {normal.channels[0].at(x, y), normal.channels[1].at(x, y), normal.channels[2].at(x, y)};
 }
 
-/// How far from a surface is what a pixel shows: 1 at the tolerances that the filters have by default.
+/// Distance of a pixel's surface from a surface: 1 at the filters' default tolerances.
 double distance_from(const View& view, int x, int y, const glm::dvec3& point, const glm::dvec3& normal, double radius) {
   const double depth = view.planes.at("depth").channels[0].at(x, y);
   if (std::isinf(depth)) return INFINITY;
@@ -237,7 +237,7 @@ double distance_from(const View& view, int x, int y, const glm::dvec3& point, co
                   std::acos(std::min(glm::dot(normal, there), 1.0)) / 0.5);
 }
 
-/// The second eye takes what the first found, or estimates by itself what both eyes show: pixel by pixel one of the two.
+/// Each pixel of the second eye has either the first eye's result or its own estimate of both eyes' surfaces.
 TEST_P(StereoAo, TheSecondEyeTakesOverOrEstimatesItself) {
   constexpr double distance = 0.2;
   const Frame frame = captured("courtyard", distance);
@@ -258,7 +258,7 @@ TEST_P(StereoAo, TheSecondEyeTakesOverOrEstimatesItself) {
         wrong += result.at(x, y) != own.at(x, y);
         continue;
       }
-      // A mean of what the first eye found at the two pixels around the place, if one of them shows the surface.
+      // A mean of the first eye's results at the two pixels around the position, if one of them shows the surface.
       const double place = x + distance * left.fx / depth.at(x, y), rounding = 1e-3;
       const int before = std::max(int(std::floor(place - rounding)), 0),
                 after = std::min(int(std::ceil(place + rounding)), frame.width() - 1);
@@ -272,7 +272,7 @@ TEST_P(StereoAo, TheSecondEyeTakesOverOrEstimatesItself) {
         is_shown |= away < 0.95 && std::abs(i - place) < 0.95;
         may_be_shown |= away < 1.01;
       }
-      // Rounding of the row leaves the one below a weight of a few millionths.
+      // Rounding gives the row below a weight of at most a few millionths.
       const bool is_taken = result.at(x, y) >= least - 1e-5f && result.at(x, y) <= most + 1e-5f,
                  is_estimated = result.at(x, y) == own.at(x, y);
       wrong += !(is_taken && may_be_shown) && !(is_estimated && !is_shown);
@@ -285,7 +285,7 @@ TEST_P(StereoAo, TheSecondEyeTakesOverOrEstimatesItself) {
   EXPECT_GT(estimated, frame.width() * frame.height() / 100);
 }
 
-/// What the right eye alone sees, two pixels of a row at least, in the space of the left one.
+/// Surfaces that only the right eye sees, at least two pixels of a row, in the left one's space.
 std::vector<glm::dvec3> half_occluded(const Frame& frame, double distance) {
   const Frame seen = run_on("stereo-visibility", frame);
   const Channel &shared = channel_of(seen, 1, "seen_by_both"), &depth = channel_of(frame, 1, "depth");
@@ -300,7 +300,7 @@ std::vector<glm::dvec3> half_occluded(const Frame& frame, double distance) {
   return points;
 }
 
-/// What `other_eye=near` and `everywhere` find: the estimates of both eyes, and the filtered images.
+/// Results of `other_eye=near` and `everywhere`: the estimates of both eyes, and the filtered images.
 struct NearAndEverywhere {
   Frame near, everywhere;
 };
@@ -311,7 +311,7 @@ NearAndEverywhere both_ways(const std::string& technique, const Frame& frame, Se
   return {std::move(near), run_on(technique, frame, settings)};
 }
 
-/// Within the radius of what the other eye alone sees it is as if that were looked at everywhere.
+/// Within the radius of surfaces that only the other eye sees, the result is as with `everywhere`.
 TEST_P(StereoAo, LooksAtTheOtherEyeNearWhatThatAloneSees) {
   constexpr double distance = 0.1;
   const Frame frame = captured("colonnade", distance);
@@ -334,11 +334,11 @@ TEST_P(StereoAo, LooksAtTheOtherEyeNearWhatThatAloneSees) {
     }
   }
   EXPECT_EQ(missed, 0);
-  EXPECT_GT(changed, within / 5);  // of sectors that one eye closes the other often closes the same
+  EXPECT_GT(changed, within / 5);  // both eyes often close the same sectors
   EXPECT_GT(within, 1000);
 }
 
-/// Where the radius reaches over the border of one image, that eye's samples are cut off and the other's are not.
+/// If the radius reaches over the border of one image, that eye's samples are cut off and the other's are not.
 TEST_P(StereoAo, LooksAtTheOtherEyeWhereTheRadiusReachesOverABorder) {
   const double radius = 0.5;
   const Frame frame = captured("gallery", 0.065);
@@ -351,7 +351,7 @@ TEST_P(StereoAo, LooksAtTheOtherEyeWhereTheRadiusReachesOverABorder) {
     long long reaching = 0, missed = 0;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
-        const double reach = 0.99 * camera.fx * radius / depth.at(x, y);  // all footprints are at least so wide
+        const double reach = 0.99 * camera.fx * radius / depth.at(x, y);  // all footprints are at least this wide
         const int border = std::min({x, y, frame.width() - 1 - x, frame.height() - 1 - y});
         if (!(border < std::min(reach, 8.0))) continue;
         ++reaching;
@@ -363,8 +363,8 @@ TEST_P(StereoAo, LooksAtTheOtherEyeWhereTheRadiusReachesOverABorder) {
   }
 }
 
-/// Where the second look is spared it would change little: the eyes agree about as well, and the truth is no farther than for one eye.
-/// Slices differ more than HBAO+'s many directions do, wherever the other eye is looked at: the mean of two has less noise.
+/// Sparing the second look changes little: the eyes agree about as well, and the result is as near to the truth as with one eye.
+/// Slices differ more between eyes than HBAO+'s many directions do, wherever the other eye is used: the mean of two has less noise.
 TEST_P(StereoAo, SparingTheSecondLookCostsNothing) {
   for (const char* scene_name : {"colonnade", "gallery"}) {
     const Frame frame = captured(scene_name, 0.065);
@@ -397,7 +397,7 @@ TEST_P(StereoAo, SparingTheSecondLookCostsNothing) {
   }
 }
 
-/// A wall at depth 4, and before it a screen at depth 2 that ends at x = 0 of either eye's middle.
+/// A wall at depth 4, and before it a screen at depth 2 that ends at x = 0 in either eye's middle.
 TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
   constexpr int width = 200, height = 40;
   constexpr double distance = 0.2;
@@ -418,7 +418,7 @@ TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
   frame.views.push_back(std::move(right.views[0]));
   const Frame seen = run_on("stereo-visibility", frame);
   const double near_disparity = fx * distance / 2, far_disparity = fx * distance / 4;
-  // In the right eye the screen ends here, and from here to there it hid the wall from the left one.
+  // In the right eye the screen ends here; the strip beyond it was hidden from the left eye.
   const double edge = cx - fx * distance / 4, hidden_to = edge + near_disparity - far_disparity;
   const Channel& shared = channel_of(seen, 1, "seen_by_both");
   for (int x = 0; x < width; ++x) {
@@ -433,7 +433,7 @@ TEST(Stereo, BothEyesSeeWhatNeitherScreenNorBorderHides) {
   EXPECT_GT(hidden_to - edge, 4);
 }
 
-/// A wall that both eyes see, whole pixels apart, and before it a box that the right one alone sees.
+/// A wall that both eyes see, whole pixels apart, and before it a box that only the right one sees.
 TEST_P(StereoAo, WhatOneEyeAloneSeesClosesForBoth) {
   constexpr int width = 120, height = 80, disparity = 5;
   constexpr double wall = 4;
@@ -520,8 +520,7 @@ TEST_P(StereoAo, APlaneIsOpenToEyesOfEveryPose) {
   }
 }
 
-/// The list's order and what lies beside a pixel in its row of lanes are of no matter.
-/// Of every variant; of the default hard case 13 asks the same.
+/// Neither the list's order nor a pixel's neighbours in its row of lanes matter. For every variant; hard case 13 tests the default.
 TEST_P(StereoAo, TheSameWithAnyNumberOfLanesAndEveryTime) {
   ONLY_IN_LONG_RUN();
   const Frame frame = captured("courtyard", 0.2);
@@ -536,7 +535,7 @@ TEST_P(StereoAo, TheSameWithAnyNumberOfLanesAndEveryTime) {
   }
 }
 
-/// Eyes a hair apart see what one does; eyes of which neither sees what the other does are two single ones.
+/// Eyes a hair apart see the same as one; two eyes that share no surface are two single ones.
 TEST_P(StereoAo, AnyDistanceBetweenTheEyesIsFine) {
   for (const double distance : {1e-6, 1e4}) {
     const Frame frame = captured("courtyard", distance), of_one = run_on(mono, frame);
@@ -582,8 +581,8 @@ Plan upsampled_one_by_one(Plan plan) {
   return plan;
 }
 
-/// Reduced pixels of the two eyes lie at unrelated places of a wall that stands whole pixels apart in them, and hold nothing in
-/// common: both eyes show the same mixture, to rounding.
+/// Reduced pixels of the two eyes have unrelated positions on a wall that is shifted by whole pixels between them, and hold
+/// unrelated values: both eyes still get the same mixture, except for rounding.
 TEST(Stereo, AWallThatBothEyesSeeIsUpsampledAlike) {
   constexpr int width = 128, height = 48;
   Shot shot = perspective(width, height);
@@ -614,8 +613,8 @@ TEST(Stereo, AWallThatBothEyesSeeIsUpsampledAlike) {
   }
 }
 
-/// Relative to full resolution, and to truth, each eye, relative to what each view gives by itself. Bounds of the inconsistency:
-/// 1.5 at half and 3 at quarter; measured .5 to .9.
+/// Compared with full resolution and with the truth, for each eye, and relative to upsampling each view by itself. Bounds of the
+/// inconsistency: 1.5 at half and 3 at quarter; measured .5 to .9.
 TEST_P(StereoAo, EyesAgreeAtALowerResolution) {
   constexpr int width = 320, height = 180;
   const gloam::Scene scene = load_scene("gallery", {});
@@ -644,7 +643,7 @@ TEST_P(StereoAo, EyesAgreeAtALowerResolution) {
   }
 }
 
-/// Of any variant whose eyes keep filters of their own nothing changes.
+/// For a variant whose eyes keep filters of their own nothing changes.
 TEST_P(StereoAo, WhatIsFilteredForOneEyeIsUpsampledForOne) {
   const Frame frame = captured("courtyard", 0.065);
   for (const int resolution : {2, 4}) {
@@ -658,7 +657,7 @@ TEST_P(StereoAo, WhatIsFilteredForOneEyeIsUpsampledForOne) {
   }
 }
 
-/// Lanes stay independent, and an eye that sees nothing leaves the other values that are AO.
+/// Lanes stay independent; if one eye sees nothing, the other still has valid AO.
 TEST(Stereo, UpsamplingFromBothIsTheSameWithAnyNumberOfLanes) {
   for (const double distance : {0.065, 1.0}) {
     Frame frame = captured("courtyard", distance, 101, 67);

@@ -1,4 +1,4 @@
-// Techniques over stochastic depth between the same over one depth and over all layers, on built-in scenes.
+// Techniques over stochastic depth lie between the same over one depth and over all layers, on built-in scenes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,7 +71,7 @@ TEST_P(StochasticDepthOn, ClosesTheGapToAllLayers) {
   EXPECT_GT(compensated, closed[4]);
 }
 
-/// What the early-out of the paper leaves out, and what the default one does: next to nothing.
+/// The effect of the paper's early-out, and of the default one: next to nothing.
 TEST_P(StochasticDepthOn, EarlyOutCostsLittle) {
   ONLY_IN_LONG_RUN();
   const double radius = load_scene(GetParam(), {}).ao_radius;
@@ -94,7 +94,7 @@ TEST_P(StochasticDepthOn, EarlyOutCostsLittle) {
   }
 }
 
-/// Nothing but background in the map: the same bits as without.
+/// Only background in the map: the same bits as without a map.
 TEST(StochasticDepth, EmptySamplesChangeNothing) {
   Frame frame = shoot(perspective(96, 64), room());
   for (const char* technique : {"ssao", "hbao", "hbao+", "gtao", "bitmask"}) {

@@ -1,6 +1,5 @@
-// A thin strip that stands before a wall: what lies beside it sees past it, and must not be shaded as if the strip were a
-// block that reaches down to the wall. The truth is the share of the cosine-weighted hemisphere that the strip covers
-// within the radius, in double.
+// A thin strip before a wall: points beside it see past it, and must not be shaded as if the strip were a block down to the wall.
+// The truth is the share of the cosine-weighted hemisphere that the strip covers within the radius, in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +18,7 @@ Scene strip_before_wall() {
   return nearest_of({within(tilted_plane(wall - height, 0, 0), half_width, half_length), tilted_plane(wall, 0, 0)});
 }
 
-/// How open the wall is `x` beside the strip's middle.
+/// AO of the wall at distance `x` from the strip's middle.
 double open_beside(double x) {
   constexpr int n = 800;
   double covered = 0;
@@ -35,7 +34,7 @@ double open_beside(double x) {
   return 1 - covered / (double(n) * n);
 }
 
-/// Mean of what a technique reads less the truth, on the wall from 0.1 to 0.5 beside the strip.
+/// Mean error of a technique on the wall from 0.1 to 0.5 beside the strip.
 double mean_error(const std::string& technique, const Settings& settings) {
   const Shot shot = perspective(440, 360);
   const Frame frame = shoot(shot, strip_before_wall());
@@ -64,7 +63,7 @@ TEST(ThinOccluder, DoesNotShadeLikeAWall) {
   std::printf(
       "beside a strip %.2f wide and %.2f before a wall: gtao %.4f off, bitmask %.4f, with a thickness of 0.05 %.4f\n",
       2 * half_width, height, horizon, sectors, thin);
-  // All below the horizon counts as closed: this is what the thickness is there to mend.
+  // Everything below the horizon counts as closed: the error that the thickness corrects.
   EXPECT_LT(horizon, -0.1);
   EXPECT_LT(std::abs(sectors), 0.6 * std::abs(horizon));
   EXPECT_LT(std::abs(thin), 0.2 * std::abs(horizon));

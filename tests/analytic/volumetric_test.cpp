@@ -1,7 +1,6 @@
-// Volumetric obscurance against the integral that its columns estimate, over surfaces known in closed form: over the disk
-// about the line to the eye, how much of each column of the half ball lies below what the screen shows there, to how long
-// the columns are. The kernel looks at pixel centres, which is an error of second order where a surface is smooth and of
-// first order around outlines.
+// Volumetric obscurance against the integral that its columns estimate, over surfaces in closed form: the part of each column of
+// the half ball that lies below the visible surface, over the length of the columns, on the disk about the line to the eye. The
+// kernel reads pixel centres: an error of second order on smooth surfaces and of first order around outlines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace gloam::test {
 namespace {
 
 constexpr double radius = 0.8;
-/// Of a case. With 14, two beside the ball are up to 2.1e-3 off (orthographic): the error around outlines.
+/// Pixels per case. With 14, two beside the ball are up to 2.1e-3 off (orthographic): the error around outlines.
 constexpr int pixels = 6;
 
 struct Model {
@@ -44,7 +43,7 @@ double integral(const IntegralCase& test, glm::ivec2 pixel, const Model& m) {
     const double low = std::max(0.0, middle - rise), high = std::max(0.0, middle + rise);
     whole += high - low;
     // Where the column passes the depth of the point.
-    const auto v = towards(test, here, place_of(test.shot, here.point + aside - to_eye * (aside.z / to_eye.z)));
+    const auto v = towards(test, here, pixel_of(test.shot, here.point + aside - to_eye * (aside.z / to_eye.z)));
     if (!v) continue;
     const double height = glm::dot(normal, *v) - m.bias * distance * radius;
     const double before = v->z / (m.range * radius);
@@ -67,7 +66,7 @@ TEST(VolumetricIntegral, OtherSettings) {
   expect_model(named(integral_case("ball over a plane, perspective", pixels), "short range"), {.range = 0.6});
 }
 
-/// Where the eye looks along a plane, some of its columns reach over its horizon: what is seen there lies far behind.
+/// If the eye looks along a plane, some columns reach over its horizon: the surface seen there lies far behind.
 TEST(VolumetricPlane, ReadsOpenAtTheHorizon) {
   const Scene hill = nearest_of({tilted_plane(3, 1.45, std::numbers::pi / 2), tilted_plane(40, 0, 0)});
   const Frame frame = shoot(perspective(160, 120), hill);

@@ -1,4 +1,4 @@
-// gloam auto: what a frame calls for, what is written either way, and what is refused.
+// gloam auto: the effects that a frame calls for, its output in both cases, and refusals.
 #include "cli/gloam_process.h"
 #include "support/long.h"
 #include "support/stress.h"
@@ -15,7 +15,7 @@ class CliAuto : public Cli {
     write_frame(path("frame.exr"), shoot(shot, scene));
     Arguments arguments = {"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    // What takes less may differ from run to run.
+    // Which way is faster may differ from run to run.
     if (std::find(more.begin(), more.end(), "--mask") == more.end())
       arguments.insert(arguments.end(), {"--mask", "always"});
     return gloam(arguments);
@@ -24,9 +24,9 @@ class CliAuto : public Cli {
     FrameFile file(path(name), {});
     return file.read({"ao", "ao_raw"});
   }
-  /// Of the first effect.
+  /// The first effect.
   Json effect_of(const Result& result) const { return result.json()["effects"][0]; }
-  /// The same planes as gloam run makes with these arguments.
+  /// Expects the planes that gloam run makes with these arguments.
   void expect_same_as_run(const Arguments& more) const {
     Arguments arguments = {"run", "bitmask", path("frame.exr"), "-o", path("run.exr")};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -102,7 +102,7 @@ TEST_F(CliAuto, TheHeaderSaysWhatMadeThePlanesAsRunDoes) {
     EXPECT_NE(out.text_attribute(name), "") << name;
     EXPECT_EQ(out.text_attribute(name), expected.text_attribute(name)) << name;
   }
-  // So that radii that differ are noted.
+  // Different radii, to be noted.
   Frame truth = FrameFile(path("run.exr"), {}).read({"ao", "depth"});
   truth.numbers["aoRadius"] = 0.4;
   write_frame(path("truth.exr"), truth);
@@ -133,7 +133,7 @@ TEST_F(CliAuto, SamplesAreTakenByTilesWhereThatIsAskedFor) {
   expect_same_as_run({"--radius", "0.2", "--preset", "high", "--only", "corner-mask", "--adaptive", "low"});
 }
 
-/// What the frame says of a refinement.
+/// The entry of a refinement.
 Json refinement(const Json& effect, const std::string& technique) {
   for (const Json& choice : effect["refinements"]) {
     if (choice["technique"] == technique) return choice;
@@ -167,7 +167,7 @@ TEST_F(CliAuto, HiddenLayersAreLookedAtWhereTheyMatter) {
   everywhere.insert(everywhere.end(), {"--set", "bias=0.02"});
   ASSERT_EQ(gloam(same).status, 0);
   EXPECT_EQ(difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).max, 0);
-  // What it leaves out is hardly anything of what hidden layers do.
+  // The pixels left out have hardly any occlusion by hidden layers.
   ASSERT_EQ(gloam(everywhere).status, 0);
   const double missed = difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).mean;
   ASSERT_EQ(gloam({"run", "bitmask", path("frame.exr"), "-o", path("run.exr"), "--set", "bias=0.02"}).status, 0);
@@ -176,7 +176,7 @@ TEST_F(CliAuto, HiddenLayersAreLookedAtWhereTheyMatter) {
 }
 
 TEST_F(CliAuto, WhatOnlyHiddenLayersTellIsNotOverlooked) {
-  // Nothing is seen to rise over anything: the pillar hides it (Figure 8 of Vermeer, Scandolo, Eisemann 2021).
+  // Nothing visible rises over anything: the pillar hides it (Figure 8 of Vermeer, Scandolo, Eisemann 2021).
   ASSERT_EQ(gloam({"capture", "pillar", "-o", path("frame.exr"), "--size", "320x180", "--stochastic", "4"}).status, 0);
   const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--mask", "always"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -201,7 +201,7 @@ TEST_F(CliAuto, LayersThatHideNothingAreNotLookedAt) {
                                "--mask", "always", "--set", "sd-bitmask.samples=1"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(effect_of(result)["runs"], "bitmask");
-  EXPECT_EQ(refinement(effect_of(result), "sd-bitmask")["why"], "nothing that the depth hides rises over what is seen");
+  EXPECT_EQ(refinement(effect_of(result), "sd-bitmask")["why"], "no hidden surface rises over a visible one");
   expect_same_as_run({"--radius", "0.2", "--only", "corner-mask"});
 }
 

@@ -176,7 +176,7 @@ TEST_F(Cli, FilesThatCannotBeRead) {
 }
 
 TEST_F(Cli, DamageInChannelsThatServeAsNoPlaneIsFound) {
-  // Values that compress: what does not is stored as it is, and any bits are a float.
+  // Compressible values: others are stored uncompressed, and any bits are a float.
   Frame frame = small_frame(256, 256, {"mystery"});
   Channel& channel = frame.views[0].planes["mystery"].channels[0];
   for (int y = 0; y < 256; ++y) {
@@ -258,8 +258,8 @@ TEST_F(Cli, OutputsThatCannotBeWritten) {
 TEST_F(Cli, AFullDiskLeavesTheOldFile) {
   write_frame(path("frame.exr"), small_frame(1000, 1000, {"depth"}));
   std::ofstream(path("ao.exr")) << "what was there";
-  // A limit on the size of files fails writes as a full disk does. What the driver writes while it compiles stays below
-  // it, the 12 MB of the output do not.
+  // A limit on the size of files fails writes like a full disk. The driver's own files stay below it, the 12 MB of the output do
+  // not.
   rlimit before;
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit tight{8000000, before.rlim_max};

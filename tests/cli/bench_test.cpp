@@ -1,4 +1,4 @@
-// gloam bench: what its document holds. Never how long anything took.
+// gloam bench: the contents of its document, but no times.
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <set>
@@ -88,7 +88,7 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
       EXPECT_GT(row[key], 0) << key;
     }
     EXPECT_LT(row["own_floor_ms"], row["ms"]["median"]);  // without the filter, it reads less
-    // So small an image may take longer for its gathers alone.
+    // In so small an image the gathers alone may take longer.
     const Arguments parts = spent_on(row), filter = {"bilateral/horizontal", "bilateral/vertical"};
     ASSERT_GT(parts.size(), 2u) << row["spent_on"];
     const Arguments estimate(parts.begin(), parts.end() - 2);
@@ -145,7 +145,7 @@ TEST_F(Cli, BenchMeasuresVariantsOfOnePreset) {
     EXPECT_TRUE(row["image"].is_null()) << variant;
     EXPECT_TRUE(row["ladder"]["t3"].is_null()) << variant;
   }
-  // What they change is seen: little of precision, much of resolution.
+  // Their effect shows: little for precision, much for resolution.
   const double error = row_of(document, "hbao+", "half")["rmse_to_truth"], full = plain["rmse_to_truth"];
   EXPECT_GT(std::abs(error - full), 1e-4);
   const double rounded = row_of(document, "hbao+", "half storage")["rmse_to_truth"];
@@ -182,7 +182,7 @@ TEST_F(Cli, BenchSweepsSettings) {
   EXPECT_EQ(row["image"], "images/plane/gtao_low_steps-9-directions-2.png");
   EXPECT_TRUE(fs::exists(path("out") / row["image"].get<std::string>()));
 
-  // What only some techniques have or allow is measured on those.
+  // Options that only some techniques have or allow are measured on those.
   const Result some = run({"--sweep", "steps=4,64", "--ladder", "all"});
   ASSERT_EQ(some.status, 0) << some.err;
   const Json one = some.json();
@@ -220,7 +220,7 @@ TEST_F(Cli, BenchDrawsWhatItMeasured) {
     EXPECT_EQ(wrong, 0) << name;
     EXPECT_GT(transparent, 0) << name;
   }
-  // The picture's mean error is the row's bias, as far as 8 bits tell.
+  // The picture's mean error is the row's bias, within 8 bits.
   const cv::Mat truth = read_png(path("out/images/hairball/truth.png")),
                 test = read_png(path("out/images/hairball/hbaoplus_low.png"));
   double sum = 0;
@@ -233,7 +233,7 @@ TEST_F(Cli, BenchDrawsWhatItMeasured) {
     }
   }
   EXPECT_NEAR(sum / count, (*find(document["results"], "low"))["bias"], 1e-3);
-  EXPECT_GT(std::abs(sum / count), 5e-3);  // else the line above says nothing
+  EXPECT_GT(std::abs(sum / count), 5e-3);  // else the line above tests nothing
 }
 
 TEST_F(Cli, BenchNamesNoMachine) {
@@ -241,7 +241,7 @@ TEST_F(Cli, BenchNamesNoMachine) {
   const std::string text = slurp(path("out/bench.json"));
   char host[256] = {};
   ASSERT_EQ(gethostname(host, sizeof host - 1), 0);
-  // A host may be called "x": then it is in any text.
+  // A host may be called "x": every text contains that.
   if (std::string(host).size() > 3) {
     EXPECT_EQ(text.find(host), std::string::npos);
   }
@@ -311,7 +311,7 @@ TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
     ladders[row["technique"].get<std::string>() + " " + row["preset"].get<std::string>()] = row["ladder"];
   ASSERT_EQ(ladders.size(), 4u);
   const Json &low = ladders["hbao+ low"], &high = ladders["hbao+ high"], &layered = ladders["dp-hbao+ low"];
-  EXPECT_GT(low["t0w"], 1e-3);          // it computes something else than the truth
+  EXPECT_GT(low["t0w"], 1e-3);          // its model differs from the truth
   EXPECT_GT(low["t2"], 1e-3);           // strands hide strands
   EXPECT_EQ(layered["t2"], 0);          // ... not from all layers
   EXPECT_GT(low["t3"], high["t3"]);     // more samples, less noise
@@ -403,7 +403,7 @@ TEST_F(Cli, BenchMeasuresGrowthOverThePeeledLayersThatAreRead) {
   const std::set<std::string> always = {"pixels", "samples", "radius", "views"};
   std::set<std::string> with_layers = always;
   with_layers.insert("layers");
-  EXPECT_EQ(growth_over({"--peel", "4"}), with_layers);  // stochastic depth is made of them
+  EXPECT_EQ(growth_over({"--peel", "4"}), with_layers);  // stochastic depth is made from them
   EXPECT_EQ(growth_over({"--stochastic", "4"}), always);
   EXPECT_EQ(growth_over({"--peel", "4", "--stochastic", "4"}), always);
 }
@@ -467,7 +467,7 @@ TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
     const Json document = result.json();
     return document["results"].at(0);
   };
-  EXPECT_TRUE(row("plain.exr")["ratio_to_naive"].is_number());  // normals are made of the depth
+  EXPECT_TRUE(row("plain.exr")["ratio_to_naive"].is_number());  // normals are made from the depth
   EXPECT_TRUE(row("plain.exr")["ratio_to_native"].is_number());
   EXPECT_TRUE(row("flat.exr")["ratio_to_naive"].is_null());
   EXPECT_TRUE(row("flat.exr")["ratio_to_gather_floor"].is_number());
@@ -489,7 +489,7 @@ TEST_F(Cli, BenchMeasuresOnTheFirstViewWhatMakesNoOther) {
   const Json document = result.json(), row = row_of(document, "multiview", ""),
              beside = row_of(document, "sd-hbao+", "");
   EXPECT_TRUE(document["skipped"].empty()) << document["skipped"];
-  // The same figures as of the image that gloam run makes, beside the truth of that view.
+  // The same figures as for the image of gloam run, with the truth of that view.
   ASSERT_EQ(
       gloam({"run", "multiview", path("two.exr"), "-o", path("ao.exr"), "--preset", "low", "--radius", "0.6"}).status,
       0);

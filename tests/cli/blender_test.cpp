@@ -56,7 +56,7 @@ void write_camera(const fs::path& path, const Camera& camera) {
                                         {"camera_to_world", matrix}};
 }
 
-/// The pass that Blender renders, or none where it does not.
+/// Blender's rendered pass, or none if it does not render.
 Channel blender_ao(const fs::path& folder, int seed) {
   const fs::path out = folder / ("blender_" + std::to_string(seed) + ".exr");
   const std::string command = fmt::format(
@@ -72,7 +72,7 @@ Channel blender_ao(const fs::path& folder, int seed) {
   return std::move(FrameFile(out, options).read({"ao"}).views[0].planes.at("ao").channels[0]);
 }
 
-/// Whether the pixel and its neighbours show one flat face: at edges the two sample another face now and then.
+/// Whether the pixel and its neighbours show one flat face: at edges the two programs sometimes sample different faces.
 bool is_inside_a_face(const View& view, int x, int y) {
   if (x == 0 || y == 0 || x == width - 1 || y == height - 1) return false;
   const std::vector<Channel>& n = view.planes.at("normal").channels;

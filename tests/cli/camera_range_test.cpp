@@ -1,4 +1,4 @@
-// Within the range of cameras and depths that is allowed (docs/gbuffer.md), every plane is finite; beyond it they are refused.
+// Within the allowed range of cameras and depths (docs/gbuffer.md), every plane is finite; outside it they are refused.
 #include <cmath>
 
 #include "gloam/error.h"

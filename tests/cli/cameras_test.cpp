@@ -1,4 +1,4 @@
-// Cameras, views and pixels as foreign files have them: what is told, what flags overrule, and what names may not do.
+// Cameras, views and pixels of foreign files: what is reported, what flags override, and limits on names.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -51,7 +51,7 @@ class ForeignCameras : public Cli {
     return header.typedAttribute<Imf::M44fAttribute>(name).value();
   }
 
-  /// One part for each name, with the channels given, all of one value that differs from part to part.
+  /// One part per name, with the given channels, all of one value that differs between parts.
   void write_parts(const std::string& name, const std::vector<std::string>& parts,
                    const std::vector<std::string>& channels) const {
     const int width = 32, height = 18;
@@ -158,7 +158,7 @@ TEST_F(ForeignCameras, PixelsThatAreNotSquareAreHonouredAndKept) {
     Arguments arguments = {"info", file("wide.exr"), "--json", "-"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     const Json camera = gloam(arguments).json().at("camera");
-    if (flags.empty() && camera.is_null()) continue;  // only assumed: info tells it where it is used
+    if (flags.empty() && camera.is_null()) continue;  // assumed: info reports it only if it is used
     EXPECT_NEAR(double(camera.at("fy")), 2 * double(camera.at("fx")), 1e-6);
   }
   for (const Arguments& command :

@@ -237,7 +237,7 @@ TEST_F(CaptureCommand, RefusesInOneLine) {
   expect_refused({"capture", "plane", "-o", file("x.exr"), "--eye", "0,0,1", "--target", "0,0,1"}, 2, "same point");
 }
 
-// What Embree asserts on, and would end the program.
+// Cameras for which Embree would fail an assertion and end the program.
 TEST_F(CaptureCommand, CamerasAtTheEdgeOfWhatCanBe) {
   EXPECT_EQ(
       gloam({"capture", "plane", "-o", file("a.exr"), "--size", "8x8", "--eye", "0,5e-200,0", "--target", "0,0,0"})

@@ -1,5 +1,5 @@
-// Real frames, written by a renderer: the main job with no flag but the radius.
-// The captures lie beside the project on machines that have them; elsewhere these tests are skipped.
+// Real frames of a renderer: gloam's main job with the radius as the only flag. The captures lie beside the project on some
+// machines; elsewhere these tests are skipped.
 #include "cli/gloam_process.h"
 
 namespace gloam::test {
@@ -32,7 +32,7 @@ TEST_F(CaptureCli, Kitchen) {
   ASSERT_EQ(gloam({"run", "hbao+", frame, "-o", path("ao.exr"), "--radius", "0.3"}).status, 0);
   const Json figures = compare(path("ao.exr"), captures / "kitchen/kitchen_ao_ref.exr");
   RecordProperty("rmse", std::to_string(double(figures["rmse"])));
-  EXPECT_LT(figures["rmse"], 0.21);  // a white image reads 0.272
+  EXPECT_LT(figures["rmse"], 0.21);  // a white image has 0.272
 }
 
 TEST_F(CaptureCli, ARadiusOtherThanTheTruthsIsSaid) {
@@ -54,11 +54,11 @@ TEST_F(CaptureCli, BothEyesOfTheApartment) {
   for (const char* eye : {"left", "right"}) {
     const Json figures = compare(path("ao.exr"), folder / (std::string("apartment_stereo_ao_ref_") + eye + ".exr"));
     RecordProperty(std::string("rmse_") + eye, std::to_string(double(figures["rmse"])));
-    EXPECT_LT(figures["rmse"], 0.17) << eye;  // a white image reads 0.206; the other eye's truth 0.181
+    EXPECT_LT(figures["rmse"], 0.17) << eye;  // a white image has 0.206; the other eye's truth 0.181
   }
 }
 
-/// Straight-edged patches stood there, as wide as the radius, along the borders of the images.
+/// Formerly, straight-edged patches as wide as the radius appeared along the borders of the images.
 TEST_F(CaptureCli, EyesLookTwiceWhereTheRadiusReachesOverTheBorder) {
   const fs::path frame = captures / "apartment_stereo/apartment_stereo_exact.exr";
   for (const char* primary : {"left", "right"}) {

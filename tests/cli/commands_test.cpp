@@ -1,4 +1,4 @@
-// Good use of every command: what it prints, what its JSON holds, what it writes.
+// Correct use of every command: its output, its JSON, its files.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -139,7 +139,7 @@ TEST_F(Cli, WhatTechniquesMakeWhenAskedIsTold) {
   EXPECT_NE(help.find("cosine of the half angle"), std::string::npos) << help;
 }
 
-/// As pages that show Markdown make them: what is no letter, digit or hyphen goes, and what is taken is numbered.
+/// Anchors as Markdown viewers make them: only letters, digits and hyphens stay, and repeated anchors are numbered.
 TEST_F(Cli, LinksOnThePageOfTechniquesLeadToTheirSections) {
   std::istringstream page(gloam({"list", "techniques", "--markdown"}).out);
   std::map<std::string, std::string> links, sections;  // by technique
@@ -229,7 +229,7 @@ TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {
   EXPECT_TRUE(color_skipped);
 }
 
-// The plane that a filter makes is asked of the technique before the filter too.
+// A plane made by a filter can be planned by the technique before the filter, too.
 TEST_F(Cli, APlaneCanBePlannedAsTheTechniqueThatMakesIt) {
   const auto plan = [&](const Arguments& more) {
     Arguments arguments = {"plan", "ao", loggia, "--json", "-"};
@@ -290,7 +290,7 @@ TEST_F(Cli, RunWritesFilteredAndRawAo) {
       }
     }
   }
-  EXPECT_LT(filtered, 0.8 * raw);  // the filter took noise out
+  EXPECT_LT(filtered, 0.8 * raw);  // the filter removed noise
 }
 
 TEST_F(Cli, ParametersAreFlags) {
@@ -311,7 +311,7 @@ TEST_F(Cli, ParametersAreFlags) {
   EXPECT_NE(by_set, ao({"--radius", "0.5"}));
   EXPECT_NE(by_set, ao({"--radius", "0.25", "--normal-tolerance=0.3", "--seed", "1"}));
   EXPECT_NE(by_set, ao({"--radius", "0.25", "--preset", "low"}));
-  // A follower inherits the radius of what it follows, unless it is named itself.
+  // A follower inherits the radius of its technique, unless a setting names the follower.
   EXPECT_EQ(ao({"--set", "hbao+.radius=0.25"}), ao({"--radius", "0.25"}));
   EXPECT_NE(ao({"--set", "hbao+.radius=0.25", "--set", "bilateral.radius=0.01"}), ao({"--radius", "0.25"}));
 }
@@ -353,11 +353,11 @@ TEST_F(Cli, CompareWithTheTruth) {
   for (const char* key : {"pixels", "mae", "rmse", "bias", "psnr", "max", "over_1_255", "over_0_05", "ssim", "gmsd"})
     EXPECT_TRUE(figures.contains(key)) << key;
   EXPECT_NEAR(double(figures["pixels"]), 480 * 270 * (1 - 0.0913), 100);
-  EXPECT_LT(figures["rmse"], 0.2);  // a white image reads 0.26
+  EXPECT_LT(figures["rmse"], 0.2);  // a white image has 0.26
   EXPECT_EQ(slurp(path("difference.png")).substr(1, 3), "PNG");
 }
 
-// Beside either AO lies the depth that it was made from, the same in both files.
+// Both AO files also hold the depth that the AO was made from.
 TEST_F(Cli, UnfilteredAoIsComparedWithTheTruthsAo) {
   const std::string raw = path("raw.exr"), both = path("both.exr");
   ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", raw, "--filter", "none"}).status, 0);
@@ -436,7 +436,7 @@ TEST_F(Cli, WhatIsMeasuredIsWhatTheFileHolds) {
   EXPECT_EQ(info["planes"][0]["max"], 1.5);
 }
 
-/// AO that lists two views and does not say which it is, as references rendered eye by eye do.
+/// AO that lists two views and does not state which one it is, as in references rendered eye by eye.
 void write_unnamed_eye(const fs::path& path, float value) {
   Imf::Header header(32, 24);
   header.channels().insert("AO", Imf::Channel(Imf::FLOAT));
@@ -569,7 +569,7 @@ TEST_F(Cli, WindowsOfOneSizeMayStartElsewhere) {
   EXPECT_EQ(gloam({"compare", path("a.exr"), path("b.exr"), "--json", "-"}).json()["rmse"], 0);
 }
 
-// As `gloam run` writes them, each has the depth beside it that it was made from.
+// As written by `gloam run`, each file also holds the depth that the AO was made from.
 TEST_F(Cli, CompareTakesAResultBeforeTheDepthBesideIt) {
   for (const char* result : {"ao", "ao_raw", "reflection", "bent_normal", "cone", "hit", "mask", "outline_count"}) {
     Frame frame = shoot(perspective(48, 32), room(), false);

@@ -1,4 +1,4 @@
-// What a shell completes after `gloam`, asked of bash with the script that the command writes.
+// Shell completion of `gloam`, tested in bash with the script that the command writes.
 #include "cli/gloam_process.h"
 
 namespace gloam::test {
@@ -54,7 +54,7 @@ TEST_F(Completion, OffersFilesOfTheEndingThatIsTaken) {
   EXPECT_EQ(offered("gloam run gtao frame.exr --picture fram"), "frame.png");
 }
 
-/// A flag of the table that goes by another name would be completed by nothing.
+/// A flag of the table that is known by another name would get no completion.
 TEST_F(Completion, KnowsTheValuesOfEveryFlagThatHasAFewOnly) {
   const std::string bash = gloam({"completion", "bash"}).out;
   for (const char* flag : {"run:--resolution", "run:--depth", "run:--normal-space", "run:--lanes", "run:--math",

@@ -1,4 +1,4 @@
-// One technique is what `ao` stands for: in run, plan, auto, the list, the README and the demo.
+// `ao` stands for one technique everywhere: in run, plan, auto, the list, the README and the demo.
 #include <regex>
 
 #include "cli/gloam_process.h"
@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::json;
 using DefaultTechnique = Cli;
 
-/// The technique of the first command of a text that begins so.
+/// The technique of the first command of a text with this beginning.
 std::string first_run_in(const std::string& text) {
   std::smatch found;
   return std::regex_search(text, found, std::regex("gloam\"? run ([a-z0-9+-]+)")) ? found[1].str() : "";

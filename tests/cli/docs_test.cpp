@@ -1,4 +1,4 @@
-// Pages of docs/ say what the program says.
+// Generated pages of docs/ agree with the program.
 #include "cli/gloam_process.h"
 
 namespace gloam::test {

@@ -1,4 +1,4 @@
-// Runs the gloam binary as a user would, and looks at what it said, returned and left behind.
+// Runs the gloam binary as a user would, and gives its output, status and files.
 #pragma once
 
 #include <fcntl.h>
@@ -29,7 +29,7 @@ struct Result {
   int status = -1;  ///< exit status; 128 + signal when a signal ended it
   std::string out, err;
   nlohmann::json json() const { return nlohmann::json::parse(out); }
-  /// Without what reading more files or drawing changes: the memory that it takes.
+  /// The document without the memory, which changes with the number of files and pictures.
   nlohmann::json findings() const {
     nlohmann::json document = json();
     document.erase("memory_bytes");
@@ -45,13 +45,13 @@ inline std::string slurp(const fs::path& path) {
   return text.str();
 }
 
-/// What a run may take. It is refused memory beyond, and ended after so many seconds.
+/// Limits on a run: memory beyond is refused, and the run is ended after this many seconds.
 struct Limits {
   rlim_t address_space = RLIM_INFINITY;  ///< bytes
-  unsigned seconds = 500;                ///< before ctest's own limit, so that what it said is still shown
+  unsigned seconds = 500;                ///< below ctest's own limit, so that the output is still shown
 };
 
-/// Two at most: each thread takes room for its stack and its allocations, on a machine of many cores most of a gibibyte.
+/// At most two cores: each thread takes memory for its stack and its allocations, on a machine with many cores most of a gibibyte.
 inline void leave_two_cores() {
   cpu_set_t allowed, two;
   CPU_ZERO(&two);
@@ -62,7 +62,7 @@ inline void leave_two_cores() {
   setenv("POCL_MAX_PTHREAD_COUNT", "2", 1);
 }
 
-/// In the process to be limited. The address sanitizer and its like map terabytes for themselves, and take their time.
+/// Called in the process to be limited. Sanitizers map terabytes for themselves, and take their time.
 inline void limit_this_process(const Limits& limits) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   alarm(500);
@@ -91,7 +91,7 @@ class Cli : public ::testing::Test {
               const Limits& limits = {}) const {
     const pid_t child = fork();
     if (child != 0) return child;
-    signal(SIGINT, SIG_DFL);  // a shell has its background jobs ignore it, and what they start inherits that
+    signal(SIGINT, SIG_DFL);  // a shell lets its background jobs ignore it, which their children inherit
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     dup2(open(path("stdout").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
     dup2(open(path("stderr").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
@@ -117,7 +117,7 @@ class Cli : public ::testing::Test {
     return finish(start(arguments, {}, limits));
   }
 
-  /// Everything in the folder but the captured output.
+  /// Everything in the folder except the captured output.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder)) {

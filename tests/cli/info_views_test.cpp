@@ -45,8 +45,8 @@ class InfoViews : public Cli {
   }
 };
 
-/// Where a run of ten such pixels first begins; (-1, -1) where none is.
-std::pair<int, int> place_of(const Picture& picture, const Pixel& colour) {
+/// Position of the first run of ten pixels of a colour; (-1, -1) if there is none.
+std::pair<int, int> find_run(const Picture& picture, const Pixel& colour) {
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0, run = 0; x < picture.width; ++x) {
       run = picture.at(x, y) == colour ? run + 1 : 0;
@@ -67,20 +67,20 @@ TEST_F(InfoViews, SheetShowsTheFirstResultOfAllViews) {
   EXPECT_EQ(files(), (std::vector<std::string>{"sheet.png", "views.exr"}));
   const Picture p = read_png(path("sheet.png"));
   std::vector<std::pair<int, int>> places;
-  for (const Pixel& grey : greys) places.push_back(place_of(p, grey));
+  for (const Pixel& grey : greys) places.push_back(find_run(p, grey));
   EXPECT_GT(places[1].first, places[0].first + 480);  // two columns
   EXPECT_EQ(places[1].second, places[0].second);
   EXPECT_EQ(places[2].first, places[0].first);
   EXPECT_GT(places[2].second, places[0].second + 270);
-  EXPECT_EQ(place_of(p, red), nowhere);
+  EXPECT_EQ(find_run(p, red), nowhere);
 }
 
 TEST_F(InfoViews, WhatNamesThePlane) {
   ASSERT_EQ(info({"--sheet", path("sheet.png"), "--scan-line", path("line.png"), "--what", "color"}).status, 0);
   for (const char* name : {"sheet.png", "line.png"}) {
     const Picture p = read_png(path(name));
-    EXPECT_NE(place_of(p, red), nowhere) << name;
-    for (const Pixel& grey : greys) EXPECT_EQ(place_of(p, grey), nowhere) << name;
+    EXPECT_NE(find_run(p, red), nowhere) << name;
+    for (const Pixel& grey : greys) EXPECT_EQ(find_run(p, grey), nowhere) << name;
   }
 }
 
@@ -90,7 +90,7 @@ TEST_F(InfoViews, ScanLineShowsTheMiddleRowOrTheOneAskedFor) {
     all.insert(all.end(), arguments.begin(), arguments.end());
     const Result result = info(all);
     EXPECT_EQ(result.status, 0) << result.err;
-    return place_of(read_png(path("line.png")), {row, row, row}) != nowhere;
+    return find_run(read_png(path("line.png")), {row, row, row}) != nowhere;
   };
   EXPECT_TRUE(shows_row({}, 27));
   EXPECT_FALSE(shows_row({}, 26));
@@ -99,20 +99,20 @@ TEST_F(InfoViews, ScanLineShowsTheMiddleRowOrTheOneAskedFor) {
   const Picture p = read_png(path("line.png"));
   int above = 0;
   for (const Pixel& grey : greys) {
-    EXPECT_GT(place_of(p, grey).second, above);
-    above = place_of(p, grey).second + 100;  // three lines of 107
+    EXPECT_GT(find_run(p, grey).second, above);
+    above = find_run(p, grey).second + 100;  // three lines of 107
   }
 }
 
 TEST_F(InfoViews, ViewsAreThoseSelectedInTheirOrder) {
   ASSERT_EQ(info({"--scan-line", path("line.png"), "--views", "right,left"}).status, 0);
   const Picture p = read_png(path("line.png"));
-  EXPECT_EQ(place_of(p, greys[1]), nowhere);
-  EXPECT_EQ(place_of(p, greys[0]).second, place_of(p, greys[2]).second + 160);
+  EXPECT_EQ(find_run(p, greys[1]), nowhere);
+  EXPECT_EQ(find_run(p, greys[0]).second, find_run(p, greys[2]).second + 160);
   ASSERT_EQ(info({"--sheet", path("sheet.png"), "--view", "middle"}).status, 0);
   const Picture one = read_png(path("sheet.png"));
-  EXPECT_NE(place_of(one, greys[1]), nowhere);
-  EXPECT_EQ(place_of(one, greys[0]), nowhere);
+  EXPECT_NE(find_run(one, greys[1]), nowhere);
+  EXPECT_EQ(find_run(one, greys[0]), nowhere);
 }
 
 TEST_F(InfoViews, FramesOfOneViewAreDrawnToo) {
@@ -124,7 +124,7 @@ TEST_F(InfoViews, FramesOfOneViewAreDrawnToo) {
 TEST_F(InfoViews, InputsAreTakenWhereThereIsNoResult) {
   write_frame(path("inputs.exr"), small_frame(96, 54, {"depth", "color", "normal"}));
   ASSERT_EQ(gloam({"info", path("inputs.exr"), "--sheet", path("sheet.png")}).status, 0);
-  EXPECT_NE(place_of(read_png(path("sheet.png")), {188, 188, 188}), nowhere);  // half the light, through sRGB
+  EXPECT_NE(find_run(read_png(path("sheet.png")), {188, 188, 188}), nowhere);  // half the light, through sRGB
 }
 
 TEST_F(InfoViews, StandBesideTheOtherForms) {
@@ -161,7 +161,7 @@ TEST_F(InfoViews, APlaneThatSomeViewLacksIsNamed) {
   write_frame(path("views.exr"), frame);
   expect_refused({"--sheet", path("x.png"), "--what", "ao"}, 1, {"--what ao", "view 'middle' has no ao", "--views"});
   ASSERT_EQ(info({"--sheet", path("x.png")}).status, 0);
-  EXPECT_NE(place_of(read_png(path("x.png")), red), nowhere);
+  EXPECT_NE(find_run(read_png(path("x.png")), red), nowhere);
 }
 
 TEST_F(InfoViews, FilesWithoutAKnownPlaneAreRefused) {

@@ -1,5 +1,5 @@
-// A driver that ends the process: damaged compiled kernels, no linker, no memory. PoCL's kernels alone lie in files that can be
-// damaged; the build with sanitizers has no handlers of its own for it.
+// A driver that ends the process: damaged compiled kernels, no linker, no memory. Only PoCL's kernels are in files that can be
+// damaged; the build with sanitizers has no handlers of its own for this.
 #include <random>
 
 #include "cli/gloam_process.h"
@@ -7,7 +7,7 @@
 namespace gloam::test {
 namespace {
 
-/// Calls for PoCL; other drivers keep nothing in POCL_CACHE_DIR.
+/// Needs PoCL; other drivers keep nothing in POCL_CACHE_DIR.
 class KernelCache : public Cli {
  protected:
   void SetUp() override {
@@ -98,7 +98,7 @@ TEST_F(KernelCache, NoLinkerIsSaid) {
   EXPECT_EQ(files(), (std::vector<std::string>{"cold.exr"}));
 }
 
-/// The compiler's exception went through the driver, whose locks stayed taken: the program waited for ever.
+/// The compiler's exception used to pass through the driver, whose locks stayed taken, and the program waited for ever.
 TEST_F(KernelCache, TooLittleMemoryToCompileEndsAtOnce) {
   int refused = 0;
   for (const rlim_t megabytes : {600, 640, 680, 720, 760, 800}) {

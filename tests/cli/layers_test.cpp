@@ -1,4 +1,4 @@
-// Peeled layers at the command line: what is told of them, decoded, and refused.
+// Peeled layers at the command line: reports, decoding, refusals.
 #include "cli/gloam_process.h"
 #include "gloam/planes.h"
 #include "support/stress.h"
@@ -49,7 +49,7 @@ TEST_F(Cli, WithoutLayersTheErrorTellsHowToGetThem) {
   EXPECT_EQ(gloam({"info", path("frame.exr"), "--json", "-"}).json()["lacks"]["dp-hbao+"], Json({"peel"}));
 }
 
-/// What is least to do is said first, and what does as well after it.
+/// The cheapest remedy comes first, and the alternative after it.
 TEST_F(Cli, WithoutLayersStochasticDepthIsAskedForByItsOwnName) {
   write_frame(path("frame.exr"), layered(0));
   for (const char* technique : {"sd-hbao+", "sd-ssao", "multiview"}) {

@@ -1,4 +1,4 @@
-// Light-field displays from the command line: captured, computed, compared, and what is refused.
+// Light-field displays from the command line: capturing, computing, comparing, and refusals.
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 
@@ -66,7 +66,7 @@ TEST_F(Display, SomeModulesAndAnotherSize) {
   EXPECT_EQ(result.json()["size"], (nlohmann::json{32, 24}));
   FrameFile some(file("F.exr"), {});
   EXPECT_EQ(some.views(), (Arguments{"module00", "module03", "module04", "module05"}));
-  // They show what they show among all.
+  // Their images are the same as among all modules.
   expect_captured("all.exr", {"--size", "32x24"});
   const Frame a = some.read({"depth"}), b = FrameFile(file("all.exr"), {.views = some.views()}).read({"depth"});
   for (size_t i = 0; i < 4; ++i) {
@@ -88,7 +88,7 @@ TEST_F(Display, AFileForEachModule) {
   EXPECT_NEAR(alone.camera("module04")->slits->module.x, 0.18, 1e-12);
 }
 
-/// The middle observer sees what the camera would.
+/// The middle observer sees the camera's image.
 TEST_F(Display, ShowsWhatACameraFrames) {
   write("cam.json", one_camera);
   expect_captured("F.exr", {"--camera", file("cam.json"), "--modules", "2"});
@@ -112,7 +112,7 @@ TEST_F(Display, RunWithReuseAndCompare) {
   EXPECT_EQ(views["lightfield-ssao/newly visible"], views["lightfield-ssao/reuse"]);
   const size_t last = said["passes"].size() - 1;
   EXPECT_EQ(said["passes"][last]["view"], "module05") << "in the order of the views";
-  // Of the result alone: it has depths and cameras.
+  // From the result alone: it has depths and cameras.
   const Result compared = gloam({"compare", "--stereo", file("O.exr"), "--views", "module02,module03", "--json", "-"});
   ASSERT_EQ(compared.status, 0) << compared.err;
   EXPECT_EQ(compared.json()["views"], (nlohmann::json{"module02", "module03"}));
@@ -120,7 +120,7 @@ TEST_F(Display, RunWithReuseAndCompare) {
   EXPECT_LT(compared.json()["inconsistency"]["mean"], 0.05);
 }
 
-/// Of many views each pass has one line.
+/// With many views each pass has one line.
 TEST_F(Display, TimesAreSummedOverManyViews) {
   expect_captured("F.exr");
   const Result all = gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--set", "reuse=on"});
@@ -166,7 +166,7 @@ TEST_F(Display, InfoSaysWhichDisplayAndWhatRuns) {
   EXPECT_NE(each.out.find("lacks  hbao+: cameras with one eye"), std::string::npos) << each.out;
 }
 
-/// What is called for is AO by a technique that sees such views; reflections have none.
+/// AO is called for, by a technique that supports such views; reflections have none.
 TEST_F(Display, AutoComputesWhatItsViewsAllow) {
   expect_captured("F.exr");
   const Result result = gloam({"auto", file("F.exr"), "-o", file("O.exr"), "--json", "-"});
@@ -196,7 +196,7 @@ TEST_F(Display, ReferenceAndItsError) {
   EXPECT_LT(error_of("0.6"), 0.75 * error_of("0")) << "without a radius nothing is occluded";
 }
 
-/// Their samples are where a camera with an eye would see them.
+/// Other techniques need a single centre of projection.
 TEST_F(Display, OtherTechniquesRefuseItsViews) {
   expect_captured("F.exr", {"--modules", "1-3"});
   for (const char* technique : {"hbao+", "gtao", "ssao", "normals", "corner-mask"})
@@ -207,10 +207,10 @@ TEST_F(Display, OtherTechniquesRefuseItsViews) {
   for (const char* depth : {"ray", "ndc", "reversed"})
     expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--depth", depth}, 2,
                    {"F.exr", "--depth"});
-  // One that could has no normals, and what would make them cannot.
+  // A technique that could run lacks normals, which cannot be made from such views.
   expect_refused({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--plane", "normal=none"}, 1,
                  {"lightfield-ssao", "normals needs one", "a frame with normal"});
-  // Nor can what is asked for beside it.
+  // Nor can other requests be met.
   const auto beside = [&](const Arguments& more, const std::string& what) {
     Arguments all = {"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr")};
     all.insert(all.end(), more.begin(), more.end());
@@ -222,7 +222,7 @@ TEST_F(Display, OtherTechniquesRefuseItsViews) {
   beside({"--adaptive", "low"}, "what --resolution or --adaptive adds");
 }
 
-/// A plane says where, and no eye is needed for that.
+/// A plane as mask needs no single centre of projection.
 TEST_F(Display, OnlyWhereAPlaneWantsIt) {
   expect_captured("F.exr", {"--modules", "1"});
   ASSERT_EQ(gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--only", "roughness"}).status, 0);

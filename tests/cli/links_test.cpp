@@ -1,4 +1,4 @@
-// Links of the written pages lead somewhere: to a file of the tree, and where they name one, to a heading of that page.
+// Links of the written pages lead to an existing file, and if they name a heading, to an existing one.
 #include <regex>
 #include <set>
 
@@ -7,7 +7,7 @@
 namespace gloam::test {
 namespace {
 
-/// A Markdown page without what no reader can click: fenced blocks, and code within a line.
+/// A Markdown page without the parts that are not links: fenced blocks, and code within a line.
 std::string without_code(const std::string& page) {
   static const std::regex code("`[^`]*`");
   std::istringstream lines(page);
@@ -22,7 +22,7 @@ std::string without_code(const std::string& page) {
   return text;
 }
 
-/// The anchor that GitHub gives a heading: letters in lower case, blanks as hyphens; of the rest only digits, hyphens and
+/// The anchor that GitHub gives a heading: letters in lower case, blanks as hyphens; of other characters only digits, hyphens and
 /// underscores stay. A link in a heading counts as its text.
 std::string anchor_of(const std::string& heading) {
   static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
@@ -35,7 +35,7 @@ std::string anchor_of(const std::string& heading) {
   return anchor;
 }
 
-/// Of headings with the same text, the second has "-1" after its anchor, the third "-2".
+/// Of headings with the same text, the second gets "-1" after its anchor, the third "-2".
 std::set<std::string> anchors_of(const std::string& page) {
   static const std::regex form(R"(#{1,6} +(.*?) *)");
   std::set<std::string> anchors;
@@ -53,7 +53,7 @@ std::set<std::string> anchors_of(const std::string& page) {
   return anchors;
 }
 
-/// Targets of links and images; those of other sites are left out.
+/// Targets of links and images, without those of other sites.
 std::vector<std::string> relative_links(const std::string& page) {
   const std::string text = without_code(page);
   static const std::regex link(R"(\]\(([^)\s]+)[^)]*\))");
@@ -65,7 +65,7 @@ std::vector<std::string> relative_links(const std::string& page) {
   return targets;
 }
 
-/// What is wrong with a link, or nothing.
+/// The fault of a link; empty if there is none.
 std::string fault_of(const fs::path& page, const std::string& target) {
   const std::size_t hash = target.find('#');
   const std::string file = target.substr(0, hash);

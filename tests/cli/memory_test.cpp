@@ -1,4 +1,4 @@
-// What a command is going to take is told before it takes it, refused where it is too much, and near to what it does take.
+// A command's memory is estimated beforehand, refused if it is too much, and close to the actual peak.
 #include "gloam_process.h"
 
 namespace gloam::test {
@@ -22,7 +22,7 @@ class Memory : public Cli {
       planes_bytes += plane.channels.size() * Layout(size, size).bytes();
   }
 
-  /// Runs gloam, and measures its peak.
+  /// Runs gloam, and measures its peak memory.
   double peak_of(const Arguments& arguments) {
     const pid_t child = start(arguments);
     int status = 0;

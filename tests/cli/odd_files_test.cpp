@@ -1,4 +1,4 @@
-// Pipes in place of files, folders that cannot be written, drivers that cannot be loaded, images that hold no number.
+// Pipes instead of files, folders that cannot be written, drivers that cannot be loaded, images without a finite value.
 #include <sys/stat.h>
 
 #include <limits>
@@ -17,7 +17,7 @@ class OddFiles : public Cli {
   }
 };
 
-/// A command that waits for the pipe's other end is ended by the limit, with another status.
+/// A command that waited for the pipe's other end would be ended by the limit, with another status.
 TEST_F(OddFiles, PipesAreRefusedAtOnce) {
   for (const char* name : {"scene.obj", "scene.gltf", "scene.glb", "camera.json", "display.json", "frame.exr"})
     ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);

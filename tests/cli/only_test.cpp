@@ -1,4 +1,4 @@
-// --only at the command line: what is planned, said, written and refused.
+// --only at the command line: plans, messages, files and refusals.
 #include "cli/gloam_process.h"
 #include "support/stress.h"
 
@@ -68,7 +68,7 @@ TEST_F(CliOnly, TheMaskItselfIsAnEstimateThatTheFilterSmooths) {
   for (int x = 20; x < 40; ++x) least = std::min(least, ao.at(x, 30));
   EXPECT_GE(least, 0.75f);
   EXPECT_LT(least, 0.8f);
-  // Somewhere around the border there are values between both.
+  // Somewhere around the border there are intermediate values.
   int between = 0;
   for (int y = 15; y < 45; ++y) {
     for (int x = 25; x < 55; ++x) between += ao.at(x, y) > 0.76f && ao.at(x, y) < 0.99f;

@@ -15,7 +15,7 @@ class OutlineCapture : public Cli {
     return frame.views[view].planes.at("outline_count").channels[0].at(x, y);
   }
 
-  /// Capture of a scene with these flags fails by a usage error of one line that says so, and leaves nothing behind.
+  /// Expects a usage error of one line that contains `says`, and no files.
   void expect_refused(const Arguments& flags, const std::string& says) const {
     Arguments arguments = {"capture", "pillar", "-o", file("f.exr"), "--size", "64x36"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -61,16 +61,16 @@ TEST_F(OutlineCapture, NoneUnlessAskedFor) {
   EXPECT_TRUE(std::find(planes.begin(), planes.end(), "outline_count") == planes.end());
 }
 
-/// A box of 2 x 1 x 1 half extents, in a file: how far its outline reaches tells the methods apart.
+/// A box of 2 x 1 x 1 half extents, in a file: the extent of its outline tells the methods apart.
 TEST_F(OutlineCapture, MethodsOnAMeshFile) {
   std::ofstream(path("box.obj"))
       << "v -2 -1 -1\nv 2 -1 -1\nv 2 1 -1\nv -2 1 -1\nv -2 -1 1\nv 2 -1 1\nv 2 1 1\nv -2 1 1\n"
          "o box\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n"
          "v -2 1.3 -1\nv 2 1.3 -1\nv 2 1.3 1\nv -2 1.3 1\n"
          "o lid\nf 9 12 11 10\n";
-  // The underside of a lid 0.3 above the box, which faces down: in the box's outline where that is thicker. (The lid
-  // faces up, so that its own outline is not met.) Along normals the ray comes in where faces have come apart: it is in
-  // the outline, and does not count.
+  // The underside of a lid 0.3 above the box faces down: it is in the box's outline if that is thicker. (The lid's other side
+  // faces up, so that its own outline is not met.) With method normal the ray enters where faces have come apart: it is in the
+  // outline, but does not count.
   const std::vector<std::tuple<std::string, std::string, float>> expected = {
       {"integrated", "0.5", 0}, {"integrated", "0.6", 1}, {"scaling", "0.5", 0},
       {"scaling", "0.7", 1},    {"normal", "0.2", 0},     {"normal", "0.4", 0}};

@@ -46,7 +46,7 @@ TEST_F(Cli, APaperIsMeasuredAgain) {
   EXPECT_TRUE(std::filesystem::exists(path("paper/vermeer2021.md")));
 }
 
-/// What a row of a table starts with, by column.
+/// Sums over rows of a table with this beginning, by column.
 std::map<std::string, double> sums(const Json& document, const std::string& table, const std::string& start,
                                    const std::string& except) {
   std::map<std::string, double> sums;
@@ -67,7 +67,7 @@ std::map<std::string, std::map<std::string, double>> values_of(const Json& docum
   return values;
 }
 
-/// How many pixels of the left and of the right half are purple: what does not count, over white.
+/// Numbers of purple pixels, which do not count, in the left and in the right half, over white.
 std::pair<int, int> purple_halves(const Picture& picture) {
   std::pair<int, int> halves;
   for (int y = 0; y < picture.height; ++y) {
@@ -87,11 +87,11 @@ TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
   const Json document = result.json();
   EXPECT_EQ(document["rays"], 100);
 
-  // Of one round the passes add up to the total: all rows of a column have the same runs, and each pass its own eye.
+  // In one round the passes add up to the total: all rows of a column share their runs, and each pass has its own eye.
   std::map<std::string, Json> totals;
   for (const Json& row : document["paper"]) {
     EXPECT_GT(row["ms"], 0) << row;
-    // The paper looks at the other eye everywhere.
+    // The paper uses the other eye everywhere.
     const std::string table = row["table"].get<std::string>().substr(0, 7);
     const bool is_the_papers = row["row"] == (table == "Table 1" ? "everywhere: total" : "stereo: total");
     if (is_the_papers) totals[table][row["column"]] = row;
@@ -119,7 +119,7 @@ TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
     EXPECT_LT(letter("C")[scene], letter("B")[scene]) << scene;
     EXPECT_LT(letter("D")[scene], 0.6 * letter("C")[scene]) << scene;
   }
-  // 128 rays: a half is rounded up to 64. They are spread more evenly than independent ones.
+  // 128 rays: a half is rounded up to 64. Rays are spread more evenly than independent ones.
   auto noise = values_of(document, "Figure 10: noise of F");
   EXPECT_EQ(noise.size(), 3);
   for (auto& [scene, by] : noise) {
@@ -160,7 +160,7 @@ TEST_F(Cli, OutlinesMissWhatCornersFind) {
   auto missed = values_of(document, "Masks: pixels that miss 1/255 of AO and more");
   ASSERT_EQ(missed["corner-mask"].size(), 3);
   for (const auto& [scene, share] : missed["corner-mask"]) {
-    // In so small an image a cell is as large as much of what it shows; at 1080x720 it is less than half a percent.
+    // In so small an image, a cell is large compared with the objects; at 1080x720 the share is below half a percent.
     EXPECT_LE(share, 0.012) << scene;
     EXPECT_GT(missed["outline-mask"][scene], 4 * share) << scene;
   }
@@ -186,7 +186,7 @@ TEST_F(Cli, TwoEyesReflectMoreAlikeAndNearerToTheTruth) {
   const Json document = result.json();
   const std::map<std::string, double> of_the_paper = {
       {"gallery for Pica", 3.75 / 2.81}, {"lounge for Room", 3.69 / 2.86}, {"banquet for Wine", 6.46 / 4.46}};
-  std::map<std::string, std::map<std::string, Json>> times;  // of stereo-ssr: table, column
+  std::map<std::string, std::map<std::string, Json>> times;  // for stereo-ssr, by table and column
   for (const Json& row : document["paper"]) {
     if (row["row"] == "stereo-ssr") times[row["table"]][row["column"]] = row;
   }
@@ -220,7 +220,7 @@ TEST_F(Cli, TwoEyesReflectMoreAlikeAndNearerToTheTruth) {
     EXPECT_TRUE(std::filesystem::exists(path("paper") / picture["file"].get<std::string>())) << picture;
 }
 
-/// The rows of tables whose name starts so, by row and column.
+/// The rows of tables with this beginning of their name, by row and column.
 std::map<std::string, std::map<std::string, Json>> times_of(const Json& document, const std::string& table) {
   std::map<std::string, std::map<std::string, Json>> times;
   for (const Json& row : document["paper"]) {
@@ -262,7 +262,7 @@ TEST_F(Cli, ALightFieldDisplaySharesWhatItsModulesSee) {
     double before = 1;
     for (const int spacing : {2, 4, 8}) {
       const std::string row = "reuse=on, key_views=" + std::to_string(spacing);
-      // Hardly anything is new so near a key view.
+      // So near to a key view hardly any pixel is new.
       const double computed = value("computed, of all surfaces", row);
       EXPECT_GE(computed, 1.0 / spacing) << row;
       EXPECT_LT(computed, 1.0 / spacing + 0.02) << row;
@@ -279,7 +279,7 @@ TEST_F(Cli, ALightFieldDisplaySharesWhatItsModulesSee) {
     }
   }
 
-  // Two neighbours differ by their noise: less where it has converged.
+  // Two neighbours differ by their noise, which is less when converged.
   auto apart = values_of(document, "80 modules: inconsistency of neighbours");
   EXPECT_LT(apart["converged"]["lightfield-ssao"], 0.9 * apart["reuse=off"]["lightfield-ssao"]);
 
@@ -295,7 +295,7 @@ TEST_F(Cli, ALightFieldDisplaySharesWhatItsModulesSee) {
       EXPECT_LT(smooth[shape][points], noise) << shape << points;
       EXPECT_LT(errors[shape][points], 0.8) << shape << points;
     }
-    // Points that are spread leave less to chance.
+    // Evenly spread points have less noise.
     EXPECT_LT(of_sets["spiral"], of_sets["random"]) << shape;
   }
   EXPECT_LT(errors["5 radii, half ball"]["spiral"], errors["5 radii, ball"]["spiral"]);

@@ -62,7 +62,7 @@ TEST_F(PickBy, OtherFiguresAreWrongUsage) {
   EXPECT_NE(result.err.find("did you mean 'ssim'?"), std::string::npos) << result.err;
 }
 
-/// Frames of two eyes, with truths that are one file for each, or one for both, or of one eye alone.
+/// Frames of two eyes, with truths in one file per eye, in one file for both, or of only one eye.
 class TruthOfEyes : public Cli {
  protected:
   void SetUp() override {
@@ -125,7 +125,7 @@ TEST_F(TruthOfEyes, OneEyeTwiceIsRefused) {
   EXPECT_NE(result.err.find("is a truth of view 'left', as the one before it"), std::string::npos) << result.err;
 }
 
-/// What a header says, or nothing.
+/// Taken from the header; none if the header does not state it.
 TEST_F(TruthOfEyes, RaysOfATruthThatWasGivenAreWhatItsHeaderSays) {
   for (const bool says : {true, false}) {
     Frame truth = FrameFile(path("both.exr"), ReadOptions{.as_stored = true}).read({"ao"});

@@ -1,4 +1,4 @@
-// gloam pick: that the choice is what it says, and runs. Never how long anything took.
+// gloam pick: the choice keeps its promise, and runs; no times.
 #include <set>
 #include <sstream>
 

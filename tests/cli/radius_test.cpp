@@ -1,4 +1,4 @@
-// The radius that every command takes where none is given, in whatever unit a frame is, and what is said of one that does not fit.
+// The radius that every command uses by default, in any unit of a frame, and warnings about a radius that does not fit.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -83,7 +83,7 @@ void scale_camera_json(const fs::path& from, const fs::path& to, double factor) 
   std::ofstream(to) << camera;
 }
 
-/// One frame and its truth, in its own unit and in one a thousand times smaller.
+/// One frame and its truth, in its own unit and in a unit a thousand times smaller.
 class Radius : public Cli {
  protected:
   void SetUp() override {
@@ -98,7 +98,7 @@ class Radius : public Cli {
       write_scaled(loggia_truth, file(unit, "truth.exr"), factor);
     }
   }
-  /// False where the captures are not there.
+  /// False if the captures are missing.
   bool use_apartment() {
     const fs::path from = captures / "apartment_stereo";
     if (!fs::exists(from)) return false;
@@ -129,7 +129,7 @@ class Radius : public Cli {
     return result.json();
   }
 
-  /// By what was measured: the errors that two commands leave, in both units.
+  /// Errors of two commands, in both units.
   std::map<std::string, double> errors_of_run_and_auto(const std::string& unit, const Arguments& more = {}) const {
     std::map<std::string, double> errors;
     Arguments techniques = {"ssao", "alchemy", "sao", "hbao", "hbao+", "gtao", "bitmask", "volumetric"};
@@ -282,7 +282,7 @@ TEST_F(Radius, AHeaderThatStatesNoRadiusIsPassedOverWithANote) {
   }
 }
 
-/// What a command says of a radius on the loggia, whose camera and normals need no note.
+/// A command's message about a radius on the loggia, whose camera and normals need no note.
 class RadiusNote : public Radius {
  protected:
   void SetUp() override {
@@ -302,7 +302,7 @@ class RadiusNote : public Radius {
                                   "--techniques", "hbao+", "--presets", "medium", "--rounds", "1", "--variants", "none",
                                   "--no-growth", "--no-checks", "--ladder", "none", "--no-images"}))}};
   }
-  /// What measures errors needs a radius that finds something.
+  /// Commands that measure errors need a radius that has an effect.
   void expect_note_or_refusal(const std::string& radius, const std::string& golden) const {
     for (const auto& [command, result] : everywhere(radius)) {
       const bool measures = command == "bench" || command == "pick";
@@ -338,8 +338,8 @@ TEST_F(RadiusNote, OfMetresOnAFrameInMillimetres) {
 
 TEST_F(RadiusNote, OverTheCap) {
   expect_note("20",
-              "radius 20 scene units reaches 1541 pixels at the median depth, and most pixels are searched up to 120 "
-              "alone (max_reach 0.25); --radius 0.39 reaches 30");
+              "radius 20 scene units reaches 1541 pixels at the median depth, but most pixels are searched only up to "
+              "120 (max_reach 0.25); --radius 0.39 reaches 30");
 }
 
 TEST_F(RadiusNote, Zero) {
@@ -366,7 +366,7 @@ TEST_F(RadiusNote, StandsInTheDocumentToo) {
   EXPECT_EQ(std::string(run["notes"].back()).rfind("radius 0.02 scene units reaches", 0), 0u) << run["notes"];
 }
 
-/// `list` cannot know the frame.
+/// `list` does not know the frame.
 TEST_F(Radius, OfTheListIsTheFrames) {
   for (const Json& technique : gloam({"list", "techniques", "--json", "-"}).json()) {
     for (const Json& parameter : technique["parameters"]) {

@@ -1,5 +1,4 @@
-// gloam report: what the page holds, and that it works in a browser that opens it from disk; and the page of
-// documentation.
+// gloam report: the contents of the page, that it works in a browser that opens it from disk, and the page of documentation.
 #include <cmath>
 #include <opencv2/core.hpp>
 
@@ -25,7 +24,7 @@ Json row(const std::string& scene, const std::string& technique, const std::stri
           {"ladder", {{"t0w", nullptr}, {"t1", 0.05}, {"t2", 0.02}, {"t3", 0.01}, {"t4_bias", 0.01}, {"t5", 1e-7}}}};
 }
 
-/// Two scenes; on the second, which has no truth, no pictures either.
+/// Two scenes; the second has neither a truth nor pictures.
 Json measurements() {
   Json document = {{"device", "a device"}, {"cpu", "a CPU"},      {"cores", 2},  {"driver", "a driver 1.0"},
                    {"date", "2026-01-31"}, {"commit", "0123abc"}, {"rounds", 9}, {"rays", 64}};
@@ -89,8 +88,8 @@ class Report : public Cli {
     return gloam(arguments);
   }
 
-  /// Opens the page, runs `script` in it once it is drawn, and returns what that put into `result`. `width` is that of
-  /// the page in pixels; it stands in a frame, since a browser's window cannot be as narrow as a telephone.
+  /// Opens the page, runs `script` in it once it is drawn, and returns the value of `result`. `width`: of the page in pixels; the
+  /// page is in a frame, since a browser's window cannot be as narrow as a telephone.
   Json in_browser(const std::string& script, int width = 1280) const {
     std::string page = slurp(path("out/report.html"));
     const size_t start = page.find("<script"), end = page.rfind("</body>");
@@ -110,7 +109,7 @@ class Report : public Cli {
         "</script>\n";
     page.insert(end, run).insert(start, watch);
     write_text("watched.html", page);
-    // A document that is still being written keeps the browser from ending before the page has answered.
+    // While a document is still being written, the browser does not end before the page has answered.
     write_text("frame.html",
                "<!DOCTYPE html><iframe id='open'></iframe><script>const open = "
                "document.getElementById('open').contentDocument; open.open();"
@@ -146,7 +145,7 @@ class Report : public Cli {
   }
 };
 
-/// The same, where there is a browser.
+/// The same, if there is a browser.
 class ReportInBrowser : public Report {
  protected:
   void SetUp() override {
@@ -196,7 +195,7 @@ TEST_F(Report, GivesTheFrontsAsJson) {
 }
 
 TEST_F(Report, ReducesPicturesByAveragingWhatIsThere) {
-  // Left half background, then black and white columns in turn: their average is grey, the background's black is not in it.
+  // The left half is background, then black and white columns alternate: their average is grey, without the background's black.
   cv::Mat stripes(4, 64, CV_8UC2, cv::Scalar(0, 0));
   for (int x = 32; x < 64; ++x) stripes.col(x).setTo(cv::Scalar(x % 2 ? 255 : 0, 255));
   write_png(path("out/images/hall/low.png"), stripes);
@@ -364,8 +363,8 @@ TEST_F(ReportInBrowser, ShowsWhatIsClicked) {
     EXPECT_NE(result["figures"].get<std::string>().find(words), std::string::npos) << result["figures"];
   EXPECT_NE(result["ultra"].get<std::string>().find("There is no picture of hbao+ ultra"), std::string::npos);
   const size_t compared = result["chips"].size();
-  EXPECT_EQ(compared, 3u) << result["chips"];    // the picked, HBAO+ medium to begin with, and the kept
-  EXPECT_EQ(result["bars"], 5 * int(compared));  // t0w and t4_noise are not at hand
+  EXPECT_EQ(compared, 3u) << result["chips"];    // the picked one, the initial HBAO+ medium, and the kept one
+  EXPECT_EQ(result["bars"], 5 * int(compared));  // t0w and t4_noise are missing
   EXPECT_EQ(result["rules"], int(compared));
 }
 
@@ -400,7 +399,7 @@ TEST_F(ReportInBrowser, SwitchesScenesAndAxes) {
   EXPECT_NE(result["row"].get<std::string>().find("hbao+"), std::string::npos) << result["row"];
   EXPECT_EQ(result["up"], Json({"0.1500", "0.1900", "0.1950", "0.2000"}));
   EXPECT_EQ(result["down"], Json({"0.2000", "0.1950", "0.1900", "0.1500"}));
-  EXPECT_EQ(result["floor"], Json({"2.00", "2.00"}));  // what has none goes last both ways
+  EXPECT_EQ(result["floor"], Json({"2.00", "2.00"}));  // rows without one are last in both orders
 }
 
 TEST_F(ReportInBrowser, FitsWideAndNarrowPages) {
@@ -432,7 +431,7 @@ TEST_F(ReportInBrowser, BearsHundredsOfRows) {
 
 // --- The page of documentation
 
-/// Two halls, whose means decide, and a frame of its own.
+/// Two halls, whose means decide, and a frame of the user's own.
 Json documented() {
   Json document = {{"device", "a device"}, {"cpu", "a CPU"},      {"cores", 2},  {"driver", "a driver 1.0"},
                    {"date", "2026-01-31"}, {"commit", "0123abc"}, {"rounds", 9}, {"rays", 64}};
@@ -532,7 +531,7 @@ class Documentation : public Report {
     return slurp(path("page.md"));
   }
 
-  /// Pictures of the truth and two settings on the hall.
+  /// Pictures of the truth and of two settings on the hall.
   Json with_pictures() const {
     Json document = documented();
     fs::create_directories(path("out/images/hall"));
@@ -546,7 +545,7 @@ class Documentation : public Report {
   }
 };
 
-/// From the heading to the next of its rank.
+/// The part from a heading to the next one of its level.
 std::string section(const std::string& page, const std::string& heading) {
   const size_t from = page.find("\n" + heading + "\n");
   if (from == std::string::npos) return "";
@@ -655,7 +654,7 @@ TEST_F(Documentation, LeavesOutWhatWasNotMeasured) {
   const std::vector<std::string> least = {"Which technique for which need", "The fronts", "Scene by scene",
                                           "Where the errors come from"};
   EXPECT_EQ(headings(page_of(documented())), least);
-  // Without a truth and without a ratio there is nothing to choose by.
+  // Without a truth and a ratio there is nothing to choose by.
   EXPECT_EQ(headings(page_of({{"results", {{{"technique", "t"}, {"scene", "s"}, {"ms", {{"median", 1}}}}}}})),
             (std::vector<std::string>{"Scene by scene"}));
   EXPECT_EQ(headings(page_of({{"results", Json::array()}, {"planes", with_all_sections()["planes"]}})),
@@ -702,7 +701,7 @@ TEST_F(Documentation, TellsLayersByWhatIsReadAndNotByNames) {
     each["rmse_to_truth"] = error;
     return each;
   };
-  // Better than all others on one layer, and named like them.
+  // Better than all others on one layer, with a similar name.
   for (const char* list : {"results", "converged"}) {
     const Json before = document[list];
     for (const Json& each : before) {
@@ -710,7 +709,7 @@ TEST_F(Documentation, TellsLayersByWhatIsReadAndNotByNames) {
       document[list].push_back(reads(each, "deep", {"depth", "stochastic"}, 1, 0.05));
       document[list].push_back(reads(each, "stereo", {"depth"}, 2, 0.06));
       document[list].push_back(reads(each, "dp-shallow", {"depth"}, 1, 0.1));
-      document[list].push_back(reads(each, "sd-old", nullptr, 1, 0.07));  // of a file that does not say
+      document[list].push_back(reads(each, "sd-old", nullptr, 1, 0.07));  // from a file that does not state its inputs
     }
   }
   const std::string page = page_of(document);
@@ -776,7 +775,7 @@ TEST_F(Documentation, DrawsASheetOfPictures) {
 TEST_F(Documentation, KeepsSheetsSmall) {
   Json document = with_pictures();
   for (int i = 0; i < 14; ++i) {
-    // Noise of its own for each: equal tiles would compress.
+    // Different noise for each: equal tiles would compress.
     const std::string image = "images/hall/" + std::to_string(i) + ".png";
     cv::Mat noise(180, 320, CV_8UC2);
     cv::randu(noise, cv::Scalar::all(0), cv::Scalar::all(256));
@@ -789,7 +788,7 @@ TEST_F(Documentation, KeepsSheetsSmall) {
   write(document);
   ASSERT_EQ(documentation({path("out")}, {"--pictures", path("pictures")}).status, 0);
   EXPECT_LE(fs::file_size(path("pictures/techniques_hall.png")), 600'000u);
-  EXPECT_GT(fs::file_size(path("pictures/techniques_hall.png")), 200'000u);  // and not smaller than need be
+  EXPECT_GT(fs::file_size(path("pictures/techniques_hall.png")), 200'000u);  // and not smaller than necessary
 }
 
 TEST_F(Documentation, GoesWithoutPicturesThatCannotBeHad) {
@@ -803,7 +802,7 @@ TEST_F(Documentation, GoesWithoutPicturesThatCannotBeHad) {
   EXPECT_EQ(result.lines_of_error(), 2) << result.err;
   EXPECT_NE(result.err.find("even.png: is no file"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("../secret.png: is not below"), std::string::npos) << result.err;
-  // From the file alone: the sheet of the run before stays.
+  // From the file alone: the sheet of the earlier run stays.
   const std::string before = slurp(path("pictures/techniques_hall.png"));
   fs::remove_all(path("out/images"));
   result = documentation({path("out")}, {"--pictures", path("pictures")});

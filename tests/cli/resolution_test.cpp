@@ -1,4 +1,4 @@
-// --resolution and --with at the command line: what is planned, written and refused.
+// --resolution and --with at the command line: plans, files and refusals.
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 #include "support/long.h"
@@ -76,10 +76,10 @@ TEST_F(CliResolution, BackgroundReadsTheSameAtEveryResolution) {
   }
 }
 
-/// What cannot be had at a lower resolution is wrong usage, told in one line; no kernel is missing.
+/// A plane that cannot be computed at a lower resolution is a usage error of one line; no kernel is missing.
 TEST_F(CliResolution, EveryTechniqueRunsAtEveryResolutionOrSaysWhyNot) {
-  ONLY_IN_LONG_RUN();  // Resolution.WhatComesBackHasAKernel looks at the plans alone
-  const std::map<std::string, std::string> refused = {{"normals", "'normal' is what guides upsampling"},
+  ONLY_IN_LONG_RUN();  // Resolution.WhatComesBackHasAKernel tests only the plans
+  const std::map<std::string, std::string> refused = {{"normals", "'normal' guides upsampling"},
                                                       {"stochastic-depth", "'stochastic' holds layers"},
                                                       {"temporal-sssr", "motion is in its pixels"}};
   ASSERT_EQ(gloam({"capture", "gallery", "--size", "48x27", "--planes",
@@ -134,7 +134,7 @@ TEST_F(CliResolution, WhatGuidesUpsamplingIsNotReduced) {
   const Result result = gloam({"run", "normals", path("frame.exr"), "-o", path("normals.exr"), "--resolution", "half"});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.lines_of_error(), 1) << result.err;
-  EXPECT_NE(result.err.find("'normal' is what guides upsampling"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("'normal' guides upsampling"), std::string::npos) << result.err;
 }
 
 TEST_F(CliResolution, LayersAreNotUpsampled) {

@@ -1,4 +1,4 @@
-// Processes that have the same number, as in containers and on machines that share a folder, write beside each other.
+// Processes with the same number, as in containers and on machines with a shared folder, write into one folder.
 #include <sys/stat.h>
 
 #include <thread>

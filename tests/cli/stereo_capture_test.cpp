@@ -15,19 +15,19 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-/// Where a point of the world lands in an image, pixels. The point lies before the camera.
+/// The pixel of a world point in an image. The point lies before the camera.
 dvec2 projected(const Camera& camera, const dvec3& world) {
   const dvec3 view = camera.pose->world_to_view * (world - camera.pose->position);
   const double reach = camera.orthographic ? 1 : -view.z;
   return {camera.cx + camera.fx * view.x / reach, camera.cy - camera.fy * view.y / reach};
 }
 
-/// Along the camera's axis from its eye.
+/// A point on the camera's axis.
 dvec3 on_axis(const Camera& camera, double depth) {
   return camera.pose->position + glm::transpose(camera.pose->world_to_view) * dvec3(0, 0, -depth);
 }
 
-/// The place in the world that a pixel shows, by the plane `position`.
+/// The world position of a pixel, by the plane `position`.
 dvec3 place_at(const View& view, int x, int y) {
   dvec3 place = view.origin;
   for (int i = 0; i < 3; ++i) place[i] += view.planes.at("position").channels[size_t(i)].at(x, y);
@@ -36,8 +36,8 @@ dvec3 place_at(const View& view, int x, int y) {
 
 float depth_at(const View& view, int x, int y) { return view.planes.at("depth").channels[0].at(x, y); }
 
-/// What becomes of the pixels of one image whose surfaces the other image has room for, shares: the other shows the
-/// surface (its depth there is within 2 % of what its camera makes of the place), or something before it, or behind it.
+/// Shares of the pixels of one image whose points fall into the other image: the other shows the same surface (its depth there is
+/// within 2 % of the point's depth), or something before it, or behind it.
 struct Reprojected {
   double found = 0, hidden = 0, seen_through = 0;
 };
@@ -126,7 +126,7 @@ TEST_F(CapturedStereo, DisparityOfParallelEyes) {
       const dvec2 disparity = projected(left, place) - projected(right, place);
       EXPECT_NEAR(disparity.x, left.fx * 0.5 / 4, 1e-3);
       EXPECT_NEAR(disparity.y, 0, 1e-4);
-      // And in the images: the same pixel of the right one shows a place that far to the right.
+      // And in the images: the same pixel of the right one shows a point that far to the right.
       EXPECT_NEAR(glm::length(place_at(pair.views[1], x, y) - place - dvec3(0.5, 0, 0)), 0, 1e-5);
     }
   }

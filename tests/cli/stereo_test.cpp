@@ -18,7 +18,7 @@ constexpr int width = 96, height = 64;
 constexpr float offset = 0.125f;
 const Scene wall = tilted_plane(4, 0, 0);
 
-/// A wall whose AO rises evenly, and reads `offset` too much in the second view.
+/// A wall whose AO rises evenly, and is `offset` too high in the second view.
 Frame pair_with_offset() {
   const Shot shot = perspective(width, height);
   Frame frame = shoot_pair({eye_at(shot, {-0.1, 0, 0}), eye_at(shot, {0.123, 0, 0})}, wall,
@@ -30,7 +30,7 @@ Frame pair_with_offset() {
   return frame;
 }
 
-/// A frame as `gloam run` and a renderer leave it: the result without normals, the frame without a result.
+/// Files as left by `gloam run` and by a renderer: the result without normals, the frame without a result.
 void write_result_and_frame(const fs::path& result, const fs::path& frame) {
   Frame both = pair_with_offset();
   for (View& view : both.views) view.planes.erase("normal");
@@ -40,7 +40,7 @@ void write_result_and_frame(const fs::path& result, const fs::path& frame) {
   write_frame(frame, both);
 }
 
-/// One view alone: the plane, and nothing that tells where it was seen from.
+/// One view alone: the plane, without a camera.
 void write_eye(const fs::path& path, const char* view, const char* plane = "ao", int columns = width) {
   Frame frame = pair_with_offset();
   std::swap(frame.views[0], frame.view(view));
@@ -64,7 +64,7 @@ TEST_F(Cli, StereoDocumentHasTheErrorOfBothViews) {
   EXPECT_EQ(document["plane"], "ao");
   EXPECT_EQ(document["views"], Json({"left", "right"}));
   EXPECT_EQ(document["normal_check"], 6);
-  // 4.6 pixels of the 96 are out of the other image, and one more has a neighbour that is.
+  // 4.6 pixels of the 96 are outside the other image, and one more has a neighbour that is.
   const long long rejected = 2 * 5 * height;
   EXPECT_EQ(document["pixels"], 2 * width * height - rejected);
   EXPECT_NEAR(document["rejected_share"], double(rejected) / (2 * width * height), 1e-12);
@@ -111,7 +111,7 @@ TEST_F(Cli, StereoTakesNormalsFromTheFrameAndSaysWhereThereAreNone) {
   EXPECT_EQ(off.err, "") << "as asked";
 }
 
-/// The wall's normals in the second view lean by 20 degrees.
+/// The wall's normals in the second view are tilted by 20 degrees.
 TEST_F(Cli, StereoNormalCheckIsWhatTheFlagSays) {
   Frame frame = pair_with_offset();
   for (int y = 0; y < height; ++y) {
@@ -147,7 +147,7 @@ TEST_F(Cli, StereoComparesTwoFilesOfOneEyeEach) {
   EXPECT_GT(std::abs(other.json()["inconsistency"]["mean"].get<double>() - offset), 0.01) << "the wrong way round";
 }
 
-/// The frame was rendered beyond the display window, and the result covers that window alone.
+/// The frame covers more than the display window, the result only that window.
 TEST_F(Cli, StereoFrameMayCoverMoreThanTheResult) {
   Frame frame = pair_with_offset(), part = pair_with_offset();
   frame.display = part.display = part.window = {16, 8, 80, 56};
@@ -168,7 +168,7 @@ TEST_F(Cli, StereoFrameMayCoverMoreThanTheResult) {
   EXPECT_EQ(result.json()["pixels"], 2 * (64 - 5) * 48);
 }
 
-/// Renderers lose the place of a crop: the pixels are the same, and start at another corner.
+/// Some renderers lose the position of a crop: the pixels are the same, but begin at another corner.
 TEST_F(Cli, StereoFrameMayStartAtAnotherCorner) {
   Frame frame = pair_with_offset(), moved = pair_with_offset();
   move_window(moved, 100, -50);
@@ -204,7 +204,7 @@ TEST_F(Cli, StereoPicturesHaveTheSizeOfTheImageAndALegend) {
   EXPECT_EQ(beside.width, 2 * width);
   EXPECT_EQ(beside.height, height);
   EXPECT_EQ(errors.at(50, 30), (Pixel{128, 128, 128})) << "4 x 0.125";
-  const Pixel rejected = errors.at(0, 30);  // the wall's left end is out of the right eye's image
+  const Pixel rejected = errors.at(0, 30);  // the wall's left end is outside the right eye's image
   EXPECT_GT(rejected.r, rejected.g + 20);
   EXPECT_EQ(anaglyph.at(50, 30).r, beside.at(50, 30).r);
   EXPECT_EQ(anaglyph.at(50, 30).g, beside.at(width + 50, 30).g);
@@ -337,7 +337,7 @@ TEST_F(Cli, StereoFilesThatDoNotFitAreNamed) {
   refused({"none.exr"}, {"none.exr"});
 }
 
-/// Normals of a world that nobody knows how to turn.
+/// World-space normals without a pose to rotate them.
 TEST_F(Cli, StereoNormalsOfNoUseAreNotCompared) {
   Frame frame = pair_with_offset();
   write_frame(path("frame.exr"), frame);
@@ -348,7 +348,7 @@ TEST_F(Cli, StereoNormalsOfNoUseAreNotCompared) {
                  1, {"normals.exr", "'normal' is of no use", "where the camera stands is not known"});
 }
 
-/// A frame without cameras knows neither how its depth nor how its normals are meant: the result's depth counts.
+/// A frame without cameras has unknown conventions for depth and normals: the result's depth counts.
 TEST_F(Cli, StereoTakesCamerasFromTheResultWhereTheFrameHasNone) {
   Frame frame = pair_with_offset();
   write_frame(path("ao.exr"), frame);
@@ -366,7 +366,7 @@ TEST_F(Cli, StereoTakesCamerasFromTheResultWhereTheFrameHasNone) {
 // ---------------------------------------------------------------------------------------------------------------------
 // A real frame
 
-/// AO by 256 rays per pixel for each eye: what differs is noise and what lies between pixels.
+/// AO by 256 rays per pixel for each eye: the differences are noise and effects between pixels.
 TEST_F(Cli, StereoOfTheApartmentsReference) {
   if (!fs::exists(captures)) GTEST_SKIP() << "no captures at " << captures;
   const fs::path folder = captures / "apartment_stereo";
@@ -396,7 +396,7 @@ TEST_F(Cli, StereoOfTheApartmentsReference) {
   EXPECT_GT(swapped["inconsistency"]["mean"], 2 * with["inconsistency"]["mean"].get<double>()) << "the wrong images";
 }
 
-/// The ablation of figure 10: each part brings the eyes nearer to one another.
+/// The ablation of figure 10: each part brings the eyes closer to each other.
 TEST_F(Cli, EachPartOfStereoAoBringsTheEyesTogether) {
   ONLY_IN_LONG_RUN();
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("pair.exr"), "--size", "240x135", "--stereo", "0.065"}).status, 0);
@@ -408,7 +408,7 @@ TEST_F(Cli, EachPartOfStereoAoBringsTheEyesTogether) {
     EXPECT_EQ(run.status, 0) << run.err;
     const Result compared = gloam({"compare", "--stereo", path("ao.exr"), "--json", "-"});
     EXPECT_EQ(compared.status, 0) << compared.err;
-    EXPECT_EQ(compared.json()["normal_check"], 6);  // normals travel with the result
+    EXPECT_EQ(compared.json()["normal_check"], 6);  // the result includes the normals
     return compared.json()["inconsistency"]["mean"].get<double>();
   };
   for (const char* technique : {"stereo-ao", "stereo-gtao", "stereo-bitmask"}) {

@@ -1,4 +1,4 @@
-// gloam stress: what it finds, how it says so, and what it takes.
+// gloam stress: findings, output and limits.
 #include <signal.h>
 
 #include <chrono>
@@ -16,20 +16,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of a build whose techniques have a fault each (tests/faults).
+/// With a build whose techniques have one fault each (tests/faults).
 class StressOfFaults : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
     program = GLOAM_WITH_FAULTS;
   }
-  /// A quick look at one case of one technique.
+  /// A quick run of one case on one technique.
   Result look(const std::string& technique, const std::string& number, Arguments more = {}) const {
     Arguments arguments = {"stress", technique, "--case", number, "--quick", "--against", "none", "--json", "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return gloam(arguments);
   }
-  /// The worst of those that are beyond their bound.
+  /// The worst finding beyond its bound.
   static Json first_failure(const Result& result) {
     const Json document = result.json();
     for (const Json& entry : document["cases"]) {
@@ -41,7 +41,7 @@ class StressOfFaults : public Cli {
 
 struct Fault {
   std::string technique, number, what;
-  bool has_place = true;  ///< whether it is a pixel's
+  bool has_place = true;  ///< whether the finding has a pixel
 };
 
 TEST_F(StressOfFaults, EachIsFoundByTheCaseThatIsThereForIt) {
@@ -85,7 +85,7 @@ TEST_F(StressOfFaults, AreSeenAgainByTheirTrial) {
   ASSERT_EQ(again.json()["cases"].size(), 1u) << again.out;
   EXPECT_EQ(again.json()["cases"][0]["worst"], found["worst"]);
   EXPECT_EQ(again.json()["cases"][0]["place"], found["place"]);
-  // Both images that should be alike, and what each was made of.
+  // Both images that should be alike, and the input of each.
   int files = 0;
   for (const auto& entry : fs::directory_iterator(path("trial"))) files += entry.path().extension() == ".exr";
   EXPECT_EQ(files, 4);
@@ -93,7 +93,7 @@ TEST_F(StressOfFaults, AreSeenAgainByTheirTrial) {
 
 TEST_F(StressOfFaults, ARandomFrameIsShrunk) {
   const Json found = first_failure(look("background-unknown", "1"));
-  // One pixel of background is all that it takes.
+  // One pixel of background is enough.
   EXPECT_NE(std::string(found["place"]["holds"]).find("smallest frame that shows it: 1x1"), std::string::npos)
       << found["place"]["holds"];
 }
@@ -123,7 +123,7 @@ TEST_F(StressOfFaults, APageHasTheFiguresOfARun) {
   EXPECT_NE(page.find("### Case 13"), std::string::npos);
   EXPECT_NE(page.find("| `by-lanes` | 0.015 **beyond** | 0 | precise: difference to one lane |"), std::string::npos)
       << page;
-  // The trial that the page names makes the figure again.
+  // The trial that the page names gives the same figure again.
   const size_t where = page.find("13/", page.find("### Where"));
   ASSERT_NE(where, std::string::npos) << page;
   const std::string trial = page.substr(where + 3, page.find(':', where) - where - 3);
@@ -134,7 +134,7 @@ TEST_F(StressOfFaults, APageHasTheFiguresOfARun) {
   })) << again;
 }
 
-/// A run of an hour: what was done before somebody or something ended it is kept.
+/// A long run keeps its results when somebody or something ends it.
 TEST_F(StressOfFaults, AnInterruptedRunKeepsWhatWasDone) {
   const pid_t child = start(
       {"stress", "all", "--case", "11", "--quick", "--against", "none", "--jobs", "1", "--json", path("run.json")});
@@ -226,9 +226,9 @@ TEST_F(Stress, AnOptOutOfAPartIsSaid) {
   EXPECT_NE(gloam(look).out.find("opted out of " + why), std::string::npos) << why;
 }
 
-/// A line with a wrong number, part or name would opt nothing out, and nobody would know.
+/// A line with a wrong number, part or name would opt nothing out, unnoticed.
 TEST(OptOuts, NameACaseAPartAndATechnique) {
-  std::string asked;  // what any case asks for
+  std::string asked;  // all parts that cases ask for
   for (const auto& entry : fs::directory_iterator(std::string(GLOAM_SOURCE_DIR) + "/host/stress/cases"))
     asked += slurp(entry.path());
   int lines = 0;

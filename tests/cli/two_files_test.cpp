@@ -45,7 +45,7 @@ class TwoFiles : public Cli {
   Result run(const std::string& technique, const Arguments& frame, const std::string& out) const {
     Arguments all = {"run", technique};
     all.insert(all.end(), frame.begin(), frame.end());
-    // Given, as one of the files may state another than the frame would get.
+    // The radius is given, since one of the files may state another one than the frame would get.
     all.insert(all.end(), {"-o", file(out), "--radius", "0.5", "--json", "-"});
     return gloam(all);
   }
@@ -65,7 +65,7 @@ std::string pose(double x) {
   return fmt::format(R"("camera_to_world": [[1,0,0,{}],[0,1,0,0],[0,0,1,4],[0,0,0,1]])", x);
 }
 
-/// `same_bits` looks at the first view alone.
+/// `same_bits` compares only the first view.
 void expect_same_in_all_views(const Frame& a, const Frame& b, const std::vector<std::string>& planes) {
   ASSERT_EQ(a.views.size(), b.views.size());
   for (size_t i = 0; i < a.views.size(); ++i) {
@@ -112,7 +112,7 @@ TEST_F(TwoFiles, PlanNamesTheChannelsOfBoth) {
 }
 
 struct NameCase {
-  std::string left_view, right_view;  ///< as the files name them
+  std::string left_view, right_view;  ///< names in the files
   std::string first, second;          ///< the files; the first one holds the left eye
   std::vector<std::string> views;
   std::string note;
@@ -149,7 +149,7 @@ TEST_F(TwoFiles, NamesOfTheEyes) {
   }
 }
 
-// One picture of a file that lists two views, as renderers write eye by eye: which it is, the pair tells.
+// One picture of a file that lists two views, as renderers write eye by eye: the pair tells which eye it is.
 TEST_F(TwoFiles, AViewThatIsOnlyListed) {
   Frame frame = small_frame(64, 36);
   frame.views[0].camera.reset();

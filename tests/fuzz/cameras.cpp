@@ -9,7 +9,7 @@ namespace {
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Mirrored or not: a header may say of a left-handed world.
+/// Mirrored or not: a header may describe a left-handed world.
 bool is_rotation(const glm::dmat3& m) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

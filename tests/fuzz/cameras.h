@@ -1,4 +1,4 @@
-// What has to hold of every camera that is read.
+// Properties of every camera that is read.
 #pragma once
 
 #include "gloam/camera.h"

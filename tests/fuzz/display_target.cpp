@@ -29,7 +29,7 @@ bool same(const LightFieldDisplay& a, const LightFieldDisplay& b) {
          std::equal(a.modules.begin(), a.modules.end(), b.modules.begin(), b.modules.end(), same_module);
 }
 
-/// The first few modules tell as much as thousands.
+/// The first few modules show as much as thousands.
 void check_cameras(LightFieldDisplay display) {
   display.modules.resize(std::min<size_t>(display.modules.size(), 4));
   reads(printable(display.name), [&] {

@@ -1,5 +1,5 @@
-// Runs a target without libFuzzer: inputs made from a seed, or files given. For the ordinary test run, and to replay what a
-// fuzzer has found.
+// Runs a target without libFuzzer: with inputs from a seed, or with given files. For the ordinary test run, and to repeat the
+// findings of a fuzzer.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -81,12 +81,12 @@ namespace {
 
 // --- One input
 
-/// The input at hand, where a signal handler finds it.
+/// The present input, where a signal handler finds it.
 const uint8_t* current = nullptr;
 size_t current_size = 0;
 char kept_name[4096] = {};
 
-/// Keeps the input that ends the program, and lets the signal end it.
+/// Saves the input that ends the program, and lets the signal end it.
 extern "C" void keep_input(int signal) {
   const int file = ::open(kept_name, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   [[maybe_unused]] ssize_t put = ::write(file, current, current_size);
@@ -101,7 +101,7 @@ extern "C" void keep_input(int signal) {
 
 void keep_input_on_signals(const std::string& name) {
   std::snprintf(kept_name, sizeof kept_name, "%s", name.c_str());
-  static char stack[1 << 16];  // of its own: the program's may be used up
+  static char stack[1 << 16];  // a separate stack: the program's may be used up
   const stack_t apart{stack, 0, sizeof stack};
   ::sigaltstack(&apart, nullptr);
   struct sigaction action {};
@@ -127,7 +127,7 @@ std::string slurp(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Files, and those of folders. Returns how many.
+/// Feeds files, and files of folders. Returns how many.
 size_t feed_files(const std::vector<std::string>& paths) {
   size_t count = 0;
   for (const std::string& path : paths) {
@@ -144,7 +144,7 @@ size_t feed_files(const std::vector<std::string>& paths) {
 
 // --- Many inputs
 
-/// Every input depends on the seed and its own number alone.
+/// Every input depends only on the seed and its own number.
 std::string input_of(const std::vector<std::string>& starts, uint64_t seed, uint64_t number) {
   Random random(seed, number);
   byte_source = Random(random.next());

@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t start_size = 8;
 
-/// Reads what may end too early.
+/// Reads bytes that may end too early.
 class Cursor {
  public:
   explicit Cursor(const std::string& bytes, size_t at = 0) : bytes_(bytes), at_(at) {}
@@ -42,7 +42,7 @@ class Cursor {
   size_t at_;
 };
 
-/// False where it does not end. An empty one ends the headers of several parts.
+/// Returns false if the header does not end. An empty header ends the headers of several parts.
 bool read_header(Cursor& cursor, ExrHeader& header) {
   for (ExrAttribute attribute; cursor.read_name(attribute.name);) {
     if (attribute.name.empty()) return true;
@@ -54,7 +54,7 @@ bool read_header(Cursor& cursor, ExrHeader& header) {
   return false;
 }
 
-/// Where the tables end: at the first chunk that one of them names.
+/// End of the tables: the first chunk that one of them names.
 size_t end_of_tables(const std::string& bytes, size_t begin) {
   Cursor cursor(bytes, begin);
   size_t first = bytes.size();
@@ -63,7 +63,7 @@ size_t end_of_tables(const std::string& bytes, size_t begin) {
   return std::min(first, cursor.at());
 }
 
-/// The tables for chunks that begin elsewhere.
+/// The tables with offsets for chunks that begin elsewhere.
 std::string moved(std::string tables, size_t from, size_t to) {
   for (size_t i = 0; i + 8 <= tables.size(); i += 8) {
     uint64_t offset = 0;
@@ -94,7 +94,7 @@ bool ExrBytes::is_multipart() const { return start.size() > 5 && (start[5] & 0x1
 
 std::string ExrBytes::text() const {
   const std::string begin = text_of(*this);
-  // Where the chunks began is what the smallest offset says.
+  // The smallest offset tells where the chunks began.
   uint64_t from = UINT64_MAX;
   for (size_t i = 0; i + 8 <= tables.size(); i += 8) {
     uint64_t offset = 0;

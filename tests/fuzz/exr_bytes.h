@@ -1,4 +1,4 @@
-// An EXR file taken apart as far as its headers go, and put together again, however little sense it makes.
+// An EXR file split into headers, tables and chunks, and joined again, valid or not.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct ExrBytes {
   std::string text() const;
 };
 
-/// None for bytes whose headers do not end.
+/// None if the headers do not end.
 std::optional<ExrBytes> take_apart(const std::string& bytes);
 
 /// One channel of the attribute `channels`.
@@ -36,7 +36,7 @@ struct ExrChannel {
 std::vector<ExrChannel> channels_of(const std::string& value);
 std::string value_of(const std::vector<ExrChannel>& channels);
 
-/// The bytes of a number as files hold it.
+/// The bytes of a number as stored in files.
 template <typename Number>
 std::string bytes_of(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};

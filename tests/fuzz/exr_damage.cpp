@@ -22,7 +22,7 @@ ExrAttribute* find(ExrHeader& header, const std::string& name) {
 
 // --- Attributes
 
-/// Four bytes or eight of a value, somewhere where such a number may stand.
+/// Overwrites four or eight bytes of a value at a position where such a number may be.
 void set_number_in(std::string& value, const std::string& number, Random& random) {
   if (value.size() >= number.size())
     value.replace(random.below(value.size() / number.size()) * number.size(), number.size(), number);
@@ -63,7 +63,7 @@ void rename_attribute(ExrBytes& file, Random& random) {
   if (random.one_in(2)) attribute.name = random.pick(view_words()) + "." + attribute.name;
 }
 
-/// Files that lend their attributes to others.
+/// Files whose attributes others may get.
 const std::vector<std::string>& lenders() {
   static const std::vector<std::string> files = [] {
     Random random(2);
@@ -74,7 +74,7 @@ const std::vector<std::string>& lenders() {
   return files;
 }
 
-/// From another file, or from another part.
+/// Takes an attribute from another file, or from another part.
 void take_attribute(ExrBytes& file, Random& random) {
   const std::optional<ExrBytes> other = random.one_in(2) ? take_apart(random.pick(lenders())) : file;
   const ExrHeader& from = random.pick(other->headers);
@@ -87,7 +87,7 @@ void take_attribute(ExrBytes& file, Random& random) {
     header.push_back(taken);
 }
 
-// --- What all headers have
+// --- Attributes of all headers
 
 void move_window(ExrBytes& file, Random& random) {
   ExrAttribute* window = find(any_header(file, random), random.pick({"dataWindow", "displayWindow"}));

@@ -1,4 +1,4 @@
-// Damages an EXR file where it hurts: in a header's attributes and channels, in the tables, in the chunks.
+// Damages an EXR file in its sensitive parts: a header's attributes and channels, the tables, the chunks.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gloam::fuzz {
 
-/// One change, or rarely another file altogether.
+/// One change, or rarely another file instead.
 std::string damaged_exr(const std::string& bytes, Random& random);
 
 }  // namespace gloam::fuzz

@@ -62,7 +62,7 @@ void set_windows(Imf::Header& header, const Imath::Box2i& display, Random& rando
 }
 
 void set_storage(Imf::Header& header, Random& random) {
-  // PIZ and DWA take a megabyte of tables for each chunk, however small: seldom.
+  // Seldom PIZ and DWA: they need a megabyte of tables for each chunk, however small.
   header.compression() = random.one_in(16)
                              ? Imf::Compression(random.below(Imf::NUM_COMPRESSION_METHODS))
                              : random.pick({Imf::NO_COMPRESSION, Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION,
@@ -99,7 +99,7 @@ void add_layer(Imf::Header& header, const std::string& layer, const std::string&
 }
 
 void add_channels(Imf::Header& header, const std::vector<std::string>& views, Random& random) {
-  // What most readers look for, so that most files have something in them.
+  // The channels that most readers look for, so that most files have usable contents.
   if (random.one_in(2)) add_layer(header, "", "", {"Z"}, random);
   if (random.one_in(2)) add_layer(header, "N", "", {"X", "Y", "Z"}, random);
   for (int layers = random.between(0, 3); layers > 0; --layers) {
@@ -198,7 +198,7 @@ float made_value(Random& random, int kind) {
   }
 }
 
-/// Owns the pixels of one level of one part. Values are floats; OpenEXR is told their true type by the bits they have.
+/// Owns the pixels of one level of one part. Values are floats; OpenEXR gets them in their true type.
 struct Pixels {
   std::list<std::vector<uint32_t>> memory;
   Imf::FrameBuffer buffer;
@@ -274,7 +274,7 @@ std::vector<Imf::Header> made_headers(Random& random) {
   return headers;
 }
 
-/// Throws what OpenEXR throws for headers that do not go together.
+/// Throws as OpenEXR does for inconsistent headers.
 std::string written(const std::vector<Imf::Header>& headers, Random& random) {
   Memory memory;
   {

@@ -1,4 +1,4 @@
-// Small EXR files of every kind that OpenEXR writes, but for deep ones.
+// Small EXR files of every kind that OpenEXR writes, except deep ones.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The EXR layer: any bytes are a frame whose planes keep gloam's conventions, or are refused in one line.
+// The EXR layer: any bytes are either a frame whose planes keep gloam's conventions, or refused in one line.
 #include <OpenEXR/ImfThreading.h>
 
 #include <cmath>
@@ -22,14 +22,14 @@ namespace {
 /// Small enough to decode thousands of files in a second, large enough for files of several chunks.
 constexpr long long most_pixels = 1 << 14;
 
-/// With one thread: which of several meets damage first would be chance, and so would be what a fuzzer learns from it.
+/// With one thread: with several, chance would decide which one meets damage first, and what a fuzzer learns.
 MemoryFile file_for_one_thread() {
   use_all_threads();
   Imf::setGlobalThreadCount(0);
   return {};
 }
 
-// --- What has to hold of a frame
+// --- Properties of a frame
 
 using PixelCheck = std::function<bool(int x, int y)>;
 
@@ -116,7 +116,7 @@ ReadOptions plain_options() {
   return options;
 }
 
-/// What a user may say of the file.
+/// Options that a user may give for the file.
 ReadOptions other_options(Random& random) {
   ReadOptions options = plain_options();
   options.depth = random.pick({DepthConvention::automatic, DepthConvention::z, DepthConvention::ray,
@@ -150,7 +150,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static MemoryFile file = file_for_one_thread();
   const std::string& path = file.hold(data, size);
   if (!reads(path, [&] { read_everything(path, plain_options()); })) return 0;
-  // Some of what is read as it stands is read again with flags, which the bytes choose.
+  // Some files are read again with flags, which depend on the bytes.
   gloam::Random random(std::hash<std::string_view>()({reinterpret_cast<const char*>(data), size}));
   if (!random.one_in(4)) return 0;
   reads("", [&] { read_everything(path, other_options(random)); });

@@ -35,11 +35,11 @@ Json odd_value(const std::vector<std::string>& words, Random& random) {
     case 4:
       return random.between(-1000, 1000) / 100.0;
     default:
-      return odd_number(random);  // null where it is not finite
+      return odd_number(random);  // null if it is not finite
   }
 }
 
-/// Of an object or a list, one of its own.
+/// Replaces a member of an object or list by another of its members.
 void change_children(Json& value, const std::vector<std::string>& words, Random& random) {
   if (value.is_array()) {
     if (random.one_in(2) || value.empty())

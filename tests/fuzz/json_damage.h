@@ -8,7 +8,7 @@
 
 namespace gloam::fuzz {
 
-/// One change. `starts`: texts that may take the place of this one, or lend it a part; `words`: names of fields.
+/// One change. `starts`: texts that may replace this one, or give it a part; `words`: names of fields.
 std::string damaged_json(const std::string& text, const std::vector<std::string>& starts,
                          const std::vector<std::string>& words, Random& random);
 

@@ -1,4 +1,4 @@
-// A file in memory, written anew for each input: for readers that take a path.
+// A file in memory, rewritten for each input, for readers that take a path.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace gloam::fuzz {
 class MemoryFile {
  public:
   MemoryFile();
-  /// The path under which this process, and it alone, reads these bytes until the next call.
+  /// A path under which only this process reads these bytes, until the next call.
   const std::string& hold(const uint8_t* data, size_t size);
 
  private:

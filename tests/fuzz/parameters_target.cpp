@@ -1,6 +1,6 @@
 // Settings of techniques: any names and values make a plan whose passes can be launched, or are refused in one line.
 //
-// An input is lines: the technique, then NAME=VALUE for a setting, and "--what=VALUE" for what else a user may ask.
+// An input is lines: the technique, then NAME=VALUE for a setting, and "--what=VALUE" for other options of a user.
 #include <cmath>
 #include <sstream>
 
@@ -50,14 +50,14 @@ PlanRequest request_of(const std::string& text) {
   return request;
 }
 
-// --- What has to hold
+// --- Properties
 
 bool is_within(const Parameter& parameter, double value) {
-  // As a float, which may lie beside the bound by its rounding.
+  // Compared as floats, which may exceed the bound by rounding.
   return value >= double(float(parameter.min)) && value <= double(float(parameter.max));
 }
 
-/// Values keep their range, and read as what they are written as.
+/// Values keep their range, and their text reads back as the same value.
 void check_values(const ParameterValues& values) {
   ParameterValues again(values.table());
   for (const Parameter& parameter : values.table()) {

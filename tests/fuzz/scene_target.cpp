@@ -1,4 +1,4 @@
-// Scenes from files: any OBJ or glTF text gives a scene that rays can be traced through, or is refused in one line.
+// Scenes from files: any OBJ or glTF text is either a scene that rays can be traced through, or refused in one line.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 bool is_gltf(const std::string& text) { return text.starts_with("{"); }
 
-/// assimp goes by the ending of a name, so that the file in memory gets two.
+/// assimp chooses by the ending of a name, so the file in memory gets two names.
 class SceneFile {
  public:
   SceneFile() {
@@ -65,7 +65,7 @@ const std::vector<std::string>& words() {
   return names;
 }
 
-/// A word that OBJ files may hold, at any place where words are.
+/// Replaces a word by another one of OBJ files, at any position.
 std::string damaged_obj(std::string text, Random& random) {
   if (random.one_in(3)) return mutated(text);
   const std::vector<std::string> odd = {"1e20", "-1e20", "1e38", "1e39", "nan",      "inf", ".5",   "-.5", "5.",
@@ -107,7 +107,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace gloam::fuzz;
   static SceneFile file;
   const fs::path path = file.hold({reinterpret_cast<const char*>(data), size});
-  // Rays are traced through a scene that is known by its name alone.
+  // Rays are traced through a scene known only by its name.
   reads(path.filename().string(), [&] { trace(gloam::import_scene(path)); });
   return 0;
 }

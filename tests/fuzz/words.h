@@ -1,4 +1,4 @@
-// Names and numbers that files may hold and that some reader may trip over.
+// Names and numbers in files that may trip up a reader.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace gloam::fuzz {
 
-/// Names of channels without layer and view, of attributes, views and parts: what gloam looks for, and others.
+/// Names of channels without layer and view, of attributes, views and parts: those that gloam knows, and others.
 const std::vector<std::string>& channel_words();
 const std::vector<std::string>& layer_words();
 const std::vector<std::string>& view_words();
 
-/// Numbers at the limits of what types and formulas take.
+/// Numbers at the limits of types and formulas.
 double odd_number(Random& random);
 int odd_whole_number(Random& random);
 /// A word of another list, an empty one, a long one, or one that no terminal may show.

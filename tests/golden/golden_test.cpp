@@ -1,4 +1,4 @@
-// One small frame per technique, kept: a change of any result is seen. How to renew: script/update-goldens.
+// One small frame per technique is kept, so that any change of a result is noticed. script/update-goldens renews them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double per_value = 1e-5;  ///< a value further off counts as changed
 
-/// Precise mathematics give the same bits on every CPU; a GPU may put a sample into the neighbouring pixel now and then.
+/// Precise mathematics gives the same bits on every CPU; a GPU may now and then put a sample into the neighbouring pixel.
 double share_allowed() { return device().info().type == "cpu" ? 0 : 0.005; }
 double largest_allowed() { return device().info().type == "cpu" ? per_value : 0.5; }
 
@@ -25,13 +25,13 @@ std::filesystem::path file_of(const Technique& technique) {
   return std::filesystem::path(GLOAM_SOURCE_DIR) / "tests" / "golden" / (technique.name + ".exr");
 }
 
-/// What a technique of two views asks for, from two eyes that each see what the other does not.
+/// The inputs of a technique for two views, from two eyes each of which sees something that the other does not.
 Frame two_eyes(const Technique& technique) {
   Frame pair;
   for (const double offset : {0.0, 0.3}) {
     const Eye eye = eye_at(perspective(64, 48), {offset, 0, 0});
     Frame frame = shoot(eye.shot, seen_by(eye.pose, room()));
-    plan_for(technique, frame);  // invents what is lacking
+    plan_for(technique, frame);  // adds invented planes
     View& view = frame.views[0];
     view.name = pair.views.empty() ? "left" : "right";
     view.camera->pose = eye.pose;
@@ -44,7 +44,7 @@ Frame two_eyes(const Technique& technique) {
 
 Frame result_of(const Technique& technique) {
   Frame frame = technique.views == 2 ? two_eyes(technique) : shoot(perspective(64, 48), room());
-  // A file's positions are read where it says where its camera stands.
+  // The plane `position` of a file is read only if the file states the camera's pose.
   if (technique.name == "positions") frame.views[0].camera->pose.emplace();
   return outputs_of(technique, frame, {}, {.math = Math::precise, .seed = 1});
 }
@@ -83,7 +83,7 @@ Change change_of(const Frame& found, const Frame& expected) {
   return change;
 }
 
-/// The kept frame. The planes are those of `found`, so that a technique that writes others than before is noticed.
+/// The kept frame. The planes are those of `found`, so that a technique that writes other planes than before is noticed.
 Frame kept(const std::filesystem::path& path, const Frame& found) {
   return FrameFile(path, {}).read(plane_names(found));
 }

@@ -1,5 +1,5 @@
-// Every hard case on every technique of the registry, as `gloam stress --quick` goes through them. Adding a technique or a
-// case adds tests; nothing here names one.
+// Every hard case on every technique of the registry, as `gloam stress --quick` runs them. A new technique or case adds tests by
+// itself.
 #include <gtest/gtest.h>
 
 #include "stress/case.h"
@@ -40,7 +40,7 @@ TEST_P(HardCases, Hold) {
   }
 }
 
-/// Case 13 again, with Rusticl beside PoCL: two implementations for CPUs.
+/// Case 13 again, with Rusticl besides PoCL: two implementations for CPUs.
 TEST_P(HardCases, HoldOnSecondDevice) {
   const char* second = "llvmpipe";
   if (!has_device(second)) GTEST_SKIP() << "no OpenCL device " << second << "; Debian's mesa-opencl-icd brings one";

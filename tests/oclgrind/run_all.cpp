@@ -1,6 +1,6 @@
-// Runs every technique once on small frames, one pixel per work-item: to be watched by oclgrind, which finds accesses
-// out of bounds. All choices, switches and counts in the long run; the few samples of the defaults each time. Of precise
-// mathematics the bits are told, which are to be the same as another device's.
+// Runs every technique once on small frames, one pixel per work-item, under oclgrind, which finds accesses out of bounds. The
+// long run covers all choices, switches and counts; every run covers the defaults with few samples. With precise mathematics it
+// prints the bits, which must be those of other devices.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,12 +15,12 @@
 namespace gloam::test {
 namespace {
 
-// Wide and low: a row of more floats than the guard is long, so that one row too far lies outside of the buffer; and few
-// pixels, since oclgrind interprets every sample, and there are hundreds of them per pixel.
+// Wide and low: a row has more floats than the guard, so that one row too far lies outside the buffer; and few pixels, since
+// oclgrind interprets every sample, of which a pixel has hundreds.
 constexpr int width = 65, height = 3;
 static_assert(width > Layout::guard);
 
-/// Loops of more turns than this, or than they have by default, read nothing else, and take minutes to interpret.
+/// Loops with more iterations than this, or than by default, read nothing new, and take minutes to interpret.
 constexpr int most_turns = 8;
 
 /// Every value of a choice or a switch, and both ends of a count.
@@ -31,7 +31,7 @@ std::vector<int> values_of(const Parameter& p, int usual) {
   return all;
 }
 
-/// Each choice, switch and count by itself at values other than the default.
+/// Each choice, switch and count at values other than the default, one at a time.
 std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
   std::vector<Settings> all;
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
@@ -50,8 +50,8 @@ std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
   return all;
 }
 
-/// On a single row, and with few samples otherwise: the defaults are run on more anyway, and what lies outside of one row lies
-/// outside of the image.
+/// Runs variants on a single row, with few samples otherwise: the defaults run on more rows anyway, and reads outside one row are
+/// outside the image.
 int run_variants(const Technique& technique) {
   int passes = 0;
   if (!is_long_run()) return 0;
@@ -87,7 +87,7 @@ int run_defaults(const Technique& technique, const Shot& shot, bool with_normals
   return int(plan.passes.size());
 }
 
-/// As few pixels as show everything near something: in a lower image nearly all samples would lie outside.
+/// Prints the bits for as few pixels as show everything near each other: in a lower image nearly all samples would lie outside.
 int tell_bits(const Technique& technique) {
   Frame frame = shoot(perspective(20, 15), room());
   const Plan plan = plan_for(technique, frame, few_samples(technique));
@@ -96,10 +96,10 @@ int tell_bits(const Technique& technique) {
   return int(plan.passes.size());
 }
 
-/// Where a mask leaves most pixels out, at full and at half resolution; 0 for a technique that cannot be restricted.
+/// Runs with a mask that leaves out most pixels, at full and at half resolution; 0 for a technique that cannot be restricted.
 int run_masked(const Technique& technique) {
   Frame frame = shoot(perspective(width, height), room());
-  plan_for(technique, frame);  // invents what it needs
+  plan_for(technique, frame);  // adds invented planes
   plane_of(frame, "mask").channels[0].at(width / 2, 1) = 1;
   int passes = 0;
   for (const int resolution : {1, 2}) {
@@ -120,19 +120,19 @@ int run_masked(const Technique& technique) {
   return passes;
 }
 
-/// At half resolution, where two views that agree are upsampled together; 0 for a technique that looks at one view.
+/// Runs at half resolution, where two views that agree are upsampled together; 0 for a technique of one view.
 int run_reduced(const Technique& technique) {
   if (technique.views != 2) return 0;
   Frame frame = shoot(perspective(width, height), room());
-  plan_for(technique, frame);  // invents what it needs
+  plan_for(technique, frame);  // adds invented planes
   const Plan plan = make_plan({.outputs = {technique.name}, .settings = few_samples(technique), .resolution = 2},
                               plane_names(frame), "the frame has not");
   run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
   return int(plan.passes.size());
 }
 
-/// Through slits whose rays change evenly over the image, and through others, with views that look into one another; 0 for a
-/// technique whose views do not.
+/// Runs on modules whose rays change evenly over the image and on others, with views that read one another; 0 for a technique
+/// whose views do not.
 int run_modules(const Technique& technique) {
   if (!technique.key_views) return 0;
   int passes = 0;
@@ -151,7 +151,7 @@ int run_modules(const Technique& technique) {
   return passes;
 }
 
-/// Two estimates of one image: another technique where a mask is not, and fewer samples by tiles. The passes beside the
+/// Runs two estimates of one image: another technique where a mask is not set, and fewer samples by tiles. The passes around the
 /// estimates are the same for all techniques.
 int run_second_estimates() {
   int passes = 0;
@@ -167,7 +167,7 @@ int run_second_estimates() {
   return passes;
 }
 
-/// What a technique does on any frame.
+/// Runs everything that a technique does on any frame.
 int run_all_of(const Technique& technique) {
   int passes = run_defaults(technique, perspective(width, height), true);
   passes += run_defaults(technique, orthographic(width, height, 4), false);
@@ -175,7 +175,7 @@ int run_all_of(const Technique& technique) {
   return passes + run_variants(technique) + run_masked(technique) + run_reduced(technique) + run_modules(technique);
 }
 
-/// Every `parts`-th technique, from `part` on; `bits_only`: only what tells bits.
+/// Every `parts`-th technique, from `part` on; `bits_only`: only the printing of bits.
 int run_all(size_t part, size_t parts, bool bits_only) {
   int passes = part == 0 && !bits_only ? run_second_estimates() : 0;
   for (size_t i = part; i < registry().size(); i += parts) {
@@ -189,7 +189,7 @@ int run_all(size_t part, size_t parts, bool bits_only) {
 }  // namespace
 }  // namespace gloam::test
 
-/// Two numbers: which part of the techniques, and of how many parts. And "bits", to tell the bits and do nothing else.
+/// Arguments: the part of the techniques, the number of parts, and "bits" to print only the bits.
 int main(int argc, char** argv) {
   const bool bits_only = argc == 4 && std::string(argv[3]) == "bits";
   if (argc != 3 && !bits_only) return 2;

@@ -1,4 +1,4 @@
-// An estimate of ambient occlusion by itself, without a filter, and what its planes hold at a pixel.
+// An unfiltered estimate of ambient occlusion, and the values of its planes.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,10 +10,10 @@
 
 namespace gloam::test {
 
-/// All settings of both, those of `more` last.
+/// All settings of both lists, those of `more` last.
 Settings joined(Settings settings, const Settings& more);
 
-/// These planes of a technique, unfiltered, from the planes of the frame.
+/// A plan for these planes of a technique, unfiltered, from the planes of the frame.
 Plan plan_of(const std::string& technique, const Frame& frame, const Settings& settings = {},
              const std::vector<std::string>& only = {"ao_raw"}, int resolution = 1);
 /// Its ao_raw.
@@ -26,7 +26,7 @@ float value_at(const Frame& frame, const std::string& plane, int x, int y);
 glm::dvec3 vector_at(const Frame& frame, const std::string& plane, int x, int y);
 float raw_at(const Frame& result, int x, int y);
 
-/// The largest distance of any pixel's ao_raw from open.
+/// The largest distance from open of ao_raw over all pixels.
 double largest_occlusion(const Frame& result);
 
 }  // namespace gloam::test

@@ -24,7 +24,7 @@ IntegralCase moved(IntegralCase test, glm::ivec2 by) {
   return test;
 }
 
-/// The depth as a layer, and nothing to be computed but these pixels: background everywhere else.
+/// A frame with the depth as a layer and background everywhere but at these pixels.
 Frame only_at(const std::vector<glm::ivec2>& pixels, const Frame& frame) {
   Frame few = with_layers(frame, {same_depth});
   Channel& depth = plane_of(few, "depth").channels[0];
@@ -42,7 +42,7 @@ std::vector<double> values_at(const std::vector<glm::ivec2>& pixels, const Frame
   return values;
 }
 
-/// By seed and pixel.
+/// Indexed by seed and pixel.
 using Samples = std::vector<std::vector<double>>;
 
 Samples samples_of(const Plan& plan, const Frame& frame, const std::vector<glm::ivec2>& pixels, int seeds) {
@@ -119,9 +119,9 @@ double pixels_across(const Shot& shot, double length, double depth) {
   return length * shot.camera.fx / (shot.camera.orthographic ? 1 : depth);
 }
 
-glm::dvec2 place_of(const Shot& shot, const glm::dvec3& point) {
+glm::dvec2 pixel_of(const Shot& shot, const glm::dvec3& point) {
   if (shot.camera.slits)
-    return gloam::place_of(shot.camera, point).value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+    return gloam::pixel_of(shot.camera, point).value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
   const double nearness = shot.camera.orthographic ? 1 : -1 / point.z;
   return {shot.camera.cx + point.x * nearness * shot.camera.fx, shot.camera.cy - point.y * nearness * shot.camera.fy};
 }

@@ -1,4 +1,4 @@
-// Light-field displays for tests, and what their modules show.
+// Light-field displays for tests, and the images of their modules.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace gloam::test {
 /// The distance of the screen's middle from the observers, scene units.
 double depth_of_screen(const Camera& camera);
 
-/// The built-in scene `colonnade` as the modules show it, with depth, normals and positions: what its own camera frames fills the
-/// screen, sheared as the display's world is, if it has one.
+/// The built-in scene `colonnade` through the modules, with depth, normals and positions: the image of its own camera fills the
+/// screen, sheared like the display's world, if it has one.
 Frame captured(LightFieldDisplay display, int width, int height);
 
 }  // namespace gloam::test

@@ -8,7 +8,7 @@
 
 namespace gloam::test {
 
-/// Whether everything is to be run: GLOAM_TESTS=long in the environment, as `script/test --long` sets it.
+/// Whether to run everything: GLOAM_TESTS=long in the environment, as set by `script/test --long`.
 inline bool is_long_run() {
   const char* asked = std::getenv("GLOAM_TESTS");
   return asked && std::string(asked) == "long";
@@ -16,6 +16,6 @@ inline bool is_long_run() {
 
 }  // namespace gloam::test
 
-/// At the start of a test that takes more than ten seconds, or costs more than what it finds is worth each time.
+/// At the start of a test that takes more than ten seconds, or costs more than its findings are worth in every run.
 #define ONLY_IN_LONG_RUN() \
   if (!gloam::test::is_long_run()) GTEST_SKIP() << "takes long: script/test --long runs it"

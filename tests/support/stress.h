@@ -1,4 +1,4 @@
-// The frames of `gloam stress`, and what techniques make of them, by the names that tests have for them.
+// The frames of `gloam stress`, and techniques' results on them, under the names that tests use.
 #pragma once
 
 #include "stress/eyes.h"

@@ -13,7 +13,7 @@ namespace {
 /// Set by tests/CMakeLists.txt for tests that need no second device.
 constexpr const char* one_opencl = "GLOAM_ONE_OPENCL";
 
-/// Has to happen before the first OpenCL call of the process.
+/// Must be called before the first OpenCL call of the process.
 void switch_on_rusticl() {
   if (!std::getenv(one_opencl)) setenv("RUSTICL_ENABLE", "llvmpipe", 0);
 }
@@ -22,7 +22,7 @@ void switch_on_rusticl() {
 
 Device& device(const std::string& text) {
   switch_on_rusticl();
-  // Never closed: OpenCL drivers are not all alive any more when statics are destroyed.
+  // Never closed: when statics are destroyed, some OpenCL drivers are gone already.
   static auto& open = *new std::map<std::string, Device*>;
   Device*& found = open[text];
   if (!found) found = new Device(text);

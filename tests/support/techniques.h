@@ -7,13 +7,13 @@
 
 namespace gloam::test {
 
-/// The device whose name holds `text` (empty: the one gloam picks), opened once per program. The second OpenCL on CPUs,
-/// Rusticl on llvmpipe, is switched on before the first is opened, unless GLOAM_ONE_OPENCL is set in the environment.
+/// The device whose name holds `text` (empty: gloam's own choice), opened once per program. Rusticl on llvmpipe, the second
+/// OpenCL for CPUs, is switched on before the first device is opened, unless GLOAM_ONE_OPENCL is set in the environment.
 Device& device(const std::string& text = "");
 /// Whether there is such a device.
 bool has_device(const std::string& text);
 
-/// Plan and run; the planes asked for.
+/// Plans and runs; returns the planes asked for.
 Frame outputs_of(const Technique& technique, Frame& frame, const Settings& settings, const RunOptions& options,
                  const std::string& device_name = "");
 

@@ -1,4 +1,4 @@
-// Kernels that PoCL compiles without optimising them: for tests in which it takes far longer to compile than to compute.
+// Kernels that PoCL compiles without optimisation: for tests that compile far longer than they compute.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 
 namespace gloam::test {
 
-/// While a suite runs whose name begins with one of these, PoCL does not optimise what it compiles; "" begins all. Precise bits do
-/// not hang on it: the hard cases compare lanes, devices, and oclgrind, which does not optimise either. In the long run all
-/// kernels are optimised.
+/// While a suite runs whose name begins with one of these ("": all suites), PoCL does not optimise. Precise bits do not depend on
+/// it: the hard cases compare lanes, devices, and oclgrind, which does not optimise either. In the long run all kernels are
+///    optimised.
 class Unoptimised : public testing::EmptyTestEventListener {
  public:
   explicit Unoptimised(std::vector<std::string> suites) : suites_(std::move(suites)) {}

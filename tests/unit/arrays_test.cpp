@@ -1,4 +1,4 @@
-// What a program hands over from memory: computed as a file is, and refused in one sentence where it cannot be.
+// Frames that a program passes from memory: computed like a file, or refused in one sentence.
 #include "gloam/arrays.h"
 
 #include <gtest/gtest.h>
@@ -146,7 +146,7 @@ TEST(Arrays, RadiiThatAreNoneAreRefused) {
   }
 }
 
-/// Frames that a program has put together by itself, or taken apart.
+/// Frames that a program has composed, or taken apart, by itself.
 TEST(Frames, ThatNothingCanBeComputedOfAreRefused) {
   const std::vector<float> depth = two_walls();
   const PlanRequest request{.outputs = {"hbao+"}, .radius = 1.0};

@@ -53,7 +53,7 @@ void expect_near(const dvec2& a, const dvec2& b, double tolerance) {
   EXPECT_NEAR(a.y, b.y, tolerance);
 }
 
-/// What `call` throws, which has to be one line that holds every one of `parts`.
+/// The message that `call` throws: one line that holds every one of `parts`.
 template <typename Call>
 void expect_error(Call call, const std::vector<std::string>& parts) {
   try {
@@ -121,7 +121,7 @@ TEST_F(CameraFile, LongestPrefixWins) {
   EXPECT_EQ(found("apartment_mono.0001.exr"), "apartment_mono.camera.json");
   EXPECT_EQ(found("apartment_individual_L.exr"), "none");
   EXPECT_EQ(found("gard.exr"), "none");
-  // In whatever order the folder lists them.
+  // Whatever the order in which the folder lists them.
   write("shot.0001.camera.json", "{}");
   write("shot.camera.json", "{}");
   EXPECT_EQ(found("shot.0001.exr"), "shot.0001.camera.json");
@@ -310,7 +310,7 @@ TEST_F(CameraFile, RefusedInOneLine) {
         v["projection_gl"] = {{1, 0.1, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, -1}, {0, 0, -1, 0}};
       },
       {"projection_gl", "mixes"});
-  // The message points at the place where the field stands.
+  // The message names the position of the field.
   refused([](json& d, json&) { d["near"] = "x"; }, {"camera.json: near is"});
 }
 
@@ -376,7 +376,7 @@ TEST_F(CameraFile, JsonThatMayHaveMeantToBeACameraIsNoted) {
   EXPECT_EQ(notes_for("frame.json", "{\"planes\": [], \"views\": [\"left\"]}"), "") << "gloam info writes this";
   EXPECT_EQ(notes_for("frame.json", "{\"fps\": 24}"), "");
   EXPECT_EQ(notes_for("other.json", "{"), "");
-  // With NaN in it, it is a camera still, and reading it says what is wrong.
+  // With NaN in it, it still is a camera, and reading it reports the fault.
   for (const char* name : {"frame.json", "frame.camera.json", "camera_b.json"}) {
     for (const auto& entry : fs::directory_iterator(folder)) fs::remove(entry);
     write(name, "{\"fx\": NaN}");
@@ -520,12 +520,12 @@ TEST(CameraFromMatrices, RefusedInOneLine) {
   expect_error([&] { camera_from_matrices(at_123, ndc_123, small, dvec3(0, nan, 0)); }, {"gloamOrigin"});
 }
 
-/// Row vectors: what is multiplied from the right comes after.
+/// For row vectors: a matrix multiplied from the right is applied later.
 const Imath::M44d looks_back(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
 const Imath::M44d y_up(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1);
 const Imath::M44d symmetric_y_up(2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, -1, 1, 0, 1);
 
-/// OpenEXR's own form, Arnold's, and the others that a writer may take: one camera.
+/// OpenEXR's own form, Arnold's, and other possible ones: one camera.
 TEST(CameraFromMatrices, EveryFormTellsTheSameCamera) {
   for (const bool orthographic : {false, true}) {
     Camera camera;
@@ -542,8 +542,8 @@ TEST(CameraFromMatrices, EveryFormTellsTheSameCamera) {
         {"", Imath::M44d()}, {"worldToNDC as 0 to 1, y up", y_up}, {"worldToNDC as -1 to 1, y up", symmetric_y_up}};
     for (const auto& [words, range] : ranges) {
       for (const bool back : {false, true}) {
-        // Nothing but y tells where an orthographic camera of OpenEXR's own range looks; and from 0 to 1, y up and along -z, a
-        // perspective one is the same as OpenEXR's own, mirrored.
+        // For an orthographic camera in OpenEXR's own range only y tells where it looks; and with a range of 0 to 1, y up and
+        // along -z, a perspective one is the same as OpenEXR's own, mirrored.
         if (back && (orthographic ? words.empty() : words == "worldToNDC as 0 to 1, y up")) continue;
         std::vector<std::string> assumed;
         const Camera read = camera_from_matrices(back ? own.world_to_camera * looks_back : own.world_to_camera,
@@ -589,7 +589,7 @@ Camera random_camera(std::mt19937& random, const Window& display, const dvec3& p
   return camera;
 }
 
-/// The largest distance in pixels between where two cameras put points that the first sees, over depths 0.1 to 1000.
+/// The largest distance in pixels between two cameras' projections of points that the first sees, at depths 0.1 to 1000.
 double disagreement(const Camera& a, const Camera& b, const Window& display) {
   double worst = 0;
   for (double depth : {0.1, 1.0, 1000.0})
@@ -669,7 +669,7 @@ class Captures : public testing::Test {
     if (!file) throw std::runtime_error("no camera for " + frame.string());
     return read_camera_file(*file, display, assumed);
   }
-  /// World positions of a frame have to land on their pixels' centres.
+  /// World positions of a frame must land on their pixels' centres.
   void expect_positions_on_pixels(const fs::path& frame, const std::string& layer) {
     const std::string path = (folder / frame).string();
     const Plane position = read_vector(path, layer, "position");

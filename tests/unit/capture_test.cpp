@@ -1,4 +1,4 @@
-// Captured planes against what is known of the scene.
+// Captured planes against known properties of the scene.
 #include "gloam/scene/capture.h"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST(Capture, Materials) {
   EXPECT_EQ(value(frame, "color", 16, 16), 0) << "a metal has no diffuse light";
 }
 
-/// Position, depth and pixel belong together for every kind of camera.
+/// Position, depth and pixel are consistent for every kind of camera.
 void expect_positions_on_pixel_centres(const Scene& scene, const Camera& camera) {
   const Frame frame = captured(scene, camera, 64, 36).frame;
   const View& view = frame.views[0];
@@ -198,7 +198,7 @@ TEST(Capture, AboutTheSameAtAnyDistanceFromTheOrigin) {
 
 // --- Stochastic depth
 
-/// A thing with many surfaces under a pixel, once for all tests.
+/// An object with many surfaces under a pixel, made once for all tests.
 const Scene& fence() {
   static const Scene scene = load_scene("fence", {});
   return scene;
@@ -210,7 +210,7 @@ const Tracer& fence_tracer() {
 
 constexpr int fence_width = 200, fence_height = 150;
 
-/// Depth, all layers, and a stochastic depth map where `samples` is not 0.
+/// Depth, all layers, and a stochastic depth map if `samples` is not 0.
 Frame captured_fence(int samples, double alpha = 0.2, int seed = 0, bool orthographic = false) {
   SceneCamera camera = fence().cameras[0];
   camera.orthographic = orthographic;
@@ -234,14 +234,14 @@ struct Layered {
     }
   }
   int layers(int x, int y) const { return int(count->at(x, y)); }
-  /// Which of the first samples hold a surface.
+  /// The samples, among the first ones, that hold a surface.
   uint32_t holders(int x, int y, int layer, int first = 16) const {
     uint32_t held = 0;
     for (int j = 0; j < std::min(first, int(samples.size())); ++j)
       held |= uint32_t(samples[size_t(j)]->at(x, y) == surfaces[size_t(layer)]->at(x, y)) << j;
     return held;
   }
-  /// At least so many surfaces under the pixel, no two at one depth (which would go into the same samples).
+  /// Whether at least this many surfaces lie under the pixel, no two at one depth (which would go into the same samples).
   bool has(int x, int y, int number) const {
     if (layers(x, y) < number) return false;
     for (int i = 1; i < number; ++i) {
@@ -310,7 +310,7 @@ struct Mean {
   double error() const { return std::sqrt((squares / double(count) - mean() * mean()) / double(count)); }
 };
 
-/// A sample holds layer i with probability alpha (1 - alpha)^(i - 1): it was offered that one and none before it.
+/// A sample holds layer i with probability alpha (1 - alpha)^(i - 1): it was offered this layer and none before it.
 void expect_layer_counts(const Layered& layered, int samples, double alpha, const std::string& what) {
   for (int layer = 0; layer < 3; ++layer) {
     Mean held;
@@ -342,7 +342,7 @@ TEST(StochasticCapture, TheFirstSamplesAreAMapOfTheirOwn) {
     const Layered layered(frame.views[0]);
     for (const int first : {1, 2, 4, 8, 16}) {
       expect_layer_counts(layered, first, alpha, fmt::format("first {} of 16, alpha {}", first, alpha));
-      // Stratified: the nearest surface is in as many of them as alpha says, rounded up or down.
+      // Stratified: the number of samples that hold the nearest surface is alpha times all, rounded up or down.
       std::map<int, int> counts;
       for_pixels([&](int x, int y) {
         if (layered.has(x, y, 1)) ++counts[std::popcount(layered.holders(x, y, 0, first))];
@@ -382,7 +382,7 @@ double chi_square(const std::vector<std::vector<double>>& table) {
 }
 
 TEST(StochasticCapture, TwoSeedsHaveNothingToDoWithEachOther) {
-  // Which of four samples holds the nearest surface under one seed and under another; none of them is the fifth.
+  // Which of four samples holds the nearest surface with one seed and with another; none: the fifth.
   const auto table_of = [](const Frame& a, const Frame& b) {
     const Layered left(a.views[0]), right(b.views[0]);
     std::vector<std::vector<double>> table(5, std::vector<double>(5, 0));
@@ -415,7 +415,7 @@ TEST(StochasticCapture, TheNearestSurfaceIsInEachSampleEquallyOften) {
     EXPECT_LT(std::abs(held[j] - 0.2 * pixels), 4 * std::sqrt(0.2 * 0.8 * pixels)) << "sample " << j;
 }
 
-/// What the technique makes of a frame's peeled layers.
+/// The technique's result for a frame's peeled layers.
 Frame derived(Frame& frame, int samples, double alpha, int seed) {
   RunOptions options;
   options.seed = seed;
@@ -477,7 +477,7 @@ TEST(StochasticCapture, TheSameBitsAsTheTechniqueMakes) {
   }
 }
 
-/// Every one of 64 layers is held as often as alpha says, down to where that is less than once in the image.
+/// Every one of 64 layers is held as often as alpha predicts, down to less than once per image.
 TEST(StochasticDepthOfLayers, SixteenSamplesOfSixtyFour) {
   constexpr int width = 160, height = 120, layers = 64, samples = 16;
   constexpr double alpha = 0.05;
@@ -615,7 +615,7 @@ TEST(SecondView, TheFirstIsWhatItIsAlone) {
   }
 }
 
-// The sides of the boxes, which the first camera sees edge-on or not at all; both see their places in the world.
+// The sides of the boxes, which the first camera sees edge-on or not at all, have the same world positions in both views.
 TEST(SecondView, SeesTheSidesWhereTheyAre) {
   const Scene scene = boxes();
   const Tracer tracer(scene);

@@ -1,4 +1,4 @@
-// Which channels are found as which plane, from names alone.
+// Recognition of planes from channel names alone.
 #include "exr/channel_names.h"
 
 #include <gtest/gtest.h>

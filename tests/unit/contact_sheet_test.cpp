@@ -17,8 +17,8 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeri
 
 const Pixel white{255, 255, 255}, tone{214, 214, 214}, line{186, 186, 186}, magenta{255, 0, 255};
 
-/// Where the tiles are, from the layout: equal margins and gaps, two lines of text above each tile, a scale in the
-/// header where there are depths.
+/// Positions of the tiles, from the layout: equal margins and gaps, two lines of text above each tile, a scale in the header if
+/// there are depths.
 struct Grid {
   int box, image_height;
   double unit;
@@ -89,7 +89,7 @@ TEST_F(ContactSheetTest, LargeImagesAreReducedToTheTileAndSmallOnesEnlargedByAWh
   EXPECT_EQ(size_of(960, 540, 480), std::pair(480, 270));
   EXPECT_EQ(size_of(100, 50, 480), std::pair(400, 200));
   EXPECT_EQ(size_of(1, 1, 480), std::pair(480, 480));
-  EXPECT_EQ(size_of(100, 4000, 240), std::pair(24, 480));  // narrower than can be seen: widened
+  EXPECT_EQ(size_of(100, 4000, 240), std::pair(24, 480));  // too narrow to be seen: widened
 }
 
 TEST_F(ContactSheetTest, ReducedColoursAreAveragedAndIdentitiesAreNot) {
@@ -225,7 +225,7 @@ TEST_F(ContactSheetTest, TextStaysOffTheTilesAndInsideTheMargin) {
   }
 }
 
-/// Values that a careless file may hold.
+/// Unusual values that a file may hold.
 const std::vector<Pattern> odd_values{level(0),
                                       level(1),
                                       level(-3),

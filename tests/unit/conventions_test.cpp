@@ -71,7 +71,7 @@ ReadOptions with(DepthConvention depth, std::optional<double> near = {}, std::op
   return options;
 }
 
-/// An image of a known function of the pixel.
+/// An image computed by a function of the pixel.
 Channel image(int width, int height, const std::function<float(int, int)>& value) {
   Channel channel(Layout(width, height), 0.0f);
   for (int y = 0; y < height; ++y)
@@ -179,7 +179,7 @@ TEST(Depth, RayLength) {
 
 TEST(Depth, RayLengthsThatLeaveNoDepthAreBackground) {
   Camera camera = plain_camera();
-  camera.fx = 1e-6;  // the pixel's ray lies all but in the plane of the image
+  camera.fx = 1e-6;  // the pixel's ray lies nearly in the plane of the image
   camera.cx = -1e6;
   EXPECT_EQ(convert({1e-25f, 1e-29f, 1e10f}, with(DepthConvention::ray), camera).depth,
             (std::vector<float>{inf, inf, inf}));
@@ -435,7 +435,7 @@ TEST(Normals, WithoutAPoseOthersAreWorldSpace) {
   EXPECT_NE(sentence.find("world space"), std::string::npos) << sentence;
 }
 
-/// A camera that looks along the world's -z but for 30 degrees: its world normals agree with depth to 0.87.
+/// A camera that looks along the world's -z except for 30 degrees: its world-space normals agree with depth to 0.87.
 TEST(Normals, WithoutAPoseAWorldTurnedLittleIsNotTheView) {
   Scene scene;
   const double angle = 0.52;
@@ -575,7 +575,7 @@ class CapturedNormals : public testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(folder + "/README.md")) GTEST_SKIP() << "no captures at " << folder;
   }
-  /// Detects the space twice: as the file has the normals (world), and once they were rotated.
+  /// Detects the space twice: with the file's normals (world), and with rotated ones.
   void expect_world(const std::string& frame, const std::string& depth_name, const std::string& normal_name) {
     const std::string path = folder + "/" + frame;
     std::vector<std::string> assumed;

@@ -1,4 +1,4 @@
-// A frame by rows, and figures of it, are those of the whole frame.
+// A frame read by rows, and its figures, equal those of the whole frame.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int width = 45, height = 70;
 
-/// A slope with normals in 0..1, holes in each plane, and a plane of which nothing is known.
+/// A slope with normals in 0..1, holes in each plane, and an unknown plane.
 std::map<std::string, std::vector<float>> values() {
   std::map<std::string, std::vector<float>> channels;
   for (const char* name : {"Z", "N.X", "N.Y", "N.Z", "R", "G", "B", "AO", "backZ"}) {
@@ -39,7 +39,7 @@ std::map<std::string, std::vector<float>> values() {
   return channels;
 }
 
-/// Tiles whose rows are cut by the rows that are asked for.
+/// Tiles that are cut by the rows asked for.
 void write_tiled(const fs::path& path) {
   Imf::Header header(width, height);
   header.setTileDescription(Imf::TileDescription(16, 24));
@@ -74,7 +74,7 @@ ReadOptions looking() {
   return options;
 }
 
-/// All rows of the image, so many at a time, against the frame read whole.
+/// Reads all rows, `step` at a time, and compares them with the whole frame.
 void expect_same_by_rows(const fs::path& path, int step) {
   FrameFile one(path, looking()), other(path, looking());
   const Frame whole = one.read(planes);

@@ -1,5 +1,5 @@
-// EXR in and out: windows, types, parts, views, conventions, refusals. Files are made here with OpenEXR itself, so that
-// what is read is not only what gloam wrote.
+// EXR in and out: windows, types, parts, views, conventions, refusals. The files are made here with OpenEXR itself, so that not
+// only gloam's own files are read.
 #include "gloam/exr.h"
 
 #include <OpenEXR/ImfArray.h>
@@ -389,7 +389,7 @@ TEST(CameraOfFile, JsonWhoseViewsDoNotFit) {
   EXPECT_TRUE(FrameFile(folder / "f.exr", options).camera("").has_value());
   expect_in(read_error(folder / "pair.exr", {"depth"}, options),
             "mono.json has one camera, for no view by name, and pair.exr has the views left and right; ");
-  // Found, not asked for: a note, and no claim that there is none.
+  // Found, but not asked for: a note, without a statement that there is no camera.
   std::ofstream(folder / "camera_stereo.json") << two_cameras;
   const std::string assumed = assumed_in(folder / "f.exr");
   expect_in(assumed, "camera_stereo.json has the views left and right, and f.exr names none: it is not used");
@@ -430,7 +430,7 @@ TEST(CameraOfFile, NearAndFar) {
 
 /// A camera at (1, 2, 3), as OpenEXR writes it.
 Imath::M44f world_to_camera() { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, -1, -2, 3, 1}; }
-/// Of 90 degrees across.
+/// 90 degrees wide.
 Imath::M44f world_to_ndc() { return {0.5f, 0, 0, 0, 0, -0.5f, 0, 0, -0.5f, -0.5f, -1, -1, 1, 2.5f, 2, 3}; }
 
 TEST(CameraOfFile, PoseOfAHeaderWithoutProjection) {
@@ -605,7 +605,7 @@ TEST(RefuseExr, ClaimsOfTooManyPixels) {
   expect_one_line(read_error(path), path, "corrupted");
 }
 
-/// Puts a size in place of that of an attribute with this name and type.
+/// Replaces the size of the attribute with this name and type.
 void claim_size(const fs::path& path, const std::string& name, const std::string& type, uint32_t size) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}}, start = name + '\0' + type + '\0';
@@ -614,7 +614,7 @@ void claim_size(const fs::path& path, const std::string& name, const std::string
   file.write(reinterpret_cast<const char*>(&size), sizeof size);
 }
 
-/// OpenEXR makes room for what is claimed, and reads on behind what the type takes.
+/// OpenEXR allocates the stated size, and reads on behind the size of the type.
 TEST(RefuseExr, AttributesOfAnotherSizeThanTheyHave) {
   Folder folder;
   const fs::path path = folder / "f.exr";
@@ -646,7 +646,7 @@ void claim_tiles(const fs::path& path, uint32_t width, uint32_t height) {
   file.write(reinterpret_cast<const char*>(size), sizeof size);
 }
 
-/// OpenEXR makes a buffer of a tile's size; ours is no larger than the image.
+/// OpenEXR allocates a buffer of a tile's size; gloam's is no larger than the image.
 TEST(RefuseExr, TilesFarLargerThanTheImage) {
   Folder folder;
   const fs::path path = folder / "f.exr";
@@ -852,7 +852,7 @@ TEST(WriteExr, EveryPlaneIsReadBackByItsName) {
   }
 }
 
-// What is alone in a file has nothing beside it that could tell what it is.
+// A plane alone in a file has no neighbours that could identify it.
 TEST(WriteExr, EveryPlaneAloneIsReadBackByItsName) {
   Folder folder;
   for (const std::string& name : all_plane_names()) {
@@ -899,8 +899,7 @@ TEST(WriteExr, WhatCannotBeWrittenIsNamed) {
   EXPECT_NE(error_of([&] { write_frame(folder / "f.exr", frame, options); }).find("zip"), std::string::npos);
 }
 
-/// A file-size limit fails writes as a full disk does, at any point: in the pixels or in the table that is written
-/// last.
+/// A limit on the file size fails writes like a full disk, at any point: in the pixels, or in the table that is written last.
 TEST(WriteExr, DiskThatFillsUpLeavesTheOldFile) {
   Folder folder;
   const fs::path path = folder / "f.exr";
@@ -993,8 +992,8 @@ TEST_F(ExrCaptures, DisplayWindowsAndWideRange) {
   EXPECT_GT(most, 1e30f);
 }
 
-/// Opens a file and reads all its known planes, then each channel on its own; leaves with status 0 when every step
-/// ended well or in one line, under a limit of memory and a watchdog.
+/// Opens a file and reads all its known planes, then each channel alone; exits with 0 if every step succeeded or ended in one
+/// line, under a memory limit and a watchdog.
 [[noreturn]] void try_damaged(const fs::path& path) {
   // The address sanitizer maps terabytes for itself, keeps freed memory and takes its time.
 #ifdef __SANITIZE_ADDRESS__

@@ -1,4 +1,4 @@
-// FLIP on images made from formulas, against what a transcription of the authors' Python code (github.com/NVlabs/flip) finds.
+// FLIP on computed images, against a transcription of the authors' Python code (github.com/NVlabs/flip).
 #include "compare/flip.h"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,7 @@ namespace {
 using namespace gloam;
 namespace fs = std::filesystem;
 
-/// A folder that goes away with the test.
+/// A folder that is removed after the test.
 struct Folder {
   fs::path path;
   Folder() {
@@ -279,7 +279,7 @@ TEST(WriteAtomically, AReplacedFileKeepsItsPermissionsAndANewOneObeysTheMask) {
   ::umask(before);
 }
 
-/// What another process with this one's number leaves behind, or has open.
+/// Files that another process with the same number left behind, or has open.
 TEST(WriteAtomically, FilesThatOthersLeftAreNotTouched) {
   Folder folder;
   std::vector<fs::path> others;
@@ -344,7 +344,7 @@ TEST(WriteAtomically, SignalRemovesTheTemporary) {
   }
 }
 
-/// What a process says on standard error that writes `before` files, then is told to end while it writes one more.
+/// Standard error of a process that writes `before` files and gets a signal while it writes one more.
 std::string said_on_signal(int signal, int before) {
   Folder folder;
   int ends[2];

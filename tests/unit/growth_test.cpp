@@ -1,4 +1,4 @@
-// The exponent of growth, and the frames that growth is measured on.
+// The exponent of growth, and the frames for measuring it.
 #include "bench/growth.h"
 
 #include <gtest/gtest.h>

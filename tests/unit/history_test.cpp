@@ -1,4 +1,4 @@
-// What a run takes over from the one before.
+// The data that a run takes from the run on the frame before.
 #include "gloam/history.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class HistoryTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  /// A view of a wall at depth 2 with the sky in its first column; what it reflects is `value`, but nothing in the last column.
+  /// A view of a wall at depth 2 with sky in its first column; its reflection is `value`, but none in the last column.
   static View view_of(const std::string& name, float value, const Layout& layout, double eye_x) {
     View view;
     view.name = name;
@@ -72,7 +72,7 @@ TEST_F(HistoryTest, EachViewHasItsOwn) {
     EXPECT_EQ(view.find("history")->channels.size(), 4u);
     EXPECT_EQ(at("history", 3), value) << view.name;
     EXPECT_EQ(at("history_depth", 3), 2);
-    // One frame, but for the sky and what reflects nothing.
+    // One frame, except for the sky and for pixels that reflect nothing.
     EXPECT_EQ(at("history_frames", 3), 1);
     EXPECT_EQ(at("history_frames", 0), 0);
     EXPECT_EQ(at("history_frames", 7), 0);

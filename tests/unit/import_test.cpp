@@ -1,4 +1,4 @@
-// Scenes from files: what is read, by which conventions, and what broken files lead to.
+// Scenes from files: contents, conventions, and broken files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 // --- Files
 
-/// A folder that goes away with the test.
+/// A folder that is removed after the test.
 struct Folder {
   fs::path path;
   Folder() {
@@ -124,9 +124,9 @@ Scene import_text(const std::string& name, const std::string& bytes) {
 }
 Scene import_gltf(const json& file) { return import_text("scene.gltf", file.dump()); }
 
-// --- What is looked at
+// --- Properties to compare
 
-/// In the world, as the triangle at hand has them.
+/// Corners of a triangle in the world, in the triangle's order.
 std::vector<glm::dvec3> corners(const Scene& scene, size_t mesh = 0, size_t triangle = 0) {
   const Mesh& m = scene.meshes.at(mesh);
   const glm::uvec3 t = m.triangles.at(triangle);
@@ -190,7 +190,7 @@ TEST(Import, ObjMeshesStandWhereTheFileSays) {
   EXPECT_TRUE(scene.meshes[0].normals.empty());
   EXPECT_TRUE(scene.meshes[0].uvs.empty());
   EXPECT_EQ(scene.up, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(scene.ao_radius, 0);  // a file does not say it
+  EXPECT_EQ(scene.ao_radius, 0);  // files do not state it
   EXPECT_EQ(all_notes(scene), "");
   check(scene);
 }
@@ -225,7 +225,7 @@ TEST(Import, MirroredInstancesKeepTheirOutside) {
 
 TEST(Import, NormalsStayPerpendicularWhereScaleIsNotUniform) {
   std::string bytes = triangle_bytes();
-  const float slope = std::sqrt(0.5f);  // the triangle tilted about x: its normal is (0, -1, 1)
+  const float slope = std::sqrt(0.5f);  // the triangle is tilted about x: its normal is (0, -1, 1)
   std::string tilted;
   append<float>(tilted, {0, 0, 0, 1, 0, 0, 0, 1, 1});
   append<float>(tilted, {0, -slope, slope, 0, -slope, slope, 0, -slope, slope});
@@ -491,7 +491,7 @@ TEST(Import, OverviewSeesEverything) {
   }
 }
 
-// --- Mending
+// --- Repairs
 
 TEST(Import, TrianglesOfNoUseAreLeftOut) {
   const Scene scene = import_text("a.obj", one_triangle +
@@ -595,7 +595,7 @@ TEST(Import, FilesWithoutPermissionAreRefused) {
   EXPECT_NE(refusal(path).find("cannot be opened"), std::string::npos);
 }
 
-/// Whatever is left of a file, or is wrong in it: a scene that can be traced, or one line.
+/// Any damaged or incomplete file is either a scene that can be traced, or one line.
 void expect_scene_or_line(const fs::path& path, const std::string& what) {
   try {
     const Scene scene = import_scene(path);
@@ -625,7 +625,7 @@ TEST(Import, DamagedFilesAreReadOrRefused) {
       std::string damaged = whole.substr(0, i < 150 ? random() % (whole.size() + 1) : whole.size());
       const int flips = i < 100 ? 0 : 1 + int(random() % 4);
       for (int k = 0; k < flips && !damaged.empty(); ++k) damaged[random() % damaged.size()] = char(random());
-      // A GLB that is cut says so in its header, and would be refused for that alone.
+      // A cut GLB states its length in its header, and would be refused for that alone.
       if (name == "a.glb" && damaged.size() >= 12 && i % 2 == 0) {
         const uint32_t size = uint32_t(damaged.size());
         std::memcpy(damaged.data() + 8, &size, 4);

@@ -1,4 +1,4 @@
-// What a light-field display's modules show, written and read again.
+// Images of a light-field display's modules, written and read again.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -34,7 +34,7 @@ class DisplayFile : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  /// A wall as all modules show it, or some of them.
+  /// A wall seen through all modules, or some of them.
   static Frame frame_of(const LightFieldDisplay& display, const std::vector<size_t>& modules = {0, 1, 2, 3}) {
     Frame frame;
     for (const size_t i : modules) {
@@ -117,7 +117,7 @@ TEST_F(DisplayFile, ViewsAreChosenByName) {
   expect_same(*before.views[1].camera, *file.camera("module01"));
 }
 
-/// Positions are relative to where the observers stand, which the header says in double.
+/// Positions are relative to the observers' position, which the header holds in double.
 TEST_F(DisplayFile, PositionsStayWhereTheyWere) {
   LightFieldDisplay display = flat_display();
   display.modules.push_back({{-0.5, 0, -6}});

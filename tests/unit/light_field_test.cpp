@@ -221,7 +221,7 @@ TEST(DisplayJson, IsToldFromACamera) {
   EXPECT_FALSE(is_display_text(R"({"fx": 3, "camera_to_world": []})"));
   EXPECT_FALSE(is_display_text("[1]"));
   EXPECT_FALSE(is_display_text("{"));
-  // A display with a fault is a display: its fault is what has to be said.
+  // A faulty display is still a display: its fault must be reported.
   EXPECT_TRUE(is_display_text(R"({"observer": {"distance": NaN}, "modules": {}})"));
 }
 
@@ -421,7 +421,7 @@ TEST(DisplayFault, Resolution) {
   expect_fault(fault({20000, 8}), {"modules.resolution[0]", "20000"});
 }
 
-/// One of two would be left unread.
+/// Fields that exclude each other are refused, since one of them would be ignored.
 TEST(DisplayFault, WhatExcludesEachOther) {
   json document = flat_display();
   document["modules"]["arc"] = {{"centre", {0, 0, 0}}, {"radius", 2}, {"angle", 30}};
@@ -460,7 +460,7 @@ std::vector<Case> cases() {
   json convex = flat, far_behind = flat, turned = flat, sheared = flat, distant = flat, nearly_flat = flat;
   convex["screen"]["radius"] = 2;
   convex["modules"]["facing"] = "middle";
-  // Outside of the screen's cylinder.
+  // Outside the screen's cylinder.
   far_behind["screen"]["radius"] = 0.9;
   far_behind["modules"]["line"] = {{"from", {-0.4, 0.1, -6}}, {"to", {0.4, 0.1, -6}}};
   turned["modules"] = json::parse(R"({"resolution": [160, 120], "list": [
@@ -503,18 +503,18 @@ TEST(TwoSlitRays, PlaceIsTheInverseOfRay) {
           const double depth = share * depth_of_slit(camera);
           const dvec3 point = ray->at(depth);
           EXPECT_NEAR(point.z, -depth, 1e-12 * depth);
-          const auto back = place_of(camera, point);
+          const auto back = pixel_of(camera, point);
           worst = std::max(worst, back ? glm::length(*back - pixel) : 1e9);
         }
       }
     }
     EXPECT_LT(worst, 1e-6);
-    // The whole of the image but what turned modules throw past the screen.
+    // The whole image, except the part that turned modules throw past the screen.
     EXPECT_GT(shown, 160 * 120 / 2);
   });
 }
 
-/// The world's own points: what a place far from the origin costs is what a double costs there.
+/// World positions: far from the origin, the error is the rounding of doubles there.
 TEST(TwoSlitRays, PosesAreThoseOfTheDisplay) {
   for (const Case& test : cases()) {
     SCOPED_TRACE(test.name);
@@ -562,7 +562,7 @@ TEST(TwoSlitRays, MeetBothSlits) {
   });
 }
 
-/// Where a ray meets the screen is where the module's own light does: it is spread upwards and downwards there, not sideways.
+/// A ray meets the screen where the module's own light does: light is spread upwards and downwards there, not sideways.
 TEST(TwoSlitRays, LeaveTheScreenWhereTheModuleLightsIt) {
   for_each_module([](const Camera& camera) {
     const TwoSlits& s = *camera.slits;
@@ -625,26 +625,26 @@ TEST(TwoSlitRays, PointsThatHaveNoPlace) {
   const double slit = depth_of_slit(camera);
   EXPECT_NEAR(slit, 3 + 1.75, 1e-12);
   const auto ray = view_ray(camera, {30.5, 40.5});
-  EXPECT_TRUE(place_of(camera, ray->at(1e-9)));
-  EXPECT_FALSE(place_of(camera, ray->at(0))) << "on the observers' line";
-  EXPECT_FALSE(place_of(camera, ray->at(-1))) << "before the observers";
-  EXPECT_TRUE(place_of(camera, ray->at(slit - 1e-9)));
-  EXPECT_FALSE(place_of(camera, ray->at(slit))) << "at the module";
-  EXPECT_FALSE(place_of(camera, ray->at(slit + 1))) << "behind the module";
-  // Nor has what is seen past the side of a screen that is half a cylinder.
+  EXPECT_TRUE(pixel_of(camera, ray->at(1e-9)));
+  EXPECT_FALSE(pixel_of(camera, ray->at(0))) << "on the observers' line";
+  EXPECT_FALSE(pixel_of(camera, ray->at(-1))) << "before the observers";
+  EXPECT_TRUE(pixel_of(camera, ray->at(slit - 1e-9)));
+  EXPECT_FALSE(pixel_of(camera, ray->at(slit))) << "at the module";
+  EXPECT_FALSE(pixel_of(camera, ray->at(slit + 1))) << "behind the module";
+  // Nor have points seen past the side of a screen that is half a cylinder.
   json document = flat_display();
   document["screen"] = {{"width", 1.6}, {"height", 1.2}, {"radius", 0.81}};
   document["modules"]["line"] = {{"from", {0, 0, -2}}, {"to", {0, 0, -2}}};
   const Camera convex = module_cameras(read(document), {0, 0, 160, 120})[0].second;
-  EXPECT_TRUE(place_of(convex, {0, 0, -3}));
-  EXPECT_FALSE(place_of(convex, {4, 0, -3}));
+  EXPECT_TRUE(pixel_of(convex, {0, 0, -3}));
+  EXPECT_FALSE(pixel_of(convex, {4, 0, -3}));
 }
 
 TEST(TwoSlitRays, PixelsPerUnit) {
   const Camera camera = module_cameras(read(flat_display()), {0, 0, 160, 120})[1].second;
   for (const double depth : {1.0, 3.0, 4.5}) {
     const dvec3 point = view_ray(camera, {70.5, 50.5})->at(depth);
-    const double moved = place_of(camera, point + dvec3(0.01, 0, 0))->x - place_of(camera, point)->x;
+    const double moved = pixel_of(camera, point + dvec3(0.01, 0, 0))->x - pixel_of(camera, point)->x;
     EXPECT_NEAR(pixels_per_unit(camera, depth), moved / 0.01, 1e-6);
   }
 }

@@ -1,5 +1,4 @@
-// Restricting a run to where a mask says (--only): what is planned for it, that inside nothing changes by a bit, and that
-// what is left out is open.
+// Restricting a run to a mask (--only): its plan, that no bit changes inside the mask, and that pixels left out are open.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ Names labels_of(const Plan& plan) {
   return labels;
 }
 
-/// The plane of bits by which a pass skips; empty where it does not.
+/// The plane of bits by which a pass skips pixels; empty if it skips none.
 std::string wanted_by(const Plan& plan, const std::string& label) {
   for (const PlannedPass& planned : plan.passes) {
     if (planned.label() != label) continue;
@@ -98,16 +97,16 @@ TEST(Mask, WhatCannotBeIsSaidInOneLine) {
       "--only corner-mast: is neither a plane at hand nor a technique that makes one (did you mean 'corner-mask'?); "
       "--plane mask=CHANNEL takes any channel of the file as 'mask'");
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "normal"}),
-            "--only normal: 'normal' is no single value per pixel; corner-mask makes a mask");
+            "--only normal: 'normal' has several values per pixel; corner-mask makes a mask");
   EXPECT_EQ(message({.outputs = {"normals"}, .mask = "depth"}),
-            "--only: normals has no work that a mask can leave out; leave it out");
+            "--only: normals has no pass that a mask can restrict; leave --only out");
   EXPECT_EQ(message({.outputs = {"stereo-ao"}, .mask = "corner-mask"}),
-            "--only: restricts techniques that look at one view, and stereo-ao looks at two; leave it out");
+            "--only: restricts techniques that read one view, and stereo-ao reads two; leave --only out");
 }
 
 // --- What comes out
 
-/// Some disks and single pixels, and none on the left, so far from the border that wide filters leave something out.
+/// Some disks and single pixels, none on the left, far enough from the border that wide filters leave something out.
 void add_mask(Frame& frame) {
   Channel& mask = plane_of(frame, "mask").channels[0];
   std::mt19937 random(7);
@@ -122,7 +121,7 @@ void add_mask(Frame& frame) {
   }
 }
 
-/// Whether it makes AO of one view, and can be restricted.
+/// Whether a technique makes AO of one view and can be restricted.
 bool makes_ao(const Technique& technique) {
   return technique.views == 1 && std::count(technique.writes.begin(), technique.writes.end(), "ao_raw") > 0;
 }
@@ -134,10 +133,10 @@ struct Case {
 
 class Masked : public ::testing::TestWithParam<Case> {
  protected:
-  /// With the mask's plane, or everywhere where that is empty.
+  /// With the mask's plane; everywhere if it is empty.
   RunResult result_of(Frame& frame, const std::string& mask, const std::string& filter = "") {
     const Case& c = GetParam();
-    plan_for(*c.technique, frame);  // invents what it needs
+    plan_for(*c.technique, frame);  // adds invented planes
     PlanRequest request{.outputs = {c.technique->name},
                         .with = c.technique->extras,
                         .then = filter,
@@ -153,7 +152,7 @@ void expect_masked(const RunResult& masked, const RunResult& whole, const Frame&
   const Channel& mask = frame.views[0].find("mask")->channels[0];
   int inside = 0, outside = 0;
   for (const auto& [name, plane] : masked.frame.views[0].planes) {
-    // Around the mask what the filter reads is there too.
+    // Around the mask, the pixels that the filter reads are computed too.
     const bool is_filtered = name == "ao" || filter == "none";
     const float left_out = plane_kind(name).outside;
     for (size_t i = 0; i < plane.channels.size(); ++i) {
@@ -219,7 +218,7 @@ std::vector<Case> cases() {
     all.push_back({&technique, 1, 0});
     all.push_back({&technique, 2, 0});
   }
-  // What all have in common, at every width.
+  // Code that all techniques share, at every width.
   for (const int lanes : {1, 4, 8}) all.push_back({&find_technique("ssao"), 1, lanes});
   all.push_back({&find_technique("ssao"), 4, 1});
   return all;

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A machine's files, as far as they tell of memory.
+/// The files of a machine that describe its memory.
 class Machine : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -34,7 +34,7 @@ TEST_F(Machine, GroupAllowsLess) {
   put("sys/fs/cgroup/jobs/one/memory.max", "max\n");
   put("sys/fs/cgroup/jobs/one/memory.current", "100\n");
   EXPECT_EQ(available_memory(root), available);
-  // The one above has the limit. What it holds of files can go.
+  // The parent group has the limit. Its file cache can be dropped.
   put("sys/fs/cgroup/jobs/memory.max", "1000000\n");
   put("sys/fs/cgroup/jobs/memory.current", "700000\n");
   put("sys/fs/cgroup/jobs/memory.stat", "anon 300000\ninactive_file 250000\nactive_file 150000\n");

@@ -20,7 +20,7 @@ namespace {
 using glm::dvec3;
 constexpr double pi = 3.14159265358979323846;
 
-/// A number for each vertex, the same for vertices at the same place (bit for bit, but for the sign of zero).
+/// A number for each vertex, the same for vertices at the same position (bit for bit, except for the sign of zero).
 std::vector<int> merged(const Mesh& mesh) {
   std::map<std::array<float, 3>, int> places;
   std::vector<int> ids;
@@ -31,7 +31,7 @@ std::vector<int> merged(const Mesh& mesh) {
   return ids;
 }
 
-/// How many directed edges lack their one partner in the other direction; 0 for a closed surface wound one way.
+/// Number of directed edges without exactly one partner in the other direction; 0 for a closed, consistently wound surface.
 int unmatched_edges(const Mesh& mesh) {
   const std::vector<int> ids = merged(mesh);
   std::map<std::pair<int, int>, int> edges;
@@ -70,7 +70,7 @@ double agreement(const Mesh& mesh) {
   return least;
 }
 
-/// `relative`: of the volume. `cosine`: the least a normal may agree with its triangles.
+/// `relative`: tolerance of the volume. `cosine`: least agreement of a normal with its triangles.
 void expect_closed(const Mesh& mesh, double expected_volume, double relative, double cosine) {
   ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
   EXPECT_EQ(unmatched_edges(mesh), 0);
@@ -80,7 +80,7 @@ void expect_closed(const Mesh& mesh, double expected_volume, double relative, do
   for (const glm::uvec3& t : mesh.triangles) ASSERT_GT(glm::length(winding_normal(mesh, t)), 0);
 }
 
-/// Area of a regular polygon's share of its circle: what a prism of `sides` has of a cylinder.
+/// Ratio of a regular polygon's area to its circle's: of a prism of `sides` to a cylinder.
 double polygon_share(int sides) { return sides / (2 * pi) * std::sin(2 * pi / sides); }
 
 const std::vector<vec2> letter_l = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}};
@@ -100,7 +100,8 @@ TEST(MeshBuilder, ChamferedBoxIsClosed) {
   Mesh mesh;
   add_chamfered_box(mesh, {-1, 2, 3}, {1, 3, 6}, 0.125f);
   EXPECT_EQ(mesh.triangles.size(), 44u);
-  // Cut off: along each edge a prism of c^2 / 2, less what the corners' prisms count too often: c^3 (3/2 - 5/6) a corner.
+  // Volume cut off: a prism of c^2 / 2 along each edge, less the part that prisms count more than once in corners: c^3 (3/2 -
+  // 5/6) per corner.
   const double c = 0.125, cut = 0.5 * c * c * 4 * (2 + 1 + 3) - 8 * c * c * c * (1.5 - 5.0 / 6);
   expect_closed(mesh, 6 - cut, 1e-5, 0.9999);
 }
@@ -173,7 +174,7 @@ TEST(MeshBuilder, ExtrusionWithHolesIsClosed) {
 }
 
 TEST(MeshBuilder, HolesBehindHolesAreCutToo) {
-  // A grid of holes: most see the outline only past others.
+  // A grid of holes: from most of them, other holes hide the outline.
   std::vector<std::vector<vec2>> holes;
   for (int i = 0; i < 9; ++i) {
     for (int k = 0; k < 5; ++k) {
@@ -396,7 +397,7 @@ TEST(Corridor, ShellIsOneConnectedMeshWithConcaveCorners) {
     while (parent[size_t(i)] != i) i = parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
     return i;
   };
-  // Concave: the two triangles of an edge lean towards each other on the side that is seen.
+  // Concave: the two triangles of an edge lean towards each other on the visible side.
   std::map<std::pair<int, int>, const glm::uvec3*> by_edge;
   for (const glm::uvec3& t : room->triangles) {
     for (int k = 0; k < 3; ++k) {

@@ -7,7 +7,7 @@
 
 namespace gloam::test {
 
-/// What an error says that some work throws.
+/// The message of the error that `work` throws.
 inline std::string message_of(const std::function<void()>& work) {
   try {
     work();

@@ -25,7 +25,7 @@ using Pattern = std::function<float(int x, int y)>;
 Plane plane_of(int width, int height, const std::vector<Pattern>& components) {
   Plane plane{"ao", {}};
   for (const Pattern& pattern : components) {
-    Channel channel(Layout(width, height), nan);  // padding that anybody reads would be noticed
+    Channel channel(Layout(width, height), nan);  // reading padding would be noticed
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) channel.at(x, y) = pattern(x, y);
     plane.channels.push_back(std::move(channel));
@@ -43,7 +43,7 @@ Plane noise(int width, int height, unsigned seed, size_t components = 1) {
   return plane_of(width, height, std::vector<Pattern>(components, pattern));
 }
 
-/// Smooth, with an edge: something for windows and gradients to see.
+/// Smooth, with an edge: material for windows and gradients.
 float scene(int x, int y) {
   return 0.5f + 0.3f * std::sin(0.31f * float(x)) * std::cos(0.17f * float(y)) + 0.1f * float(x > y);
 }
@@ -234,7 +234,7 @@ TEST(Metrics, BackgroundValuesChangeNothing) {
 }
 
 TEST(Metrics, ExactWherePaintedOnBackgroundOnly) {
-  // Every difference lies on background: the images are identical as far as anybody may say.
+  // Every difference lies on background: the images count as identical.
   const Mask mask{1, 1, 0, 0, 1, 1};
   const Metrics m = compare(row_of({0, 0.5f, 1, 0, 0.25f, 1}), row_of({0, 0.5f, 0, 1, 0.25f, 1}), mask);
   EXPECT_FALSE(m.psnr);

@@ -1,4 +1,4 @@
-// Which settings gloam pick times in turn, of all that it tried once.
+// The settings that gloam pick times in turn, out of all that it tried once.
 #include "bench/pick.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using namespace gloam::bench;
 Choice tried(double ms, double rmse) { return {.variation = {}, .ms = ms, .rmse = rmse}; }
 
 TEST(PickFinalists, WithinTheBudgetAreNotCrowdedOutByNearMisses) {
-  // Thirty a little above the budget, all more accurate than anything within it.
+  // Thirty just above the budget, all more accurate than any within it.
   std::vector<Choice> tries;
   for (int i = 0; i < 30; ++i) tries.push_back(tried(11 + 0.1 * i, 0.1 + 0.001 * i));
   for (int i = 0; i < 10; ++i) tries.push_back(tried(9 - 0.1 * i, 0.2 + 0.001 * i));

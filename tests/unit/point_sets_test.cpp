@@ -1,4 +1,4 @@
-// What each kind of point set promises, at counts that are squares, primes and neither, and that it is worth having.
+// The promises of each kind of point set, for counts that are squares, primes and neither, and the benefit of even sets.
 #include "technique/point_sets.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ const std::vector<PointSet> all_sets{PointSet::random, PointSet::jittered, Point
                                      PointSet::poisson_disk};
 const std::vector<int> counts{1, 2, 3, 4, 7, 12, 16, 31, 64, 100, 200, 499, 1024, 2048};
 
-/// How many values lie in each of `count` equal intervals of [0,1). Coordinates that stand for the last 2^-32 of an
-/// interval stay in it, those for the first do too: 1e-11 is far below that and far above the rounding.
+/// Number of values in each of `count` equal intervals of [0,1). Coordinates in the last or first 2^-32 of an interval must stay
+/// in it: 1e-11 is far below that, and far above the rounding.
 std::vector<int> occupancy(const std::vector<double>& values) {
   std::vector<int> found(values.size());
   for (const double value : values) ++found.at(size_t(value * double(values.size()) + 1e-11));
@@ -48,8 +48,8 @@ double smallest_distance(const Points& points) {
   return smallest;
 }
 
-/// No set keeps more: `count` disks of this diameter, packed as densely as disks can be, fill the unit square and, at
-/// its two open edges, half a disk more.
+/// An upper bound: `count` disks of this diameter, packed as densely as possible, fill the unit square and half a disk more at
+/// its two open edges.
 double largest_distance(int count) { return (1 + std::sqrt(1 + 8 / std::sqrt(3.0) * count)) / (2 * count); }
 
 /// Root of the mean squared error of the area below a line across the unit square, v < height + slope u, as the share of
@@ -92,7 +92,7 @@ TEST(PointSets, RepeatAndDifferBySeedAndByKind) {
   }
 }
 
-/// Bits, so that a change of the generator, or a machine that rounds another way, is noticed.
+/// Bits, so that a change of the generator, or a machine that rounds differently, is noticed.
 TEST(PointSets, AreTheSameOnEveryMachine) {
   const auto last = [](PointSet set) { return point_set(set, 100, 1).back(); };
   EXPECT_EQ(last(PointSet::random), glm::dvec3(0x1.85c1e52p-1, 0x1.92081288p-3, 0x1.880387ap-2));
@@ -110,7 +110,7 @@ TEST(PointSets, JitteredHasOnePointInEachCellOfEqualArea) {
   }
 }
 
-/// 12 = 4 + 4 + 4 is rows of equal cells; 7 = 2 + 2 + 3 and 23 = 4 + 5 + 4 + 5 + 5 are not: the cells of a row of three are
+/// 12 = 4 + 4 + 4 makes rows of equal cells; 7 = 2 + 2 + 3 and 23 = 4 + 5 + 4 + 5 + 5 do not: the cells of a row of three are
 /// narrower, and the row is higher.
 TEST(PointSets, JitteredHasEqualAreasForEveryCount) {
   const std::map<int, std::vector<int>> rows_of{{1, {1}},       {2, {2}},        {3, {1, 2}},
@@ -133,7 +133,7 @@ TEST(PointSets, JitteredHasEqualAreasForEveryCount) {
     }
 }
 
-/// Jitter fills its cells: over many seeds the place in a cell is uniform. 400 values: the mean within 4 standard
+/// Jitter fills its cells: over many seeds the position in a cell is uniform. For 400 values, the mean is within 4 standard
 /// deviations of 1/2, 0.289 / sqrt(400) each.
 TEST(PointSets, JitterFillsTheCell) {
   double sum = 0, smallest = 1, largest = 0;
@@ -159,7 +159,7 @@ TEST(PointSets, LatinSquareHasOnePointInEachRowAndColumn) {
   EXPECT_FALSE(one_in_each(coordinate(point_set(PointSet::jittered, 64, 6), 1)));
 }
 
-/// Every permutation comes: of 3 points there are 6, each in a sixth of 600 seeds (standard deviation 9.1).
+/// Every permutation occurs: 3 points have 6, each with a sixth of 600 seeds (standard deviation 9.1).
 TEST(PointSets, LatinSquareIsAnyPermutation) {
   std::map<std::vector<int>, int> found;
   for (uint32_t seed = 0; seed < 600; ++seed) {
@@ -178,13 +178,13 @@ TEST(PointSets, PoissonDiskKeepsItsDistance) {
     for (uint32_t seed = 0; seed < 5; ++seed) {
       const double most = largest_distance(count);
       EXPECT_GT(smallest_distance(point_set(PointSet::poisson_disk, count, seed)), 0.7 * most) << count << " " << seed;
-      // A check of the bound itself: it is one.
+      // Checks that the bound holds.
       EXPECT_LT(smallest_distance(point_set(PointSet::poisson_disk, count, seed)), most);
       EXPECT_LT(smallest_distance(point_set(PointSet::random, count, seed)), 0.5 * most);
     }
 }
 
-/// v closes in a circle, u does not: points within the distance across v = 0 do not occur, across u = 0 they do.
+/// v is periodic, u is not: points within the distance across v = 0 do not occur, across u = 0 they do.
 TEST(PointSets, PoissonDiskIsPeriodicInTheAngleOnly) {
   bool across_u = false;
   for (uint32_t seed = 0; seed < 20; ++seed) {
@@ -200,7 +200,7 @@ TEST(PointSets, WIsStratifiedApartFromTheRest) {
   for (const PointSet set : all_sets) {
     const Points points = point_set(set, 200, 2);
     EXPECT_EQ(one_in_each(coordinate(points, 2)), set != PointSet::random);
-    // Neither in the order of u nor of v: correlations of 200 pairs have a standard deviation of 1/sqrt(200).
+    // Uncorrelated with the order of u and of v: correlations of 200 pairs have a standard deviation of 1/sqrt(200).
     for (const int axis : {0, 1}) {
       double sum = 0;
       for (const glm::dvec3& point : points) sum += (point[axis] - 0.5) * (point.z - 0.5) * 12;
@@ -209,8 +209,8 @@ TEST(PointSets, WIsStratifiedApartFromTheRest) {
   }
 }
 
-/// Of independent points the error is known: the variance of one is the mean of p (1 - p), for p the mean of two uniform
-/// numbers 1/2 - (1/4 + 1/24) = 5/24.
+/// The error of independent points is known: the variance of one is the mean of p (1 - p), for p the mean of two uniform numbers:
+/// 1/2 - (1/4 + 1/24) = 5/24.
 TEST(PointSets, SpreadPointsMeasureAreasBetter) {
   const double random = area_error(PointSet::random, 64);
   EXPECT_NEAR(random, std::sqrt(5.0 / 24 / 64), 0.1 * std::sqrt(5.0 / 24 / 64));

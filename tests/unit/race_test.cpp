@@ -1,4 +1,4 @@
-// What a technique's time is said to be spent on.
+// The split of a technique's time.
 #include "bench/race.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Reads one channel of an EXR with OpenEXR itself, so that tests of a part need no other part of gloam.
+// Reads one channel of an EXR with OpenEXR itself, so that a test of one part of gloam needs no other part.
 #pragma once
 
 #include <OpenEXR/ImfChannelList.h>
@@ -13,7 +13,7 @@
 
 namespace gloam::test {
 
-/// The channel as floats, over the data window; the captures have theirs at (0, 0).
+/// The channel as floats, over the data window; that of the captures is at (0, 0).
 inline Channel read_channel(const std::string& path, const std::string& name) {
   Imf::InputFile file(path.c_str());
   if (!file.header().channels().findChannel(name)) throw std::runtime_error(path + " has no channel " + name);

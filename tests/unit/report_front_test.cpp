@@ -1,5 +1,5 @@
-// The Pareto front that gloam report shows, of a scene and of a class of scenes, and what its page of documentation
-// makes of it: which setting for which need, in which figures.
+// The Pareto front of gloam report, for a scene and for a class of scenes, and its use on the page of documentation: which
+// setting for which need, in which figures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ TEST(ParetoFront, FollowsItsDefinitionOnManyPoints) {
     std::vector<Cost> points;
     for (int i = 0; i < 60; ++i) points.push_back({double(digit(random)), double(digit(random))});
     const Indices front = pareto_front(points);
-    // An independent way to say it: the least error at each time, where that is less than at any smaller time.
+    // An independent definition: the least error at each time, if it is less than at any smaller time.
     for (size_t i = 0; i < points.size(); ++i) {
       double before = 1e9, at = 1e9;
       for (const Cost& p : points) {
@@ -156,7 +156,7 @@ ClassPoint point(const std::string& technique, double ratio, double error, const
   return made;
 }
 
-/// Need -> technique, "none" where nothing meets it.
+/// Need -> technique, "none" if nothing meets it.
 std::vector<std::pair<std::string, std::string>> chosen(const std::vector<ClassPoint>& points) {
   std::vector<std::pair<std::string, std::string>> found;
   for (const Choice& choice : choices({"group", {"a"}, points, 0}))

@@ -1,4 +1,4 @@
-// Estimating at a lower resolution: what is planned for it, which pixels are taken, and how the rest comes back.
+// Estimating at a lower resolution: its plan, the pixels that are computed, and the upsampling.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ TEST(Resolution, WhatComesBackHasAKernel) {
       try {
         plan = plan_of({.outputs = {technique.name}, .with = technique.extras, .resolution = resolution}, available);
       } catch (const UsageError&) {
-        continue;  // says why it works at full resolution alone
+        continue;  // states why it works only at full resolution
       }
       for (const PlannedPass& planned : plan.passes) {
         if (planned.technique == &resampling()) kernels.insert(planned.pass.kernel);
@@ -132,7 +132,7 @@ bool looks_at_other_view(const Pass& pass) {
                      [](const Binding& read) { return read.from == From::other_view; });
 }
 
-/// What the filter of both eyes has made alike; not what is raw, and nothing where each eye has a filter of its own.
+/// Only results that the filter of both eyes has made alike; not raw ones, and none if each eye has a filter of its own.
 TEST(Resolution, WhatTwoViewsAgreeOnIsUpsampledFromBoth) {
   const Names available = {"depth", "normal", "stochastic.00", "stochastic.01", "stochastic.02", "stochastic.03"};
   for (const char* technique : {"stereo-ao", "stereo-gtao", "stereo-bitmask", "stereo-sd-hbao+"}) {
@@ -151,7 +151,7 @@ TEST(Resolution, WhatTwoViewsAgreeOnIsUpsampledFromBoth) {
     if (read.from == From::other_view) others.push_back(read.argument + " " + read.plane);
   }
   EXPECT_EQ(others, (Names{"other_source ao@4", "other_depth depth@4", "other_normal normal@4"}));
-  EXPECT_FALSE(pass.can_skip) << "masks restrict techniques that look at one view";
+  EXPECT_FALSE(pass.can_skip) << "masks restrict techniques that read one view";
   EXPECT_FALSE(looks_at_other_view(upsampling_of(plan_of({.outputs = {"gtao"}, .resolution = 4}), "ao")));
 }
 
@@ -165,7 +165,7 @@ TEST(Resolution, UpsamplingInheritsTheRadius) {
 
 TEST(Resolution, WhatGuidesUpsamplingIsNotReduced) {
   EXPECT_EQ(message_of([] { plan_of({.outputs = {"normals"}, .resolution = 2}); }),
-            "normals: 'normal' is what guides upsampling, so it has to be made of every pixel; use --resolution full");
+            "normals: 'normal' guides upsampling, so it needs every pixel; use --resolution full");
 }
 
 TEST(Resolution, WhatIsMissingForUpsamplingIsNamed) {
@@ -180,7 +180,7 @@ TEST(Extras, UnknownOnesAreRefusedWithWhatThereIs) {
             "--with cone: hbao+ does not make it; it has no extras");
 }
 
-// --- Which pixels are taken
+// --- Which pixels are computed
 
 /// Sizes that no lane width and no resolution divides.
 const std::pair<int, int> sizes[] = {{1, 1}, {1, 33}, {33, 1}, {2, 2}, {3, 5}, {17, 13}, {64, 48}, {101, 67}};
@@ -189,7 +189,7 @@ int reduced_size(int size, int resolution) { return (size + resolution - 1) / re
 
 Frame shoot_room(int width, int height) { return shoot(perspective(width, height), room()); }
 
-/// The frame that a renderer would have made of every n-th pixel.
+/// The frame that a renderer would make of every n-th pixel.
 Frame every_nth(const Frame& frame, int n) {
   Frame small;
   small.display = small.window = {0, 0, reduced_size(frame.width(), n), reduced_size(frame.height(), n)};
@@ -226,9 +226,9 @@ int differing(const Plane& a, const Plane& b) {
   return count;
 }
 
-/// Plans for all planes of the frame; what is missing is invented.
+/// Plans for all planes of the frame; missing planes are invented.
 Plan plan_at(int resolution, const std::string& technique, Frame& frame, const Settings& settings = {}) {
-  plan_for(find_technique(technique), frame);  // invents
+  plan_for(find_technique(technique), frame);  // adds invented planes
   return make_plan({.outputs = {technique}, .settings = settings, .resolution = resolution}, plane_names(frame), "");
 }
 
@@ -253,7 +253,7 @@ TEST(Resolution, SubsampledPlanesHoldEveryNthPixel) {
   }
 }
 
-/// The techniques of the registry that put out `ao`.
+/// The techniques of the registry with the output `ao`.
 Names makers_of_ao() {
   Names names;
   for (const Technique& t : registry()) {
@@ -265,7 +265,7 @@ Names makers_of_ao() {
 
 class ResolutionOf : public testing::TestWithParam<std::string> {};
 
-/// A frame with all that the technique reads: raw AO too, which another technique would make of all pixels.
+/// A frame with all inputs of the technique, also raw AO, which another technique would make from all pixels.
 Frame frame_for(const std::string& technique, const Shot& shot) {
   Frame frame = shoot(shot, room());
   const Names& reads = find_technique(technique).reads;
@@ -273,7 +273,7 @@ Frame frame_for(const std::string& technique, const Shot& shot) {
   return frame;
 }
 
-/// Positions, stacks, filters, all that a pass reads at a lower resolution: the same bits as from a small frame.
+/// Positions, stacks, filters, everything that a pass reads at a lower resolution: the same bits as from a small frame.
 TEST_P(ResolutionOf, AFrameOfEveryNthPixelGivesTheSameBits) {
   for (const auto& [width, height] : {std::pair(1, 1), {17, 13}, {101, 67}}) {
     Shot off_axis = perspective(width, height);
@@ -297,8 +297,8 @@ TEST_P(ResolutionOf, AFrameOfEveryNthPixelGivesTheSameBits) {
 
 // --- All techniques
 
-/// Largest mean difference of any technique, on the frame below, to what it gives at full resolution; measured, with a
-/// margin. Occluders as thin as a pixel are lost at a lower resolution.
+/// Largest mean difference of any technique, on the frame below, to its result at full resolution; measured, plus a margin.
+/// Occluders as thin as a pixel are lost at a lower resolution.
 double mean_allowed(int resolution) { return resolution == 2 ? 0.02 : 0.035; }
 
 TEST_P(ResolutionOf, StaysNearFullResolutionAtEveryLaneWidth) {
@@ -357,7 +357,7 @@ double worst_on_tilted_planes(const Settings& settings) {
   return worst;
 }
 
-// Without the bias, which would hide positions that are slightly off.
+// Without the bias, which would hide positions that are slightly wrong.
 TEST(Resolution, ATiltedPlaneStaysOpen) {
   const double worst = worst_on_tilted_planes({{"radius", "0.1"}, {"bias", "0"}});
   std::printf("tilted planes at half and quarter resolution: within %.2g of open\n", worst);
@@ -366,7 +366,7 @@ TEST(Resolution, ATiltedPlaneStaysOpen) {
 
 // --- Upsampling
 
-/// Raw AO, subsampled, not filtered, and brought back.
+/// Raw AO, subsampled, not filtered, and upsampled.
 Channel resampled(Frame& frame, int n, const std::function<float(int, int)>& raw, const Settings& settings = {},
                   int lanes = 0) {
   Channel& values = plane_of(frame, "ao_raw").channels[0];
@@ -397,7 +397,7 @@ TEST(Upsampling, AConstantStaysConstantAndBackgroundOpen) {
         const Channel out = resampled(frame, n, raw);
         for (int y = 0; y < height; ++y) {
           for (int x = 0; x < width; ++x) {
-            // A surface with background at all four pixels around it is given what they have.
+            // A surface with background at all four pixels around it gets the background's value.
             const float value = out.at(x, y), distance = std::min(std::abs(value - constant), std::abs(value - 1));
             ASSERT_LE(is_background_at(frame, x, y) ? std::abs(value - 1) : distance, constant == 1 ? 0 : 1e-6)
                 << x << ", " << y << " of " << width << "x" << height << ", 1/" << n;
@@ -428,7 +428,7 @@ TEST(Upsampling, PixelsThatWereTakenKeepTheirValue) {
   }
 }
 
-/// On one plane only the bilinear weights are left, and those give a linear image back.
+/// On one plane only the bilinear weights matter, and they reproduce a linear image.
 TEST(Upsampling, IsBilinearOnAPlane) {
   for (const int n : {2, 4}) {
     for (const Shot& shot : {perspective(101, 67), orthographic(101, 67, 1)}) {
@@ -449,7 +449,7 @@ TEST(Upsampling, IsBilinearOnAPlane) {
   }
 }
 
-/// Whether one of the reduced pixels around a pixel, as far as they have a bilinear weight, has the pixel's depth.
+/// Whether one of the reduced pixels around a pixel with a bilinear weight has the pixel's depth.
 bool has_neighbour(const Channel& depth, int n, int x, int y) {
   for (const int dy : {0, n}) {
     for (const int dx : {0, n}) {

@@ -1,4 +1,4 @@
-// What a run hands over, view by view.
+// The results of a run, view by view.
 #include "gloam/run.h"
 
 #include <gtest/gtest.h>

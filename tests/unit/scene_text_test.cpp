@@ -47,7 +47,7 @@ class SceneText : public testing::Test {
   fs::path folder_;
 };
 
-/// Where the corners of all triangles stand.
+/// Positions of the corners of all triangles.
 std::vector<glm::dvec3> corners_of(const Scene& scene) {
   std::vector<glm::dvec3> corners;
   for (const Mesh& mesh : scene.meshes)
@@ -119,7 +119,7 @@ TEST_F(SceneText, BuffersWhoseNamesHaveEscapesAreFound) {
   EXPECT_EQ(corners[2], glm::dvec3(0, 2, 0));
 }
 
-/// Embree ends the program where a ray or a vertex is farther away.
+/// Embree ends the program if a ray or a vertex is farther away.
 TEST_F(SceneText, WhatIsTooFarAwayToTraceIsRefusedWithItsNumber) {
   const std::string far = refusal("v 0 0 0\nv 1e20 0 0\nv 0 1e20 0\nf 1 2 3\n");
   EXPECT_NE(far.find("1e+20"), std::string::npos) << far;

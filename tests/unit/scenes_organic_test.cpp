@@ -1,4 +1,4 @@
-// The built-in scenes hairball, fence, foliage and statue: closed where they must be, and as many faces as asked for.
+// The built-in scenes hairball, fence, foliage and statue: closed where they must be, and with the number of faces asked for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ size_t open_edges(const Mesh& mesh) {
   return open;
 }
 
-/// Positive where triangles are counter-clockwise seen from outside.
+/// Positive if triangles are counter-clockwise seen from outside.
 double signed_volume(const Mesh& mesh, size_t first, size_t count) {
   double volume = 0;
   for (size_t i = first; i < first + count; ++i) {

@@ -1,5 +1,5 @@
-// Two estimates of one image: fewer samples where AO hardly varies (--adaptive), and another technique where a mask is not
-// (--elsewhere). Which rows get which, and that each row has the bits that its own estimate gives everywhere.
+// Two estimates of one image: fewer samples where AO hardly varies (--adaptive), and another technique outside a mask
+// (--elsewhere). Which rows get which, and that each row has the bits of its own estimate computed everywhere.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ RunResult result_of(Frame& frame, const PlanRequest& request, int lanes = 0) {
              {.math = Math::precise, .lanes = lanes});
 }
 
-/// Of tiles of 16 x `rows` pixels: how many have in every plane the bits of one result, of the other, or of both; none has
-/// those of neither.
+/// Numbers of tiles of 16 x `rows` pixels whose planes all have the bits of one result, of the other, or of both; every tile is
+/// one of these.
 struct Shares {
   int of_one = 0, of_other = 0, of_both = 0;
 };
@@ -176,13 +176,13 @@ TEST(AdaptivePlan, WhatCannotBeIsSaidInOneLine) {
   EXPECT_EQ(message({.outputs = {"gtao"}, .resolution = 2, .adaptive = "low"}),
             "--adaptive low: works at full resolution; leave out --resolution");
   EXPECT_EQ(message({.outputs = {"dp-gtao"}, .adaptive = "low"}, {"depth", "normal", "peel.00", "peel.01"}),
-            "--adaptive low: dp-gtao looks at further layers, which a base pass does not; leave it out");
+            "--adaptive low: dp-gtao reads further layers, which a base pass does not; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"stereo-gtao"}, .adaptive = "low"}),
-            "--adaptive low: stereo-gtao looks at two views, which a base pass does not; leave it out");
+            "--adaptive low: stereo-gtao reads two views, which a base pass does not; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"normals"}, .adaptive = "low"}),
-            "--adaptive low: normals has no estimate that can leave out pixels; leave it out");
+            "--adaptive low: normals has no estimate that can skip pixels; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"multires"}, .adaptive = "low"}),
-            "--adaptive low: multires has no estimate that can leave out pixels; leave it out");
+            "--adaptive low: multires has no estimate that can skip pixels; leave --adaptive out");
 }
 
 // --- Elsewhere
@@ -272,14 +272,13 @@ TEST(Elsewhere, WhatCannotBeIsSaidInOneLine) {
   const auto message = [](const PlanRequest& request, const Names& available = {"depth", "normal", "mask"}) {
     return message_of([&] { plan_of(request, available); });
   };
-  EXPECT_EQ(message({.outputs = {"bitmask"}, .elsewhere = "gtao"}),
-            "--elsewhere gtao: nothing says where it does; add --only MASK");
+  EXPECT_EQ(message({.outputs = {"bitmask"}, .elsewhere = "gtao"}), "--elsewhere gtao: needs a mask; add --only MASK");
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtao"}),
-            "--elsewhere gtao: is what runs where the mask is, too; leave out --only and --elsewhere");
+            "--elsewhere gtao: also runs inside the mask; leave out --only and --elsewhere");
   EXPECT_NE(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtoa"}).find("did you mean 'gtao'"),
             std::string::npos);
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "normals"}),
-            "--elsewhere normals: makes normal, and gtao makes ao_raw; name an estimate of the same");
+            "--elsewhere normals: makes normal, and gtao makes ao_raw; name an estimate of the same planes");
   EXPECT_EQ(message({.outputs = {"gtao"}, .with = {"cone"}, .mask = "mask", .elsewhere = "hbao+"}),
             "--elsewhere hbao+: does not make 'cone', which is asked for; leave that out");
   EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "ssao", .resolution = 2}),
@@ -290,8 +289,8 @@ TEST(Elsewhere, WhatCannotBeIsSaidInOneLine) {
 
 // --- Where hidden layers matter
 
-/// A wall, and before it, out of reach, a square that hides a block on the wall as high as `block`, between the columns 60 and
-/// 80 of the rows 30 to 50.
+/// A wall, and before it, out of reach, a square that hides a block on the wall, `block` high, in columns 60 to 80 and rows 30 to
+/// 50.
 Frame hidden_block(double block) {
   const Shot shot = orthographic(160, 80, 4);
   const auto is_before = [](const EyeRay& ray) {
@@ -322,7 +321,7 @@ TEST(HiddenMask, FindsWhatRisesBehindWhatIsSeen) {
   for (const char* cell : {"4", "8", "16"}) {
     const RunResult result = result_of(frame, hidden_mask({{"cell", cell}}));
     const Channel& mask = result.frame.views[0].find("mask")->channels[0];
-    // Beside the square the block is near; further away than the radius (12 pixels) and two cells nothing is.
+    // Pixels beside the square have the block near; those further away than the radius (12 pixels) and two cells have nothing near.
     for (int y = 34; y < 46; ++y) {
       EXPECT_EQ(mask.at(57, y), 1) << y;
       EXPECT_EQ(mask.at(83, y), 1) << y;
@@ -343,7 +342,7 @@ TEST(HiddenMask, WhatGoesOnBehindDoesNotCount) {
 }
 
 TEST(HiddenMask, NorDoesWhatIsLowerThanWhatIsSeen) {
-  // The same block is seen by itself, and hides its own back.
+  // The same block without the square; it hides its own back.
   Frame frame = shoot(orthographic(160, 80, 4), [](const EyeRay& ray) {
     const bool is_block = std::abs(ray.origin.x) < 0.25;
     return std::optional<Surface>({is_block ? 2.8 : 3.0, {0, 0, 1}});

@@ -1,4 +1,4 @@
-// The second camera: what it has to see lies in its image, and it turns about its pivot.
+// The second camera: its image holds all that it must, and it turns about its pivot.
 #include "gloam/scene/secondary_camera.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using glm::dvec3;
 
 constexpr int width = 64, height = 36;
 
-/// Where a point of the world lands in an image; none when behind the camera.
+/// The pixel of a world point in an image; none behind the camera.
 std::optional<dvec2> projected(const Camera& camera, const dvec3& world) {
   const dvec3 view = camera.pose->world_to_view * (world - camera.pose->position);
   if (!(view.z < 0)) return {};
@@ -30,7 +30,7 @@ std::optional<dvec2> projected(const Camera& camera, const dvec3& world) {
   return dvec2(camera.cx + camera.fx * view.x / reach, camera.cy - camera.fy * view.y / reach);
 }
 
-/// The point of the world at a depth under a point of the image.
+/// The world point at a depth under a position in the image.
 dvec3 point_at(const Camera& camera, double x, double y, double depth) {
   const double reach = camera.orthographic ? 1 : depth;
   const dvec3 view(reach * (x - camera.cx) / camera.fx, reach * (camera.cy - y) / camera.fy, -depth);
@@ -75,7 +75,7 @@ const std::vector<VisibleDepths> depth_ranges = {{2, 4, 9},    {3.9, 4, 4.1}, {4
                                                  {0.01, 4, 5}, {3, 4, 5000},  {4e-9, 5e-9, 7e-9}};
 const double angles[] = {-90, -60, -5, 0.5, 15, 30, 45, 75, 90};
 
-/// Every case, every depths, every angle.
+/// Every case, every range of depths, every angle.
 template <typename Check>
 void for_all(Check check) {
   for (const Case& test : cases()) {
@@ -90,14 +90,14 @@ void for_all(Check check) {
   }
 }
 
-/// Places in double have this much rounding, so far from the origin.
+/// Rounding of positions in double, this far from the origin.
 double rounding_of(const Camera& camera, const VisibleDepths& depths) {
   return 1e-15 * glm::length(camera.pose->position) / depths.nearest;
 }
 
 TEST(SecondaryCamera, AllThatIsVisibleLiesInTheImage) {
   for_all([](const Camera& first, const VisibleDepths& depths, double, const Camera& second) {
-    if (rounding_of(first, depths) > 1e-3) return;  // nothing of that size can be told at that place
+    if (rounding_of(first, depths) > 1e-3) return;  // nothing of that size can be resolved at that position
     for (const dvec3& corner : corners_of(first, depths)) {
       const auto pixel = projected(second, corner);
       ASSERT_TRUE(pixel) << "behind the camera";
@@ -176,7 +176,7 @@ TEST(SecondaryCamera, ACameraAsItShouldBe) {
   EXPECT_NEAR(determinant, 1, 1e-12) << "a rotation";
 }
 
-// One plane, seen from both: what a pixel of the one shows is where the other says it is.
+// One plane in both views: the point of a pixel in one view has the same position in the other.
 TEST(SecondaryCamera, BothSeeAPlaneAtTheSamePlace) {
   const dvec3 normal = glm::normalize(dvec3(0.2, 1, 0.3));
   const double offset = -0.7;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t most_lines = 400;
-/// What the first comment of a longer file says, and why.
+/// Begins the reason in the first comment of a longer file.
 const std::string reason = "Long, because ";
 
 /// Folders below host/ whose files are entries of one list, and so have no header of their own.
@@ -38,7 +38,7 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::st
   return files;
 }
 
-/// The first lines in a row that are comments.
+/// The leading comment lines.
 std::string first_comment(const std::vector<std::string>& lines) {
   const auto is_comment = [](const std::string& line) { return line.starts_with("//"); };
   const auto begin = std::find_if(lines.begin(), lines.end(), is_comment);
@@ -47,7 +47,7 @@ std::string first_comment(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Files of more than `most_lines` lines whose first comment gives no reason, below `host`.
+/// Files below `host` of more than `most_lines` lines whose first comment gives no reason.
 std::vector<std::string> long_without_reason(const fs::path& host) {
   std::vector<std::string> found;
   for (const fs::path& file : files_below(host, {".cpp", ".h", ".js", ".css", ".html"})) {

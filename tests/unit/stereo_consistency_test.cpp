@@ -1,4 +1,4 @@
-// The stereo inconsistency error against closed forms: what an eye sees of a painted world is known everywhere.
+// The stereo inconsistency error against closed forms: each eye's image of a painted world is known exactly.
 #include "gloam/stereo_consistency.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr int width = 96, height = 64;
 const Scene wall = tilted_plane(4, 0, 0);
 double slope(const glm::dvec3& p) { return 0.5 + 0.11 * p.x + 0.07 * p.y + 0.05 * p.z; }
 
-/// No order, but the same for both eyes' pixels of the same place in the image only.
+/// Irregular, and the same for pixels of both eyes at the same position in the image only.
 void make_noise(Plane& plane) {
   unsigned state = 1;
   for (int y = 0; y < height; ++y) {
@@ -39,7 +39,7 @@ Shot off_axis(double share) {
   return shot;
 }
 
-/// Two eyes side by side; the distance between them is no whole number of pixels.
+/// Two eyes side by side; their distance is not a whole number of pixels.
 std::array<Eye, 2> side_by_side() {
   const Shot shot = perspective(width, height);
   return {eye_at(shot, {-0.1, 0, 0}), eye_at(shot, {0.123, 0, 0})};
@@ -58,10 +58,9 @@ struct Rig {
   double bound;  ///< of the error of a linear paint
 };
 
-/// Where the map from eye to eye is affine, interpolating a linear paint is exact. What is left is what AO and depth in
-/// float leave (1e-6), and at places off the rows what taking a place to be on a centre that is 1/1000 pixel away does:
-/// the paint changes by less than 0.01 per pixel. In perspective the paint is a quotient of linear functions: that bound
-/// is measured (9e-5 at most).
+/// If the map from eye to eye is affine, interpolating a linear paint is exact. What remains is the float rounding of AO and
+/// depth (1e-6), and, away from the rows, the effect of moving a position to a centre 1/1000 pixel away: the paint changes by
+/// less than 0.01 per pixel. In perspective the paint is a quotient of linear functions: that bound is measured (9e-5 at most).
 std::vector<Rig> rigs() {
   const Shot shot = perspective(width, height), flat = orthographic(width, height, 4);
   const Scene slanted = tilted_plane(4, 0.4, 0.7);
@@ -112,7 +111,7 @@ TEST(StereoConsistency, TheErrorOfOneEyeIsTheError) {
   }
 }
 
-/// The error is what bilinear interpolation between two pixels makes of a paint with a kink at a known place.
+/// The error equals the bilinear interpolation, between two pixels, of a paint with a kink at a known position.
 TEST(StereoConsistency, TheOtherEyesValueIsBilinear) {
   Frame frame = shoot_pair(side_by_side(), wall, [](const glm::dvec3&) { return 0.0; });
   frame.views[1].planes["ao"].channels[0].at(40, 30) = 1;
@@ -150,7 +149,7 @@ TEST(StereoConsistency, SwappedEyesSwapTheFigures) {
   EXPECT_NEAR(a.both.mean, b.both.mean, 1e-12);
 }
 
-/// Eyes that are turned, at places that stay exact in double so far away: what is left is how they are subtracted.
+/// Turned eyes at positions that are exact in double that far away: what remains is the way they are subtracted.
 TEST(StereoConsistency, FarFromTheOriginNothingChanges) {
   const Shot shot = perspective(width, height);
   Frame frame = shoot_pair({eye_at(shot, {-0.125, 0, 0}, -5), eye_at(shot, {0.125, 0, 0}, 5)}, room(), slope);
@@ -170,8 +169,8 @@ TEST(StereoConsistency, FarFromTheOriginNothingChanges) {
 // ---------------------------------------------------------------------------------------------------------------------
 // What counts
 
-/// Before the wall stands a card. Which pixels of the wall the other eye sees is known; only those within two pixels of
-/// the card's outline are left out.
+/// A card stands before the wall. The wall's pixels that the other eye sees are known; those within two pixels of the card's
+/// outline are left out.
 TEST(StereoConsistency, WhatTheOtherEyeDoesNotSeeIsRejected) {
   const std::array<Eye, 2> eyes = side_by_side();
   const Scene world = nearest_of({wall, within(tilted_plane(2, 0, 0), 0.3, 0.4)});
@@ -207,8 +206,8 @@ TEST(StereoConsistency, WhatTheOtherEyeDoesNotSeeIsRejected) {
   }
 }
 
-/// An orthographic eye that is turned by 75 degrees sees a wall 1 / cos(75) times as narrow: so many pixels of the first
-/// eye share one pixel there, and those come back that are within 1 pixel of its centre.
+/// An orthographic eye turned by 75 degrees sees a wall 1 / cos(75) times as narrow: that many pixels of the first eye share one
+/// pixel there, and those within 1 pixel of its centre come back.
 TEST(StereoConsistency, PixelsThatShareOneOfTheOtherEyesAreNotAllCounted) {
   const Shot flat = orthographic(width, height, 4);
   const double turn = 75, cosine = std::cos(glm::radians(turn));
@@ -246,7 +245,7 @@ TEST(StereoConsistency, TheNormalCheckRejectsACrease) {
   EXPECT_EQ(wide.both.mean, without.both.mean);
 }
 
-/// Normals of the other view are turned by a known angle.
+/// The normals of the other view are turned by a known angle.
 TEST(StereoConsistency, TheNormalCheckIsInDegrees) {
   Frame frame = shoot_pair(side_by_side(), wall, slope);
   Plane& normal = frame.views[1].planes["normal"];
@@ -322,7 +321,7 @@ TEST(StereoConsistency, DirectionsAreComparedInOneSpace) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// What cannot be
+// Refusals
 
 void expect_refused(const std::function<void(Frame&)>& spoil, const std::string& words) {
   Frame frame = shoot_pair(side_by_side(), wall, slope);

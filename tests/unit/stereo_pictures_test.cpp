@@ -12,7 +12,7 @@ using namespace test;
 
 class StereoPictures : public PictureTest {};
 
-/// Grey levels are whole numbers of 255, so that no rounding is at stake.
+/// Grey levels are whole numbers of 255, so that rounding does not matter.
 float grey(int byte) { return float(byte) / 255; }
 
 StereoErrors errors_of(const std::vector<StereoPixel>& pixels, const std::vector<float>& values) {

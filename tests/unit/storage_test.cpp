@@ -1,4 +1,4 @@
-// What keeping planes in half precision does to them.
+// The effect of half precision on planes.
 #include "bench/storage.h"
 
 #include <gtest/gtest.h>

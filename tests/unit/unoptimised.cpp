@@ -1,4 +1,4 @@
 #include "support/unoptimised.h"
 
-// Of small frames, all of them.
+// All suites: the frames are small.
 [[maybe_unused]] const bool unoptimised = gloam::test::leave_unoptimised({""});

@@ -1,4 +1,4 @@
-// Pictures of one plane in many views: what lands where, on which scale.
+// Pictures of one plane in many views: positions and scales.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeri
 
 const Pixel white{255, 255, 255}, black{0, 0, 0}, tone{214, 214, 214}, line{186, 186, 186}, magenta{255, 0, 255};
 
-/// What a view shows at a pixel.
+/// A view's value at a pixel.
 using ViewPattern = std::function<float(int view, int x, int y)>;
 
 /// Views module00, module01, ... with a plane of one component.
@@ -57,7 +57,7 @@ Box box_where(const Picture& picture, const Wanted& wanted) {
   return box;
 }
 
-/// Of runs of a colour along a row, which the soft edges of text do not have.
+/// Bounding box of horizontal runs of a colour; the soft edges of text have no such runs.
 Box box_of(const Picture& picture, const Pixel& colour, int shortest = 6) {
   Box box;
   for (int y = 0; y < picture.height; ++y)
@@ -82,7 +82,7 @@ class ViewPicturesTest : public PictureTest {
   }
 };
 
-/// A colour that no text and no paper has, another for each view: views of one colour each are found by it.
+/// Views of one colour each, which no text and no paper has, by which they are found.
 Frame coloured_views(int views, int width, int height) {
   Frame frame;
   frame.display = frame.window = {0, 0, width, height};
@@ -204,7 +204,7 @@ TEST_F(ViewPicturesTest, LongAndOddNamesStayInTheirPlaces) {
 // ---------------------------------------------------------------------------------------------------------------------
 // Scan lines
 
-/// A bright column that moves by `step` pixels from view to view: what a surface does across neighbouring views.
+/// A bright column that moves by `step` pixels from view to view, like a surface across neighbouring views.
 Frame moving_column(int views, int start, int step) {
   return frame_of(views, 96, 54, "ao", [=](int i, int x, int) { return x == start + step * i ? 0.75f : 0.25f; });
 }
@@ -251,7 +251,7 @@ TEST_F(ViewPicturesTest, TheRowIsTheOneAskedFor) {
   }
 }
 
-/// Data that reaches beyond the image: row 0 is the image's, and what lies beside it is drawn.
+/// Data beyond the image: row 0 is the image's, and pixels beside it are drawn.
 TEST_F(ViewPicturesTest, RowsCountFromTheTopOfTheDisplayWindow) {
   Frame frame = frame_of(4, 96, 54, "ao", [](int, int, int y) { return float(100 + y) / 255; });
   frame.display = {0, 0, 80, 40};
@@ -262,7 +262,7 @@ TEST_F(ViewPicturesTest, RowsCountFromTheTopOfTheDisplayWindow) {
 }
 
 TEST_F(ViewPicturesTest, LinesShareOneScale) {
-  // The row's own scale: what the other rows hold is not seen.
+  // The row's own scale: values of other rows do not count.
   const Frame frame = frame_of(3, 96, 54, "zebra", [](int i, int, int y) { return y == 9 ? float(i) : 1e6f; });
   const Box middle = box_of(lines(frame, "zebra", 9), {128, 128, 128});
   EXPECT_EQ(middle.width(), 960);

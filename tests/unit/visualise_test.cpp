@@ -36,7 +36,7 @@ class Visualise : public test::PictureTest {
   }
 };
 
-/// Where the panels of a sheet of full-size or enlarged images are, from the layout: equal margins and gaps.
+/// Positions of the panels of a sheet of full-size or enlarged images, from the layout: equal margins and gaps.
 struct Panels {
   int box, first, step, top;
   explicit Panels(const Picture& p, int box) : box(box) {
@@ -71,7 +71,7 @@ TEST_F(Visualise, ColoursGoThroughSrgb) {
   EXPECT_EQ(p.at(1, 2), (Pixel{188, 3, 255}));
 }
 
-/// The table against the curve (IEC 61966-2-1), at values of all sizes and beside each byte's least value.
+/// The table against the curve (IEC 61966-2-1), at values of all sizes and next to each byte's least value.
 TEST_F(Visualise, SrgbIsExactForEveryByte) {
   const auto byte_of = [](double v) {
     const double curve = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;

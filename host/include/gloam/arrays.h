@@ -10,30 +10,30 @@
 
 namespace gloam {
 
-/// What a renderer has in memory of one view. The arrays are read while `frame_from` runs, and no longer.
+/// One view in a renderer's memory. The arrays are read only while `frame_from` runs.
 struct Arrays {
   int width = 0, height = 0;  ///< pixels, 1 to 65536 each way, 2^28 in all
-  Camera camera = {};         ///< of an image whose top left corner is (0, 0); `camera_with_fov` makes a plain one
-  /// By the names of planes.h: "depth", "normal", "color" ... Rows from the top, without padding, the components of a pixel
-  /// side by side: width * height * components values.
+  Camera camera = {};         ///< in pixels of an image whose top left corner is (0, 0); see `camera_with_fov`
+  /// Planes by the names of planes.h: "depth", "normal", "color" ... Rows from the top, without padding, the components of a
+  /// pixel side by side: width * height * components values.
   ///
-  /// depth: distance along the viewing axis, scene units. What is no surface is +inf, NaN, not above 0, 1e10 or more, or the
-  ///   camera's far plane.
-  /// normal: x to the right, y up, z towards the eye (view space), of any length; (0, 0, 0) where it is not known.
-  /// Without normals, techniques that read them make them from depth.
+  /// depth: distance along the viewing axis, scene units. Background is +inf, NaN, 0 or less, 1e10 or more, or the camera's
+  ///   far plane.
+  /// normal: view space (x to the right, y up, z towards the eye), of any length; (0, 0, 0) where unknown. Techniques that
+  ///   need normals make them from depth where a frame has none.
   std::map<std::string, std::span<const float>> planes = {};
 };
 
-/// A camera of square pixels that looks through the middle of the image; `degrees`: its horizontal field of view, 1 to 179.
-/// Throws Error for a size or an angle that is not allowed.
+/// A camera with square pixels and its principal point in the middle of the image; `degrees`: horizontal field of view, 1 to 179.
+/// Throws Error for a size or an angle out of range.
 Camera camera_with_fov(int width, int height, double degrees);
 
-/// A frame of one view, whose name is empty, that has passed `normalise` (normalise.h): ready for a plan. Values are copied.
-/// Throws Error for a size that is not allowed, an array of another size than the image's, a null pointer, a camera that is not finite
-/// or has no focal length, and where memory runs out.
+/// A frame of one view, named "", that has passed `normalise` (normalise.h): ready for a plan. Values are copied. Throws Error for
+/// a size out of range, an array whose size is not the image's, a null pointer, a camera that is not finite or has no focal length,
+/// and where memory runs out.
 Frame frame_from(const Arrays& arrays);
 
-/// The values of a plane of a view, in the order of `Arrays::planes`. Throws Error where the frame has no such view or plane.
+/// The values of a plane of a view, in the order of `Arrays::planes`. Throws Error if the frame has no such view or plane.
 std::vector<float> values_of(const Frame& frame, const std::string& plane, const std::string& view = "");
 
 }  // namespace gloam

@@ -1,4 +1,4 @@
-// From a frame to what is asked for, in one call. plan.h and run.h have the same in steps.
+// From a frame to results in one call. plan.h and run.h offer the same in steps.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,14 @@
 
 namespace gloam {
 
-/// Plans for the planes that every view of a frame has, and runs the plan. Where no radius is given, `default_radius` (radius.h)
-/// makes one from the frame: frames of a sequence get a radius each; give `PlanRequest::radius` to have one for all.
-/// `PlanRequest::outputs` names techniques, or planes that the default technique makes: "ao".
-/// Throws what `make_plan` and `run` do.
+/// Plans for the planes that every view of a frame has, and runs the plan. Without a radius in the request, `default_radius`
+/// (radius.h) makes one from the frame: each frame of a sequence gets its own, unless `PlanRequest::radius` is set.
+/// `PlanRequest::outputs` names techniques, or planes that a default technique makes: "ao". Throws as `make_plan` and `run` do.
 RunResult compute(const PlanRequest& request, const Frame& frame, Device& device, const RunOptions& options = {});
 
 /// Ambient occlusion of arrays: width * height values from 0 (closed) to 1 (open), rows from the top; 1 where there is no surface.
-/// `request`: radius (scene units), preset, settings; `outputs` may name a technique that makes `ao`, else the default one is taken.
-/// Throws what `frame_from` and `compute` do.
+/// `request`: radius (scene units), preset, settings; `outputs` may name a technique that makes `ao`; empty: the default one.
+/// Throws as `frame_from` and `compute` do.
 std::vector<float> ambient_occlusion(const Arrays& arrays, Device& device, const PlanRequest& request = {},
                                      const RunOptions& options = {});
 

@@ -1,4 +1,4 @@
-// The one error type: a full sentence for a person, and the exit status that goes with it.
+// The error types: a message for a person, and the exit status that goes with it.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,14 +10,13 @@
 
 namespace gloam {
 
-/// Text from a file or the command line, safe on a terminal and on one line: control characters, line ends among them,
-/// characters that turn the direction of text, and bytes that are not UTF-8 become \xNN. Printable text stays as it is.
+/// Text from a file or the command line, made safe for one line of a terminal: control characters (line ends too), characters that
+/// change the direction of text, and bytes that are not UTF-8 become \xNN. Printable text stays as it is.
 std::string printable(std::string_view text);
 
-/// Something the user has to know, in one line that names the thing, the value, what is allowed and what to do.
-/// The message is made printable, whatever names are in it. A program that uses the library catches it; in the command
-/// `gloam` it reaches `main`, which prints the message and exits with `exit_status`. In between it is caught where there
-/// is something else to do: name the file that the message is about, try the next input, list it with others.
+/// An error for the user: one line that names the thing, the value, what is allowed and what to do. The message is made printable,
+/// whatever names are in it. The command `gloam` prints it and exits with `exit_status`. Elsewhere it is caught only to do
+/// something else: add the name of the file, try the next input, list it with others.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(printable(message)) {}
@@ -34,8 +33,8 @@ class UsageError : public Error {
   int exit_status() const override { return 2; }
 };
 
-/// The candidate that `name` abbreviates ("--rad" of "--radius"), else the one with the smallest edit distance, as
-/// " (did you mean 'x'?)"; empty when none is near, and for a name without letters.
+/// " (did you mean 'x'?)" with the candidate that `name` abbreviates ("--rad" for "--radius"), else the one with the smallest edit
+/// distance; empty if none is near, and for a name without letters.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
 /// "a, b and c"

@@ -1,4 +1,4 @@
-// EXR in and out. Opening reads headers only; `read` decodes the planes asked for and nothing else.
+// Reading and writing EXR. Opening reads headers only; `read` decodes only the planes asked for.
 #pragma once
 
 #include <filesystem>
@@ -11,45 +11,46 @@
 
 namespace gloam {
 
-/// Largest frame accepted, in pixels: a header that claims more is refused before anything is allocated.
+/// Largest frame accepted, in pixels. A larger one is refused by its header, before memory is allocated.
 inline constexpr long long max_pixels = 1LL << 28;
 
 enum class DepthConvention { automatic, z, ray, ndc, reversed };
 enum class NormalSpace { automatic, view, world };
 
-/// What the user says about the file, instead of what would be found or assumed. Every field may stay empty.
+/// What the user states about a file; it overrides what would be found or assumed. Every field may stay empty.
 struct ReadOptions {
   std::filesystem::path camera_file;  ///< --camera
   std::optional<double> fov_degrees;  ///< --fov: horizontal, 1 to 179
-  /// A camera that cannot be used becomes a note, and none is known: for commands that only look at a frame.
+  /// A camera that cannot be used becomes a note instead of an error: for commands that only show a frame.
   bool only_looks = false;
   DepthConvention depth = DepthConvention::automatic;
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
-  std::optional<float> background;  ///< --background: the value that means background, instead of 1e10 and more
+  std::optional<float> background;  ///< --background: depth that means background, instead of 1e10 and more
   NormalSpace normal_space = NormalSpace::automatic;
-  std::vector<std::string> views;  ///< --view, --views: these, in this order; empty = all
-  bool count_nonfinite = false;    ///< have `read` count NaN and infinite values as they stand in the file
-  /// Values as they stand in the file: only depth is converted, and the space of normals; nothing is clamped, replaced
-  /// or made unit. For measuring, which must see what a technique wrote.
+  std::vector<std::string> views;  ///< --view, --views: views to read, in this order; empty: all
+  bool count_nonfinite = false;    ///< `read` counts NaN and infinite values of the file
+  /// Keeps values as in the file: only depth and the space of normals are converted; nothing is clamped, replaced or made unit. For
+  /// measuring, which must see what a technique wrote.
   bool as_stored = false;
-  /// Frames of more are refused; a power of two. Who reads many files that may lie about their size sets less.
+  /// Largest frame accepted, in pixels; a power of two. Set it lower for files from untrusted sources, whose headers may overstate
+  /// their size.
   long long most_pixels = max_pixels;
-  /// --plane depth=Layer.Z: plane -> channel, channels (a,b,c), layer, or "none": as if the file did not have the plane.
+  /// --plane depth=Layer.Z: plane -> channel, channels (a,b,c), layer, or "none", which hides the plane.
   std::map<std::string, std::string> channels;
 };
 
-/// One channel of the file that serves as one component of a plane.
+/// A channel of the file that holds one component of a plane.
 struct ChannelSource {
   int part = 0;
   std::string name;  ///< full name in the file
   std::string type;  ///< "half", "float" or "uint"
-  float scale = 1;   ///< what brings a value to gloam's meaning: -1 for the y of motion vectors that point up
+  float scale = 1;   ///< factor to gloam's convention: -1 for the y of motion vectors that point up
 };
 
-/// What a channel's name declares about its values.
+/// The convention that a channel's name declares for its values.
 enum class DeclaredConvention { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
 
-/// A plane that could be decoded.
+/// A plane that can be decoded.
 struct PlaneSource {
   std::string plane;  ///< "depth", "normal", ... (planes.h)
   std::string view;
@@ -57,11 +58,12 @@ struct PlaneSource {
   DeclaredConvention said = DeclaredConvention::nothing;
 };
 
-/// An open EXR file: what it holds, as far as headers and the camera file beside it tell.
+/// An open EXR file: its contents, as far as the headers and a camera file beside it tell.
 ///
-/// Throws UsageError for --near that is not less than --far, and Error (one line, naming the file) for: missing, not an EXR, truncated, deep, more than `most_pixels`, unknown
-/// view, planes or views of different size that cannot be brought together, unreadable or ambiguous camera file, a `camera_file`
-/// that has no camera for the file's views, near that is not less than far.
+/// Throws UsageError if --near is not less than --far. Throws Error (one line, naming the file) for a file that is missing, not an
+/// EXR, truncated, deep or larger than `most_pixels`; for an unknown view; for planes or views whose sizes cannot be reconciled;
+/// for an unreadable or ambiguous camera file; for a `camera_file` without a camera for the file's views; for near not less than
+/// far.
 class FrameFile {
  public:
   FrameFile(const std::filesystem::path& path, const ReadOptions& options);
@@ -72,82 +74,80 @@ class FrameFile {
   Window display() const;
   /// Union of the display window and all data windows that hold known planes.
   Window window() const;
-  /// The views that the options select, in their order; else all, in file order; one empty name where the file names none.
+  /// The selected views in the options' order; without a selection all, in file order; one empty name if the file names none.
   const std::vector<std::string>& views() const;
   /// Known planes of the selected views.
   const std::vector<PlaneSource>& planes() const;
-  /// Names of the planes that every selected view has. Where one view's stack (planes.h) has fewer layers than
-  /// another's, the layers that it lacks at the end count as there: nothing is seen in them.
+  /// Names of the planes that every selected view has. If one view's stack (planes.h) has fewer layers than another's, its missing
+  /// last layers count as present: they show nothing.
   std::vector<std::string> common_planes() const;
-  /// Why a plane is not among these although some view has it: "view 'right' has no depth"; else empty.
+  /// Why `common_planes` lacks a plane that some view has: "view 'right' has no depth"; else empty.
   std::string why_missing(const std::string& plane) const;
-  /// The file lists several views, names none in its channels, and is read as the first as --view does not say which.
+  /// Whether the file lists several views but names none in its channels, and --view does not choose: it is read as the first.
   bool view_is_assumed() const;
-  /// What the headers and the camera file leave to be assumed or said of cameras and views, a sentence each: part of
-  /// `Frame::assumed` of what is read.
+  /// Notes on assumptions about cameras and views, a sentence each: part of the `Frame::assumed` of what is read.
   const std::vector<std::string>& camera_notes() const;
-  /// Every channel of the file, for messages about what it does hold.
+  /// All channels of the file, for messages.
   std::vector<std::string> all_channels() const;
-  /// The camera of a view; none when neither flags, header nor a JSON give one.
+  /// The camera of a view; none if flags, header and JSON give none.
   std::optional<Camera> camera(const std::string& view) const;
-  /// A float or double attribute of the header ("aoRadius"); none when absent.
+  /// A float or double attribute of the header ("aoRadius"); none if absent.
   std::optional<double> number_attribute(const std::string& name) const;
-  /// A text attribute of the header ("aoDefinition"); empty when absent.
+  /// A text attribute of the header ("aoDefinition"); empty if absent.
   std::string text_attribute(const std::string& name) const;
 
-  /// Decodes the named planes of all selected views (a plane that a view lacks is skipped; a layer beyond the end of a
-  /// view's stack is +inf everywhere) and brings them to gloam's
-  /// conventions: depth to planar view-space z with +inf background, normals to unit view space. `depth` is decoded
-  /// too where a named plane needs it (background of the normals is found by depth), never anything else.
-  /// Where no camera is known, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.
+  /// Decodes the named planes of all selected views and brings them to gloam's conventions: depth to planar view-space z, scene
+  /// units, with +inf background; normals to unit view space. A plane that a view lacks is skipped; a layer beyond the end of a
+  /// view's stack is +inf everywhere. `depth` is decoded as well if a named plane needs it (it marks the background of normals).
+  /// Without a known camera, assumes a horizontal field of view of 60 degrees and says so in `Frame::assumed`.
   Frame read(const std::vector<std::string>& planes);
 
-  /// For figures of frames that are large: the same as `read`, a few rows at a time. The first step decodes the depth whole
-  /// where these planes or the options need it, looks through what only the whole image tells (the space of normals), and returns
-  /// the frame with the depth alone and all that was assumed. Needs `ReadOptions::as_stored`. Throws as `read` does.
+  /// First step of reading a large frame a few rows at a time, for figures. Decodes the whole depth if these planes or the options
+  /// need it, finds what only the whole image tells (the space of normals), and returns the frame with the depth alone and all
+  /// assumptions. Needs `ReadOptions::as_stored`. Throws as `read` does.
   Frame survey(const std::vector<std::string>& planes);
-  /// Rows [first, last) of the window: `planes` of those that were surveyed, without the depth. The frame's window is these
-  /// rows. A plane that turned out to be of no use is not there.
+  /// Rows [first, last) of the window, for `planes` that were surveyed, without the depth. The frame's window is these rows. Planes
+  /// that turned out to be unusable are left out.
   Frame read_rows(const std::vector<std::string>& planes, int first, int last);
-  /// How many rows to ask for, so that no chunk of the file is decoded much more than once and all of these planes take some
-  /// 4 MiB; more where that is in one chunk.
+  /// Number of rows to ask for at once: no chunk of the file is decoded much more than once, and these planes take about 4 MiB, or
+  /// more if one chunk does.
   int rows_at_once(const std::vector<std::string>& planes) const;
 
-  /// Memory that `read` takes at its peak: the planes, and what decoding them holds beside.
+  /// Peak memory of `read`, bytes: the planes, and what decoding needs besides.
   unsigned long long bytes_to_read(const std::vector<std::string>& planes) const;
-  /// The same of `survey` and `read_rows` with `rows_at_once`.
+  /// Peak memory of `survey` and `read_rows` with `rows_at_once`, bytes.
   unsigned long long bytes_to_read_by_rows(const std::vector<std::string>& planes) const;
 
-  /// Decodes the channels that serve as no plane too, and drops them, so that damage anywhere in the file is found. For
-  /// looking at a file (`gloam info`), not for work on it. Throws as `read` does.
+  /// Decodes the channels that belong to no plane as well, and drops them, so that damage anywhere in the file is found (`gloam
+  /// info`). Throws as `read` does.
   void verify();
 
   /// NaN and infinite values that `read` found in a plane, inside the data window, before anything was repaired; 0 unless `count_nonfinite`.
   long long nonfinite(const std::string& plane, const std::string& view) const;
 
-  /// How the depth will be or was understood: "z", "ray", "ndc", "reversed", "negative z"; empty without depth.
+  /// The depth convention in use: "z", "ray", "ndc", "reversed", "negative z"; empty without depth.
   std::string depth_convention() const;
-  /// "view" or "world"; empty without normals or before `read`.
+  /// "view" or "world"; empty without normals, and before `read`.
   std::string normal_space() const;
 
  private:
   friend class FrameFiles;
-  /// What a file of one view is in a frame of two.
+  /// The part of a one-view file in a frame of two eyes.
   struct Eye {
     std::string name, other_name;
     std::filesystem::path other;  ///< the other eye's file
-    Window window;                ///< that the frame's planes cover
+    Window window;                ///< window of the frame's planes
   };
   struct Impl;
   explicit FrameFile(std::unique_ptr<Impl> impl);
-  /// Open as far as views, planes and windows go: which camera is an eye's is known when its name is.
+  /// Opens views, planes and windows only: an eye's camera can be found once the eye has a name.
   static FrameFile without_cameras(const std::filesystem::path& path, const ReadOptions& options);
-  /// Finds the camera of that eye. Throws Error where none with a pose is found.
+  /// Finds the camera of that eye. Throws Error if none with a pose is found.
   void become(const Eye& eye);
   std::unique_ptr<Impl> impl_;
 };
 
-/// How a frame is written.
+/// Options for writing a frame.
 struct WriteOptions {
   bool half = false;                ///< AO and other bounded planes as half; depth stays float
   std::string compression = "zip";  ///< one of `compressions`
@@ -159,12 +159,11 @@ std::vector<std::string> compressions();
 /// Throws UsageError when the options cannot be used, before anything is computed.
 void check(const WriteOptions& options);
 
-/// Writes all planes of all views as one scanline EXR: gloam's channel names (planes.h), further views in OpenEXR's
-/// multi-view form (`right.Z`, `N.right.X`, the `multiView` attribute), cameras as `worldToCamera`, `worldToNDC` and
-/// `gloamOrigin` (per further view
-/// `<view>.worldToCamera` ...), normals marked by `gloamNormalSpace` = view. Written to a temporary file beside `path`
-/// and renamed, so that a failed or interrupted run leaves nothing half written.
-/// Throws Error naming the path when it cannot be written.
+/// Writes all planes of all views as one scanline EXR: gloam's channel names (planes.h); further views in OpenEXR's multi-view form
+/// (`right.Z`, `N.right.X`, the `multiView` attribute); cameras as `worldToCamera`, `worldToNDC` and `gloamOrigin` (per further
+/// view `<view>.worldToCamera` ...); normals marked by `gloamNormalSpace` = view. Written to a temporary file beside `path` and
+/// then renamed, so that a failed or interrupted run leaves nothing half written. Throws Error naming the path if it cannot be
+/// written.
 void write_frame(const std::filesystem::path& path, const Frame& frame, const WriteOptions& options = {});
 
 }  // namespace gloam

@@ -20,11 +20,11 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
-/// How one channel lies in memory, on the host and on the device alike.
+/// Layout of a channel in memory, the same on the host and on the device.
 ///
 /// `guard` floats, then `height` rows of `pitch` floats of which the first `width` are the image, then `guard` floats.
-/// The pitch is a multiple of 16, so that no kernel has a tail; the guard lets a row of lanes be loaded up to `guard`
-/// pixels outside the first and the last row.
+/// The pitch is a multiple of 16, so that kernels need no tail; the guard allows a row of lanes to be loaded up to `guard` pixels
+/// outside the first and the last row.
 struct Layout {
   static constexpr int guard = 64;
   int width = 0, height = 0, pitch = 0;
@@ -36,7 +36,7 @@ struct Layout {
   bool operator==(const Layout&) const = default;
 };
 
-/// Of every `scale`-th pixel of every `scale`-th row, beginning with the first.
+/// Layout of every `scale`-th pixel of every `scale`-th row, beginning with the first.
 Layout reduced(const Layout& layout, int scale);
 
 /// One image of floats in the layout above, 4096-byte aligned so that a CPU device can use it in place. Move-only.
@@ -45,7 +45,7 @@ class Channel {
   Channel() = default;
   /// Memory is not initialised.
   explicit Channel(const Layout& layout);
-  /// Everything, padding and guard included, is `value`.
+  /// Fills everything, padding and guard included, with `value`.
   Channel(const Layout& layout, float value);
   Channel clone() const;
 
@@ -56,7 +56,7 @@ class Channel {
   const float* row(int y) const { return data_.get() + layout_.index(0, y); }
   float& at(int x, int y) { return data_[layout_.index(x, y)]; }
   float at(int x, int y) const { return data_[layout_.index(x, y)]; }
-  /// Sets all that is not image (row padding and guards) to `value`.
+  /// Sets everything outside the image (row padding and guards) to `value`.
   void fill_padding(float value);
 
  private:
@@ -78,21 +78,21 @@ struct Plane {
 struct View {
   std::string name;  ///< "" when the file names none
   std::optional<Camera> camera;
-  std::optional<Camera> camera_before;  ///< of the frame before in a sequence, for techniques that read its history
-  glm::dvec3 origin{0.0};               ///< what the plane `position` is relative to (gloamOrigin), in double
+  std::optional<Camera> camera_before;  ///< camera of the frame before in a sequence, for techniques with a history
+  glm::dvec3 origin{0.0};               ///< origin of the plane `position` (gloamOrigin), in double
   std::map<std::string, Plane> planes;
   const Plane* find(const std::string& plane) const;
 };
 
 /// Planes as kernels expect them: depth > 0 or +inf, normals unit (or zero where unknown) in view space.
 struct Frame {
-  Window display;  ///< what the camera frames
-  Window window;   ///< what the planes cover: the display window and whatever data lies outside it
+  Window display;  ///< the image of the camera
+  Window window;   ///< the planes: the display window and any data outside it
   std::vector<View> views;
-  double pixel_aspect = 1;  ///< width of a pixel over its height, as the file says (pixelAspectRatio)
-  std::map<std::string, std::string> attributes;  ///< text that goes into the header: what made the planes
-  std::map<std::string, double> numbers;          ///< floats that go into the header: aoRadius ...
-  std::vector<std::string> assumed;               ///< one sentence for each thing that was not said by file or flag
+  double pixel_aspect = 1;                        ///< width of a pixel over its height (the file's pixelAspectRatio)
+  std::map<std::string, std::string> attributes;  ///< text for the header: how the planes were made
+  std::map<std::string, double> numbers;          ///< floats for the header: aoRadius ...
+  std::vector<std::string> assumed;               ///< one sentence for each thing that neither file nor flag states
 
   int width() const { return window.width(); }
   int height() const { return window.height(); }
@@ -100,8 +100,8 @@ struct Frame {
   const View& view(const std::string& name) const;
 };
 
-/// Throws Error for a frame that nothing can be computed of: without views or pixels, with a view without a camera or with one that
-/// `check` (camera.h) refuses, with a plane whose channels have no memory or another size than the frame's.
+/// Throws Error for a frame that cannot be computed on: without views or pixels, with a view whose camera is missing or refused by
+/// `check` (camera.h), with a plane whose channels have no memory or not the frame's size.
 void check(const Frame& frame);
 
 /// Background is +inf; everything else is a surface.

@@ -1,4 +1,4 @@
-// The frame that a command works on: one file, or two files that are an eye each.
+// The frame that a command works on: one file, or two files with an eye each.
 #pragma once
 
 #include <filesystem>
@@ -11,26 +11,25 @@
 
 namespace gloam {
 
-/// The view that a file's name ends in: "truth_left.exr" is of "left". None where it ends in none.
+/// The view that a file's name ends in: "left" for "truth_left.exr". None if it ends in no view's name.
 std::optional<std::string> view_in_name(const std::filesystem::path& file, const std::vector<std::string>& views);
 
-/// One file as `FrameFile` reads it, or two files of one view each, which become one frame of two views, in the order
-/// given. Each of the two is read by itself, with the same options: what its depth means, the space of its normals. The
-/// frame's window covers the windows of both.
+/// A frame from one file, as `FrameFile` reads it, or from two files with one view each: a frame of two views, in the order given.
+/// Both files are read with the same options, each by itself: its depth convention, the space of its normals. The frame's window
+/// covers both windows.
 ///
-/// The eyes have the names of their views where the files name both, and differently. Else the names of the files tell
-/// (`pair_L.exr`, `pair-right.0012.exr`), else they are "left" and "right" in the order given; that is said in
-/// `Frame::assumed`. In a camera JSON an eye's camera is the one of its name; a JSON that belongs to both files and has a
-/// single camera is neither's.
+/// The eyes get their views' names if the files name both, and differently. Otherwise the file names decide (`pair_L.exr`,
+/// `pair-right.0012.exr`), else they are "left" and "right" in the order given; `Frame::assumed` says so. In a camera JSON, an
+/// eye's camera is the one of its name; the single camera of a JSON that belongs to both files is neither's.
 ///
-/// Throws UsageError for no file or more than two, for one file twice, for a file of several views where there are two,
-/// and for `ReadOptions::views` then; Error for two display windows that differ, and an eye whose camera has no pose.
-/// And whatever `FrameFile` throws.
+/// Throws UsageError for no file, for more than two, for one file twice, and with two files for a file of several views and for
+/// `ReadOptions::views`; Error for two display windows that differ, and for an eye whose camera has no pose. Also throws as
+/// `FrameFile` does.
 class FrameFiles {
  public:
   FrameFiles(const std::vector<std::string>& paths, const ReadOptions& options);
 
-  /// The frame has its planes too from now on. Throws what `History` throws.
+  /// Adds the planes of a history to the frame from now on. Throws as `History` does.
   void take_history(const std::filesystem::path& path) { history_.emplace(path); }
   const std::optional<History>& history() const { return history_; }
 
@@ -43,7 +42,7 @@ class FrameFiles {
   std::vector<std::string> common_planes() const;
   /// As `FrameFile::why_missing`.
   std::string why_missing(const std::string& plane) const;
-  /// As `FrameFile::read`. What was assumed for one of two files alone is said with its name.
+  /// As `FrameFile::read`. An assumption about one of two files is noted with its name.
   Frame read(const std::vector<std::string>& planes);
 
  private:
@@ -53,7 +52,7 @@ class FrameFiles {
   std::vector<FrameFile> files_;
   std::vector<std::string> views_;
   std::optional<History> history_;
-  std::string assumed_;  ///< how the eyes got their names; empty where the files say them
+  std::string assumed_;  ///< how the eyes got their names; empty if the files name them
 };
 
 }  // namespace gloam

@@ -1,4 +1,4 @@
-// Parameters of a technique: the table that describes them and the bytes that a kernel gets.
+// Parameters of a technique: the table that describes them, and their values as kernels get them.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace gloam {
 
-/// Defaults of bool parameters in parameter lists.
+/// Names for the defaults of bool parameters in parameter lists.
 inline constexpr int off = 0, on = 1;
 
-/// Values for parameters as a user writes them, by name: {"radius", "0.5"}.
+/// Parameter values as a user writes them, by name: {"radius", "0.5"}.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// One parameter; its place in the kernel's struct is its place in the table.
+/// One parameter. Its index in the table is its position in the kernel's struct.
 struct Parameter {
   enum class Type { floating, integer, boolean, choice };
   std::string name;
@@ -31,13 +31,13 @@ struct ParameterList : std::vector<Parameter> {
   using std::vector<Parameter>::vector;
   ParameterList(std::string type, std::initializer_list<Parameter> list)
       : std::vector<Parameter>(list), type(std::move(type)) {}
-  std::string type;  ///< name of the struct, which kernels call Params: "GtaoParams"
+  std::string type;  ///< name of the struct ("GtaoParams"); kernels call it Params
 };
 
 Parameter float_parameter(const char* name, double initial, double min, double max, const char* unit, const char* help);
 Parameter int_parameter(const char* name, int initial, int min, int max, const char* unit, const char* help);
 Parameter bool_parameter(const char* name, int initial, const char* help);
-/// `choices` as "(a, b, c)".
+/// `choices`: text of the form "(a, b, c)".
 Parameter choice_parameter(const char* name, const char* initial, const char* choices, const char* help);
 
 /// "float", "int", "bool" or "choice".
@@ -45,7 +45,7 @@ std::string type_name(const Parameter& parameter);
 /// "0 to 32", "on or off", "a, b, c".
 std::string allowed_values(const Parameter& parameter);
 
-/// Values for a table of parameters, in the layout of the kernel's struct.
+/// Values for a table of parameters, laid out as the kernel's struct.
 class ParameterValues {
  public:
   ParameterValues() = default;
@@ -53,10 +53,10 @@ class ParameterValues {
 
   const ParameterList& table() const { return table_; }
   bool has(const std::string& name) const;
-  /// Sets from text; throws UsageError with the range ("hbao+: radius = '-1' is not allowed; 0 to inf scene units is").
+  /// Sets a value from text; throws UsageError with the range ("hbao+: radius = '-1' is not allowed; 0 to inf scene units is").
   void set(const std::string& name, const std::string& value, const std::string& technique);
   double number(const std::string& name) const;
-  /// As a user would write it: "0.5", "on", "quadratic".
+  /// A value as a user would write it: "0.5", "on", "quadratic".
   std::string text(const std::string& name) const;
 
   const void* bytes() const { return bytes_.data(); }

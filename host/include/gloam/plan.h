@@ -1,4 +1,4 @@
-// A plan is what is left when one walks back from the outputs asked for to the planes at hand.
+// A plan: the passes from the planes at hand to the outputs asked for.
 #pragma once
 
 #include <map>
@@ -13,33 +13,33 @@
 namespace gloam {
 
 struct PlanRequest {
-  /// Planes to be made; a technique's name stands for its outputs.
+  /// Planes to make; a technique's name stands for its outputs.
   std::vector<std::string> outputs = {};
-  /// Of these, only the planes named here (all when empty); may name a technique's extras.
+  /// Of the outputs, only the planes named here (empty: all); may name a technique's extras.
   std::vector<std::string> only = {};
-  /// Extras of the techniques asked for to be made as well: "bent_normal".
+  /// Extras to make besides the outputs of the techniques asked for: "bent_normal".
   std::vector<std::string> with = {};
   /// Replaces every technique's `then`: a technique, "none", or empty for the default.
   std::string then = {};
   std::string preset = {};
-  /// name = value, or technique.name = value. A bare name reaches every planned technique that has it.
+  /// name = value, or technique.name = value. A bare name applies to every planned technique that has the parameter.
   Settings settings = {};
-  /// Radius in scene units of every technique that has one and gets none by `settings`; none: the parameter's own default, which
+  /// Radius in scene units, for every technique that has one and gets none by `settings`. None: the parameter's own default, which
   /// knows nothing of the frame's unit (radius.h makes one from the frame).
   std::optional<double> radius = {};
-  /// Restricts the techniques asked for and their filters to where it is above 0: a plane, or a technique that makes one.
-  /// Filters cover the mask, estimates what these read of them. What is left out is open. Empty: everywhere.
+  /// Restricts the techniques asked for and their filters to pixels where this plane, or the plane that this technique makes, is
+  /// above 0. Estimates also cover what filters read around these pixels. The other pixels are open. Empty: no restriction.
   std::string mask = {};
-  /// Technique that estimates where the mask is not above 0, instead of leaving that open. Filters cover the image then.
+  /// Technique for the pixels where the mask is not above 0, instead of leaving them open. Filters then cover the whole image.
   std::string elsewhere = {};
-  /// Masks asked for are put out as the cells that they are made of, one pixel for each (`Pass::repeats_cells`), under the
-  /// cells' own name; at a lower resolution, all outputs as that resolution has them ("seen_by_both@4").
+  /// Masks asked for are returned with one pixel per cell (`Pass::repeats_cells`), under the cells' own name; at a lower
+  /// resolution, all outputs are returned at that resolution ("seen_by_both@4").
   bool as_cells = false;
-  /// Every `resolution`-th pixel of every `resolution`-th row is estimated and filtered, and the rest is brought back by
-  /// joint bilateral upsampling (resample.h): 1, 2 or 4.
+  /// 1, 2 or 4: every `resolution`-th pixel of every `resolution`-th row is estimated and filtered; the others are filled in by
+  /// joint bilateral upsampling (resample.h).
   int resolution = 1;
-  /// Preset of the first technique asked for where AO hardly varies, by a base pass of a fourth of the columns and rows and
-  /// the preset low (kernels/adaptive). Empty or none: all of the image alike.
+  /// Preset of the first technique asked for in tiles where AO hardly varies, found by a base pass with a fourth of the columns and
+  /// rows and the preset low (kernels/adaptive). Empty or "none": the whole image is computed alike.
   std::string adaptive = {};
 };
 
@@ -47,22 +47,23 @@ struct PlannedPass {
   const Technique* technique;
   Pass pass;
   ParameterValues values;
-  int scale = 1;  ///< of the technique as a whole: the plan's resolution, or 1
+  int scale = 1;  ///< scale of the whole technique: the plan's resolution, or 1
   std::string label() const { return technique->name + "/" + pass.name; }
 };
 
 struct Plan {
-  std::string technique;                                   ///< the first one asked for or found; names the run
-  std::vector<std::string> outputs;                        ///< planes to hand over
-  std::vector<std::string> inputs;                         ///< planes to take from the frame
-  std::map<std::string, std::vector<std::string>> stacks;  ///< layers of each stack read: "peel" -> "peel.00", ...
-  std::vector<PlannedPass> passes;                         ///< in order
-  int resolution = 1;                                      ///< as asked for
-  std::string mask;                                        ///< the plane that says what is wanted; empty: everything is
+  std::string technique;             ///< the first technique; names the run
+  std::vector<std::string> outputs;  ///< planes to return
+  std::vector<std::string> inputs;   ///< planes to take from the frame
+  std::map<std::string, std::vector<std::string>>
+      stacks;                       ///< layers of each stack that is read: "peel" -> "peel.00", ...
+  std::vector<PlannedPass> passes;  ///< in order
+  int resolution = 1;               ///< as asked for
+  std::string mask;                 ///< plane of the wanted pixels; empty: all are wanted
   std::string wanted;  ///< bits by which the estimate skips pixels (shared/lanes/wanted.h); empty: it skips none
-  std::string rest;    ///< bits of pixels that a second estimate sees to; empty: there is none
+  std::string rest;    ///< bits of the pixels that a second estimate computes; empty: there is none
   std::vector<std::pair<std::string, std::string>> skipped;  ///< what, why
-  std::vector<std::string> depends_on_pixels;                ///< what only the pixel values will tell
+  std::vector<std::string> depends_on_pixels;                ///< open questions that only the pixel values answer
 };
 
 /// Planes that neither the frame nor any technique provides.
@@ -72,25 +73,23 @@ class MissingPlanes : public Error {
                 std::map<std::string, std::string> instead = {})
       : Error("{}", message), planes(std::move(planes)), instead(std::move(instead)) {}
   std::vector<std::string> planes;
-  /// Of some of these, what would be made of it and is all that it is needed for: "stochastic" by "peel". Having that does
-  /// as well, and takes less.
+  /// For some of the missing planes, one that would do instead: "stochastic" can be made from "peel", which is needed for nothing
+  /// else.
   std::map<std::string, std::string> instead;
 };
 
-/// Throws MissingPlanes with all that is missing at once, UsageError for unknown names and values out of range.
-/// `available`: planes the frame has; `holds`: words for the message on what the file does hold ("beauty.exr has only
-/// R, G, B").
-/// A stack (planes.h) is at hand when its first layer is, and has all layers up to the last one available: one that is
-/// missing in between is a missing plane. A pass that reads a stack gets a define with the number of layers, named after
-/// the argument: PEEL_LAYERS. A binding that says how many layers it reads gets the first so many; where there are fewer,
-/// the last of them is a missing plane.
-/// Where `resolution` is above 1, planes of that size have names that end in it: "depth@2".
+/// Throws MissingPlanes with everything that is missing, UsageError for unknown names and values out of range. `available`:
+/// planes of the frame; `holds`: text for the message about what the file does hold ("beauty.exr has only R, G, B").
+/// A stack (planes.h) is available if its first layer is; a gap before its last layer is a missing plane. A pass that reads a stack
+/// gets a define with the number of layers, named after the argument: PEEL_LAYERS. A binding with a number of layers reads the
+/// first ones; if there are fewer, the last one is a missing plane.
+/// With `resolution` above 1, names of planes at that resolution end in it: "depth@2".
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds);
 
-/// Planes that a technique puts out, those that it leaves to its filter included.
+/// Planes that a technique returns, including those that it leaves to its filter.
 const std::vector<std::string>& outputs_of(const Technique& technique);
 
-/// Whether a technique reads what another writes.
+/// Whether a technique reads a plane that another writes.
 bool reads_from(const Technique& reader, const Technique& writer);
 
 /// The scale (`Pass::scale`) of every plane and stack that a plan's passes touch.

@@ -8,36 +8,36 @@
 
 namespace gloam {
 
-/// What a plane's values mean for a reader and for the checks that run over every technique.
+/// The meaning of a plane's values, for readers and for the checks that run over every technique.
 struct PlaneKind {
   std::string name;                     ///< "depth"
   std::vector<std::string> components;  ///< kernel argument suffixes: {""} or {"x", "y", "z"}
   std::vector<std::string> channels;    ///< EXR channels written, one per component: "Z", or "N.X", "N.Y", "N.Z"
-  float outside;                        ///< value of pixels that no data window covers and of the row padding
+  float outside;                        ///< value of pixels outside all data windows, and of the row padding
   enum Meaning { value, unit_interval, unit_vector, view_depth, length } meaning;  ///< length: scene units, not below 0
   std::string help;
-  std::string source = "";  ///< what makes one that no technique makes, for messages; may be empty
+  std::string source = "";  ///< for messages: what makes this plane, if no technique does; may be empty
 };
 
 /// All planes with a fixed meaning, in the order in which they are shown.
 const std::vector<PlaneKind>& plane_kinds();
 
-/// The kind of a plane; a name not in the table is one component, channel = name, any value (a new technique needs no
-/// entry here).
+/// The kind of a plane. A name that is not in the table has one component, a channel of the same name, and any value: a new
+/// technique needs no entry here.
 PlaneKind plane_kind(std::string_view name);
 
-/// Depth layers of one meaning that a kernel reads as one argument. A frame holds the layers, each a plane of its own:
-/// "peel.00", "peel.01", ... A technique reads the stack: "peel".
+/// Depth layers of one meaning that a kernel reads as one argument. In a frame each layer is a plane of its own: "peel.00",
+/// "peel.01", ... A technique reads the stack: "peel".
 struct StackKind {
   std::string name;    ///< "peel"
-  std::string help;    ///< what its layers are
-  std::string source;  ///< what makes one, for messages: "gloam capture --peel N"
+  std::string help;    ///< meaning of its layers
+  std::string source;  ///< for messages: what makes one ("gloam capture --peel N")
 };
 
 const std::vector<StackKind>& stack_kinds();
 
 bool is_stack(std::string_view name);
-/// Throws std::out_of_range for a name that is none.
+/// Throws std::out_of_range for an unknown name.
 const StackKind& stack_kind(std::string_view name);
 
 /// A plane that is one layer of a stack.
@@ -46,7 +46,7 @@ struct StackLayer {
   int number;  ///< 0 to 99
 };
 
-/// None for planes that are no layer.
+/// None if the plane is not a layer.
 std::optional<StackLayer> stack_layer(std::string_view plane);
 
 /// ("peel", 7): "peel.07".

@@ -1,4 +1,4 @@
-// What a file says about how its planes were made.
+// Header attributes that say how a file's planes were made.
 #pragma once
 
 #include <map>
@@ -10,9 +10,9 @@
 
 namespace gloam {
 
-/// Header attributes of planes that plans made: `gloamTechnique` ("gtao", or several separated by commas), `gloamParameters`
-/// ("gtao: radius=0.5 bias=0.01 ...; bilateral: ..."), `gloamRun` ("math=fast real=float seed=0"). `plans` may have one that was not
-/// run, as nothing called for it: it is among the parameters alone, which decided that.
+/// `gloamTechnique` ("gtao", or several separated by commas), `gloamParameters` ("gtao: radius=0.5 bias=0.01 ...; bilateral: ..."),
+/// `gloamRun` ("math=fast real=float seed=0"). `plans` may include one that was not run because the frame does not call for it:
+/// only its parameters are recorded, since they decided that.
 struct MadeBy {
   const Plan* plan;
   bool has_run = true;

@@ -1,4 +1,4 @@
-// The only place that enqueues: every pass is timed, checked and named here.
+// Runs a plan on a device: every pass is timed, checked and named here.
 #pragma once
 
 #include <functional>
@@ -18,18 +18,18 @@ enum class Real { float32, float64 };
 struct RunOptions {
   Math math = Math::fast;
   Real real = Real::float32;
-  int lanes = 0;  ///< pixels per work-item: 1, 4, 8, 16; 0: what suits the device (half of it for double)
+  int lanes = 0;  ///< pixels per work-item: 1, 4, 8, 16; 0: what suits the device (half as many for double)
   int seed = 0;
   int repeat = 1;  ///< timed runs; more than one: after an untimed warm-up
-  /// Instead of what samples contribute, adds up what is read: what a kernel's addresses and reads cost by themselves. The
-  /// result means nothing.
+  /// Adds up the values that samples read instead of what they contribute, to measure the cost of addresses and reads alone. The
+  /// result has no meaning.
   bool gathers_only = false;
   std::function<void(int done, int of)> progress = {};  ///< called after each launch of a pass
 };
 
 struct PassTime {
   std::string view, name;  ///< "hbao+/estimate"
-  std::vector<double> ms;  ///< one per repeat, by OpenCL events; wall clock where a device's events read 0
+  std::vector<double> ms;  ///< one per repeat, by OpenCL events; by wall clock if a device's events read 0
 };
 
 struct RunResult {
@@ -37,33 +37,34 @@ struct RunResult {
   std::vector<PassTime> passes;  ///< per view, in order
   std::vector<double> total_ms;  ///< one per repeat: the sum over passes
   int lanes = 1;
-  /// Share of all views' pixels that the estimate skipped: those of rows of lanes of which the mask wants none.
+  /// Share of all views' pixels that the estimate skipped: rows of lanes without a wanted pixel.
   double skipped_share = 0;
-  /// Share of them that a plan's second estimate saw to (`Plan::rest`), in such rows.
+  /// Share of all views' pixels that a plan's second estimate computed (`Plan::rest`).
   double rest_share = 0;
-  /// Pixels of all views that passes put on a list, for others to compute one by one (shared/lanes/pixel_list.h): by the list's plane.
+  /// Pixels of all views that passes put on a list, to be computed one by one (shared/lanes/pixel_list.h), by the list's plane.
   std::map<std::string, long long> listed;
-  unsigned long long device_bytes = 0;  ///< of the views that are there at the same time
+  unsigned long long device_bytes = 0;  ///< of the views that are in memory at the same time
 };
 
-/// Bytes of device memory that a plan takes for a frame of so many views: of one of them, or of those that look into one another.
+/// Device memory of a plan, bytes, for a frame of `views` views: one view at a time, or all at once if views read one another.
 unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views = 1);
 
-/// Bytes of the host's memory that a run takes beside the frame: results, and where the device shares the memory of the host all
-/// that is computed.
+/// Host memory that a run needs besides the frame, bytes: its results, and on a device that shares the host's memory, all planes
+/// that it computes.
 unsigned long long bytes_beside_frame(const Plan& plan, const Layout& layout, size_t views, bool shares_memory);
 
-/// Whether a device can run a plan on so many views: its memory, double precision. Throws what `run` would.
+/// Throws as `run` would if a device cannot run a plan on so many views: for lack of memory or of double precision.
 void check(const Plan& plan, const Layout& layout, size_t views, const Device& device, const RunOptions& options = {});
 
-/// Compiles a plan's kernels ahead of `run`, so that this goes on while a frame is decoded. Throws what `run` would.
+/// Compiles a plan's kernels before `run`, for example while a frame is being decoded. Throws as `run` would.
 void prepare(const Plan& plan, Device& device, const RunOptions& options = {});
 
-/// Runs a plan on every view of a frame that has passed `normalise` (normalise.h). Runs on one device go one after another, whichever
-/// threads they come from; `RunOptions::progress` may itself use the device.
-/// Throws UsageError for options that are not allowed; Error for a frame without pixels, a camera that `check` (camera.h) refuses, a
-/// plane of the plan's inputs that a view lacks or has in another size; out of device memory (needed and available), double where the device has none, build errors with the
-/// kernel's log, kernel arguments that do not match the declaration (naming both sides).
+/// Runs a plan on every view of a frame that has passed `normalise` (normalise.h). Runs on one device go one after another,
+/// whichever threads they come from; `RunOptions::progress` may itself use the device.
+/// Throws UsageError for options out of range. Throws Error for a frame without pixels, for a camera that `check` (camera.h)
+/// refuses, for an input plane that a view lacks or has in another size, if device memory does not suffice (naming needed and
+/// available), for double on a device without it, for build errors (with the kernel's log), and for kernel arguments that do not
+/// match the declaration (naming both sides).
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options = {});
 
 }  // namespace gloam

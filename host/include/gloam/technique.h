@@ -1,4 +1,4 @@
-// A technique is data: what it reads, what it writes, its parameters, and the passes it takes for given parameters.
+// A technique as data: the planes it reads and writes, its parameters, and its passes for given parameters.
 #pragma once
 
 #include <functional>
@@ -10,29 +10,28 @@
 
 namespace gloam {
 
-/// Numbers that a kernel is compiled with, by name: {"STEPS", 8}.
+/// Integer constants that a kernel is compiled with, by name: {"STEPS", 8}.
 using Defines = std::vector<std::pair<std::string, int>>;
 
 /// Where the plane behind a kernel argument comes from.
 enum class From {
   this_view,
-  other_view,        ///< the other of two views (`Technique::views`)
-  frame_before,      ///< the same view in the frame before: what its history holds, as `View::camera_before` shows it
-  nearest_key_view,  ///< of the views that others look into (`Technique::key_views`)
-  further_key_view   ///< the next key view on the other side, or the nearest again where there is none
+  other_view,        ///< the other one of two views (`Technique::views`)
+  frame_before,      ///< the same view in the frame before: its history, seen by `View::camera_before`
+  nearest_key_view,  ///< the nearest key view (`Technique::key_views`)
+  further_key_view   ///< the next key view on the other side; if there is none, the nearest one again
 };
 
-/// A plane behind a kernel argument. Argument and plane mostly share the name; a kernel that serves several planes
-/// names its argument otherwise: {"source", "ao_raw"}. A plane of several components takes as many arguments, in order
-/// (`normal_x`, `normal_y`, `normal_z`).
+/// A plane behind a kernel argument. Mostly both have the same name; a kernel that serves several planes names its argument
+/// differently: {"source", "ao_raw"}. A plane of several components takes one argument each, in order (`normal_x`, `normal_y`,
+/// `normal_z`).
 ///
-/// With `layers` it is a stack that the technique makes itself: one buffer of that many layers (load.h, `layer_of`), of
-/// the technique's own resolution whatever the pass's, or with `as_launched` of the pass's. A pass that reads and writes
-/// such a stack names it once, as written. Of a stack of depth layers (planes.h) that a pass reads, it is the first so many
-/// layers; 0: all there are.
+/// With `layers` it is a stack that the technique makes: one buffer with that many layers (load.h, `layer_of`), at the
+/// technique's own resolution, or with `as_launched` at the pass's. A pass that reads and writes such a stack lists it once,
+/// under writes. For a stack of depth layers (planes.h), `layers` is the number of layers that are read, from the first on; 0: all.
 ///
-/// With `starts_empty`, which is for lists that a pass writes (shared/lanes/pixel_list.h), the plane's first number is 0
-/// when the pass begins.
+/// With `starts_empty`, for lists that a pass writes (shared/lanes/pixel_list.h), the plane's first number is 0 when the pass
+/// begins.
 struct Binding {
   std::string argument, plane;
   int layers = 0;
@@ -43,7 +42,7 @@ struct Binding {
       : argument(std::move(argument)), plane(std::move(plane)), layers(layers) {}
 };
 
-/// The binding with its plane taken from elsewhere: from(From::other_view, {"other_depth", "depth"}).
+/// The binding with its plane taken from another place: from(From::other_view, {"other_depth", "depth"}).
 inline Binding from(From where, Binding binding) {
   binding.from = where;
   return binding;
@@ -54,13 +53,13 @@ inline Binding starts_empty(Binding binding) {
   return binding;
 }
 
-/// The views of a frame that a pass runs on. What reads a plane runs, of these, on the views that have the plane.
+/// The views of a frame that a pass runs on. A pass that reads a plane runs only on those that have it.
 enum class On {
   every_view,
   first_view,
   second_view,
-  key_views,     ///< of a frame of many views, those that others look into (`Technique::key_views`)
-  views_between  ///< those that are no key views
+  key_views,     ///< in a frame of many views, those that others reuse (`Technique::key_views`)
+  views_between  ///< all other views
 };
 
 /// The first (0) or the second (1) view.
@@ -68,43 +67,42 @@ inline On on_view(int number) { return number == 0 ? On::first_view : On::second
 
 /// How far around a pixel a pass reads.
 struct Footprint {
-  /// Columns and rows to either side, at most 32, of what earlier passes made: a filter's. A mask lets the passes before it
-  /// compute that much more.
+  /// Columns and rows to either side, at most 32, in the results of earlier passes (for filters). With a mask, the earlier passes
+  /// compute that many more.
   int columns = 0, rows = 0;
-  /// Many pixels at distances that parameters decide, of planes that no mask leaves out. On CPUs such a pass is launched in an
-  /// order that keeps them in the cache.
+  /// Reads many pixels at distances set by parameters, only in planes that no mask limits. On CPUs such a pass is launched in an
+  /// order that keeps these pixels in the cache.
   bool is_wide = false;
 };
 
 /// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, projections, Params params, tables...,
-/// reads..., writes...).
-/// A technique without parameters has no `params`. `other` is there only where planes of a second resolution are bound:
-/// their frame; `neighbour` (frame.h) only where planes of the other view or of the frame before are bound. Of a frame before
-/// whose camera is not known, the neighbour sees nothing.
+/// reads..., writes...). `params` is left out if the technique has no parameters. `other`, the frame of planes of a second
+/// resolution, is passed only if such planes are bound; `neighbour` (frame.h) only if planes of the other view or of the frame
+/// before are bound. If the camera of the frame before is unknown, the neighbour sees nothing.
 struct Pass {
   std::string name;                    ///< "estimate": shown as "hbao+/estimate"
   std::string kernel;                  ///< function in `source`
   std::string source;                  ///< kernel file below kernels/; empty: the technique's
-  std::vector<Binding> reads, writes;  ///< planes that no technique declares are intermediate
-  Defines defines;                     ///< counts that shape loops, and choices
-  /// Of the technique's `extras` those that this pass can make. Of these the ones asked for join `writes`, with a define
-  /// each: WITH_BENT_NORMAL.
+  std::vector<Binding> reads, writes;  ///< planes that no technique declares are intermediate results
+  Defines defines;                     ///< loop counts and choices
+  /// Those of the technique's `extras` that this pass can make. If one is asked for, it joins `writes`, and the kernel gets a
+  /// define: WITH_BENT_NORMAL.
   std::vector<Binding> extras;
-  /// Pixels of the image per pixel of what is computed, along each axis: one of `scale` x `scale` pixels is launched, and
-  /// the planes written are that small (`reduced`, frame.h).
+  /// Pixels of the image per computed pixel, along each axis: the launch and the planes written are smaller by this factor
+  /// (`reduced`, frame.h).
   int scale = 1;
   On on = On::every_view;
   Footprint footprint;
-  /// Where a mask leaves pixels out it skips rows of pixels of which none is wanted (shared/lanes/wanted.h).
+  /// With a mask it skips rows of lanes without a wanted pixel (shared/lanes/wanted.h).
   bool can_skip = false;
-  /// Its kernel asks how the view projects (`projections`, shared/frame/projection.h), and how key views do that it reads: the
-  /// view's own, then those of the nearest and of the further key view.
+  /// The kernel reads `projections` (shared/frame/projection.h): the view's own, then, if it reads key views, those of the
+  /// nearest and of the further one.
   bool projects = false;
-  /// Numbers that its kernel reads, the same for all pixels, by argument.
+  /// Tables of numbers that the kernel reads, the same for all pixels, by argument.
   std::vector<std::pair<std::string, std::vector<float>>> tables;
-  /// What it writes is the same in both of two views where both see the surface, and has to stay so at a lower resolution.
+  /// Both of two views get the same value where both see a surface; upsampling must keep that.
   bool views_agree = false;
-  /// Each pixel gets what its cell holds in the one plane read, which is of a lower resolution.
+  /// Gives each pixel the value of its cell in the one plane read, which has a lower resolution.
   bool repeats_cells = false;
 };
 
@@ -114,68 +112,65 @@ struct Preset {
   Settings settings;
 };
 
-/// What `gloam auto` has to know of a technique, to tell whether a frame calls for it, and where.
+/// What `gloam auto` needs to know about a technique to decide whether and where a frame calls for it.
 struct Effect {
-  std::string name;  ///< as people call it: "ambient occlusion"; empty: the technique is for those who ask for it
-  /// Technique whose effect this one makes better: it runs instead where a frame holds what it reads, and calls for it. Empty
-  /// for an effect by itself.
+  std::string name;  ///< as people call it: "ambient occlusion"; empty: `gloam auto` does not run it
+  /// Technique that this one improves on: it replaces that one if a frame has the planes it reads and calls for it. Empty for an
+  /// effect of its own.
   std::string refines;
-  bool for_displays =
-      false;  ///< of frames of light-field displays, which techniques with `any_projection` take, and of no others
-  std::string mask;  ///< technique whose mask says where it is called for
-  /// The probe: settings and resolution with which the mask costs next to nothing, and still tells how much calls for it.
+  bool for_displays = false;  ///< only for frames of light-field displays, which need `any_projection`
+  std::string mask;           ///< technique whose mask tells where the effect is called for
+  /// The probe: settings and resolution with which the mask is very cheap and still tells how many pixels call for the effect.
   Settings probe;
   int probe_resolution = 1;
-  /// Shares of the image: up to the one the effect is not worth what it costs; from the other on the mask itself costs more
-  /// than it saves, and the effect is computed everywhere.
+  /// Shares of the image. Up to `least_share` the effect is not worth its cost; above `most_share` the mask costs more than it
+  /// saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;
-  Settings settings;               ///< of the technique in `gloam auto`, under the user's own
-  std::string somewhere, nowhere;  ///< why, in words that a share follows, and why not
+  Settings settings;               ///< settings in `gloam auto`; the user's own override them
+  std::string somewhere, nowhere;  ///< the reason why, followed by "on 12 % of the image", and why not
 };
 
 struct Technique {
   std::string name;     ///< as users type it: "hbao+"
   std::string summary;  ///< one line
   std::string paper;    ///< author, year
-  std::string source;   ///< kernel file below kernels/ of passes that name none: "hbao_plus/hbao_plus.cl"
+  std::string source;   ///< default kernel file of its passes, below kernels/: "hbao_plus/hbao_plus.cl"
   std::vector<std::string> reads, writes;
-  std::vector<std::string> outputs;  ///< planes that `gloam run` writes; empty: `writes`. Others than `writes` are made
-                                     ///< by the technique that `then` names
-  std::string then;                  ///< technique that follows by default, such as a filter; inherits parameters of
+  std::vector<std::string> outputs;  ///< planes that `gloam run` writes; empty: `writes`. The technique in `then` makes
+                                     ///< those that are not in `writes`
+  std::string then;                  ///< technique that follows by default, such as a filter; it inherits parameters of
                                      ///< the same name
-  Settings then_with;                ///< settings that the follower has by default
-  std::vector<std::string> default_for;  ///< planes that it makes where they are asked for by name and several could
-  int views = 1;                         ///< that a frame needs: 2 where passes read the other view's planes
-  /// Its passes ask for the projection and for nothing else that only a camera with an eye has: it runs on the views of
-  /// light-field displays as well.
+  Settings then_with;                ///< default settings of that technique
+  std::vector<std::string> default_for;  ///< planes for which it is chosen if they are asked for by name
+  int views = 1;                         ///< views that a frame needs: 2 if passes read the other view's planes
+  /// Its passes need no more of a camera than its projection: it also runs on the views of light-field displays.
   bool any_projection = false;
-  /// For given parameters, every how many views one is a key view, which other views may look into; 1: all are alike.
+  /// For given parameters, the distance between key views, which other views may reuse; 1: there are none.
   std::function<int(const ParameterValues&)> key_views;
-  std::vector<std::string> extras;  ///< planes made beside `writes` where they are asked for by name
+  std::vector<std::string> extras;  ///< planes that it makes besides `writes` if they are asked for by name
   ParameterList parameters;
   std::vector<Preset> presets;
   std::string caution;  ///< what to know before choosing a preset; may be empty
-  /// Settings of so many samples that the image no longer changes, for measuring what more samples could give: not meant
-  /// to be fast. Empty where there is no such thing.
+  /// Settings with so many samples that the image no longer changes, to measure what more samples could gain; not meant to be fast.
+  /// Empty if there are none.
   Settings converged;
   std::function<std::vector<Pass>(const ParameterValues&)> passes;
-  Effect effect;  ///< what `gloam auto` makes with it, if anything
-  /// Samples per pixel over one layer. Empty where the technique has not said.
+  Effect effect;  ///< its role in `gloam auto`
+  /// Samples per pixel over one layer. Empty if unknown.
   std::function<int(const ParameterValues&)> samples;
-  /// What an occluder at `distance` (in radii, 0 to 1) and at an angle with the given `cosine` (above 0) to the normal
-  /// takes away, in relation to the cosine-weighted integral: AO = 1 - mean over cosine-weighted directions of
-  /// `contribution`. What is done to the mean afterwards, such as an exponent for contrast, is no part of it. Empty
-  /// where the technique has no falloff of its own.
+  /// Weight of an occluder at `distance` (in radii, 0 to 1) whose direction has the given `cosine` (above 0) to the normal,
+  /// relative to the cosine-weighted integral: AO = 1 - mean over cosine-weighted directions of `contribution`. Changes to the
+  /// mean afterwards, such as an exponent for contrast, are left out. Empty if the technique has no falloff of its own.
   std::function<double(const ParameterValues&, double cosine, double distance)> contribution;
 };
 
-/// Lets a technique write its passes as a function of its own parameter struct.
+/// Adapts a function of a technique's own parameter struct to `Technique::passes`.
 template <typename Params>
 std::function<std::vector<Pass>(const ParameterValues&)> passes_of(std::vector<Pass> (*passes)(const Params&)) {
   return [passes](const ParameterValues& values) { return passes(values.as<Params>()); };
 }
 
-/// The same for its contribution.
+/// Adapts a function of a technique's own parameter struct to `Technique::contribution`.
 template <typename Params>
 std::function<double(const ParameterValues&, double, double)> contribution_of(double (*contribution)(const Params&,
                                                                                                      double cosine,
@@ -188,19 +183,19 @@ std::function<double(const ParameterValues&, double, double)> contribution_of(do
 /// The folder of a technique, below kernels/: that of its first pass with default parameters.
 std::string folder_of(const Technique& technique);
 
-/// Whether a pass reads any plane from there.
+/// Whether a pass reads any plane from this place.
 bool takes(const Pass& pass, From where);
 
 /// The kernel file of one of a technique's passes.
 const std::string& source_of(const Technique& technique, const Pass& pass);
 
-/// Whether it needs two views and makes an image of the first alone, where others make one of each.
+/// Whether a technique needs two views and makes an image of the first only.
 bool makes_first_view_only(const Technique& technique);
 
 /// All techniques, sorted by name.
 const std::vector<Technique>& registry();
 
-/// Throws UsageError with the nearest name.
+/// Throws UsageError, with the nearest name, for an unknown technique.
 const Technique& find_technique(const std::string& name);
 
 std::vector<std::string> technique_names();

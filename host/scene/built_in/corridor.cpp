@@ -24,7 +24,7 @@ using Plan = std::vector<vec2>;
 struct Opening {
   vec2 middle;
   float width, bottom, height;
-  bool is_closed = false;  ///< a niche; otherwise one sees through
+  bool is_closed = false;  ///< a niche; otherwise a way through
 };
 
 vec3 lifted(vec2 p, float height) { return {p.x, height, -p.y}; }
@@ -272,7 +272,7 @@ void add_floors(Scene& scene, int wood) {
   for (const auto& [low, high] : parts) add_boards(add_mesh(scene, "floor boards", wood), low, high, ++seed);
 }
 
-/// Puts what is made against a wall (its back at z = 0, facing +z) to a place on the wall whose inward side is given.
+/// Frame of an object against a wall (its back at z = 0, facing +z) at a point of the wall whose inward side is given.
 mat4 against(vec2 point, vec2 inward) { return moved(lifted(point, 0)) * turned_y(std::atan2(inward.x, -inward.y)); }
 
 void add_doorway(Scene& scene, const Materials& m, const Doorway& d) {
@@ -713,7 +713,7 @@ void add_prints(Scene& scene, const Materials& m) {
   }
 }
 
-/// What the windows look out on.
+/// The view from the windows.
 void add_outside(Scene& scene, const Materials& m) {
   add_quad(add_mesh(scene, "lawn", m.earth), {-40, -0.5f, 40}, {40, -0.5f, 40}, {40, -0.5f, -60}, {-40, -0.5f, -60}, 8);
   Mesh& garden_wall = add_mesh(scene, "garden wall", m.brick);

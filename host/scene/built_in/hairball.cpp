@@ -11,12 +11,12 @@ namespace gloam::scenes {
 namespace {
 
 constexpr vec3 centre(0, 1.2f, 0);
-constexpr int locks = 24;     ///< meshes that the strands are dealt out to
-constexpr int segments = 32;  ///< of a strand
+constexpr int locks = 24;     ///< meshes among which the strands are distributed
+constexpr int segments = 32;  ///< segments of a strand
 constexpr int sides = 5;
 
-/// One strand, relative to the centre: sets out near it, turns at a rate that changes smoothly, and is bent back where
-/// it would leave the ball.
+/// One strand, relative to the centre: it starts near it, turns at a rate that changes smoothly, and is bent back where it would
+/// leave the ball.
 std::vector<vec3> strand(uint32_t index) {
   const vec3 start = 0.12f * hash01(index, 1) * random_direction(index, 2);
   vec3 direction = random_direction(index, 3);

@@ -132,7 +132,7 @@ vec3 still_life(float x, float y, uint32_t seed) {
 
 // --- Materials.
 
-/// Adds a material that shines by itself; what it emits is `radiance` times a texture, where there is one.
+/// Adds a luminous material; it emits `radiance`, times a texture if there is one.
 int add_light(Scene& scene, const std::string& name, vec3 albedo, vec3 radiance, int texture = -1) {
   const int material = add_material(scene, name, albedo, 0.9f);
   scene.materials.back().emission = radiance;

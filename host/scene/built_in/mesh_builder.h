@@ -1,5 +1,5 @@
-// What the built-in scenes are made with: shapes that append to a mesh. Metres, y up, counter-clockwise seen from
-// outside. All deterministic: no random device, only `hash01`.
+// Shapes for the built-in scenes; they append to a mesh. Metres, y up, counter-clockwise seen from outside. All deterministic: no
+// random device, only `hash01`.
 #pragma once
 
 #include <functional>
@@ -14,25 +14,25 @@ namespace gloam::scenes {
 using glm::vec2;
 using glm::vec3;
 
-/// A number in [0, 1) that depends on its arguments alone.
+/// A number in [0, 1) that depends only on its arguments.
 float hash01(uint32_t a, uint32_t b = 0, uint32_t c = 0);
 
 /// Smooth noise in [0, 1]; its cells have sides of 1.
 float noise(float x, float y, uint32_t seed);
 
-/// The colour of a picture at a point in [0, 1]^2, as it is stored (sRGB); x goes right, y down.
+/// The colour of a picture at a point in [0, 1]^2, as stored (sRGB); x to the right, y down.
 using Painter = std::function<vec3(float x, float y)>;
 
-/// Adds an opaque texture, painted at the middles of its texels and cut off at 0 and 1, and gives its index.
+/// Adds an opaque texture, painted at the texel centres and clamped to 0..1, and returns its index.
 int add_texture(Scene& scene, const std::string& name, int width, int height, const Painter& painter);
 
-/// Adds a material and gives its index.
+/// Adds a material and returns its index.
 int add_material(Scene& scene, const std::string& name, vec3 albedo, float roughness = 0.8f, float metallic = 0);
 
-/// Adds an empty mesh (one instance) and gives a reference that the next call makes stale.
+/// Adds an empty mesh (one instance) and returns a reference that the next call invalidates.
 Mesh& add_mesh(Scene& scene, const std::string& name, int material);
 
-/// Everything below gives every vertex a normal; `Mesh::normals` is as long as `Mesh::positions` for all shapes.
+/// The functions below give every vertex a normal: `Mesh::normals` is always as long as `Mesh::positions`.
 
 /// Axis-aligned box, flat.
 void add_box(Mesh& mesh, vec3 low, vec3 high);
@@ -50,14 +50,14 @@ void add_lathe(Mesh& mesh, vec3 base, const std::vector<vec2>& profile, int segm
 /// Grid over [0, 1]^2; `surface(u, v)` gives positions, counter-clockwise when u goes right and v up. Smooth normals by
 /// differences.
 void add_surface(Mesh& mesh, const std::function<vec3(float u, float v)>& surface, int columns, int rows);
-/// A flat outline (x, y), counter-clockwise, may be concave but not self-crossing, extruded along +z from z0 to z1; flat,
-/// with caps.
+/// A flat outline (x, y), counter-clockwise, may be concave but not self-crossing, extruded along +z from z0 to z1; flat, with
+/// caps.
 void add_extrusion(Mesh& mesh, const std::vector<vec2>& outline, float z0, float z1);
-/// The same with holes: outlines inside the outer one that neither touch it nor each other, counter-clockwise as well.
+/// As above, with holes: outlines inside the outer one that neither touch it nor each other, counter-clockwise as well.
 void add_extrusion(Mesh& mesh, const std::vector<vec2>& outline, const std::vector<std::vector<vec2>>& holes, float z0,
                    float z1);
-/// A flat sheet, one layer: the point (x, y) of an outline lies at origin + x * across + y * up. Its front is the side
-/// that across x up points to. Outlines as for `add_extrusion`.
+/// A flat sheet, one layer: the point (x, y) of an outline lies at origin + x * across + y * up. Its front faces the direction
+/// across x up. Outlines as for `add_extrusion`.
 void add_polygon(Mesh& mesh, vec3 origin, vec3 across, vec3 up, const std::vector<vec2>& outline,
                  const std::vector<std::vector<vec2>>& holes = {});
 /// A quad with texture coordinates: the texture's bottom left at `a`, its top right at `c`. For meshes of such quads only.
@@ -74,13 +74,13 @@ std::vector<vec2> rectangle(vec2 low, vec2 high);
 std::vector<vec2> circle(vec2 centre, float radius, int sides = 24);
 /// A rectangle from `low` with a half circle on top that starts at height `spring`.
 std::vector<vec2> arch(vec2 low, float width, float spring, int segments = 12);
-/// A rectangle with openings that stand on its lower side, from left to right: outlines as `rectangle` and `arch` make.
+/// A rectangle with openings along its lower side, from left to right: outlines as `rectangle` and `arch` make them.
 std::vector<vec2> wall(vec2 low, vec2 high, const std::vector<std::vector<vec2>>& doors);
 /// `count` points of a rope that hangs between two points and sags by `sag` metres in the middle (a parabola).
 std::vector<vec3> hanging_rope(vec3 from, vec3 to, float sag, int count = 16);
 
-/// Appends `source`, transformed; normals by the inverse transpose, mirrored triangles turned round. Texture coordinates
-/// are kept where all of `mesh` has them.
+/// Appends `source`, transformed; normals by the inverse transpose, mirrored triangles reversed. Texture coordinates are kept if
+/// all of `mesh` has them.
 void append(Mesh& mesh, const Mesh& source, const glm::mat4& transform);
 
 /// Adds a mesh to the scene: `shape`, transformed.

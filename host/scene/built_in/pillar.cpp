@@ -1,4 +1,4 @@
-// A pillar before a rib on a wall, with any number of sheets between the two: how deep a hidden occluder may lie (Vermeer,
+// A pillar in front of a rib on a wall, with any number of sheets between them: how deep a hidden occluder may lie (Vermeer,
 // Scandolo, Eisemann 2021, figure 8).
 #include "scene/built_in/mesh_builder.h"
 
@@ -14,7 +14,7 @@ Scene make(const ParameterValues& values) {
   const float half = 400, eye = 12;
   add_quad(add_mesh(scene, "wall", plaster), {-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0},
            64);
-  // Hidden by the pillar up to a little within its outline, from the camera `main`.
+  // Hidden by the pillar, with a small margin, from the camera `main`.
   add_box(add_mesh(scene, "rib", stone), {-0.55f, -half, 0}, {0.55f, half, 0.4f});
   add_cylinder(add_mesh(scene, "pillar", stone), {0, -20, 4}, {0, 20, 4}, 0.4f, 0.4f, 64);
   // As wide as the rib for the camera, and further from the wall than the radius.

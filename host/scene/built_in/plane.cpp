@@ -1,4 +1,4 @@
-// One plane, for what must read open.
+// One plane: AO must be open everywhere.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -12,7 +12,7 @@ Scene make(const ParameterValues& values) {
   const float tilt = float(values.number("tilt")) * glm::pi<float>() / 180;
   const int stone = add_material(scene, "stone", vec3(0.6f));
   Mesh& mesh = add_mesh(scene, "plane", stone);
-  // Tilted about the image's horizontal axis: 0 faces the camera, 90 is seen from the edge.
+  // Tilted about the image's horizontal axis: 0 faces the camera, 90 is edge-on.
   const vec3 across(1, 0, 0), along(0, std::cos(tilt), -std::sin(tilt));
   const float half = 400;
   add_quad(mesh, -half * across - half * along, half * across - half * along, half * across + half * along,

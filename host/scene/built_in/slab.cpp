@@ -14,7 +14,7 @@ Scene make(const ParameterValues& values) {
   add_quad(add_mesh(scene, "wall", plaster), {-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0},
            64);
   add_box(add_mesh(scene, "slab", stone), {-0.3f, -half, 0}, {0.3f, half, height});
-  // From far away, so that the front hides little of the wall.
+  // The camera is far away, so that the front hides little of the wall.
   scene.cameras = {looking_at("main", {0, 0, 24}, {0, 0, 0}, 8), looking_at("side", {10, 0, 22}, {0, 0, 0.5}, 8)};
   scene.ao_radius = 0.5;
   return scene;
@@ -24,9 +24,9 @@ Scene make(const ParameterValues& values) {
 
 std::vector<SceneRecipe> slab() {
   return {{.name = "slab",
-           .summary = "a slab on a wall, seen edge on: its sides lie along the view",
+           .summary = "a slab on a wall, seen edge-on: its sides lie along the view",
            .kind = "object",
-           .parameters = {float_parameter("height", 1, 0.01, 10, "metres", "of the slab above the wall")},
+           .parameters = {float_parameter("height", 1, 0.01, 10, "metres", "height of the slab above the wall")},
            .make = make}};
 }
 

@@ -144,7 +144,7 @@ float torso(vec3 p) {
   return smooth_union(d, std::sqrt(waist * waist + level * level) - 0.016f, 0.012f);
 }
 
-/// Whether a part inside a box can change a union that is `d` so far, blended over `k`.
+/// Whether a part inside a box can change a union with distance `d` so far, blended over `k`.
 bool matters(vec3 p, vec3 low, vec3 high, float d, float k) {
   const vec3 outside = glm::max(glm::max(low - p, p - high), vec3(0));
   return glm::dot(outside, outside) < (std::max(d, 0.0f) + k) * (std::max(d, 0.0f) + k);
@@ -156,7 +156,7 @@ float right_arm(vec3 p) {
   return smooth_union(d, hand(p, {-0.3f, 0.86f, 0.095f}, along, {0, 0.35f, 0.93f}), 0.012f);
 }
 
-/// With the scroll that it holds.
+/// The left arm with the scroll that it holds.
 float left_arm(vec3 p) {
   float d = arm(p, {0.2f, 1.365f, -0.012f}, {0.275f, 1.12f, 0.0f}, {0.13f, 1.13f, 0.2f});
   d = smooth_union(d, hand(p, {0.125f, 1.135f, 0.205f}, glm::normalize(vec3(-0.85f, 0.2f, 0.3f)), {0, 1, 0}), 0.012f);
@@ -174,7 +174,7 @@ float base(vec3 p) {
   return d;
 }
 
-/// Parts that are too far to matter are not computed.
+/// The whole figure. Parts too far away to matter are not computed.
 float figure(const vec3& p) {
   float d = base(p);
   if (matters(p, {-0.33f, 0.0f, -0.27f}, {0.33f, 1.04f, 0.27f}, d, 0.02f)) d = smooth_union(d, skirt(p), 0.015f);
@@ -219,7 +219,7 @@ class Polygoniser {
  private:
   static constexpr int block = 6, row = block + 1;
 
-  /// A block of cubes, unless it is so far from the surface that none crosses it.
+  /// Adds a block of cubes, unless it is too far from the surface to be crossed.
   void add_block(glm::ivec3 first) {
     const float half = 0.5f * block * grid_.step, steepness = 1.7f;
     if (std::abs(figure(grid_.at(first) + half)) > steepness * std::sqrt(3.0f) * half) return;
@@ -273,7 +273,7 @@ class Polygoniser {
     mesh_.triangles.push_back(turned_round ? glm::uvec3(a, c, b) : glm::uvec3(a, b, c));
   }
 
-  /// Where the surface crosses the edge between two corners; shared by all cubes around it.
+  /// The vertex where the surface crosses the edge between two corners; shared by all cubes around it.
   unsigned vertex(int a, int b) {
     if (a > b) std::swap(a, b);
     const glm::ivec3 low = first_ + cube_ + corner(a);
@@ -295,7 +295,7 @@ class Polygoniser {
   std::unordered_map<uint64_t, unsigned> vertices_;
 };
 
-/// Puts every vertex in the middle of its neighbours and back on the surface, some times, for triangles of even shape.
+/// Moves every vertex to the middle of its neighbours and back onto the surface, several times, for evenly shaped triangles.
 void relax(Mesh& mesh, float step) {
   const long count = long(mesh.positions.size());
   for (int pass = 0; pass < 4; ++pass) {
@@ -334,7 +334,7 @@ void add_normals(Mesh& mesh) {
   for (vec3& n : mesh.normals) n = glm::length(n) > 0 ? glm::normalize(n) : vec3(0, 1, 0);
 }
 
-/// Leaves out what a coarse grid cuts off (a finger tip) and hollows inside: only the part with most vertices stays.
+/// Only the part with most vertices: drops what a coarse grid cuts off (a finger tip) and hollows inside.
 Mesh largest_part(const Mesh& mesh) {
   std::vector<unsigned> parent(mesh.positions.size()), sizes(mesh.positions.size(), 0);
   for (size_t i = 0; i < parent.size(); ++i) parent[i] = unsigned(i);
@@ -384,7 +384,7 @@ Mesh figure_with(double faces) {
   return mesh;
 }
 
-// --- What stands around it. `detail` is 1 at the default number of faces.
+// --- The surroundings. `detail` is 1 at the default number of faces.
 
 constexpr float niche_radius = 0.8f, sill = 0.3f, springing = 2.4f;
 

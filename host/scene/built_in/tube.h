@@ -1,4 +1,4 @@
-// Tubes along curves and bent blades: what hair, wires, branches and leaves are made of.
+// Tubes along curves, and bent blades: for hair, wires, branches and leaves.
 #pragma once
 
 #include <cmath>
@@ -15,12 +15,12 @@ inline vec3 perpendicular(vec3 axis) {
   return glm::normalize(glm::cross(std::abs(axis.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0), axis));
 }
 
-/// A number in [low, high) that depends on its other arguments alone.
+/// A number in [low, high) that depends only on its other arguments.
 inline float random_in(float low, float high, uint32_t a, uint32_t b = 0, uint32_t c = 0) {
   return low + (high - low) * hash01(a, b, c);
 }
 
-/// A point on the unit sphere that depends on its arguments alone.
+/// A point on the unit sphere that depends only on its arguments.
 inline vec3 random_direction(uint32_t a, uint32_t b = 0) {
   const float y = random_in(-1, 1, a, b, 101), angle = random_in(0, glm::two_pi<float>(), a, b, 102);
   const float across = std::sqrt(1 - y * y);

@@ -30,7 +30,7 @@ Camera mirrored(Camera camera, const Window& window) {
   return camera;
 }
 
-/// What a mirrored world looks like: left is right.
+/// The frame of a mirrored world, left and right exchanged.
 Frame mirrored(const Frame& frame) {
   Frame copy = clone(frame);
   for (View& view : copy.views) {
@@ -52,7 +52,7 @@ Frame mirrored(const Frame& frame) {
   return copy;
 }
 
-/// What jitter leaves on average; it has no left and right, but its pattern has.
+/// Mean over seeds, which removes jitter: jitter has no left and right on average, but its pattern has.
 Frame mean_over_seeds(const Probe& probe, Frame& frame, int first, int seeds) {
   const Plan plan = plan_for(probe.technique(), frame, few_samples(probe.technique()));
   Frame sum = probe.outputs(plan, frame, {.seed = first});
@@ -81,8 +81,8 @@ Frame mean_over_seeds(const Probe& probe, Frame& frame, int first, int seeds) {
   return sum;
 }
 
-// Against the noise that is left of so many seeds, which other seeds tell: a sample that is not where its mirror image is shows as
-// more. What has no noise differs by rounding alone.
+// Compared with the noise left after so many seeds, as measured by other seeds: a sample that is not at its mirror image exceeds
+// it. Results without noise differ by rounding alone.
 void mirrored_image(Probe& probe) {
   const int seeds = probe.is_quick() ? 16 : 256;
   std::vector<Shot> shots = usual_shots();
@@ -95,7 +95,7 @@ void mirrored_image(Probe& probe) {
                                    normals_text(with_normals), seeds)))
         continue;
       Frame frame = shoot(shot, room(), with_normals);
-      plan_for(probe.technique(), frame);  // the second view, and what is invented
+      plan_for(probe.technique(), frame);  // adds the second view and invented planes
       Frame other = mirrored(frame);
       const Frame expected = mean_over_seeds(probe, frame, 0, seeds);
       const Difference noise = difference(mean_over_seeds(probe, frame, seeds, seeds), expected);
@@ -110,7 +110,7 @@ void mirrored_image(Probe& probe) {
 
 // --- Row 9
 
-/// Depths from the smallest to the largest that a file may have, beside each other.
+/// Depths from the smallest to the largest that a file may have, side by side.
 std::optional<Surface> any_depth(const EyeRay& ray) {
   const glm::dvec3 side = ray.origin + ray.direction;
   const int step = int(std::floor(side.x * 40) + 7 * std::floor(side.y * 40)) & 63;
@@ -134,7 +134,7 @@ void extremes_of_depth(Probe& probe) {
   }
 }
 
-/// Nothing of the mountain is near the hand, and nothing of the hand is near the mountain.
+/// Neither the mountain nor the hand has anything of the other near it.
 void nothing_near_is_open(Probe& probe) {
   if (!probe.opt_out("open").empty()) return;
   for (const Shot& shot : {perspective(80, 60), orthographic(80, 60, 4)}) {
@@ -180,7 +180,7 @@ std::vector<Angle> angles() {
   return all;
 }
 
-/// By how much a position may be off, relative to its distance from the eye.
+/// Largest error of a position relative to its distance from the eye.
 Measured position_error(const Frame& outputs, const Frame& frame, const Shot& shot) {
   Measured worst(0.0);
   for (int y = 0; y < frame.height(); ++y) {
@@ -199,9 +199,9 @@ Measured position_error(const Frame& outputs, const Frame& frame, const Shot& sh
   return worst;
 }
 
-/// What half a unit in the last place of the depths can do to a normal made of three points, radians: it moves one along its ray,
-/// which counts by how low the triangle is. The largest over the neighbours that a pixel has; none where it lacks one on either
-/// axis.
+/// Error that half a unit in the last place of the depths can cause in a normal made from three points, radians: it moves a point
+/// along its ray, which counts by how low the triangle is. The largest over a pixel's neighbours; none if the pixel lacks a
+/// neighbour on either axis.
 std::optional<double> rounding_of_normal(const Shot& shot, const Scene& scene, int x, int y) {
   const auto point = [&](int dx, int dy) -> std::optional<glm::dvec3> {
     if (x + dx < 0 || x + dx >= shot.width || y + dy < 0 || y + dy >= shot.height) return {};
@@ -224,7 +224,7 @@ std::optional<double> rounding_of_normal(const Shot& shot, const Scene& scene, i
   return most;
 }
 
-/// The largest angle between normals and the exact ones, over what rounding can do.
+/// The largest angle between normals and the exact ones, relative to the effect of rounding.
 Measured normal_error(const Frame& outputs, const Shot& shot, const Scene& scene) {
   Measured worst(0.0);
   const std::vector<Channel>& c = outputs.views[0].find("normal")->channels;
@@ -241,13 +241,13 @@ Measured normal_error(const Frame& outputs, const Shot& shot, const Scene& scene
   return worst;
 }
 
-/// Whether rounded depths are a staircase: what lies a pixel aside is a thousand roundings away at most.
+/// Whether rounded depths form a staircase: neighbouring depths are at most a thousand roundings apart.
 bool depths_hardly_differ(const Shot& shot, double depth) {
   const double pixel = (shot.camera.orthographic ? 1 : depth) / std::max(shot.camera.fx, shot.camera.fy);
   return pixel < 1000 * 6e-8 * depth;
 }
 
-/// A tilted wall, whatever the eye's angle: through a wrong camera it is no plane, or one of another tilt.
+/// A tilted wall, for every angle of the eye: with a wrong camera it is no plane, or one of another tilt.
 void cameras_of_every_angle(Probe& probe) {
   constexpr double depth = 3;
   for (const Angle& angle : angles()) {
@@ -282,7 +282,7 @@ void cameras_of_every_angle(Probe& probe) {
 
 // --- Row 12
 
-/// The same world, seen by the same eyes, elsewhere.
+/// The same world and eyes, moved elsewhere.
 Frame moved(const Frame& frame, const glm::dvec3& by) {
   Frame copy = clone(frame);
   for (View& view : copy.views) {
@@ -309,7 +309,7 @@ Frame frame_of_eyes(const Technique& technique) {
   return frame;
 }
 
-/// Whether any pass is told of the world, another view or the frame before.
+/// Whether any pass uses the world, another view or the frame before.
 bool looks_beyond_its_view(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     if (planned.pass.projects || takes(planned.pass, From::frame_before) || planned.technique->views > 1) return true;
@@ -320,7 +320,7 @@ bool looks_beyond_its_view(const Plan& plan) {
   return holds(plan.inputs, "position") || holds(plan.outputs, "position");
 }
 
-// A camera's place is a double: at 1e7 it has steps of 2e-9, which is 3e-8 of the distance between two eyes. Now and then that
+// A camera's position is a double: at 1e7 it has steps of 2e-9, which is 3e-8 of the distance between two eyes. Now and then that
 // moves a sample to the next pixel.
 void far_from_the_origin(Probe& probe) {
   const Technique& technique = probe.technique();
@@ -328,7 +328,7 @@ void far_from_the_origin(Probe& probe) {
   frames.emplace_back("cameras", frame_of_eyes(technique));
   if (!looks_beyond_its_view(plan_for(technique, frames[0].second)) &&
       !(technique.any_projection && technique.key_views))
-    return probe.passes_over("looks at nothing but what its view shows: no kernel is told where the camera stands");
+    return probe.passes_over("uses nothing but its own view: no kernel gets the camera's position");
   if (technique.any_projection && technique.key_views) {
     frames.emplace_back("modules", shoot_modules(flat_display(), 80, 60, room()));
     plan_for(technique, frames.back().second);
@@ -362,8 +362,8 @@ std::vector<Case> cameras() {
        {mirrored_image}},
       {9,
        "extremes of depth",
-       "Depths of 1e-6 beside 1e6, and of 1e-30 to 1e37, overflow nothing; what has nothing within its radius is "
-       "open. (What denormal depths cost in time: bench/README.md.)",
+       "Depths of 1e-6 beside 1e6, and of 1e-30 to 1e37, overflow nothing; a point with nothing within its radius is "
+       "open. (Time with denormal depths: bench/README.md.)",
        {extremes_of_depth, nothing_near_is_open}},
       {10,
        "cameras of every angle",
@@ -372,7 +372,7 @@ std::vector<Case> cameras() {
        {cameras_of_every_angle}},
       {12,
        "far from the origin",
-       "Cameras 1e7 units from the world's origin give what they give at the origin: positions are relative.",
+       "Cameras 1e7 units from the world's origin give the same results as at the origin: positions are relative.",
        {far_from_the_origin}}};
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// The frame as a renderer would have written it that marks background by `value`.
+/// The frame as written by a renderer that marks background by `value`.
 Frame with_background(const Frame& frame, float value) {
   Frame copy = clone(frame);
   for (View& view : copy.views) {
@@ -44,9 +44,9 @@ double surfaces_lost(float depth, std::optional<double> far_plane) {
   return lost;
 }
 
-/// What is nearly spelled like background is none.
+/// A value that nearly spells background is none.
 void surfaces_beside_a_spelling(Probe& probe) {
-  const float before_far = 250 * (1 - 1e-6f);  // the plane itself is known to two roundings of float
+  const float before_far = 250 * (1 - 1e-6f);  // the far plane itself is known to two roundings of float
   const std::tuple<const char*, float, std::optional<double>> walls[] = {
       {"9.9e9", 9.9e9f, {}},
       {"65504 without a flag", 65504, {}},
@@ -62,7 +62,7 @@ struct Spelling {
   const char* name;
   float value;
   std::optional<float> flag;  ///< --background
-  std::optional<double> far;  ///< of the camera
+  std::optional<double> far;  ///< far plane of the camera
 };
 
 const Spelling spellings[] = {{"0", 0, {}, {}},
@@ -87,7 +87,7 @@ void background_in_every_spelling(Probe& probe) {
   for (const Shot& shot : usual_shots()) {
     for (const bool with_normals : {true, false}) {
       Frame frame = shoot(shot, room(), with_normals);
-      plan_for(probe.technique(), frame);  // the second view has the spelling as well
+      plan_for(probe.technique(), frame);  // adds a second view with the same spelling
       for (const RunOptions& way : probe.two_ways()) {
         Lazy<Frame> expected([&] { return probe.outputs(frame, probe.usual_samples(), way); });
         for (const Spelling& spelling : spellings) {
@@ -97,7 +97,7 @@ void background_in_every_spelling(Probe& probe) {
           Frame other = with_background(frame, spelling.value);
           for (View& view : other.views) view.camera->far = spelling.far;
           normalise(other, spelling.flag);
-          if (way.lanes == 1)  // what the technique sees
+          if (way.lanes == 1)  // compares what the technique reads
             probe.measure_bits("difference to background as +inf, as loaded", only_depths(other), only_depths(frame));
           probe.measure_bits("difference to background as +inf", probe.outputs(other, probe.usual_samples(), way),
                              expected.get());
@@ -145,8 +145,7 @@ struct Encoding {
   const char* name;
   DepthConvention convention;
   float (*encode)(double);
-  double
-      mean_bound;  ///< of the mean absolute difference of any output to that from float32; as measured, with a margin
+  double mean_bound;  ///< on the mean absolute difference of any output to that from float32; measured, plus a margin
 };
 
 const Encoding encodings[] = {
@@ -159,7 +158,7 @@ const Encoding encodings[] = {
      [](double z) { return float(quantised(z / highest_linear, 16) * highest_linear); }, 5e-3},
     {"half", DepthConvention::z, [](double z) { return float(Imath::half(float(z))); }, 2e-2}};
 
-/// `shot`, with every depth encoded, and brought back by the code that reads files.
+/// `shot` with every depth encoded, and decoded by the code that reads files.
 Frame encoded(const Shot& shot, const Scene& scene, const Encoding& encoding, bool with_normals) {
   Frame frame = shoot(shot, scene, with_normals);
   Channel& depth = plane_of(frame, "depth").channels[0];
@@ -191,8 +190,8 @@ float largest_of(const Plane& plane) {
   return largest;
 }
 
-/// Of the plane that differs most; those of any values, such as colors and counts, in units of the largest where that is more
-/// than 1.
+/// Mean difference of the plane that differs most. For planes of any values, such as colors and counts, relative to the largest
+/// value if that exceeds 1.
 double mean_of_difference(const Frame& out, const Frame& expected) {
   double most = 0;
   for (size_t i = 0; i < expected.views.size(); ++i) {
@@ -205,9 +204,9 @@ double mean_of_difference(const Frame& out, const Frame& expected) {
   return most;
 }
 
-// The bounds are those of normals made from depth, which suffer most: a step of the encoding over the width of a pixel
-// (1/125 of the depth here), 0.007 for half, 0.02 for 16 bits of 20 units at depth 2; a mean lies well below. Planes of
-// 0..1, AO and its filters, are held to a fifth of that.
+// The bounds are for normals made from depth, which suffer most: a step of the encoding over the width of a pixel (1/125 of the
+// depth here), 0.007 for half, 0.02 for 16 bits of 20 units at depth 2; a mean lies well below. Planes of 0..1, AO and its
+// filters, are held to a fifth of that.
 void depth_encodings(Probe& probe) {
   const Shot shot = fine_shot();
   const RunOptions way{.math = Math::precise};

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Of all of the plane in front of the eye, whatever its tilt: where a plane is cut off, its last pixel may have no
-/// neighbour left or right and none tells how it is tilted that way.
+/// A shot of the whole part of the plane in front of the eye, whatever its tilt: at a cut edge the last pixel may have no
+/// neighbour to the left or right that tells the tilt.
 Shot shot_of_plane(bool is_orthographic, double depth, double tilt) {
   if (!is_orthographic) return perspective(112, 80);
   return orthographic(112, 80, depth / std::max(1.0, std::tan(tilt)));
@@ -47,7 +47,7 @@ void planes_read_open(Probe& probe, bool is_orthographic, bool with_normals, con
   }
 }
 
-/// Each tolerance, threshold and factor at its least, by itself: defaults may hide what they are there to hide.
+/// Each tolerance, threshold and factor at its least, one at a time: defaults may hide an error.
 std::vector<Settings> least_values(const Technique& technique, Frame& frame) {
   std::vector<Settings> all;
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
@@ -66,8 +66,8 @@ bool makes_unit_interval(Probe& probe, Frame& frame) {
   return false;
 }
 
-// Without a bias, what is left is rounding: of positions relative to the pixel's depth (6e-8) over the distance of the
-// nearest sample (a pixel, 1/97 of the depth), a few 1e-6, more where a plane is seen edge-on.
+// Without a bias only rounding is left: of positions relative to the pixel's depth (6e-8) over the distance of the nearest sample
+// (a pixel, 1/97 of the depth), a few 1e-6, more if a plane is seen edge-on.
 void tilted_plane_without_tolerances(Probe& probe) {
   Frame frame = shoot(perspective(8, 8), tilted_plane(1, 0, 0), false);
   if (!makes_unit_interval(probe, frame)) return;
@@ -86,7 +86,7 @@ void tilted_plane_reads_open(Probe& probe) {
 
 // --- Row 3
 
-/// Depths and positions among the outputs grow with the scene; everything else stays.
+/// Scales back depths and positions among the outputs, which grow with the scene; everything else stays.
 Frame unscaled(const Frame& frame, int k) { return in_other_unit(frame, -k); }
 
 void unit_of_the_scene(Probe& probe) {
@@ -94,7 +94,7 @@ void unit_of_the_scene(Probe& probe) {
   for (const Shot& shot : usual_shots()) {
     for (const bool with_normals : {true, false}) {
       Frame frame = shoot(shot, room(), with_normals);
-      plan_for(technique, frame);  // adds what nothing makes, before it is scaled
+      plan_for(technique, frame);  // adds invented planes before scaling
       for (const RunOptions& way : probe.all_ways()) {
         Lazy<Frame> expected([&] { return probe.outputs(frame, probe.usual_samples(), way); });
         for (int k = -20; k <= 20; k += probe.is_quick() ? 8 : 1) {

@@ -1,4 +1,4 @@
-// Hard cases 1 and 7: whatever stands in the planes.
+// Hard cases 1 and 7: arbitrary values in the planes.
 #include <cmath>
 #include <limits>
 
@@ -16,11 +16,11 @@ constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric
 
 const char* const out_of_range = "value out of its range";
 
-/// The smallest draw that shows the same is what a person can look at: one is enough.
+/// Reports the smallest draw that shows the same fault, which a person can examine: one is enough.
 void measure_smallest(Probe& probe, const Draw& drawn) {
   if (probe.has_failed(out_of_range)) return;
   const auto made_of = [&](const Draw& one) {
-    probe.goes_on();  // each new size and setting is compiled
+    probe.goes_on();  // each new size and setting compiles
     Frame frame = clone(one.frame);
     return outputs_of(probe.technique(), frame, one.settings, one.options, probe.device());
   };
@@ -45,7 +45,7 @@ void any_input(Probe& probe) {
   }
 }
 
-/// Each float parameter at both ends of its range, and each choice and switch by itself.
+/// Each float parameter at both ends of its range, and each choice and switch, one at a time.
 void extremes(Probe& probe) {
   if (probe.is_quick()) return;
   Draw drawn = draw(probe.technique(), probe.device(), probe.extent(), probe.seed(), 0);
@@ -102,10 +102,10 @@ void normals_of_no_use(Probe& probe) {
   }
 }
 
-// A normal that went through another length comes back to within two roundings of each component.
+// A normal scaled to another length and back is within two roundings of each component.
 void normals_of_any_length(Probe& probe) {
   if (!probe.opt_out("any length").empty()) return;
-  // The mean instead of the largest where the technique says why a pixel may differ.
+  // The mean instead of the largest difference if the technique states why a pixel may differ.
   const bool by_mean = !probe.opt_out("lengths").empty();
   for (const RunOptions& way : probe.two_ways()) {
     Lazy<Frame> expected([&] {
@@ -143,16 +143,17 @@ void sample_on_the_point_itself(Probe& probe) {
 namespace case_files {
 
 std::vector<Case> inputs() {
-  return {{1,
-           "any input",
-           "Planes with NaN, infinities, zeros, negative numbers, denormals and floats of any size, cameras and "
-           "settings of any kind: every output is finite and in its range.",
-           {any_input, extremes}},
-          {7,
-           "normals of no use",
-           "Normals that are zero, NaN, infinite, of any length or face away, and samples on the point itself, give a "
-           "defined result.",
-           {normals_of_no_use, normals_of_any_length, sample_on_the_point_itself}}};
+  return {
+      {1,
+       "any input",
+       "Planes with NaN, infinities, zeros, negative numbers, denormals and floats of any size, cameras and "
+       "settings of any kind: every output is finite and in its range.",
+       {any_input, extremes}},
+      {7,
+       "normals of no use",
+       "Normals that are zero, NaN, infinite, of any length or facing away, and samples on the point itself, give a "
+       "defined result.",
+       {normals_of_no_use, normals_of_any_length, sample_on_the_point_itself}}};
 }
 
 }  // namespace case_files

@@ -10,7 +10,7 @@
 namespace gloam::stress {
 namespace {
 
-/// The planned technique that chooses surfaces at random: the one with a parameter `alpha`; null where none is.
+/// The planned technique that draws surfaces at random: the one with a parameter `alpha`; null if none does.
 const Technique* chooser(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     for (const Parameter& p : planned.technique->parameters) {
@@ -20,7 +20,8 @@ const Technique* chooser(const Plan& plan) {
   return nullptr;
 }
 
-/// So many surfaces under each pixel, the first of them the one seen; 0: none at all, although there is a depth.
+/// A frame with `count` surfaces under each pixel, the first of them the visible one; 0: no layer at all, although there is a
+/// depth.
 Frame with_layers(const Technique& technique, int count) {
   Frame frame = shoot(perspective(80, 60), room());
   const Channel& depth = frame.views[0].find("depth")->channels[0];
@@ -36,7 +37,7 @@ Frame with_layers(const Technique& technique, int count) {
   return frame;
 }
 
-/// So many depths are drawn, and as many asked for by what reads them.
+/// Settings by which `samples` depths are drawn, and as many are read.
 Settings settings_of(const Technique& technique, Frame& frame, const std::string& samples, const std::string& alpha) {
   Settings settings = few_samples(technique);
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
@@ -49,7 +50,7 @@ Settings settings_of(const Technique& technique, Frame& frame, const std::string
   return settings;
 }
 
-/// Whether the technique is one of these; notes why not.
+/// Whether the technique draws surfaces at random; notes why not.
 bool chooses(Probe& probe) {
   Frame frame = shoot(perspective(8, 8), room());
   plane_of(frame, "peel.00");
@@ -63,7 +64,7 @@ std::vector<std::string> sample_counts(const Probe& probe) {
   return probe.is_quick() ? std::vector<std::string>{"1"} : std::vector<std::string>{"1", "2", "4", "8", "16"};
 }
 
-/// The stochastic depths that alpha 1 should draw: the depth itself, in all of them.
+/// The stochastic depths to expect with alpha 1: all of them are the depth itself.
 Frame with_depth_for_stochastic_ones(const Technique& technique, const std::string& samples) {
   Frame frame = with_layers(technique, 1);
   const Channel& depth = frame.views[0].find("depth")->channels[0];
@@ -88,7 +89,7 @@ Frame only_stochastic(const Frame& frame) {
   return copy;
 }
 
-/// With alpha 1 every sample is offered every surface, and keeps the nearest: hidden layers change nothing.
+/// With alpha 1 every sample is offered every surface and keeps the nearest: hidden layers change nothing.
 void all_samples_take_the_nearest(Probe& probe) {
   if (!chooses(probe)) return;
   for (const std::string& samples : sample_counts(probe)) {

@@ -1,4 +1,4 @@
-// Hard cases 15, 16 and 17: one occluder more, surfaces whose ambient occlusion is known, and what is thinner than a pixel.
+// Hard cases 15, 16 and 17: an added occluder, surfaces with known ambient occlusion, and surfaces thinner than a pixel.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -19,8 +19,8 @@ bool holds(const std::vector<std::string>& planes, const std::string& name) {
   return std::find(planes.begin(), planes.end(), name) != planes.end();
 }
 
-/// The plane of ambient occlusion that a technique estimates, before it is filtered where it is; empty for others, filters among
-/// them.
+/// The plane of ambient occlusion that a technique estimates, before its filter if it has one; empty for other techniques, such
+/// as filters.
 std::string plane_of_ao(const Technique& technique) {
   if (holds(technique.reads, "ao_raw")) return "";
   for (const char* name : {"ao_raw", "ao"}) {
@@ -29,7 +29,7 @@ std::string plane_of_ao(const Technique& technique) {
   return "";
 }
 
-/// Whether the technique computes AO from what surrounds a point; notes why not.
+/// Whether the technique computes AO from the surroundings of a point; notes why not.
 bool makes_ao(Probe& probe) {
   if (!plane_of_ao(probe.technique()).empty()) return true;
   probe.passes_over("estimates no ambient occlusion");
@@ -41,7 +41,7 @@ const Channel& filtered(const Frame& outputs) {
   return (ao ? ao : outputs.views[0].find("ao_raw"))->channels[0];
 }
 
-/// Nothing fades: an occluder counts in full within the radius.
+/// No falloff: an occluder counts in full within the radius.
 Settings without_falloff(const Plan& plan) {
   Settings settings;
   for (const PlannedPass& planned : plan.passes) {
@@ -81,7 +81,7 @@ Scene nowhere() {
   return [](const EyeRay&) { return std::optional<Surface>(); };
 }
 
-/// Whether the technique has at hand what lies behind the depth: a stack of layers, none of which is drawn by chance.
+/// Whether the technique knows the surfaces behind the depth: a stack of layers, none drawn at random.
 bool sees_all_surfaces(const Plan& plan) {
   bool reads_layers = false;
   for (const PlannedPass& planned : plan.passes) {
@@ -91,7 +91,7 @@ bool sees_all_surfaces(const Plan& plan) {
   return reads_layers;
 }
 
-/// Pixels that show the same with the ball and without.
+/// Pixels that show the same surface with and without the ball.
 std::vector<char> shows_the_same(const Shot& shot) {
   const Scene ground = floor_and_wall(), occluder = ball(ball_centre, ball_radius);
   std::vector<char> same(size_t(shot.width * shot.height));
@@ -104,7 +104,7 @@ std::vector<char> shows_the_same(const Shot& shot) {
   return same;
 }
 
-/// Those of them to which the ball hides nothing within the radius.
+/// Those of these pixels for which the ball hides nothing within the radius.
 std::vector<char> keeps_its_occluders(const Shot& shot) {
   const Scene ground = floor_and_wall(), occluder = ball(ball_centre, ball_radius);
   std::vector<glm::dvec3> hidden;
@@ -130,7 +130,8 @@ std::vector<char> keeps_its_occluders(const Shot& shot) {
   return keeps;
 }
 
-/// With all surfaces at hand any pixel that shows the same may be looked at; by the depth alone those that lose no occluder.
+/// If all surfaces are known, every pixel that shows the same surface is compared; from depth alone, only those that lose no
+/// occluder.
 void occluder_more(Probe& probe) {
   if (!makes_ao(probe)) return;
   for (const Shot& shot : usual_shots()) {
@@ -176,7 +177,7 @@ struct Known {
   double eye_width;  ///< scene units across for an orthographic eye
 };
 
-/// Surfaces in closed form, whose rays are in closed form too.
+/// Surfaces and their rays in closed form.
 const std::vector<Known>& known_scenes() {
   static const std::vector<Known> all = [] {
     const glm::vec3 grey(0.5f);
@@ -185,7 +186,8 @@ const std::vector<Known>& known_scenes() {
     sphere.add(analytic::make_sphere({0, -0.4f, -4}, 0.5f), grey);
     walls.add(analytic::make_box({-20, -3, -20}, {20, -1, 20}), grey);
     walls.add(analytic::make_box({-20, -2, -20}, {20, 9, -4}), grey);
-    // Below every ray's origin, also where an orthographic eye looks down, which sees the walls edge-on: their tops are near enough.
+    // Below every ray's origin, also for an orthographic eye that looks down and sees the walls edge-on: their tops are near
+    // enough.
     canyon.add(analytic::make_box({-20, -3, -20}, {20, -1.6f, 20}), grey);
     canyon.add(analytic::make_box({-20, -2, -20}, {-0.5f, -1.3f, 20}), grey);
     canyon.add(analytic::make_box({0.5f, -2, -20}, {20, -1.3f, 20}), grey);
@@ -214,7 +216,7 @@ double open_share(const Scene& scene, const glm::dvec3& point, const glm::dvec3&
 
 constexpr int every = 4, rays_of_truth = 256;
 
-/// AO without falloff at every fourth pixel of every fourth row; below 0 where nothing is seen.
+/// AO without falloff at every fourth pixel of every fourth row; below 0 on background.
 const std::vector<double>& truth_of(const Known& known, const Shot& shot) {
   static std::map<std::string, std::vector<double>> all;
   std::vector<double>& truth = all[known.name + text_of(shot.camera)];
@@ -230,7 +232,8 @@ const std::vector<double>& truth_of(const Known& known, const Shot& shot) {
   return truth;
 }
 
-/// What a model makes of it is its own choice, and stated; an image that is not nearer to the truth than one all white is no AO.
+/// A model may differ from the truth, and the difference is stated; but an image no nearer to the truth than an all-white one is
+/// not AO.
 void surfaces_that_are_known(Probe& probe) {
   if (!makes_ao(probe)) return;
   for (const Known& known : known_scenes()) {
@@ -264,7 +267,7 @@ void surfaces_that_are_known(Probe& probe) {
 
 // --- Row 17
 
-/// Where single pixels show what is behind the plane, which is nothing.
+/// Single pixels show the background behind the plane.
 void one_pixel_holes(Probe& probe) {
   for (const Shot& shot : usual_shots()) {
     for (const RunOptions& way : probe.two_ways()) {
@@ -286,8 +289,8 @@ void one_pixel_holes(Probe& probe) {
   }
 }
 
-/// Upright wires of a pixel's width before a wall, every eighth column. What a wire takes from the wall behind it is little: it
-/// covers an eighth of it at most. An image in layers of one depth makes walls of wires.
+/// Upright wires as wide as a pixel before a wall, every eighth column. A wire should occlude little of the wall behind it: it
+/// covers at most an eighth. An image with one depth layer turns wires into walls.
 void wires(Probe& probe) {
   if (!makes_ao(probe)) return;
   constexpr double wall = 4, wire = 3.7, reach = 0.5;
@@ -321,7 +324,7 @@ void wires(Probe& probe) {
   probe.measure("wires of a pixel's width: brighter than ray-traced AO, mean", std::max(0.0, -over / count), INFINITY);
 }
 
-/// A near half and a far one, of which one is closed and the other open: a filter leaves them so.
+/// A near and a far half, one of them closed and the other open: a filter must leave them so.
 void filters_at_edges(Probe& probe) {
   const std::vector<std::string>& reads = probe.technique().reads;
   if (!holds(reads, "ao_raw")) return probe.passes_over("filters no ambient occlusion");
@@ -369,9 +372,8 @@ std::vector<Case> occluders() {
   return {
       {15,
        "one occluder more",
-       "A ball set within the radius makes no pixel more open, where nothing fades: any pixel that still shows the "
-       "same "
-       "and loses no occluder behind the ball.",
+       "Without falloff, a ball added within the radius makes no pixel more open that still shows the same surface and "
+       "loses no occluder behind the ball.",
        {occluder_more}},
       {16,
        "surfaces whose truth is known",
@@ -381,7 +383,7 @@ std::vector<Case> occluders() {
        {surfaces_that_are_known}},
       {17,
        "thinner than a pixel",
-       "One-pixel holes leave a plane open; what wires of a pixel's width take too much is stated; filters do not "
+       "One-pixel holes leave a plane open; the excess occlusion by wires of a pixel's width is stated; filters do not "
        "bleed over steps in depth.",
        {one_pixel_holes, wires, filters_at_edges}}};
 }

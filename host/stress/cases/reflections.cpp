@@ -1,4 +1,4 @@
-// Hard case 19: reflections where directions degenerate and probabilities come near nothing or are huge.
+// Hard case 19: reflections with degenerate directions, and probabilities near zero or huge.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -14,7 +14,7 @@ namespace {
 constexpr double brightest = 1e4;
 
 /// Normals towards the eye, across the view (n.v = 0), away from it, along the rows and columns of the image, and halfway
-/// between: rays go back to the eye, along the screen and out of the image from its border.
+/// between: rays return to the eye, run along the screen and leave the image at its border.
 glm::dvec3 normal_of(int kind, const glm::dvec3& to_eye) {
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), to_eye)), up = glm::cross(to_eye, right);
   const glm::dvec3 normals[] = {to_eye,
@@ -32,7 +32,7 @@ glm::dvec3 normal_of(int kind, const glm::dvec3& to_eye) {
 Frame frame_of(const Technique& technique, const Shot& shot) {
   Frame frame = shoot(shot, room());
   for (const char* plane : {"color", "roughness", "reflectance"}) plane_of(frame, plane);
-  plan_for(technique, frame);  // invents what is lacking, and the second view
+  plan_for(technique, frame);  // adds invented planes and the second view
   const float roughnesses[] = {0, 1e-3f, 0.0299f, 0.03f, 0.031f, 0.1f, 0.5f, 1};
   for (View& view : frame.views) {
     for (int y = 0; y < shot.height; ++y) {
@@ -43,7 +43,7 @@ Frame frame_of(const Technique& technique, const Shot& shot) {
         for (size_t i = 0; i < 3; ++i) {
           view.planes.at("normal").channels[i].at(x, y) = float(normal[int(i)]);
           view.planes.at("reflectance").channels[i].at(x, y) = (x + y) % 7 == 0 ? 1 : 0.04f;
-          // One pixel in a few hundred is a lamp: what is improbable and bright makes fireflies.
+          // One pixel in a few hundred is a lamp: improbable bright hits make fireflies.
           view.planes.at("color").channels[i].at(x, y) = (x * 7 + y * 13) % 311 == 0 ? float(brightest) : 0.1f;
         }
         view.planes.at("roughness").channels[0].at(x, y) = roughnesses[(x / 2 + y) % 8];
@@ -53,12 +53,12 @@ Frame frame_of(const Technique& technique, const Shot& shot) {
   return frame;
 }
 
-/// By how much, as a share, a reflection is brighter than the brightest there is, or its confidence or radiance below 0.
+/// Relative excess of a reflection over the brightest radiance, or the amount by which radiance or confidence is below 0.
 Measured beyond_bounds(const Frame& outputs) {
   Measured worst(0.0);
   for (const View& view : outputs.views) {
     const Plane* plane = view.find("reflection");
-    if (!plane) continue;  // of the first of two views
+    if (!plane) continue;  // techniques for the first of two views make only its plane
     for (size_t i = 0; i < plane->channels.size(); ++i) {
       const double most = i < 3 ? brightest : 1;
       for (int y = 0; y < outputs.height(); ++y) {
@@ -101,7 +101,7 @@ void at_their_limits(Probe& probe) {
 
 // --- A mirror
 
-/// A mirror for a floor, one unit below the eye, that ends at a wall four units away; the eye looks down.
+/// A mirror as a floor, one unit below the eye, that ends at a wall four units away; the eye looks down.
 constexpr double down = 0.35, floor_height = -1, wall_distance = 4, square = 0.5;
 
 glm::dvec3 turned(const glm::dvec3& v, double angle) {
@@ -109,7 +109,7 @@ glm::dvec3 turned(const glm::dvec3& v, double angle) {
   return {v.x, c * v.y - s * v.z, c * v.z + s * v.y};
 }
 
-/// In the room's own space, where the floor is level.
+/// The ray in the room's own space, where the floor is level.
 EyeRay in_room(const EyeRay& ray) { return {turned(ray.origin, -down), turned(ray.direction, -down)}; }
 
 std::optional<Surface> mirror_room(const EyeRay& eye) {
@@ -153,11 +153,11 @@ Frame mirror_frame(const Technique& technique, const Shot& shot) {
       plane_of(frame, "roughness").channels[0].at(x, y) = 0;
     }
   }
-  plan_for(technique, frame);  // invents what is lacking, and the second view
+  plan_for(technique, frame);  // adds invented planes and the second view
   return frame;
 }
 
-/// Where a floor mirrors the inside of a square of the wall, it has the square's colour.
+/// Where the floor mirrors the inside of a square of the wall, it has the square's colour.
 void mirror_is_exact(Probe& probe) {
   if (!reflects(probe)) return;
   for (const Shot& shot : {perspective(80, 60, 70), orthographic(80, 60, 5)}) {
@@ -200,8 +200,7 @@ std::vector<Case> reflections() {
            "reflections at their limits",
            "Rays towards the camera, along the screen and out of its border, surfaces seen edge-on, roughness 0 and 1, "
            "and lamps of 1e4 give finite reflections, none brighter than the brightest that could be reflected; a "
-           "mirror shows "
-           "what its rays meet.",
+           "mirror shows the colours that its rays meet.",
            {at_their_limits, mirror_is_exact}}};
 }
 

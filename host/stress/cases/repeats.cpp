@@ -1,4 +1,4 @@
-// Hard cases 13 and 14: the same image from every lane width and every device; what float and fast mathematics cost.
+// Hard cases 13 and 14: the same image from every lane width and every device; errors of float and of fast mathematics.
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +9,14 @@
 namespace gloam::stress {
 namespace {
 
-/// Whether the result of a plan has any reason to change with the seed.
+/// Whether the result of a plan may change with the seed.
 bool uses_seed(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     const auto& defines = planned.pass.defines;
     const bool is_still =
         std::find(defines.begin(), defines.end(), std::pair<std::string, int>("JITTER", 0)) != defines.end();
-    if (!is_still && flatten(source_of(*planned.technique, planned.pass)).find("frame.seed") != std::string::npos) return true;
+    if (!is_still && flatten(source_of(*planned.technique, planned.pass)).find("frame.seed") != std::string::npos)
+      return true;
   }
   return false;
 }
@@ -36,8 +37,8 @@ void one_seed_one_image(Probe& probe) {
   }
 }
 
-/// What has to agree between lane widths and devices in fast mathematics: every pixel, or the mean over pixels where the
-/// technique says why a single pixel may differ ("hard case 13, fast: reason").
+/// The difference to judge between lane widths and devices in fast mathematics: the largest, or the mean if the technique states
+/// why a single pixel may differ ("hard case 13, fast: reason").
 Measured distance(const Probe& probe, const Frame& a, const Frame& b) {
   const Difference d = difference(a, b);
   return {probe.opt_out("fast").empty() ? d.max : d.mean, d.place};
@@ -71,8 +72,8 @@ void lane_widths(Probe& probe) {
   }
 }
 
-/// CPUs compute the same bits. GPUs fuse and reorder in fast mathematics, and now and then a sample moves by a pixel: for
-/// these the share of pixels that differ is bounded, and the largest difference stated.
+/// CPUs compute the same bits. GPUs fuse and reorder in fast mathematics, and now and then a sample moves by a pixel: for GPUs
+/// the share of pixels that differ is bounded, and the largest difference is stated.
 void other_devices(Probe& probe) {
   const Settings few = few_samples(probe.technique());
   const auto is_cpu = [](const Device& device) { return device.info().type == "cpu"; };
@@ -107,8 +108,8 @@ void other_devices(Probe& probe) {
   }
 }
 
-/// Stated rather than bounded by an argument: a sample that falls on the border of a pixel may be another pixel's in
-/// double, and one sample of many is then another one; a pixel of 15552 by one of 31 sectors is 2.1e-6.
+/// The largest difference is stated, without a bound: a sample on the border of a pixel may be another pixel's in double, and the
+/// result then contains another sample. One pixel of 15552 that differs by one of 31 sectors is 2.1e-6 on average.
 void float_against_double(Probe& probe) {
   const bool has_double = probe.device().info().has_double;
   if (!has_double) probe.passes_over(probe.device().info().name + " has no double");
@@ -151,7 +152,8 @@ std::vector<Case> repeats() {
            {one_seed_one_image, lane_widths, other_devices}},
           {14,
            "float against double, fast against precise",
-           "What float costs against double, and fast mathematics against precise, is stated; on average at most 4e-6.",
+           "The differences of float to double, and of fast to precise mathematics, are stated; on average they are at "
+           "most 4e-6.",
            {float_against_double}}};
 }
 

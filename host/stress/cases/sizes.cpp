@@ -1,4 +1,4 @@
-// Hard case 11: images of every shape. What lies beside an image in memory must not reach it.
+// Hard case 11: images of every shape. Memory beside an image must not affect it.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 namespace gloam::stress {
 namespace {
 
-/// Everything beside the image becomes a value that would show.
+/// Fills everything beside the image with a value that would show.
 void spoil_padding(Frame& frame, float value) {
   for (View& view : frame.views) {
     for (auto& [name, plane] : view.planes) {
@@ -39,10 +39,10 @@ void sizes_and_padding(Probe& probe) {
   for (const auto& [width, height] : sizes(probe.is_quick())) {
     const double fov = width > 1000 ? 150 : 60;
     for (const Shot& shot : {perspective(width, height, fov), orthographic(width, height, width * 0.05)}) {
-      // PoCL compiles a kernel anew for each size of its groups: one camera for each size is enough for a quick look.
+      // PoCL recompiles a kernel for each size of its groups: in a quick run one camera per size is enough.
       if (probe.is_quick() && shot.camera.orthographic != (width == 1)) continue;
       Frame frame = shoot(shot, room());
-      plan_for(probe.technique(), frame);  // the second view's padding is spoilt too
+      plan_for(probe.technique(), frame);  // adds the second view, whose padding is spoilt too
       Lazy<Frame> expected([&] { return probe.outputs(frame, few, {.math = Math::precise, .lanes = 1}); });
       for (const int lanes : usual_lanes(probe.device())) {
         for (const float beside : {0.37f, 5.0f}) {
@@ -65,7 +65,7 @@ void sizes_and_padding(Probe& probe) {
 
 // --- 8192x8192
 
-/// Kilobytes after a key of a file of /proc; -1 where there is no such thing.
+/// Kilobytes after a key in a file of /proc; -1 if there is no such key.
 long kilobytes(const char* file, const std::string& key) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -79,7 +79,7 @@ void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 constexpr int large = 8192, tile = 256;
 
-/// A wall with square blocks before it, the same in every tile: one look per tile tells all.
+/// A wall with square blocks before it, the same in every tile: one tile can be compared with all others.
 Frame blocks() {
   Frame frame = blank(orthographic(large, large, large / 64.0));
   for (const char* name : {"depth", "normal"}) plane_of(frame, name);
@@ -92,7 +92,7 @@ Frame blocks() {
   return frame;
 }
 
-/// How far any pixel is from the one at the same place of the first tile that the border does not reach.
+/// Largest difference of a pixel to the one at the same position in the first tile that the border does not reach.
 Measured difference_of_tiles(const std::string& name, const Channel& values) {
   Measured worst(0.0);
   for (int y = tile; y < large - tile; ++y) {
@@ -121,7 +121,7 @@ class LargeImageAlone {
   int file_;
 };
 
-/// Of the memory predicted, by how much more was taken; below 0 by how much less. What the compiler takes is not the image's.
+/// Relative excess of the memory taken over the prediction; below 0 if less was taken. The compiler's memory is not counted.
 double memory_over_prediction(const Probe& probe, const Plan& plan, const Frame& frame, RunResult& result) {
   Frame warm_up = shoot(perspective(64, 64), room());
   plan_for(probe.technique(), warm_up);
@@ -136,7 +136,7 @@ double memory_over_prediction(const Probe& probe, const Plan& plan, const Frame&
   return before < 0 ? 0 : (grown + inputs) / double(result.device_bytes) - 1;
 }
 
-/// With jitter, places that are alike are computed alike on average only.
+/// With jitter, equal places get equal values only on average.
 Settings without_jitter(const Plan& plan) {
   Settings settings;
   for (const PlannedPass& planned : plan.passes) {
@@ -146,7 +146,7 @@ Settings without_jitter(const Plan& plan) {
 }
 
 void largest_image(Probe& probe) {
-  if (probe.is_quick()) return probe.passes_over("8192x8192: not in a quick look");
+  if (probe.is_quick()) return probe.passes_over("8192x8192: not in a quick run");
   Frame small = shoot(perspective(8, 8), room());
   const std::vector<std::string> given = plane_names(small);
   const Settings lengths = set_lengths(probe.technique(), small, [](double) { return 0.5; });
@@ -182,9 +182,8 @@ std::vector<Case> sizes() {
   return {{11,
            "images of every shape",
            "Images of 1x1, one row, one column, odd sizes and 16384 pixels in a row have the right size, and the same "
-           "bits whatever lies beside them in memory and however many lanes compute them; in 8192x8192 places that are "
-           "alike "
-           "read alike, and the memory taken is what was predicted.",
+           "bits whatever lies beside them in memory and however many lanes compute them; in an image of 8192x8192 "
+           "equal places get equal values, and the memory used is as predicted.",
            {sizes_and_padding, largest_image}}};
 }
 

@@ -1,4 +1,4 @@
-// Hard case 18: two eyes at every distance, swapped, of different cameras, and one that sees nothing.
+// Hard case 18: two eyes at any distance, swapped, with different cameras, and one that sees nothing.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace gloam::stress {
 namespace {
 
-/// All that the technique reads, seen by eyes so far apart.
+/// All planes that the technique reads, for eyes at this distance.
 Frame frame_of_eyes(const Technique& technique, const Shot& left, const Shot& right, double apart) {
   Frame frame =
       shoot_pair({eye_at(left, {0, 0, 0}), eye_at(right, {apart, 0, 0})}, room(), [](const glm::dvec3&) { return 1; });
@@ -20,7 +20,7 @@ Frame frame_of_eyes(const Technique& technique, const Shot& left, const Shot& ri
   return frame;
 }
 
-/// What has a choice between one eye and both, for one eye alone.
+/// Settings that turn every choice between one eye and both to one eye.
 Settings for_one_eye(const Technique& technique) {
   Settings settings;
   for (const Parameter& p : technique.parameters) {
@@ -33,11 +33,11 @@ Settings for_one_eye(const Technique& technique) {
 
 bool is_for_two(Probe& probe) {
   if (probe.technique().views == 2) return true;
-  probe.passes_over("looks at one eye at a time");
+  probe.passes_over("uses one eye at a time");
   return false;
 }
 
-/// Eyes in one place see what one does, but for what rounding leaves of a point that is projected to where it is.
+/// Eyes in one place see the same as one eye, except for the rounding of a point projected onto itself.
 void eyes_in_one_place(Probe& probe) {
   if (!is_for_two(probe)) return;
   const Settings one = for_one_eye(probe.technique());
@@ -82,7 +82,7 @@ void swapped_eyes(Probe& probe) {
   }
 }
 
-/// One eye sees nothing, or a hand before it.
+/// Makes one eye see nothing, or a hand before it.
 void blind(View& view, float depth) {
   for (auto& [name, plane] : view.planes) {
     if (plane_kind(name).meaning != PlaneKind::view_depth) continue;
@@ -124,12 +124,12 @@ void eyes_of_every_kind(Probe& probe) {
 namespace case_files {
 
 std::vector<Case> two_eyes() {
-  return {
-      {18,
-       "two eyes",
-       "Eyes in one place give what one eye does; swapped eyes swap the results, bit for bit; any distance, different "
-       "cameras and an eye that sees nothing give values in their range.",
-       {eyes_in_one_place, swapped_eyes, eyes_of_every_kind}}};
+  return {{18,
+           "two eyes",
+           "Two eyes in one place give the results of one eye; swapped eyes swap the results, bit for bit; any "
+           "distance, different "
+           "cameras and an eye that sees nothing give values in their range.",
+           {eyes_in_one_place, swapped_eyes, eyes_of_every_kind}}};
 }
 
 }  // namespace case_files

@@ -1,5 +1,5 @@
-// Taps of a cross-bilateral filter, along one axis or over both at once: each counts by its distance on the screen, by its
-// distance from the pixel's tangent plane and by the angle between the normals; each weight ends at 0.
+// Taps of a cross-bilateral filter, along one axis or over both at once. A tap counts by its distance on the screen, by its
+// distance from the pixel's tangent plane and by the angle between the normals; each of the three weights ends at 0.
 // -D COLUMNS, ROWS: taps to the left and to the right, above and below
 #ifndef GLOAM_BILATERAL_H
 #define GLOAM_BILATERAL_H
@@ -22,7 +22,7 @@ static inline void add_tap(Taps* taps, real weight, mask counts, real value) {
   taps->weights += counted;
 }
 
-// The pixels around the row of pixels from `here` on, the pixel itself with weight 1.
+// Sums over the taps around each pixel of a row that begins at `here`. The pixel itself has weight 1.
 static inline Taps taps_around(Frame frame, TangentPlane plane, integer x, int y, int here, PLANE source, PLANE depth,
                                PLANE normal_x, PLANE normal_y, PLANE normal_z) {
   Taps taps;

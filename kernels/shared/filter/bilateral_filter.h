@@ -19,7 +19,7 @@ kernel void bilateral(Frame frame, Params params, PLANE source, PLANE depth, PLA
       tangent_plane_at(frame, to_real(x), (real)(y), z, load3(normal_x, normal_y, normal_z, here),
                        params.depth_tolerance * params.radius, params.normal_tolerance);
   const Taps taps = taps_around(frame, plane, x, y, here, source, depth, normal_x, normal_y, normal_z);
-  // Divided exactly, so that what is open all around stays just that.
+  // Divided exactly, so that an open neighbourhood stays exactly open.
   store(choose(is_background(z) | !is_wanted, (real)(1), taps.sum / taps.weights), result, here);
 }
 

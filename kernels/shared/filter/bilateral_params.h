@@ -1,4 +1,4 @@
-// Parameters of filters that bilateral.h makes the taps of.
+// Parameters of the filters that use bilateral.h.
 #ifndef GLOAM_BILATERAL_PARAMS_H
 #define GLOAM_BILATERAL_PARAMS_H
 

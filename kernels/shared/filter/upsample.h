@@ -1,6 +1,6 @@
-// Joint bilateral upsampling (Kopf, Cohen, Lischinski, Uyttendaele 2007): of the four reduced pixels around a pixel
-// those count that show the same surface, by bilinear weights; where none does, the one nearest to its tangent plane.
-// `frame` is the finer one, `other` the reduced one; its pixel (x, y) is pixel (x, y) * SCALE of the finer.
+// Joint bilateral upsampling (Kopf, Cohen, Lischinski, Uyttendaele 2007): of the four reduced pixels around a pixel, those
+// that show the same surface are mixed by bilinear weights; where none does, the one nearest to the tangent plane is taken.
+// `frame`: the finer one; `other`: the reduced one, whose pixel (x, y) is pixel (x, y) * SCALE of the finer.
 // -D SCALE
 //
 //   const Site s = site_at(frame, other, distance, angle, depth, normal_x, normal_y, normal_z);
@@ -11,8 +11,8 @@
 
 #include "shared/frame/surface.h"
 
-// Of a plane of reduced pixels those at or left of each pixel of a row (`i` = 0), or the next ones to the right (1).
-// `there`: where the first pixel's lies.
+// Reduced pixels for a row of pixels: for each the one at or left of it (`i` = 0), or the next one to the right (1).
+// `there`: index of the first pixel's.
 #if LANES == 1
 static inline real load_beside(PLANE plane, int there, int i) { return load(plane, there + i); }
 #else
@@ -32,10 +32,10 @@ static inline real3 load3_beside(PLANE x, PLANE y, PLANE z, int there, int i) {
 
 // A row of pixels and the two rows of reduced pixels around it.
 typedef struct {
-  int here, there[2];  // where the first pixel of each lies
-  int rows;            // of the two those with a weight: one where the pixels' own row is reduced as well
-  integer right;       // pixels from the reduced column at or left of each
-  scalar below;        // from the reduced row at or above
+  int here, there[2];  // indices of the first pixel of each row
+  int rows;            // reduced rows with a weight: one where the row of pixels lies on a reduced row
+  integer right;       // distance from the reduced column at or left of each pixel, in pixels
+  scalar below;        // distance from the reduced row at or above, in pixels
   mask has_right;      // whether there is a reduced pixel to the right
   TangentPlane plane;
 } Site;
@@ -57,7 +57,7 @@ static inline Site site_at(Frame frame, Frame other, scalar distance, scalar ang
   return s;
 }
 
-// Bilinear weight of a reduced pixel: `i` to the right of, `j` below the one at or left above. 0 outside the image.
+// Bilinear weight of the reduced pixel `i` to the right of and `j` below the one at or left above; 0 outside the image.
 static inline real bilinear(Site s, int i, int j) {
   const real right = to_real(s.right) * (scalar)(1.0f / SCALE);
   const scalar below = s.below * (scalar)(1.0f / SCALE);
@@ -70,13 +70,13 @@ static inline real distance_to(Site s, Frame frame, int i, int j, real depth) {
   return fabs(distance_from(s.plane, frame, step, depth));
 }
 
-// What each of the four reduced pixels around a pixel counts: of[row][column].
+// Weights of the four reduced pixels around a pixel: of[row][column].
 typedef struct {
   real of[2][2];
   real total;  // 0 where all four are background
 } Weights;
 
-// Where none of the four shows the same surface: the one nearest to the tangent plane.
+// Where none of the four shows the same surface, gives all weight to the one nearest to the tangent plane.
 static inline void take_nearest(Weights* w, mask alone, Site s, Frame frame, PLANE low_depth) {
   real nearest = REAL_INFINITY, total = 0;
   for (int j = 0; j < s.rows; ++j) {
@@ -99,7 +99,7 @@ static inline void take_nearest(Weights* w, mask alone, Site s, Frame frame, PLA
   w->total = choose(alone, total, w->total);
 }
 
-// Of the four those that show the same surface.
+// Weights of those of the four that show the same surface.
 static inline Weights weights_of_same(Site s, Frame frame, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
                                       PLANE low_normal_z) {
   Weights w;

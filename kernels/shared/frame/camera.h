@@ -1,12 +1,12 @@
-// Positions. Everything is relative to the pixel at hand and in units of its depth, so that nothing overflows, nothing
-// depends on the unit of the scene, and a sample on the pixel itself is exactly zero.
+// Positions. They are relative to the pixel at hand and in units of its depth, so that nothing overflows, the unit of the
+// scene does not matter, and a sample on the pixel itself is exactly zero.
 #ifndef GLOAM_CAMERA_H
 #define GLOAM_CAMERA_H
 
 #include "shared/lanes/load.h"
 #include "shared/lanes/math.h"
 
-// Depths further away than this, in depths of the pixel at hand, count as this: background has a finite position.
+// Larger depths, in depths of the pixel at hand, are set to this: background has a finite position.
 #define FARTHEST ((scalar)1e16)
 
 static inline mask is_background(real depth) { return isinf(depth); }
@@ -15,9 +15,9 @@ static inline mask is_background(real depth) { return isinf(depth); }
 typedef struct {
   real x, y;                // column and row
   real inverse_depth;       // 1 / z; 1 on background
-  real lateral;             // distances on the screen grow by this, in units of its depth: 1 (perspective) or 1 / z
+  real lateral;             // depths by which a distance on the screen grows: 1 (perspective) or 1 / z
   real across_x, across_y;  // distance between neighbouring pixels at its depth, in units of its depth
-  real ray_x, ray_y;        // how far a point moves sideways per unit of depth that it moves away; 0 if orthographic
+  real ray_x, ray_y;        // sideways move along the pixel's ray per unit of depth; 0 if orthographic
   mask background;
 } Anchor;
 
@@ -35,25 +35,25 @@ static inline Anchor anchor_at(Frame f, real x, real y, real depth) {
   return a;
 }
 
-// (depth - own depth) / own depth, for `towards`. `own` is the depth that the anchor was made with.
+// (depth - own) / own, for `towards`. `own`: the depth that the anchor was made with.
 static inline real relative_depth(Anchor a, real own, real depth) {
   return smaller((depth - own) * a.inverse_depth, (real)(FARTHEST));
 }
 
-// From the anchor's point to the point seen dx pixels to the right and dy pixels down, whose relative depth is e; in units
-// of the anchor's depth. View space: y up, camera looks along -z.
+// From the anchor's point to the point seen dx pixels to the right and dy pixels down at relative depth e, in units of the
+// anchor's depth. View space: y up, camera looks along -z.
 static inline real3 towards_near(Frame f, Anchor a, real dx, real dy, real e) {
   const real ray_x = multiply_add(dx, (real)(f.scale_x * f.perspective), a.ray_x);
   const real ray_y = multiply_add(dy, (real)(-f.scale_y * f.perspective), a.ray_y);
   return make3(multiply_add(e, ray_x, dx * a.across_x), multiply_add(e, ray_y, dy * -a.across_y), -e);
 }
 
-// The same for the point seen at pixel (x, y).
+// As towards_near, for the point seen at pixel (x, y).
 static inline real3 towards(Frame f, Anchor a, real x, real y, real e) {
   return towards_near(f, a, x - a.x, y - a.y, e);
 }
 
-// The same in every mode, for what decides which pixel is read.
+// As towards, with the same bits in every mode: for what decides which pixel is read.
 static inline real3 exactly_towards(Frame f, Anchor a, real x, real y, real e) {
   const real dx = x - a.x, dy = y - a.y;
   const real ray_x = dx * (f.scale_x * f.perspective) + a.ray_x, ray_y = dy * (-f.scale_y * f.perspective) + a.ray_y;

@@ -1,5 +1,5 @@
-// What a kernel knows of the frame: its size in memory, its camera, the seed. One text for both sides; the host
-// includes it once with FRAME_SCALAR float and once with double.
+// The frame as kernels see it: its size in memory, its camera, the seed. Kernels and host share this text; the host includes
+// it once with FRAME_SCALAR float and once with double.
 //
 // The camera (camera.h): x = (px - centre_x) * scale_x * (perspective * z + parallel), y upwards likewise, with
 // (perspective, parallel) = (1, 0), or (0, 1) for an orthographic camera.
@@ -22,7 +22,8 @@ typedef struct {
   FRAME_SCALAR perspective, parallel;  // (1, 0) or (0, 1)
 } FRAME_NAME;
 
-// The other view, or this one in the frame before: what is at p in this view's space (scene units) is at rotation * p + translation in the other's.
+// The other view, or this view in the frame before. A point p in this view's space (scene units) is rotation * p + translation in
+// the other's.
 typedef struct {
   FRAME_NAME frame;
   FRAME_SCALAR rotation[9];  // by rows

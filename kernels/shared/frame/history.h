@@ -1,20 +1,20 @@
-// What the frame before showed of a surface, and how far it is believed (temporal reprojection: Yang, Liu, Salvi 2020, "A Survey of
-// Temporal Antialiasing Techniques", sections 3 and 4).
+// What the frame before showed of a surface, and how far its values may be used (temporal reprojection: Yang, Liu, Salvi 2020, "A
+// Survey of Temporal Antialiasing Techniques", sections 3 and 4).
 #ifndef GLOAM_HISTORY_H
 #define GLOAM_HISTORY_H
 
 #include "shared/sampling/sample.h"
 
-// The four pixels of the frame before around a place; their weights add up to 1 over those that count: surfaces about as far away, of
-// which something was kept.
+// The four pixels of the frame before around a position. Only pixels count that show a surface at about the same depth and for
+// which something was kept; their weights add up to 1.
 typedef struct {
   integer pixel[4];  // from the plane's start
   real weight[4];
-  mask is_known;  // there is one
+  mask is_known;  // at least one counts
 } Past;
 
-// `x`, `y`: the place, in pixels from the middle of the first. `depth`: of the surface, where `counts`; its depth may have
-// changed by so large a share.
+// `x`, `y`: the position, in pixels from the centre of the first pixel. `depth`: the surface's, where `counts`. `same_depth`: share
+// by which the depth may have changed.
 static inline Past past_at(Frame frame, PLANE history_depth, PLANE history_frames, real x, real y, real depth,
                            scalar same_depth, mask counts) {
   Past past;
@@ -41,7 +41,7 @@ static inline Past past_at(Frame frame, PLANE history_depth, PLANE history_frame
   return past;
 }
 
-// 0 where nothing is known.
+// Weighted mean of a plane; 0 where nothing is known.
 static inline real value_of(Past past, PLANE plane) {
   real value = 0;
   for (int k = 0; k < 4; ++k)
@@ -49,11 +49,11 @@ static inline real value_of(Past past, PLANE plane) {
   return value;
 }
 
-// Which neighbours of a row of pixels show a surface about as far away: every second pixel of 5 x 5, as filtered ones are alike where they
-// touch.
+// Neighbours of a row of pixels that show a surface at about the same depth: every second pixel of 5 x 5, since filtered neighbours
+// that touch are alike.
 typedef struct {
   mask counts[9];
-  real share;  // of each in their mean
+  real share;  // weight of each in their mean
 } Alike;
 
 static inline int around_column(int i) { return 2 * (i % 3) - 2; }
@@ -73,7 +73,7 @@ static inline Alike alike_around(Frame frame, PLANE depth, real own, scalar same
   return alike;
 }
 
-// Their mean, and their mean deviation from it. Deviations are not squared: radiance may be large.
+// Mean of the neighbours, and their mean absolute deviation from it: not squared, as radiance may be large.
 typedef struct {
   real mean, deviation;
 } Around;
@@ -93,7 +93,7 @@ static inline Around around_of(Frame frame, Alike alike, PLANE plane) {
   return a;
 }
 
-// A value brought as near to the neighbours' mean as `within` times their deviation.
+// A value clamped to `within` deviations around the neighbours' mean.
 static inline real kept_near(Around a, real value, scalar within) {
   const real reach = within * a.deviation;
   return clamp(value, a.mean - reach, a.mean + reach);

@@ -1,4 +1,4 @@
-// A pixel's point as the other of two views sees it, or the view itself in the frame before (frame.h).
+// A pixel's point as the other of two views sees it, or as this view saw it in the frame before (frame.h).
 #ifndef GLOAM_NEIGHBOUR_H
 #define GLOAM_NEIGHBOUR_H
 
@@ -11,7 +11,7 @@ static inline real3 rotated(Neighbour n, real3 v) {
                n.rotation[6] * v.x + n.rotation[7] * v.y + n.rotation[8] * v.z);
 }
 
-// View space, scene units, of what pixel (x, y) shows at this depth.
+// The point that pixel (x, y) shows at this depth: view space, scene units.
 static inline real3 position_at(Frame f, real x, real y, real depth) {
   const real lateral = f.perspective * depth + f.parallel;
   return make3((x + (scalar)0.5 - f.centre_x) * f.scale_x * lateral,
@@ -34,8 +34,8 @@ static inline real3 back_from_other(Neighbour n, real3 q) {
   return rotated_back(n, make3(q.x - n.translation[0], q.y - n.translation[1], q.z - n.translation[2]));
 }
 
-// Where a view shows a point of its space: column and row, not rounded, and its depth there. `is_seen`: it lies before that eye
-// and in its image, in front of other surfaces or behind them; elsewhere the numbers are safe and mean nothing.
+// Where a view shows a point of its space: column and row, not rounded, and the depth. `is_seen`: the point lies before the eye and
+// within the image, hidden or not. Where it does not, the numbers can be used safely but mean nothing.
 typedef struct {
   real x, y, depth;
   mask is_seen;
@@ -59,14 +59,14 @@ static inline Projection project_into(Neighbour n, real3 p, mask is_there) {
   return project_onto(n.frame, into_other(n, p), is_there);
 }
 
-// What the row of pixels that the work-item computes shows, at depth z.
+// Projects what the work-item's row of pixels shows at depth z.
 static inline Projection project_row(Frame f, Neighbour n, real z) {
   const mask is_surface = !is_background(z);
   return project_into(n, position_at(f, to_real(FIRST_X + IOTA), (real)(ROW_Y), choose(is_surface, z, (real)(1))),
                       is_surface);
 }
 
-// A point that need not lie on a pixel, and the pixel nearest to it.
+// A point that need not lie on a pixel centre, and the pixel nearest to it.
 typedef struct {
   integer column, row, index;
   real left, up;  // from the point to the pixel
@@ -82,9 +82,9 @@ static inline Centre centre_of(Frame f, Anchor point) {
   return c;
 }
 
-// The pixel (dx, dy) from a centre, as an index from the plane's start. `within`: SAMPLES_INSIDE, or SAMPLES_CLAMPED: what lies
-// outside the image is moved onto its border, and then is not inside. Both are the same to the last bit for what lies inside:
-// lanes must not depend on one another.
+// Index from the plane's start of the pixel (dx, dy) from a centre. `within`: SAMPLES_INSIDE or SAMPLES_CLAMPED; the latter moves
+// pixels outside the image onto its border and clears `is_inside`. Pixels inside get the same bits with both, so that no lane
+// depends on another.
 static inline __attribute__((always_inline)) integer place_around(Frame f, Centre c, int within, integer* dx,
                                                                   integer* dy, mask* is_inside) {
   *is_inside = EVERY_LANE;

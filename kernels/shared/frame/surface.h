@@ -1,13 +1,13 @@
-// How far a neighbouring pixel shows the same surface, for filters that stop at edges (Petschnigg et al. 2004, Eisemann
-// and Durand 2004): by its distance from the pixel's tangent plane and by the angle between the normals.
+// How far a neighbouring pixel shows the same surface, for edge-preserving filters (Petschnigg et al. 2004, Eisemann and
+// Durand 2004): by its distance from the pixel's tangent plane and by the angle between the normals.
 #ifndef GLOAM_SURFACE_H
 #define GLOAM_SURFACE_H
 
 #include "shared/frame/camera.h"
 #include "shared/lanes/math.h"
 
-// A pixel's tangent plane, in units of the tolerances. Lengths are scene units before that, so that a pixel costs no
-// division; depths are only ever subtracted from one another first, so that a plane stays flat.
+// A pixel's tangent plane, in units of the tolerances. It is made in scene units, so that a pixel costs no division; depths
+// are only used as differences, so that a plane stays flat.
 typedef struct {
   real depth;
   real per_depth;            // distance from the plane per unit of depth along the pixel's own ray
@@ -26,12 +26,12 @@ static inline scalar one_minus_cosine(scalar angle) {
   return 2 * sine * sine;
 }
 
-// `distance`: from the plane, scene units, and `angle`: between the normals, radians, 0 to pi, at which a neighbour no
-// longer counts.
+// `distance` from the plane (scene units) and `angle` between the normals (radians, 0 to pi) at which a neighbour no longer
+// counts.
 static inline TangentPlane tangent_plane_at(Frame f, real x, real y, real depth, real3 normal, scalar distance,
                                             scalar angle) {
   TangentPlane p;
-  // At a tolerance of 0 what lies in the plane exactly counts.
+  // With a tolerance of 0, exactly coplanar neighbours still count.
   const scalar per_distance = distance > (scalar)1e-20f ? (scalar)1 / distance : (scalar)1e20f;
   const scalar allowed = one_minus_cosine(angle);
   const scalar per_cosine = (scalar)1 / (allowed > (scalar)1e-6f ? allowed : (scalar)1e-6f);
@@ -44,22 +44,21 @@ static inline TangentPlane tangent_plane_at(Frame f, real x, real y, real depth,
   return p;
 }
 
-// Distance of a neighbour from the plane. `step`: columns * per_column + rows * per_row to it. Not a number where it is
-// background.
+// Distance of a neighbour from the plane; NaN for background. `step`: columns * per_column + rows * per_row to the neighbour.
 static inline real distance_from(TangentPlane p, Frame f, real step, real depth) {
   const real pixel = multiply_add((real)(f.perspective), depth, (real)(f.parallel));
   return multiply_add(depth - p.depth, p.per_depth, pixel * step);
 }
 
-// 1 where a neighbour's normal is the plane's, falling with the cosine to 0 at the tolerance and below 0 beyond.
+// 1 where a neighbour's normal equals the plane's; falls with the cosine to 0 at the tolerance and below 0 beyond it.
 static inline real signed_agreement(TangentPlane p, real3 n) {
   return multiply_add(n.x, p.normal.x, multiply_add(n.y, p.normal.y, multiply_add(n.z, p.normal.z, (real)(p.square))));
 }
 
-// 1 where a neighbour's normal is the plane's, 0 from the tolerance on.
+// 1 where a neighbour's normal equals the plane's, 0 from the tolerance on.
 static inline real agreement(TangentPlane p, real3 n) { return larger(signed_agreement(p, n), (real)(0)); }
 
-// 1 on the same plane with the same normal, 0 from the tolerances on and on background.
+// 1 on the same plane with the same normal; 0 from the tolerances on, and for background.
 static inline real same_surface(TangentPlane p, Frame f, real step, real depth, real3 n) {
   return larger(1 - fabs(distance_from(p, f, step, depth)), (real)(0)) * agreement(p, n);
 }

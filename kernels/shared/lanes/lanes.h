@@ -1,11 +1,11 @@
 // One kernel source for CPUs (a work-item is a row of LANES pixels) and GPUs (LANES = 1).
 //
-// real, integer, natural, mask: one value per lane. `real` is float, or double with -D REAL_DOUBLE; a mask has the
-// width of `real`, so that it can choose between reals. scalar: one value for all lanes, of real's type.
+// real, integer, natural, mask: one value per lane. `real` is float, or double with -D REAL_DOUBLE; a mask is as wide as
+// `real`, so that it can choose between reals. scalar: one value for all lanes, of real's type.
 #ifndef GLOAM_LANES_H
 #define GLOAM_LANES_H
 
-// Contraction would move sample coordinates to the neighbouring pixel now and then: off in every mode.
+// Off in every mode: contraction would now and then move a sample to a neighbouring pixel.
 #pragma OPENCL FP_CONTRACT OFF
 
 #define JOIN_(a, b) a##b
@@ -48,7 +48,7 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 #define to_integer JOIN(convert_, N_LANES(int))
 #define to_natural JOIN(convert_, N_LANES(uint))
 #define to_stored JOIN(convert_, N_LANES(float))
-#define as_integer JOIN(as_, N_LANES(int))  // the bits of `stored`, and back
+#define as_integer JOIN(as_, N_LANES(int))  // the bits of a `stored`; as_stored: back
 #define as_natural JOIN(as_, N_LANES(uint))
 #define as_stored JOIN(as_, N_LANES(float))
 
@@ -66,7 +66,7 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 #define EVERY_LANE ((mask)(LANES == 1 ? 1 : -1))
 
 #if LANES > 1
-// Whether a mask holds for any lane. `any` takes lanes one by one on CPUs; these are one instruction.
+// Whether a mask holds for any lane, in one instruction; `any` takes lanes one by one on CPUs.
 static inline int any_lane(mask m) {
 #if LANES == 16 && defined(__AVX512DQ__) && !defined(REAL_DOUBLE)
   return __builtin_ia32_cvtd2mask512(m) != 0;
@@ -80,7 +80,7 @@ static inline int any_lane(mask m) {
 }
 #endif
 
-// Per lane: all bits where a mask holds, else none.
+// Per lane: all bits set where a mask holds, else none.
 static inline natural bits_of(mask m) {
 #if LANES == 1
   return m ? ~0u : 0u;
@@ -89,7 +89,7 @@ static inline natural bits_of(mask m) {
 #endif
 }
 
-// Per lane: what a mask is for integers, to choose between them.
+// Per lane: a mask as an integer mask, to choose between integers.
 static inline integer integer_of(mask m) {
 #if LANES == 1
   return m;
@@ -118,8 +118,8 @@ static inline real lane_of(real v, integer from) {
 // Per lane: m ? a : b.
 static inline real choose(mask m, real a, real b) { return m ? a : b; }
 
-// The smaller and the larger of two, also where one is infinite (OpenCL 1.2 leaves min and max undefined there). NaN in
-// the first gives the second.
+// The smaller and the larger of two, defined for infinities too (OpenCL 1.2 leaves min and max undefined there). If the first
+// is NaN, the result is the second.
 static inline real smaller(real a, real b) { return a < b ? a : b; }
 static inline real larger(real a, real b) { return a > b ? a : b; }
 

@@ -12,12 +12,12 @@
 #define FIRST_X ((int)get_global_id(0) * LANES)
 #define ROW_Y ((int)get_global_id(1))
 
-// Where pixel (x, y) lies. Up to FRAME_GUARD pixels left and right of a row may be loaded: they belong to other rows or
-// to the guard, and the caller leaves them out by their x.
+// Index of pixel (x, y). Up to FRAME_GUARD pixels left and right of a row may be loaded: they belong to other rows or to the
+// guard, and the caller ignores them by their x.
 static inline int index_of(Frame f, int x, int y) { return FRAME_GUARD + y * f.pitch + x; }
 
-// A stack is one buffer with its layers one after another: this is one of them, a plane like any other. How many there
-// are is a constant of the program (plan.h).
+// One layer of a stack, a buffer with its layers one after another; it is used like any plane. The number of layers is a
+// constant of the program (plan.h).
 static inline global const float* layer_of(global const float* stack, Frame f, int layer) {
   return stack + (size_t)layer * (2 * FRAME_GUARD + (size_t)f.pitch * f.height);
 }
@@ -56,7 +56,7 @@ static inline real3 gather3(PLANE x, PLANE y, PLANE z, integer i) {
   return make3(gather(x, i), gather(y, i), gather(z, i));
 }
 
-// One value per lane to one index each. Lanes of the same index have the same value.
+// Writes one value per lane to one index each. Lanes that share an index must have the same value.
 static inline void scatter(real value, PLANE_OUT plane, integer i) {
   const stored v = to_stored(value);
 #if LANES == 1
@@ -68,7 +68,7 @@ static inline void scatter(real value, PLANE_OUT plane, integer i) {
 #endif
 }
 
-// Values of two planes stored side by side, pixel by pixel: `pairs` is where the first pixel's lie.
+// Values of two planes stored side by side, pixel by pixel. `pairs`: where the first pixel's pair lies.
 static inline void gather_pair(global const float* pairs, integer i, real* first, real* second) {
 #if LANES == 1
   *first = to_real(pairs[2 * i]);
@@ -93,7 +93,7 @@ static inline void gather_pair(global const float* pairs, integer i, real* first
 #endif
 }
 
-// Writes such pairs, of the row of pixels from index `i` on.
+// Writes the pairs of the row of pixels from index `i` on.
 static inline void store_pair(real first, real second, global float* pairs, int i) {
 #if LANES == 1
   pairs[2 * i] = to_stored(first);
@@ -110,13 +110,13 @@ static inline void store_pair(real first, real second, global float* pairs, int 
 #endif
 }
 
-// Four planes side by side.
+// As store_pair, for four planes side by side.
 static inline void store_four(real first, real second, real third, real fourth, global float* fours, int i) {
 #if LANES == 1
   store_pair(first, second, fours, 2 * i);
   store_pair(third, fourth, fours, 2 * i + 1);
 #else
-  // As pairs of pairs: of the first and third, of the second and fourth.
+  // As pairs of pairs: (first, third) and (second, fourth).
   const stored a = to_stored(first), b = to_stored(second), c = to_stored(third), d = to_stored(fourth);
   stored low_ac, high_ac, low_bd, high_bd;
   low_ac.even = a.lo;
@@ -132,10 +132,10 @@ static inline void store_four(real first, real second, real third, real fourth, 
 #endif
 }
 
-// From the first lane's pixel to those dx pixels to the right of and dy pixels below each lane's own, as an index.
+// Index, from the first lane's pixel, of the pixel dx to the right of and dy below each lane's own.
 static inline integer index_near(Frame f, integer dx, integer dy) { return dy * f.pitch + (dx + IOTA); }
 
-// The same where |dy| and the pitch are below SHORT_PITCH: on AVX-512 a multiplication of 16 bits takes half the time of one of 32.
+// As index_near, where |dy| and the pitch are below SHORT_PITCH: on AVX-512 a 16-bit product takes half as long as a 32-bit one.
 #define SHORT_PITCH 32768
 static inline integer index_near_short(Frame f, integer dx, integer dy) {
 #if LANES == 16 && defined(__AVX512BW__)

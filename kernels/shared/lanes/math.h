@@ -1,11 +1,11 @@
-// Functions with two prices. MATH_FAST: stated maximum error. Otherwise exact, so that every lane width and every CPU
-// device gives the same bits. Whatever decides which pixel is read stays exact in both modes.
+// Functions in two modes. MATH_FAST: with the maximum error stated. Otherwise exact: the same bits for every lane width and CPU
+// device. What decides which pixel is read is exact in both modes.
 #ifndef GLOAM_MATH_H
 #define GLOAM_MATH_H
 
 #include "shared/lanes/lanes.h"
 
-// PoCL compiles for the CPU at hand with Clang, which tells what it has. No OpenCL function becomes just one of these
+// PoCL compiles for the CPU at hand with Clang, which defines its features. No OpenCL function compiles to exactly one of these
 // instructions.
 #if LANES == 16 && defined(__AVX512F__)
 #define X86_NEAREST(x) __builtin_ia32_cvtps2dq512_mask(x, (integer)(0), (short)-1, 4)
@@ -28,7 +28,7 @@ static inline integer nearest(real x) {
 #endif
 }
 
-// a * b + c for what does not decide which pixel is read. Fast: rounded once where the device does that at full speed.
+// a * b + c, for what does not decide which pixel is read. Fast: rounded once where the device does that at full speed.
 static inline real multiply_add(real a, real b, real c) {
 #if defined(MATH_FAST) && (defined(FP_FAST_FMAF) || defined(__FMA__)) && !defined(REAL_DOUBLE)
   return fma(a, b, c);
@@ -39,10 +39,9 @@ static inline real multiply_add(real a, real b, real c) {
 
 static inline real fused_dot3(real3 a, real3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
 
-// 2 / sqrt(x) for x > 0: the factor saves the fast one a multiplication.
-// Fast: on lanes, a guess and Newton steps; on one lane the device's own. The guess is the CPU's (12 or 14 bits) and one
-// step follows, relative error below 5e-7; or it is exponent arithmetic, then one tuned and one plain step follow
-// (Lomont 2003; constants of Kadlec 2010), relative error below 7e-7.
+// 2 / sqrt(x) for x > 0; the factor 2 saves the fast mode a multiplication. Fast: one lane uses the device's own. Several lanes
+// refine a guess by Newton steps: the CPU's guess (12 or 14 bits) by one step, relative error below 5e-7; or a guess from
+// exponent arithmetic by a tuned and a plain step (Lomont 2003; constants of Kadlec 2010), relative error below 7e-7.
 static inline real twice_inverse_sqrt(real x) {
 #if !defined(MATH_FAST) || defined(REAL_DOUBLE)
   return (scalar)2 / sqrt(x);
@@ -71,18 +70,18 @@ static inline real quick_inverse(real x) {
 #endif
 }
 
-// The rough functions are off by a little in every mode, which may move a sample and must be no error of what is found
-// there; they have the same bits everywhere. A guess from the exponent, then a step or two (Lomont 2003; Moroz et al.
-// 2021; constants of Kadlec 2010).
+// The rough functions have the same error and the same bits in every mode and on every device. They may only decide where a
+// sample lies, not what is computed from it. A guess from the exponent, then one or two steps (Lomont 2003; Moroz et al. 2021;
+// constants of Kadlec 2010).
 
-// For 0 to 1: relative error below 7e-4.
+// sqrt(u), 0 <= u <= 1: relative error below 7e-4.
 static inline real rough_square_root(real u) {
   const stored x = to_stored(u);
   const stored guess = as_stored((integer)0x5f1ffff9 - (as_integer(x) >> 1));
   return to_real(x * guess * (0.703952253f * (2.38924456f - x * guess * guess)));
 }
 
-// For 0 to 1: relative error below 6e-5.
+// Cube root, 0 <= u <= 1: relative error below 6e-5.
 static inline real rough_cube_root(real u) {
   const stored x = to_stored(u);
   const integer third = to_integer(to_stored(as_integer(x)) * 0.33333334f);
@@ -100,17 +99,17 @@ static inline real rough_inverse(real q) {
   return to_real(inverse * (2.0f - x * inverse));
 }
 
-// |v|^2, and a little that keeps 0/0 away where v is 0: far below the square of what counts (1e-15 depths).
+// |v|^2, plus a term far below any square that counts (1e-15 depths) that keeps 0/0 away where v is 0.
 static inline real square_of(real3 v) {
   return multiply_add(v.x, v.x, multiply_add(v.y, v.y, multiply_add(v.z, v.z, (real)(1e-30f))));
 }
 
 static inline real3 normalise3(real3 v) { return scale3(v, inverse_sqrt(dot3(v, v))); }
-// The same in every mode, for directions that decide which pixel is read.
+// A unit vector with the same bits in every mode, for directions that decide which pixel is read.
 static inline real3 exactly_normalised(real3 v) { return scale3(v, (scalar)1 / sqrt(dot3(v, v))); }
 
 // Cosine and sine of a number of whole turns, 0 <= turns <= 1. Taylor polynomials about the nearest quarter turn, in
-// plain multiplications and additions: the same bits everywhere. Absolute error below 3e-7 in float, 1e-13 in double.
+// multiplications and additions: the same bits on every device. Absolute error below 3e-7 in float, 1e-13 in double.
 static inline void cosine_sine_of_turns(real turns, real* cosine, real* sine) {
   const real quarter = floor(turns * 4 + (scalar)0.5);
   const real a = (turns - quarter * (scalar)0.25) * (scalar)6.283185307179586;  // -pi/4 .. pi/4

@@ -1,5 +1,5 @@
-// A technique's parameters, written once as a list and used four times: host struct with defaults, kernel struct, size
-// check on both sides, and the table behind flags, JSON, range errors and docs.
+// A technique's parameters, written once as a list and used four times: as the host's struct with defaults, as the kernel's
+// struct, for the size check on both sides, and as the table behind flags, JSON, range errors and docs.
 //
 //   #define NAME_PARAMS(P)
 //     P(float,  radius,     0.5f, 0, INFINITY, "scene units", "reach of an occluder")
@@ -8,7 +8,7 @@
 //     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
 //   PARAMS(NameParams, NAME_PARAMS)
 //
-// Kernels call the struct of the technique that they run for Params: they are compiled with -D Params=NameParams.
+// Kernels name the struct Params, and are compiled with -D Params=NameParams.
 // Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints.
 #ifndef GLOAM_PARAMS_H
 #define GLOAM_PARAMS_H

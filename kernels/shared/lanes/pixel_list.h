@@ -1,8 +1,8 @@
-// Pixels that are left to be computed, one after another, so that lanes stand for pixels of anywhere: a list instead of a mask
-// over the whole image. It lies in a plane's memory: how many there are, and from FRAME_GUARD on their indices.
+// A list of the pixels that are left to be computed: lanes take any pixels, where a mask would need a pass over the whole
+// image. The list lies in a plane's memory: the number of pixels first, and their indices from FRAME_GUARD on.
 //
-// The order is that in which work-items come to append, and differs from run to run; a kernel that computes each pixel by
-// itself gives the same image all the same.
+// Work-items append in any order, so the order differs from run to run; a kernel that computes each pixel independently gives
+// the same image all the same.
 #ifndef GLOAM_PIXEL_LIST_H
 #define GLOAM_PIXEL_LIST_H
 
@@ -13,7 +13,7 @@
 
 static inline void empty_list(PIXEL_LIST_OUT list) { ((global int*)list)[0] = 0; }
 
-// Appends those of the row of pixels from index `here` on for which a mask holds.
+// Appends the pixels of the row from index `here` on for which a mask holds.
 static inline void append_pixels(PIXEL_LIST_OUT list, int here, mask which) {
   if (!ANY(which)) return;
   global int* entries = (global int*)list;
@@ -32,11 +32,11 @@ static inline void append_pixels(PIXEL_LIST_OUT list, int here, mask which) {
 #endif
 }
 
-// The pixels of this work-item, one for each lane; 0 where the list has come to its end. Launched as for all pixels of the
-// image. Lanes for which nothing is left have the first lane's pixel.
+// The pixels of this work-item, one per lane, and how many there are: 0 at the end of the list. Launched as for all pixels of
+// the image. Lanes left over get the first lane's pixel.
 static inline int pixels_of_item(PIXEL_LIST list, Frame f, integer* index) {
   global const int* entries = (global const int*)list;
-  // Down the columns of items: devices hand out the image row by row, and the first rows would get all there is to do.
+  // Down the columns of work-items: devices start the image row by row, and the first rows would get all the work.
   const int first = FIRST_X * f.height + ROW_Y * LANES, count = entries[0];
   if (first >= count) return 0;
   entries += FRAME_GUARD + first;

@@ -1,6 +1,6 @@
-// Reading the other of two views at a pixel for each lane. Along most surfaces these follow one another as this view's pixels
-// do, but for a step of one pixel now and then: two loads are quicker then than a gather. Of a reduced view (upsample.h) several
-// lanes share a pixel, and one load holds those of all lanes.
+// Reading the other of two views at a pixel per lane. Along most surfaces these pixels follow one another, but for a step of one
+// pixel now and then: two loads are quicker than a gather. In a reduced view (upsample.h) several lanes share a pixel, and one
+// load holds those of all lanes.
 #ifndef GLOAM_PIXEL_ROW_H
 #define GLOAM_PIXEL_ROW_H
 
@@ -8,12 +8,12 @@
 
 typedef struct {
   integer column, row;  // of each lane
-  int first_column, y;  // of the first lane before the step, and of all
-  mask is_further;      // behind the step
-  integer lane;         // of those that a load from the first column on fills, the one that holds each lane's pixel
+  int first_column, y;  // column of the first lane before the step; row of all lanes
+  mask is_further;      // lanes behind the step
+  integer lane;         // lane of a load from the first column on that holds each lane's pixel
 } PixelRow;
 
-// How the pixels of lanes lie.
+// How the lanes' pixels are arranged.
 #define ANYWHERE 0
 #define IN_A_ROW 1       // one after another
 #define WITHIN_A_LOAD 2  // in a row, and in no more columns than there are lanes
@@ -35,7 +35,7 @@ static inline int lowest_lane(integer v) {
 #endif
 }
 
-// IN_A_ROW where the pixels of those lanes that count follow one another, else ANYWHERE. To be asked only where some lane counts.
+// IN_A_ROW where the pixels of the lanes that count follow one another, else ANYWHERE. Call it only if at least one lane counts.
 static inline int follow_in_a_row(integer column, integer row, mask counts, PixelRow* p) {
   const integer offset = column - (FIRST_X + IOTA), which = integer_of(counts);
   const int lowest = lowest_lane(which ? offset : (integer)(INT_MAX));
@@ -47,7 +47,7 @@ static inline int follow_in_a_row(integer column, integer row, mask counts, Pixe
   return ANY(counts & to_mask((offset > lowest + 1) | (row != p->y))) ? ANYWHERE : IN_A_ROW;
 }
 
-// The same: WITHIN_A_LOAD or ANYWHERE.
+// As follow_in_a_row, for WITHIN_A_LOAD or ANYWHERE.
 static inline int lie_within_a_load(integer column, integer row, mask counts, PixelRow* p) {
   const integer which = integer_of(counts);
   p->column = column;
@@ -59,8 +59,8 @@ static inline int lie_within_a_load(integer column, integer row, mask counts, Pi
   return ANY(counts & to_mask((lane != p->lane) | (row != p->y))) ? ANYWHERE : WITHIN_A_LOAD;
 }
 
-// Values at the pixels `dx` to the right of and `dy` below each lane's, moved onto the border of the image. `how`: they lie, as a
-// constant; lanes that do not count have any value unless it is ANYWHERE.
+// Values at the pixels `dx` to the right of and `dy` below each lane's, clamped to the image. `how`: their arrangement, a
+// constant. Unless it is ANYWHERE, lanes that do not count get any value.
 static inline __attribute__((always_inline)) real value_at(Frame f, global const float* plane, const PixelRow* p,
                                                            int dx, int dy, int how) {
   if (how != ANYWHERE) {

@@ -1,9 +1,9 @@
-// Which pixels of the image are wanted, where a mask leaves some out: one bit for each, 32 pixels in a word. Word k of a row
-// lies where the row's pixel k would, in a plane's memory.
+// The pixels of an image that a mask wants: one bit per pixel, 32 pixels to a word. Word k of a row lies where the row's pixel k
+// would, in a plane's memory.
 //
-// A kernel that skips rows of pixels has the argument WANTED_ARGUMENT before those that it writes, and SKIP_UNWANTED as its
+// A kernel that skips unwanted rows of pixels has the argument WANTED_ARGUMENT before its outputs, and SKIP_UNWANTED as its
 // first line.
-// -D MASKED; KEEP (rows that are left out keep what they hold)
+// -D MASKED; KEEP (skipped rows keep their values)
 #ifndef GLOAM_WANTED_H
 #define GLOAM_WANTED_H
 
@@ -14,13 +14,13 @@
 
 static inline int words_of_row(Frame f) { return (f.width + 31) / 32; }
 
-// The bits of a word that lie in the image.
+// The bits of a word whose pixels lie in the image.
 static inline uint bits_in_frame(Frame f, int k) {
   const int left = f.width - 32 * k;
   return left >= 32 ? 0xffffffffu : (1u << left) - 1;
 }
 
-// Bit i: whether a mask holds for lane i.
+// Bit i: the mask of lane i.
 static inline uint bit_of_each_lane(mask m) {
 #if LANES == 1
   return m ? 1u : 0u;
@@ -39,7 +39,7 @@ static inline uint bit_of_each_lane(mask m) {
 #endif
 }
 
-// The row of pixels that a work-item computes.
+// The wanted pixels of a work-item's row.
 static inline mask wanted_in_row(WANTED wanted, Frame f) {
   const uint word = ((global const uint*)wanted)[index_of(f, FIRST_X / 32, ROW_Y)] >> (FIRST_X % 32);
 #if LANES == 1
@@ -55,8 +55,8 @@ static inline mask wanted_in_row(WANTED wanted, Frame f) {
 #define OPEN_UNLESS_KEPT(STORE) STORE;
 #endif
 
-// Makes `is_wanted`. A kernel returns where nothing of its row is, once it has STOREd at index `here` what pixels that are left
-// out hold.
+// Defines `is_wanted`. If no pixel of the row is wanted, the kernel returns after STORE, which writes the values of skipped
+// pixels at index `here`.
 #if MASKED
 #define WANTED_ARGUMENT WANTED wanted,
 #define SKIP_UNWANTED(frame, STORE)                    \

@@ -17,7 +17,7 @@ static inline void tangents_of(real3 n, real3* first, real3* second) {
   *second = make3(b, sign + n.y * n.y * a, -n.y);
 }
 
-// A microfacet's normal as seen from `v`, of all that are seen (Dupuy and Benyoub 2023); `u`, `turn`: 0 to 1.
+// Normal of a microfacet, drawn from those visible from `v` (Dupuy and Benyoub 2023); `u`, `turn`: random numbers, 0 to 1.
 static inline real3 visible_normal(real3 v, real alpha, real u, real turn) {
   const real3 w = exactly_normalised(make3(alpha * v.x, alpha * v.y, v.z));
   real cosine, sine;
@@ -28,40 +28,40 @@ static inline real3 visible_normal(real3 v, real alpha, real u, real turn) {
   return exactly_normalised(make3(alpha * h.x, alpha * h.y, larger(h.z, (real)(1e-6f))));
 }
 
-// In such a frame too: squared sine and tangent to the normal. Taken from x and y, since 1 - z^2 tells nothing near the normal.
+// Squared sine of a vector's angle to the normal. Taken from x and y: near the normal 1 - z^2 loses all digits.
 static inline real square_of_sine(real3 v) { return v.x * v.x + v.y * v.y; }
 static inline real square_of_tangent(real3 v) { return square_of_sine(v) / larger(v.z * v.z, (real)(1e-12f)); }
 
-// Of microfacets whose normal is h, of any length, per solid angle. No root is taken: where the lobe is narrow, its last bits count.
+// Density of microfacets with normal h (any length), per solid angle. Takes no root: in a narrow lobe its last bits would matter.
 static inline real ggx_density(real alpha, real3 h) {
   const real square = alpha * alpha, d = square * h.z * h.z + square_of_sine(h), length = dot3(h, h) / d;
   return square * length * length * (scalar)0.31830989f;
 }
 
-// Smith's Lambda: of a direction, microfacets hidden per one that is seen.
+// Smith's Lambda: the number of hidden microfacets per visible one, seen from direction v.
 static inline real hidden_per_seen(real alpha, real3 v) {
   return (scalar)0.5 * (sqrt(1 + alpha * alpha * square_of_tangent(v)) - 1);
 }
 
-// Per solid angle of reflected directions, the density of `visible_normal` seen from v. `hidden_v`: hidden_per_seen of v.
+// Density of directions reflected at `visible_normal`, per solid angle. `hidden_v`: hidden_per_seen of v.
 static inline real reflected_density(real alpha, real3 v, real3 h, real hidden_v) {
   return ggx_density(alpha, h) / (4 * v.z * (1 + hidden_v));
 }
 
-// The surface's BRDF times the cosine to the light, without Fresnel's term.
+// The BRDF times the cosine of the light, without Fresnel's term.
 static inline real reflected_share(real alpha, real3 v, real3 l, real3 h, real hidden_v) {
   return ggx_density(alpha, h) / (4 * v.z * (1 + hidden_v + hidden_per_seen(alpha, l)));
 }
 
-// Fresnel's term is reflectance + (1 - reflectance) * this; `cosine`: between light and microfacet.
+// Fresnel's term is reflectance + (1 - reflectance) * this. `cosine`: between light and microfacet.
 static inline real grazing_share(real cosine) {
   const real c = larger(1 - cosine, (real)(0)), square = c * c;
   return square * square * c;
 }
 
-// Of what comes in evenly from everywhere, the share that leaves towards a direction with cosine `nv`, without Fresnel's
-// term: the integral of `reflected_share`. A polynomial fitted to 20 000 samples for each of 50 x 65 pairs of roughness and
-// cosine from 0.005 on; largest error 0.0063.
+// Share of uniform incoming light that leaves in a direction with cosine `nv`, without Fresnel's term: the integral of
+// `reflected_share`. A polynomial fitted to 20 000 samples for each of 50 x 65 pairs of roughness and cosine from 0.005 on;
+// largest error 0.0063.
 static inline real directional_albedo(real roughness, real nv) {
   const real square = roughness * roughness, r = roughness;
   const real t = square / (square + (scalar)1.5f * larger(nv, (real)(0.005f)) + (scalar)1e-9f);

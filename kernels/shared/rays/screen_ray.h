@@ -1,36 +1,36 @@
-// A ray of view space as the image shows it: a line along which its nearness (1 / depth; orthographic: -depth) changes evenly.
-// It is followed from pixel to pixel, or by a hierarchy of cells of which each knows the nearest surface in it (Uludag 2014; the
-// line as in McGuire and Mara 2014).
+// A ray of view space as a line in the image along which its nearness (1 / depth; orthographic: -depth) changes evenly (McGuire
+// and Mara 2014). It is followed from pixel to pixel, or through a hierarchy of cells of which each holds its nearest surface
+// (Uludag 2014).
 //
-// Nearness is counted from the start, in units of what the start has: 0 there, -1 at infinity (perspective). So nothing has a
-// unit, and what lies close to the start is as exact as float is there.
+// Nearness is relative to the start, in units of the start's: 0 there, -1 at infinity (perspective). So the unit of the scene
+// does not matter, and surfaces close to the start are as exact as float is there.
 //
-// The hierarchy holds the largest nearness of each cell of 2^k x 2^k pixels for levels k = 0 .. LEVELS - 1, and a second one
-// the smallest, for levels 1 on (or from 0 on, where surfaces have backs). Cells lie in tiles of 16 x 16, one tile after another: a ray that goes up the image stays within a
-// few pages of memory, where rows of cells would put each of its steps into another one.
+// The hierarchy holds the largest nearness of each cell of 2^k x 2^k pixels for levels k = 0 .. LEVELS - 1, and in a second stack
+// the smallest, for levels from 1 on (from 0 on where surfaces have backs). Cells lie in tiles of 16 x 16, one tile after another:
+// a ray that goes up the image stays within a few pages of memory, where each row of cells would be another page.
 #ifndef GLOAM_SCREEN_RAY_H
 #define GLOAM_SCREEN_RAY_H
 
 #include "shared/frame/camera.h"
 
-// 1 / depth, or -depth through an orthographic camera: even along the image of a line or a plane. What is background has the least.
+// 1 / depth, or -depth for an orthographic camera: changes evenly along the image of a line or a plane. Background has the least.
 static inline real nearness_of(Frame f, real depth) { return f.perspective > 0 ? (scalar)1 / depth : -depth; }
 static inline scalar nearness_of_background(Frame f) { return f.perspective > 0 ? (scalar)0 : -(scalar)INFINITY; }
 
 typedef struct {
   real x, y;                  // where it starts: pixels, centres at 0.5
-  real per_x, per_y;          // pixels per step; the larger of both is 1
+  real per_x, per_y;          // pixels per step; the larger one is 1
   real inverse_x, inverse_y;  // steps per pixel
   real slope;                 // nearness per step
-  real inverse_slope;         // where it goes away; else 0
+  real inverse_slope;         // where the ray leads away from the eye; else 0
   real end;                   // steps to the border of the image, or to infinity
-  real steps_per_length;      // where its length, in depths of its start, is small
-  real own, unit;             // nearness of the start, and what brings differences of it into its units
-  real growth;                // depths of the start per length
+  real steps_per_length;      // steps per length, in depths of the start, for short rays
+  real own, unit;             // nearness of the start, and 1 / its unit
+  real growth;                // depth gained per length of the ray
   mask reaches_infinity;      // within the image
 } ScreenRay;
 
-// From a point seen at (point.x, point.y) at `depth`, with which `point` was made; `direction`: unit, view space.
+// A ray from the point seen at (point.x, point.y) at `depth`. `point`: made with that depth; `direction`: unit, view space.
 static inline ScreenRay screen_ray_of(Frame f, Anchor point, real depth, real3 direction) {
   ScreenRay r;
   r.x = point.x + (scalar)0.5;
@@ -38,7 +38,7 @@ static inline ScreenRay screen_ray_of(Frame f, Anchor point, real depth, real3 d
   r.growth = -direction.z;
   const real across = (direction.x - point.ray_x * r.growth) / point.across_x;
   const real down = -(direction.y - point.ray_y * r.growth) / point.across_y;
-  // A ray that stays within its pixel is followed by less than nothing.
+  // A ray that stays within its pixel still gets a length in steps: 0 would be divided by.
   r.steps_per_length = larger(larger(fabs(across), fabs(down)), (real)(1e-12f));
   const real per_step = (scalar)1 / r.steps_per_length;
   r.per_x = across * per_step;
@@ -59,7 +59,7 @@ static inline ScreenRay screen_ray_of(Frame f, Anchor point, real depth, real3 d
   return r;
 }
 
-// Length of the ray, in depths of its start, so many steps along; and back.
+// Length of the ray after `t` steps, in depths of its start; steps_to: the inverse.
 static inline real length_at(Frame f, ScreenRay r, real t) {
   const real u = t / r.steps_per_length;
   return u / larger(1 - f.perspective * r.growth * u, (real)(1e-16f));
@@ -69,24 +69,24 @@ static inline real steps_to(Frame f, ScreenRay r, real length) {
   return r.steps_per_length * length / larger(1 + f.perspective * r.growth * length, (real)(1e-16f));
 }
 
-// Whether a nearness lies so far before another, both as a ray has them, that depths differ by more than a share of the deeper.
+// Whether the depths of two relative nearnesses differ by more than `share` of the deeper one.
 static inline mask is_deeper_by(Frame f, real deeper, real nearer, scalar share) {
   return f.perspective > 0 ? (1 + nearer) > (1 + share) * (1 + deeper) : deeper < nearer - share * (1 - nearer);
 }
 
-// Where a ray is.
+// Position on a ray.
 typedef struct {
   real t;               // steps from its start
   integer column, row;  // pixel
-  integer level;        // of the cell that is looked at
+  integer level;        // of the cell at hand
 } Place;
 
-// What is left of the cell of a place.
+// The cell at a position, and where the ray leaves it.
 typedef struct {
-  integer x, y;         // cell of its level
-  integer right, down;  // 1 where the ray goes there
-  real out_x, out_y;    // steps at which it leaves by a side
-  real out;             // by whichever comes first
+  integer x, y;         // column and row of the cell in its level
+  integer right, down;  // 1 where the ray goes that way
+  real out_x, out_y;    // steps at which the ray leaves by a side
+  real out;             // by the side that comes first
 } Cell;
 
 static inline Cell cell_at(ScreenRay r, Place p) {
@@ -113,16 +113,16 @@ static inline Hierarchy hierarchy_of(global const float* nearness, global const 
   return h;
 }
 
-// Where a level begins, in stacks (load.h) of LEVELS + 1 layers. Level 0 has more rows than the image, to fill
-// its tiles: fewer than twice as many.
+// First layer of a level, in stacks (load.h) of LEVELS + 1 layers. Level 0 takes two: to fill its tiles it has more rows than the
+// image, fewer than twice as many.
 #define LAYER_OF(level) ((level) + min((level), 1))
 
 static inline int floats_of_layer(Frame image) { return 2 * FRAME_GUARD + image.pitch * image.height; }
 
-// Rows of a tile, as a power of two: an image of few rows has tiles of one.
+// log2 of the rows of a tile; an image of few rows has tiles of one row.
 static inline int tile_rows_shift(Frame image) { return image.height < 16 ? 0 : 4; }
 
-// Of the cell (x, y), from the start of its level. The 16 cells of a row of a tile follow one another.
+// Index of cell (x, y) from the start of its level. The 16 cells of a tile's row follow one another.
 static inline integer index_in_tiles(Frame image, integer x, integer y) {
   const int shift = tile_rows_shift(image);
   const integer tile = (y >> shift) * (image.pitch >> 4) + (x >> 4);
@@ -134,7 +134,7 @@ static inline int index_of_tile_row(Frame image, int x, int y) {
   return (((y >> shift) * (image.pitch >> 4) + (x >> 4)) << (shift + 4)) + ((y & ((1 << shift) - 1)) << 4) + (x & 15);
 }
 
-// The largest nearness in a cell; the smallest, for levels above 0.
+// The largest nearness in a cell; farthest_in: the smallest.
 static inline real nearest_in(Frame f, Hierarchy h, Place p, Cell c) {
   return gather(h.nearness, index_in_tiles(f, c.x, c.y) + LAYER_OF(p.level) * floats_of_layer(f));
 }
@@ -143,14 +143,14 @@ static inline real farthest_in(Frame f, Hierarchy h, Place p, Cell c) {
   return gather(h.farness, index_in_tiles(f, c.x, c.y) + LAYER_OF(p.level) * floats_of_layer(f));
 }
 
-// As the ray has it.
+// Nearness relative to the ray's start, in the ray's units.
 static inline real relative_nearness(ScreenRay r, real nearness) { return (nearness - r.own) * r.unit; }
 
 static inline integer within_cell(integer pixel, integer cell, integer level) {
   return clamp(pixel, cell << level, ((cell + 1) << level) - 1);
 }
 
-// The first pixel of the next cell, whole numbers deciding which: rounding neither stops the ray nor makes it skip a cell.
+// The first pixel of the next cell. Whole numbers decide which: rounding neither stops the ray nor makes it skip a cell.
 static inline Place leave_cell(ScreenRay r, Place p, Cell c, int top) {
   const integer by_x = integer_of(c.out_x <= c.out_y);
   const integer beside = ((c.x + c.right) << p.level) - (1 - c.right),
@@ -161,13 +161,13 @@ static inline Place leave_cell(ScreenRay r, Place p, Cell c, int top) {
   next.t = c.out;
   next.column = by_x ? beside : column;
   next.row = by_x ? row : below;
-  // Larger cells where it leaves the one that this cell is part of.
+  // Goes up a level where the ray leaves the cell of the next level too.
   const integer leaves = ((next.column ^ p.column) | (next.row ^ p.row)) >> (p.level + 1);
   next.level = leaves != 0 ? min(p.level + 1, (integer)(top)) : p.level;
   return next;
 }
 
-// Smaller cells, from where the ray comes down to the nearest surface.
+// Goes down a level, at the point where the ray comes down to the nearest surface.
 static inline Place enter_cell(ScreenRay r, Place p, Cell c, real nearest) {
   Place next;
   next.t = clamp(nearest * r.inverse_slope, p.t, c.out);

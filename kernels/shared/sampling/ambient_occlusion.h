@@ -1,24 +1,25 @@
-// What estimates of ambient occlusion have in common: parameters, the pixel at hand, and the way out.
+// What estimates of ambient occlusion have in common: parameters, receivers, and how the result is stored.
 #ifndef GLOAM_AMBIENT_OCCLUSION_H
 #define GLOAM_AMBIENT_OCCLUSION_H
 
 #include "shared/lanes/params.h"
 
-// Parameters of every technique that looks around a pixel.
-#define REACH_PARAMS(P)                                                                              \
-  P(float, radius, 0.5f, 0, INFINITY, "scene units", "reach of an occluder")                         \
-  P(float, max_reach, 0.25f, 0, 1, "image widths", "cap on the radius on the screen")                \
-  P(choice, outside, border, (border, open),                                                         \
-    "what lies beyond the border of the image: the surface at the border, or nothing that occludes") \
+// Parameters of every technique that samples around a pixel.
+#define REACH_PARAMS(P)                                                                      \
+  P(float, radius, 0.5f, 0, INFINITY, "scene units", "distance up to which occluders count") \
+  P(float, max_reach, 0.25f, 0, 1, "image widths", "cap on the radius on the screen")        \
+  P(choice, outside, border, (border, open),                                                 \
+    "what lies beyond the border of the image: the surface at the border, or no occluder")   \
   P(bool, jitter, on, "turn and shift the samples from pixel to pixel")
 
-// Those of every technique that looks at stochastic depths behind the depth (Vermeer, Scandolo, Eisemann 2021).
+// Parameters of every technique that uses stochastic depths behind the depth (Vermeer, Scandolo, Eisemann 2021).
 #define STOCHASTIC_PARAMS(P)                                                                                       \
   P(int, samples, 4, 1, 16, "", "stochastic depths per pixel")                                                     \
   P(choice, early_out, below, (off, below, on),                                                                    \
-    "where they are not looked at: nowhere; where the depth lies below the surface, since what is behind it lies " \
-    "lower still; on: nor where it is within reach, as in the paper")                                              \
-  P(float, compensation, 1, 0, 8, "", "factor on what they take away: they miss some of what is hidden")
+    "where hidden depths are skipped: off: nowhere; where the depth lies below the surface, as what is behind it " \
+    "lies "                                                                                                        \
+    "lower still; on: also where it is within reach, as in the paper")                                             \
+  P(float, compensation, 1, 0, 8, "", "factor on the occlusion by hidden depths, which miss some surfaces")
 
 #ifdef __OPENCL_VERSION__
 #include "shared/frame/camera.h"
@@ -26,7 +27,7 @@
 #include "shared/sampling/layers.h"
 #include "shared/sampling/sample.h"
 
-// The row of pixels that a work-item computes.
+// The points of the row of pixels that a work-item computes.
 typedef struct {
   integer x;
   int y, here;
@@ -34,12 +35,12 @@ typedef struct {
   real3 normal;
   Anchor point;
   Reach reach;
-  real farthest;          // depth from which on nothing is within the radius; 0 on background
+  real farthest;          // depth beyond which nothing is within the radius; 0 on background
   real clear_x, clear_y;  // least_distance
   Noise noise;
 } Receiver;
 
-// What is known of layers behind the first before they are read.
+// Bounds on layers behind the first, known before they are read.
 static inline void expect_behind(Receiver* r, Frame f, scalar radius) {
   r->farthest = choose(r->point.background, (real)(0), r->depth + radius);
   const scalar x = max(fabs(f.centre_x), fabs(f.width - f.centre_x)) * f.scale_x * f.perspective;
@@ -49,16 +50,16 @@ static inline void expect_behind(Receiver* r, Frame f, scalar radius) {
   r->clear_y = r->point.across_y * least;
 }
 
-// No point of the ray through a pixel dx to the right and dy below is nearer to the pixel's point than this, in units of its
-// depth: rays are no steeper than in the corners of the image.
+// Lower bound on the distance from the pixel's point to the ray through a pixel dx to the right and dy below, in units of the
+// pixel's depth: rays are no steeper than in the corners of the image.
 static inline real least_distance(Receiver r, real dx, real dy) { return fabs(dx) * r.clear_x + fabs(dy) * r.clear_y; }
 
-// From the pixel's point to what a depth shows (dx, dy) pixels away, in units of the pixel's depth.
+// From the pixel's point to the point at this depth (dx, dy) pixels away, in units of the pixel's depth.
 static inline real3 towards_depth(Frame f, Receiver r, real dx, real dy, real depth) {
   return towards_near(f, r.point, dx, dy, relative_depth(r.point, r.depth, depth));
 }
 
-// A point that a view shows, or would show, at (x, y): column and row, not rounded. The rest of it is the caller's.
+// A point that a view shows, or would show, at column x and row y, not rounded. The caller sets the members that are left.
 static inline Receiver receiver_of(Frame frame, scalar radius, scalar max_reach, real x, real y, real depth,
                                    real3 normal) {
   Receiver r;
@@ -84,7 +85,7 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
   return r;
 }
 
-// RESULT = CALL, with `within` as what holds for all samples up to `widest` (sample.h).
+// RESULT = CALL, with `within` set to what holds for all samples up to `widest` (sample.h).
 #define LOOK_AROUND(RESULT, frame, receiver, widest, CALL)           \
   if ((frame).pitch >= SHORT_PITCH) {                                \
     const int within = SAMPLES_IN_WIDE_FRAME;                        \
@@ -97,10 +98,10 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
     RESULT = CALL;                                                   \
   }
 
-// A pixel that is left out is as open as background, and has no directions either.
+// Treats unwanted pixels as background: open, and without directions.
 static inline void leave_out(Receiver* r, mask is_wanted) { r->point.background |= !is_wanted; }
 
-// Keeps within 0 to 1, and open on background.
+// Stores AO: clamped to 0 to 1, and 1 on background.
 static inline void store_open(real open, Receiver r, PLANE_OUT ao) {
   const real kept = smaller(larger(open, (real)(0)), (real)(1));
   store(choose(r.point.background, (real)(1), kept), ao, r.here);

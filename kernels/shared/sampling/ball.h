@@ -1,6 +1,6 @@
-// Points in the ball of the radius around a pixel's point, or in the half of it above the surface, even over its volume:
-// directions on a spherical Fibonacci spiral about the normal (Marques et al. 2013), distances by a second sequence.
-// Turned and shifted by the pixel's noise. Between two spheres with `inner` above 0.
+// Points in the ball of the radius around a pixel's point, or in the half of it above the surface, evenly spread over its
+// volume: directions on a spherical Fibonacci spiral about the normal (Marques et al. 2013), distances by a second sequence.
+// Turned and shifted by the pixel's noise. With `inner` above 0, a shell between two spheres.
 // -D SAMPLES, HEMISPHERE
 #ifndef GLOAM_BALL_H
 #define GLOAM_BALL_H
@@ -8,30 +8,30 @@
 #include "shared/sampling/ambient_occlusion.h"
 #include "shared/sampling/slice.h"
 
-// From point to point: sqrt(3) - 1, times 2^32. Of the irrational numbers tried beside the golden angle, the one with the
-// least error over random half spaces, for 8 to 1024 points.
+// Step of the distance sequence: sqrt(3) - 1, times 2^32. Of the irrational numbers tried beside the golden angle, the one with
+// the least error over random half spaces, for 8 to 1024 points.
 #define DISTANCE_STEP 0xbb67ae85u
 
-// Three vectors, of which points are made: unit and at right angles in space, or what the screen makes of those.
+// Three vectors that span the points: unit and orthogonal in space, or their images on the screen.
 typedef struct {
   real3 x, y, axis;
 } Axes;
 
 typedef struct {
   Axes axes;            // in space; `axis` is the surface's normal
-  real shift;           // of the distances, 0 to 1
+  real shift;           // shift of the distances, 0 to 1
   scalar inner_cubed;   // share of the ball that is left out
   scalar cosine, sine;  // of the next point, about the axis
 } Ball;
 
-// Where a point lies: a unit direction by its shares of the axes, and how far, in radii.
+// A point of the ball: its unit direction as shares of the axes, and its distance in radii.
 typedef struct {
   scalar x, y, axis;
   real distance;
 } BallPoint;
 
-// `axis`: unit. The other two by Frisvad 2012, then turned: steady but at the far end of the z axis, which a surface that
-// is seen comes near in views of almost 180 degrees alone; there they lose their length.
+// `axis`: unit. The other two axes by Frisvad 2012, then turned: continuous but at the far end of the z axis, where they lose
+// their length. Only views of almost 180 degrees see surfaces near there.
 static inline Ball ball_of(real3 axis, scalar inner, Noise noise) {
   const real a = (scalar)-1 / larger(1 + axis.z, (real)(1e-3f)), b = axis.x * axis.y * a;
   const real3 x = make3(1 + axis.x * axis.x * a, b, -axis.x);
@@ -49,14 +49,14 @@ static inline Ball ball_of(real3 axis, scalar inner, Noise noise) {
   return ball;
 }
 
-// How far away the point at this share of the volume lies, 0 to 1, once it is shifted by the pixel's noise.
+// Distance of the point at this share of the volume, in radii, shifted by the pixel's noise.
 static inline real distance_at(const Ball* ball, scalar share) {
   const real sum = ball->shift + share;
   const real fraction = choose(sum >= 1, sum - 1, sum);
   return rough_cube_root(ball->inner_cubed + (1 - ball->inner_cubed) * fraction);
 }
 
-// Point k of SAMPLES, to be asked for in order.
+// Point k of SAMPLES; call with k = 0, 1, ... in order.
 static inline BallPoint next_point(Ball* ball, int k) {
   BallPoint p;
   p.axis = HEMISPHERE ? (k + (scalar)0.5) * ((scalar)1 / SAMPLES) : 1 - (2 * k + 1) * ((scalar)1 / SAMPLES);
@@ -68,7 +68,7 @@ static inline BallPoint next_point(Ball* ball, int k) {
   return p;
 }
 
-// The point's direction, made of these axes.
+// The point's direction in terms of these axes.
 static inline real3 direction_of(BallPoint p, Axes a) {
   return make3(p.x * a.x.x + p.y * a.y.x + p.axis * a.axis.x, p.x * a.x.y + p.y * a.y.y + p.axis * a.axis.y,
                p.x * a.x.z + p.y * a.y.z + p.axis * a.axis.z);
@@ -78,17 +78,16 @@ static inline real3 direction_of(BallPoint p, Axes a) {
 typedef struct {
   Axes axes;                // pixels to the right and down, and how much nearer to the eye in depths of the pixel
   real pixels_x, pixels_y;  // radius at the pixel's depth
-  real radius;              // the same in units of that depth
-  real nearer;              // the same where what is nearer looks larger, else 0
+  real radius;              // radius in units of that depth
+  real nearer;              // the same for a perspective camera, else 0
 } BallOnScreen;
 
-// A vector of the length of the radius, on the screen.
+// Screen image of a vector as long as the radius.
 static inline real3 on_screen(BallOnScreen b, Anchor a, real3 v) {
   return make3((v.x + v.z * a.ray_x) * b.pixels_x, (v.y + v.z * a.ray_y) * -b.pixels_y, v.z * b.nearer);
 }
 
-// As large as the reach on both axes allows, and at most half as large as the pixel is deep, so that no point lies at the
-// eye or behind it.
+// As large as the reach on both axes allows, and at most half the pixel's depth, so that every point lies before the eye.
 static inline BallOnScreen ball_on_screen(Frame f, Anchor a, Reach reach, Axes axes) {
   BallOnScreen b;
   b.pixels_x = smaller(reach.pixels_x, reach.pixels_y * (f.scale_y / f.scale_x));
@@ -102,7 +101,7 @@ static inline BallOnScreen ball_on_screen(Frame f, Anchor a, Reach reach, Axes a
   return b;
 }
 
-// Where the screen shows a point, in pixels from the pixel.
+// Offset of a point on the screen, in pixels from the pixel.
 static inline void project(BallOnScreen b, BallPoint p, integer* dx, integer* dy) {
   const real3 v = direction_of(p, b.axes);
   const real scale = p.distance * rough_inverse(1 - p.distance * v.z);
@@ -110,7 +109,7 @@ static inline void project(BallOnScreen b, BallPoint p, integer* dx, integer* dy
   *dy = nearest(v.y * scale);
 }
 
-// What bounds the offsets of all points; a little more for the axes' rounding.
+// A bound on the offsets of all points, a little larger for the rounding of the axes.
 static inline Reach reach_of_ball(BallOnScreen b, Surface s) {
   Reach reach;
   reach.pixels_x = b.pixels_x;

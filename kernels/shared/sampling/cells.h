@@ -1,10 +1,10 @@
-// What masks of square cells do once they know which cells hold what is looked for: each cell stands for those around it too, and
-// every pixel gets what its cell has. `Params` is the technique's.
+// The last passes of masks of square cells: each cell is wanted if it or a cell around it is, and every pixel gets its cell's
+// value. `Params` is the technique's.
 //
-// cells_grow    `frame` is that of the cells
+// cells_grow    `frame`: the cells
 //   in : found   1 or 0        out: grown   the largest of each cell and those around it
-// cells_spread  `frame` is the image, `other` that of the cells
-//   in : grown                 out: result  each pixel its cell's
+// cells_spread  `frame`: the image; `other`: the cells
+//   in : grown                 out: result  each pixel's cell
 // -D SCALE (pixels per cell)
 #ifndef GLOAM_CELLS_H
 #define GLOAM_CELLS_H

@@ -1,5 +1,5 @@
-// A disk about the line to the eye, around a pixel's point, as the screen shows it at the pixel's depth: points on a
-// Fibonacci spiral, even over its area (Vogel 1979). Turned and shifted by the pixel's noise.
+// Points on a disk around a pixel's point, at right angles to the line to the eye, as the screen shows them at the pixel's depth:
+// a Fibonacci spiral, evenly spread over the area (Vogel 1979). Turned and shifted by the pixel's noise.
 // -D SAMPLES
 #ifndef GLOAM_DISK_H
 #define GLOAM_DISK_H
@@ -9,8 +9,8 @@
 
 typedef struct {
   real radius;                        // units of the pixel's depth
-  real right_x, right_y, up_x, up_y;  // to its rim in two directions at right angles in space, pixels
-  real shift;                         // of the distances, 0 to 1
+  real right_x, right_y, up_x, up_y;  // from centre to rim in two orthogonal directions of space, pixels
+  real shift;                         // shift of the distances, 0 to 1
   scalar cosine, sine;                // of the next point
 } Disk;
 
@@ -35,7 +35,7 @@ static inline Disk disk_of(Frame f, Anchor a, Surface s, Reach reach, Noise nois
   return d;
 }
 
-// Offset of point k in pixels, to be asked for in order, and its distance in radii and the square of that.
+// Offset of point k in pixels, its distance in radii and the square of that; call with k = 0, 1, ... in order.
 static inline void next_offset(Disk* d, int k, integer* dx, integer* dy, real* distance, real* square) {
   *square = (d->shift + k) * ((scalar)1 / SAMPLES);
   *distance = rough_square_root(*square);

@@ -10,7 +10,7 @@ typedef struct {
   real cosine, sine;            // of the direction at hand
   real turn_cosine, turn_sine;  // from one direction to the next
   real stride_x, stride_y;      // from step to step, pixels
-  real shift;                   // of the steps, 0 to 1
+  real shift;                   // shift of the steps, 0 to 1
 } Fan;
 
 static inline Fan fan_of(Reach reach, Noise noise) {

@@ -1,24 +1,23 @@
-// What an estimate has to look at of a pixel's stochastic depths, in the order in which it is soonest done: each depth once,
-// without the pixel's own, the nearest first, GROUP of them side by side (layers.h). An estimate that takes the
-// largest of all finds the same in them.
+// A pixel's stochastic depths, prepared for estimates: each depth once, without the pixel's own, the nearest first, GROUP of them
+// side by side (layers.h). An estimate that takes the largest contribution finds the same as in the unsorted ones.
 //
 // in : depth          view-space z, scene units, +inf = background
 //      stochastic     stack of OCCLUDERS_LAYERS depths, +inf where there is none
 // out: hidden_depths  as many, in groups; +inf after the last
-//      low_depth      of every SCALE-th pixel each way, as the hidden depths are then (sort_every_hidden_depths)
+//      low_depth      of every SCALE-th pixel each way, like the hidden depths (sort_every_hidden_depths)
 // -D OCCLUDERS_LAYERS, SCALE
 #ifndef GLOAM_HIDDEN_DEPTHS_H
 #define GLOAM_HIDDEN_DEPTHS_H
 
 #include "shared/sampling/ambient_occlusion.h"
 
-// Puts a depth in its place among `count` others.
+// Inserts a depth into `count` sorted ones, unless it is the pixel's own or among them.
 static inline void insert_hidden(real* sorted, int count, real next, real seen) {
   next = choose(next == seen, REAL_INFINITY, next);
 #pragma unroll
   for (int j = 0; j < count; ++j) {
     const real nearer = smaller(next, sorted[j]), further = larger(next, sorted[j]);
-    // What is there already does not go on.
+    // A duplicate is replaced by nothing.
     next = choose(nearer == further, REAL_INFINITY, further);
     sorted[j] = nearer;
   }
@@ -41,7 +40,7 @@ kernel void sort_hidden_depths(Frame frame, Params params, PLANE depth, PLANE st
 }
 
 #ifdef SCALE
-// `frame` is the reduced one, `other` the one that is read.
+// `frame`: the reduced one; `other`: the one that is read.
 kernel void sort_every_hidden_depths(Frame frame, Frame other, Params params, PLANE depth, PLANE stochastic,
                                      PLANE_OUT low_depth, PLANE_OUT hidden_depths) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), here = index_of(frame, FIRST_X, ROW_Y);

@@ -1,13 +1,12 @@
-// The depths that an estimate looks at where a sample is read: of one layer, of every layer of a stack, or of what the depth
-// hides.
+// The depths that an estimate reads at a sample: one layer, every layer of a stack, or the depth and the hidden depths behind it.
 #ifndef GLOAM_LAYERS_H
 #define GLOAM_LAYERS_H
 
 #include "shared/lanes/load.h"
 #include "shared/lanes/math.h"
 
-// Where occluders are looked for: the depth alone, every layer of a stack whose first is the depth, or with STOCHASTIC the
-// depth and then every layer of a stack. A kernel's arguments after the normal:
+// Where occluders are looked for: in the depth alone, in every layer of a stack whose first is the depth, or with STOCHASTIC in
+// the depth and then in every layer of a stack. A kernel's arguments after the normal:
 //   OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw ...
 // and its first lines:
 //   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
@@ -40,7 +39,7 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 #define LAYERS_FROM(frame, depth) depth_layers(depth, depth)
 #endif
 
-// The same of the other of two views.
+// As LAYERS_FROM, for the other of two views.
 #if OCCLUDERS_LAYERS
 #define OTHER_OCCLUDERS_ARGUMENT PLANE other_occluders,
 #define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, other_occluders)
@@ -49,7 +48,7 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 #define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, depth)
 #endif
 
-// A depth of the first layer. `by_both`: whether two eyes see it, where the sign of the depth says so (visibility.h).
+// A depth of the first layer. `by_both`: whether both eyes see it, which the sign of the stored depth tells (visibility.h).
 static inline real depth_seen(real stored_depth, mask* by_both) {
 #if STEREO
   *by_both = stored_depth < 0;
@@ -60,9 +59,9 @@ static inline real depth_seen(real stored_depth, mask* by_both) {
 #endif
 }
 
-// Where layers behind the first are asked (section 3.3): 0 everywhere; 1 where the first `rises` over the tangent plane so
-// far that something behind it, which on a surface that faces the eye is lower, may still count, so that this changes
-// nothing; 2 where moreover it is nearer to the eye than the pixel's point, and out of reach.
+// Where layers behind the first are read (section 3.3). EARLY_OUT 0: everywhere. 1: where the first `rises` over the tangent
+// plane so far that a depth behind it may still count; depths behind a surface that faces the eye lie lower, so the result stays
+// the same. 2: where moreover the first is nearer to the eye than the pixel's point, and out of reach.
 #ifndef EARLY_OUT
 #define EARLY_OUT 0
 #endif
@@ -77,8 +76,8 @@ static inline mask asks_further(mask rises, mask nearer, mask out_of_reach) {
 #endif
 }
 
-// Layers behind the first are read by groups: of stacks that techniques sort themselves, several lie side by side, pixel by
-// pixel, front to back. Those of a frame come in any order.
+// Layers behind the first are read in groups: stacks that a technique has sorted hold GROUP depths side by side, pixel by pixel,
+// front to back. The layers of a frame come in any order.
 #if STOCHASTIC && OCCLUDERS_LAYERS % 4 == 0
 #define GROUP 4
 #elif STOCHASTIC && OCCLUDERS_LAYERS % 2 == 0
@@ -87,14 +86,14 @@ static inline mask asks_further(mask rises, mask nearer, mask out_of_reach) {
 #define GROUP 1
 #endif
 
-// Two depths behind the first that come at once.
+// Two depths behind the first that are read at once.
 typedef struct {
   real next, later;
-  mask counts;  // where `next` may
+  mask counts;  // lanes for which `next` counts
 } Behind;
 
-// Brings depth `k` behind the first at an index from `here` into `behind->next`. Returns 0 if what is sorted holds nothing
-// before `farthest` from there on, for none of the lanes that ask. To be called with k = 0, 1, ... in order.
+// Reads depth `k` behind the first, at an index from `here`, into `behind->next`. Returns 0 if no lane that asks can find a depth
+// before `farthest` from there on in a sorted stack. Call with k = 0, 1, ... in order.
 static inline __attribute__((always_inline)) int look_behind(DepthLayers layers, Frame f, int k, int here,
                                                              integer index, mask asked, real farthest, Behind* behind) {
 #if EARLY_OUT
@@ -110,7 +109,7 @@ static inline __attribute__((always_inline)) int look_behind(DepthLayers layers,
     behind->next = behind->later;
 #endif
 #if STOCHASTIC
-  // Lane by lane, so that none depends on the others.
+  // Per lane, so that no lane depends on another.
   behind->counts = asked & (behind->next < farthest);
   return ANY(behind->counts);
 #else
@@ -119,8 +118,8 @@ static inline __attribute__((always_inline)) int look_behind(DepthLayers layers,
 #endif
 }
 
-// What a sample of one layer or of many contributes: an estimator takes the first depth by itself, since that one decides which
-// others are `asked`, and each of the others in the statement or block behind this, as `behind.next` where `behind.counts`.
+// Loops over the depths of a sample behind the first. The estimator takes the first depth itself, which decides which lanes are
+// `asked`; the statement or block that follows takes the others, as `behind.next` where `behind.counts`.
 //   FOR_DEPTHS_BEHIND(behind, layers, frame, here, index, asked, farthest) { ... }
 #define FOR_DEPTHS_BEHIND(behind, layers, f, here, index, asked, farthest)                                             \
   Behind behind;                                                                                                       \
@@ -128,7 +127,7 @@ static inline __attribute__((always_inline)) int look_behind(DepthLayers layers,
                            layer < LAYERS - 1 && look_behind(layers, f, layer, here, index, asked, farthest, &behind); \
                            ++layer)
 
-// Nothing but what is read at an index (GATHERS_ONLY).
+// The reads of an estimate without its computation (GATHERS_ONLY).
 static inline __attribute__((always_inline)) real sum_of_depths(DepthLayers layers, Frame f, int here, integer index,
                                                                 real farthest) {
   real sum = gather(layers.first + here, index);
@@ -136,7 +135,7 @@ static inline __attribute__((always_inline)) real sum_of_depths(DepthLayers laye
   return sum;
 }
 
-// Writes a group.
+// Writes a group of depths.
 static inline void store_group(const real* depths, global float* layers, int here) {
 #if GROUP == 1
   store(depths[0], layers, here);
@@ -147,8 +146,8 @@ static inline void store_group(const real* depths, global float* layers, int her
 #endif
 }
 
-// What layers take together, where what further ones add to the first counts by a factor: they miss some of what is hidden
-// (section 4).
+// Occlusion by all layers, where the part that hidden layers add to the first is multiplied by a factor, as they miss some
+// surfaces (section 4).
 #if COMPENSATED
 #define COMPENSATE(params, all, by_first) ((by_first) + (params).compensation * ((all) - (by_first)))
 #else

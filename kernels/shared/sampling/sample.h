@@ -1,5 +1,4 @@
-// Where to look, and with which noise from pixel to pixel: the same seed gives the same image on every device and lane
-// width.
+// Sample positions, and their noise from pixel to pixel: the same seed gives the same image on every device and lane width.
 #ifndef GLOAM_SAMPLE_H
 #define GLOAM_SAMPLE_H
 
@@ -9,9 +8,9 @@
 // The upper 24 bits as 0 <= u < 1: exact in float.
 static inline real unit_random(natural bits) { return to_real(bits >> 8) * (scalar)0x1p-24; }
 
-// Two numbers for each pixel, 0 <= each < 1, spread evenly over any few neighbouring pixels, so that a small filter sees all
+// Two numbers per pixel, 0 <= each < 1, spread evenly over any few neighbouring pixels, so that a small filter averages all
 // directions: rank-1 lattices. `turn` has the steps of interleaved gradient noise (Jimenez 2014), `shift` those of the R2
-// sequence (Roberts 2018). In whole numbers: the same on every device, in float and in double.
+// sequence (Roberts 2018). Integer arithmetic: the same on every device, in float and in double.
 typedef struct {
   real turn, shift;
 } Noise;
@@ -31,7 +30,7 @@ static inline Noise noise_of(natural column, natural row, int seed) {
 
 static inline Noise noise_at(integer x, int y, int seed) { return noise_of(to_natural(x), (natural)((uint)y), seed); }
 
-// Turns by the golden angle, from point to point of a Fibonacci spiral.
+// Turns by the golden angle, the step between points of a Fibonacci spiral.
 static inline void turn_golden(scalar* cosine, scalar* sine) {
   const scalar step_cosine = (scalar)-0.7373688780783197, step_sine = (scalar)0.6754902942615238;
   const scalar next = *cosine * step_cosine - *sine * step_sine;
@@ -39,14 +38,14 @@ static inline void turn_golden(scalar* cosine, scalar* sine) {
   *cosine = next;
 }
 
-// How far a radius in scene units reaches on the screen, in pixels of each axis, capped; and in units of the depth.
+// Reach of a radius on the screen, in pixels along each axis, capped.
 typedef struct {
   real pixels_x, pixels_y;
   real inverse_square;  // 1 / (radius / depth)^2
 } Reach;
 
-// A radius of 0 reaches no pixel; an infinite one every pixel up to the cap. Distances of 1e15 depths and more are out
-// of any reach, so that background never counts, not even for an infinite radius.
+// A radius of 0 reaches no pixel; an infinite one reaches up to the cap. Distances of 1e15 depths and more are out of reach even
+// of an infinite radius, so that background never counts.
 static inline Reach reach_of(Frame f, Anchor a, scalar radius, scalar most_pixels) {
   Reach r;
   const real relative = (scalar)radius * a.inverse_depth;
@@ -64,23 +63,22 @@ static inline Reach longer(Reach r, real factor) {
   return r;
 }
 
-// How samples around a pixel are read: the same for all samples of a work-item, so that a loop over them is written once
-// for a constant and chosen once. (One loop for all is a sixth slower on AVX-512.)
+// How the samples of a work-item are read, a compile-time constant: a loop over samples is written once and compiled once per
+// mode. (A single loop for all modes is a sixth slower on AVX-512.)
 #define SAMPLES_INSIDE 0         // every sample of every lane lies in the frame
 #define SAMPLES_CLAMPED 1        // some are moved onto its border
-#define SAMPLES_IN_WIDE_FRAME 2  // the same, and the pitch has more than 15 bits (load.h)
+#define SAMPLES_IN_WIDE_FRAME 2  // as SAMPLES_CLAMPED, and the pitch has more than 15 bits (load.h)
 
-// Whether no lane's pixel reaches out of the frame.
+// Whether the reach of every lane's pixel lies within the frame.
 static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
-  // One pixel for rounding, and one because samples may start one pixel away even where the radius is less.
+  // One pixel for rounding, and one because samples may start one pixel away even with a shorter reach.
   const real x = r.pixels_x + 2, y = r.pixels_y + 2;
-  // Asked so that what cannot be compared is not inside.
+  // Negated, so that NaN counts as outside.
   return !ANY(!((a.x >= x) & (a.x + x < (scalar)f.width) & (a.y >= y) & (a.y + y < (scalar)f.height)));
 }
 
-// Changes an offset in pixels from each lane's own (x, y) that leads out of the frame to the frame's border. Returns which
-// samples count: all, or with OUTSIDE_OPEN only those that were in the frame.
-// `within`: a constant, one of the above.
+// Clamps an offset in pixels from each lane's (x, y) to the frame. Returns which samples count: all, or with OUTSIDE_OPEN only
+// those that were within the frame. `within`: one of the constants above.
 static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer* dx, integer* dy) {
   if (within == SAMPLES_INSIDE) return EVERY_LANE;
   const integer kept_x = min(max(*dx, -x), f.width - 1 - x), kept_y = min(max(*dy, -y), f.height - 1 - y);
@@ -94,7 +92,7 @@ static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer*
   return inside;
 }
 
-// What a sample adds: nothing where it does not count.
+// A sample's contribution; 0 where the sample does not count.
 static inline real counted(mask counts, real found) {
 #if OUTSIDE_OPEN
   return choose(counts, found, (real)(0));
@@ -103,7 +101,7 @@ static inline real counted(mask counts, real found) {
 #endif
 }
 
-// The index of an offset that stays in the frame, from the first lane's. |dy| is below SHORT_PITCH.
+// Index, from the first lane's, of an offset that stays in the frame. |dy| is below SHORT_PITCH.
 static inline integer index_within(Frame f, int within, integer dx, integer dy) {
   return within == SAMPLES_IN_WIDE_FRAME ? index_near(f, dx, dy) : index_near_short(f, dx, dy);
 }

@@ -1,5 +1,5 @@
-// Half planes through the eye's ray, as GTAO cuts the hemisphere (Jimenez, Wu, Pesce, Jarabo 2016, section 4): what the
-// screen shows along a line through the pixel lies in one slice. Angles in a slice are elevations above the surface's
+// Half planes through the pixel's ray, by which GTAO divides the hemisphere (Jimenez, Wu, Pesce, Jarabo 2016, section 4): what
+// the screen shows along a line through the pixel lies in one slice. Angles in a slice are elevations above the surface's
 // tangent, so that a plane is flat to the last bit, and are measured by the cosine-weighted mass below them.
 #ifndef GLOAM_SLICE_H
 #define GLOAM_SLICE_H
@@ -9,21 +9,21 @@
 
 #define HALF_PI ((scalar)1.5707963267948966)
 
-// The pixel's surface as all slices through it see it.
+// The pixel's surface, the same for all slices.
 typedef struct {
-  real3 to_eye, normal;  // to_eye: unit; normal: as given, but turned towards the eye where it faces away
+  real3 to_eye, normal;  // to_eye: unit; normal: turned towards the eye where it faces away
   real facing;           // normal . to_eye
-  real away;             // normal . ray, the ray of one unit of depth; negative
+  real away;             // normal . ray; negative. The ray is one unit of depth long
   real length;           // of that ray
-  real level;            // of that ray without its part along y
+  real level;            // length of that ray without its y component
 } Surface;
 
-// A normal nearer to the horizon than this, or turned away, is turned towards the eye up to here.
+// The least normal . to_eye: a normal nearer to the horizon or turned away is turned towards the eye up to here.
 #define LEAST_FACING ((scalar)1e-4f)
 
 static inline Surface surface_at(Anchor a, real3 n) {
   Surface s;
-  // What decides where samples lie is exact in every mode.
+  // Exact in every mode, since it decides where samples lie.
   const real level_square = 1 + a.ray_x * a.ray_x;
   s.level = sqrt(level_square);
   s.length = sqrt(level_square + a.ray_y * a.ray_y);
@@ -36,18 +36,18 @@ static inline Surface surface_at(Anchor a, real3 n) {
   return s;
 }
 
-// One slice. A point seen dx pixels to the right and dy below, at relative depth e (camera.h), lies
+// One slice. A point seen dx pixels to the right and dy below, at relative depth e (camera.h), lies at
 //   above = q * (dx * above_x + dy * above_y) + e * above_e
 //   along = q * (dx * along_x + dy * along_y) - slope * above
-// units of the pixel's depth above the surface's tangent and along it; q is its depth in units of the pixel's own where
-// distances on the screen grow with depth, else 1.
+// above the surface's tangent and along it, in units of the pixel's depth. q: the point's depth in those units (perspective), or
+// 1 (orthographic).
 typedef struct {
-  real screen_x, screen_y;  // where the slice leads on the screen, times across_x and across_y: pixels per unit
+  real screen_x, screen_y;  // direction on the screen, times across_x and across_y: pixels per unit
   real along_x, along_y, above_x, above_y, above_e, slope;
   real cosine, sine;  // of the angle from the line to the eye to the normal's projection, -pi/2 to pi/2
   real3 tangent;      // unit, at right angles to the line to the eye, to the right side
-  real mass;          // cosine-weighted, of all directions of the slice, if the normal lay in it
-  real weight;        // the same, as it is
+  real mass;          // cosine-weighted mass of the slice's directions, if the normal lay in it
+  real weight;        // cosine-weighted mass as it is
 } Slice;
 
 // asin(c) + c sqrt(1 - c^2) for -1 to 1: odd, absolute error below 1.5e-3, exact at 0 and 1.
@@ -68,13 +68,13 @@ static inline real mass_below(real c, real square, real cosine, real sine) {
 static inline Slice slice_at(Anchor a, Surface s, real cosine, real sine) {
   Slice c;
   const real inverse_level = (scalar)1 / s.level;
-  // The tangent of the slice at right angles to the line to the eye, moved along that line into the plane of the pixel's
-  // depth: the x axis and the y axis of the image turned about the line to the eye, written out.
+  // The slice's tangent at right angles to the line to the eye, moved along that line into the plane of the pixel's depth: the
+  // image's x and y axes turned about the line to the eye, written out.
   const real x = cosine * s.level;
   const real y = (cosine * a.ray_x * a.ray_y + sine * s.length) * inverse_level;
   c.screen_x = x;
   c.screen_y = -y;
-  // How far it was moved.
+  // The distance that it was moved.
   const real slide = (cosine * a.ray_x * s.length + sine * a.ray_y) * inverse_level;
   c.tangent = make3(x + slide * s.to_eye.x, y + slide * s.to_eye.y, slide * s.to_eye.z);
   const real across = s.normal.x * x + s.normal.y * y + slide * s.facing;  // normal . tangent
@@ -83,7 +83,7 @@ static inline Slice slice_at(Anchor a, Surface s, real cosine, real sine) {
   c.cosine = s.facing * inverse_length;
   const real inverse_facing = quick_inverse(s.facing);
   c.slope = across * inverse_facing;
-  // Onto the slice's line on the screen, and by 1 / cosine onto the surface's tangent.
+  // Projected onto the slice's line on the screen, and by 1 / cosine onto the surface's tangent.
   const real along = quick_inverse((x * x + y * y) * c.cosine);
   c.along_x = a.across_x * x * along;
   c.along_y = -a.across_y * y * along;

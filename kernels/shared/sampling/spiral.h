@@ -1,7 +1,6 @@
-// A spiral on a disk on the screen, from one pixel away to the radius: sample k of n lies at (k + shift) / n of the way,
-// and each is turned on from the last by the same angle (McGuire, Mara, Luebke 2012). The whole spiral makes
-// TURNS turns, a number coprime to SAMPLES, so that no two samples lie in the same direction. Turned and shifted by the
-// pixel's noise.
+// A spiral on the screen, from one pixel away to the radius: sample k of n lies at (k + shift) / n of the way, and the angle
+// from sample to sample is the same (McGuire, Mara, Luebke 2012). The whole spiral makes TURNS turns, a number coprime to SAMPLES,
+// so that no two samples lie in the same direction. Turned and shifted by the pixel's noise.
 // -D SAMPLES, TURNS
 #ifndef GLOAM_SPIRAL_H
 #define GLOAM_SPIRAL_H
@@ -11,7 +10,7 @@
 // The sample at hand.
 typedef struct {
   real cosine, sine;            // direction
-  real distance_x, distance_y;  // pixels of each axis
+  real distance_x, distance_y;  // pixels along each axis
   real turn_cosine, turn_sine;  // from one sample to the next
   real stride_x, stride_y;
 } Spiral;
@@ -27,7 +26,7 @@ static inline Spiral spiral_of(Reach reach, Noise noise) {
   return s;
 }
 
-// Rounding adds up to less than a tenth of a pixel over 2048 samples of 500 pixels' reach.
+// Advances by one sample. Rounding adds up to less than a tenth of a pixel over 2048 samples with a reach of 500 pixels.
 static inline void next_sample(Spiral* s) {
   const real next = s->cosine * s->turn_cosine - s->sine * s->turn_sine;
   s->sine = s->sine * s->turn_cosine + s->cosine * s->turn_sine;
@@ -36,7 +35,7 @@ static inline void next_sample(Spiral* s) {
   s->distance_y += s->stride_y;
 }
 
-// Its offset in pixels.
+// The sample's offset in pixels.
 static inline void sample_at(Spiral s, integer* dx, integer* dy) {
   *dx = nearest(s.cosine * s.distance_x);
   *dy = nearest(s.sine * s.distance_y);

@@ -1,10 +1,9 @@
-// Which samples of a stochastic depth map take a surface (Vermeer, Scandolo, Eisemann 2021, equation 1 and Algorithm 1).
-// The same text for kernels and for the host that captures a scene: the same bits.
+// Which samples of a stochastic depth map are offered a surface (Vermeer, Scandolo, Eisemann 2021, equation 1 and Algorithm 1).
+// Kernels and the host, which captures scenes, share this text: the same bits.
 //
-// Of S samples a surface goes into R = floor(alpha S + xi), and each keeps the nearest that it was given. Where the paper
-// looks a subset up in a table, this one halves: of R into two halves of the samples, the odd one into either at random,
-// down to single samples. R/2 of S/2 is floor(alpha S/2 + xi') again, so the first 1, 2, 4 and 8 of 16 samples are each a
-// stratified map of that many.
+// Of S samples R = floor(alpha S + xi) are offered a surface, and each keeps the nearest that it was offered. The paper looks the
+// subset up in a table. Here R is halved over halves of the samples, an odd one going to either half at random, down to single
+// samples. A half gets floor(alpha S/2 + xi') again, so the first 1, 2, 4 and 8 of 16 samples each are a stratified map.
 #ifndef GLOAM_STOCHASTIC_H
 #define GLOAM_STOCHASTIC_H
 
@@ -16,22 +15,22 @@
 namespace gloam {
 #endif
 
-// Of a surface under a pixel, from the bits of its depth as float and those of the nearest surface there. The exponent
-// counts from that of the nearest, so that the unit of the scene changes nothing.
+// Hash of a surface under a pixel, from the bits of its depth as float and of the nearest surface's. The exponent is relative to
+// the nearest surface's, so that the unit of the scene does not matter.
 SHARED_FUNCTION natural surface_hash(natural x, natural y, natural seed, natural depth_bits, natural first_bits) {
   const natural depth = depth_bits - (first_bits & 0x7f800000u);
   return hash_of(depth + hash_of(x + hash_of(y + hash_of(seed))));
 }
 
-// alpha as a share of 2^24.
+// alpha in units of 2^-24.
 #define STOCHASTIC_ONE 0x1000000u
 
-// Bit j: sample j of the 16 takes the surface. `alpha`: 0 to 2^24.
+// Bit j: sample j of 16 is offered the surface. `alpha`: 0 to 2^24.
 SHARED_FUNCTION natural stratified_subset(natural hash, natural alpha) {
   // floor(16 alpha + xi), xi with 24 bits.
   const natural count = (alpha * 16u + (hash >> 8)) >> 24;
   natural coins = hash_of(hash + 0x9e3779b9u);
-  // Counts of halves, quarters ... side by side in fields of one word: 1 of 16 samples, 2 of 8, 4 of 4, 8 of 2.
+  // Counts of the halves, then quarters ..., side by side in fields of one word: 1 field of 16 samples, 2 of 8, 4 of 4, 8 of 2.
   natural first = (count + (coins & 1u)) >> 1;
   natural fields = first | (count - first) << 16;
   coins >>= 1;
@@ -53,7 +52,7 @@ SHARED_FUNCTION natural stratified_subset(natural hash, natural alpha) {
   return (fields | fields >> 8) & 0xffffu;
 }
 
-// 1 where sample `sample` takes the surface, each by a random number of its own.
+// 1 where sample `sample` is offered the surface, each sample by a random number of its own.
 SHARED_FUNCTION natural hashed_bit(natural hash, natural sample, natural alpha) {
   const natural u = hash_of(hash + sample * 0x9e3779b9u) >> 8;
   // u < alpha: the difference borrows from bit 31.

@@ -1,5 +1,5 @@
-// A point of one eye as an estimate from both eyes looks at it (Shi, Billeter, Eisemann 2022, section 3.1).
-// -D ESTIMATE_MONO: no point is seen by the other eye; WITH_HALF_OCCLUSION: only those where the eyes may differ
+// A point of one eye as seen by both, for estimates from two eyes (Shi, Billeter, Eisemann 2022, section 3.1).
+// -D ESTIMATE_MONO: the other eye is never used; WITH_HALF_OCCLUSION: it is used only where the eyes may differ
 #ifndef GLOAM_STEREO_ESTIMATE_H
 #define GLOAM_STEREO_ESTIMATE_H
 
@@ -11,7 +11,7 @@ static inline real3 position_of(Frame f, Receiver r) {
   return position_at(f, r.point.x, r.point.y, choose(r.point.background, (real)(1), r.depth));
 }
 
-// One pixel for each lane, by its index from the plane's start; `depth`: with the sign of visibility.h.
+// Receivers at one pixel per lane, by its index from the plane's start. `depth`: with the sign of visibility.h.
 static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_reach, integer index, PLANE depth,
                                          PLANE normal_x, PLANE normal_y, PLANE normal_z) {
   const integer x = column_of(frame, index), y = row_of(frame, index);
@@ -21,8 +21,8 @@ static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_
   return r;
 }
 
-// The mask of lanes for which the other eye is worth a look (half_occlusion.h). A kernel has the argument
-// HALF_OCCLUDED_ARGUMENT after the other eye's planes.
+// MAY_DIFFER: lanes for which the other eye is used (half_occlusion.h). A kernel has the argument HALF_OCCLUDED_ARGUMENT after
+// the other eye's planes.
 #if WITH_HALF_OCCLUSION
 #define HALF_OCCLUDED_ARGUMENT PLANE other_half_occluded,
 #define MAY_DIFFER(frame, neighbour, radius, receiver)                                                         \
@@ -32,12 +32,12 @@ static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_
 
 static inline mask reaches_out(Frame f, real x, real y, Reach reach) {
   const real right = (scalar)(f.width - 1) - x, bottom = (scalar)(f.height - 1) - y;
-  // Asked so that what cannot be compared reaches out.
+  // Negated, so that NaN reaches out.
   return !((smaller(x, right) >= reach.pixels_x) & (smaller(y, bottom) >= reach.pixels_y));
 }
 
-// Whether what lies around a point is cut off by the border of one image, which is not that of the other: what the two eyes find
-// there differs though nothing is half-occluded.
+// Whether the border of either image cuts off the surroundings of a point: the eyes then find different occluders though nothing
+// is half-occluded.
 static inline mask reaches_out_of_either(Frame frame, Neighbour neighbour, Receiver r) {
   const Projection there = project_into(neighbour, position_of(frame, r), !r.point.background);
   return !r.point.background & (reaches_out(frame, r.point.x, r.point.y, r.reach) |
@@ -48,7 +48,7 @@ static inline mask reaches_out_of_either(Frame frame, Neighbour neighbour, Recei
 #define MAY_DIFFER(frame, neighbour, radius, receiver) EVERY_LANE
 #endif
 
-// The point as the other eye shows it, of use where that sees it and is looked at: where it `may_differ`.
+// The point as the other eye shows it, valid where `is_seen`. The other eye is used only where the point `may_differ`.
 static inline Receiver receiver_there(Frame frame, Neighbour neighbour, scalar radius, scalar max_reach, Receiver here,
                                       mask may_differ, mask* is_seen) {
 #if ESTIMATE_MONO
@@ -56,7 +56,7 @@ static inline Receiver receiver_there(Frame frame, Neighbour neighbour, scalar r
 #endif
   const Projection seen = project_into(neighbour, position_of(frame, here), (!here.point.background) & may_differ);
   *is_seen = seen.is_seen;
-  // Lanes that the other eye does not see read what is there at the same place, and make nothing of it.
+  // Lanes that the other eye does not see read the same pixel there, and ignore it.
   return receiver_of(neighbour.frame, radius, max_reach, choose(*is_seen, seen.x, here.point.x),
                      choose(*is_seen, seen.y, here.point.y), choose(*is_seen, seen.depth, here.depth),
                      rotated(neighbour, here.normal));

@@ -1,5 +1,5 @@
-// What the other eye has of this eye's surfaces, fetched between its pixels: of the four around a place those that show the
-// surface count, by how near they are, by their distance from its tangent plane and by the angle between the normals.
+// The other eye's values for this eye's surfaces, read between its pixels: of the four pixels around a position those that show
+// the surface count, by how near they are, by their distance from its tangent plane and by the angle between the normals.
 #ifndef GLOAM_STEREO_FETCH_H
 #define GLOAM_STEREO_FETCH_H
 
@@ -7,7 +7,7 @@
 #include "shared/frame/surface.h"
 #include "shared/lanes/pixel_row.h"
 
-// The planes of the other eye that tell its surfaces.
+// The planes that describe the other eye's surfaces.
 typedef struct {
   global const float *depth, *normal_x, *normal_y, *normal_z;
 } SurfacePlanes;
@@ -23,12 +23,12 @@ static inline SurfacePlanes surface_planes(global const float* depth, global con
 }
 
 typedef struct {
-  TangentPlane plane;  // the surface's, where the other eye shows it
-  PixelRow pixels;     // the upper left of the four
-  real right, below;   // from that to the place
-  int how;             // they lie: what was expected, or ANYWHERE
-  real weights[4];     // of all four
-  real share;          // their sum, 0 to 1: how far what is seen around is the surface
+  TangentPlane plane;  // of the surface, in the other eye
+  PixelRow pixels;     // upper left of the four pixels
+  real right, below;   // from that pixel to the position
+  int how;             // arrangement of the pixels: as expected, or ANYWHERE
+  real weights[4];     // of the four pixels
+  real share;          // sum of the weights, 0 to 1
   mask is_known;
 } Between;
 
@@ -51,8 +51,8 @@ static inline __attribute__((always_inline)) void weigh_pixels(Between* b, Frame
   }
 }
 
-// Around where the other eye shows a surface. `normal`: its, in this eye's space; `distance`, `angle`: tangent_plane_at.
-// `expected`: how the pixels lie (pixel_row.h) along most surfaces, as a constant.
+// Weighs the four pixels around `there`. `normal`: of the surface, in this eye's space; `distance`, `angle`: tangent_plane_at;
+// `expected`: arrangement of the pixels (pixel_row.h) along most surfaces, a constant.
 static inline __attribute__((always_inline)) void between_pixels(Neighbour neighbour, Projection there, real3 normal,
                                                                  scalar distance, scalar angle, SurfacePlanes planes,
                                                                  int expected, Between* b) {
@@ -62,7 +62,7 @@ static inline __attribute__((always_inline)) void between_pixels(Neighbour neigh
   b->how = ANYWHERE;
   if (!ANY(there.is_seen)) return;
   b->plane = tangent_plane_at(other, there.x, there.y, there.depth, rotated(neighbour, normal), distance, angle);
-  // Of parallel eyes the place lies in this row but for rounding, which must not choose between rows lane by lane.
+  // Parallel eyes see the point in the same row but for rounding, which must not choose the row lane by lane.
   const integer column = nearest(floor(there.x + (scalar)0x1p-10)), row = nearest(floor(there.y + (scalar)0x1p-10));
   b->right = larger(there.x - to_real(column), (real)(0));
   b->below = larger(there.y - to_real(row), (real)(0));
@@ -84,16 +84,16 @@ static inline __attribute__((always_inline)) real weighted_sum(const Between* b,
   return sum;
 }
 
-// A plane of the other eye, times `share`. `expected`: as given to between_pixels.
+// Weighted sum of a plane of the other eye. `expected`: as given to between_pixels.
 static inline __attribute__((always_inline)) real weighted_between(const Between* b, Frame other, int expected,
                                                                    global const float* plane) {
   return b->how == expected ? weighted_sum(b, other, plane, expected) : weighted_sum(b, other, plane, ANYWHERE);
 }
 
-// A plane of the other eye whose pixels were expected in a row; of use where it is known.
+// Weighted mean of a plane of the other eye, valid where `is_known`. The pixels were expected in a row.
 static inline __attribute__((always_inline)) real fetch_between(const Between* b, Frame other,
                                                                 global const float* plane) {
-  // Divided exactly, so that what is open all around stays just that.
+  // Divided exactly, so that an open neighbourhood stays exactly open.
   return weighted_between(b, other, IN_A_ROW, plane) / choose(b->is_known, b->share, (real)(1));
 }
 

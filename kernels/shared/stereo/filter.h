@@ -1,14 +1,14 @@
-// The cross-bilateral filter of bilateral.h for two eyes (Shi, Billeter, Eisemann 2022, section 3.3): F and F* are the filtered
-// values of a surface in either eye, W and W* the sums of their weights. result = w F + (1 - w) F*, with w = smoothstep(0.5 -
-// blend, 0.5 + blend, W / (W + W*)): the eye that sees more of the surface decides, and both eyes decide alike.
+// The cross-bilateral filter of bilateral.h for two eyes (Shi, Billeter, Eisemann 2022, section 3.3). F and F* are a surface's
+// filtered values in either eye, W and W* the sums of their weights. result = w F + (1 - w) F*, with w = smoothstep(0.5 - blend,
+// 0.5 + blend, W / (W + W*)): the eye that sees more of the surface decides, the same for both eyes.
 //
-// The paper filters the other eye's pixels anew around each of this eye's. Here each eye filters its own once, and F* and W*
-// are fetched between the other's pixels, as far as they show the surface: half the work. Its step ends at one half, so
-// that each eye keeps its own value of what both see alike; one about one half gives both eyes the same.
+// The paper filters the other eye's pixels anew around each pixel of this eye. Here each eye filters its own once, and F* and W*
+// are read between the other's pixels: half the work. The paper's step ends at one half, so each eye keeps its own value of what
+// both see alike; a step centred at one half gives both eyes the same value.
 //
-// bilateral_weighted  in : source, source_weights, depth, normal  source_weights: of the pass before (WITH_SOURCE_WEIGHTS)
+// bilateral_weighted  in : source, source_weights, depth, normal  source_weights: from the pass before (WITH_SOURCE_WEIGHTS)
 //                     out: result, result_weights                 F and W
-// stereo_blend        in : source, source_weights, depth, normal  of this eye, and the same of the other
+// stereo_blend        in : source, source_weights, depth, normal  of this eye, and of the other
 //                     out: result                                 1 on background
 // -D COLUMNS, ROWS
 #ifndef GLOAM_STEREO_FILTER_H

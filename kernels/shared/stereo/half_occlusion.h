@@ -1,9 +1,9 @@
-// Where one eye shows what the other does not: half-occlusion. What the other eye alone sees can change what is found for a
-// point only within the radius of it; elsewhere the second look is spared (Shi, Billeter, Eisemann 2022, section 5).
+// Where one eye shows what the other does not: half-occlusion. A surface that the other eye alone sees can only change points
+// within the radius of it; other points need no second eye (Shi, Billeter, Eisemann 2022, section 5).
 //
-// Space is cut into cells as wide as the radius, and every cell that lies within it of something half-occluded is marked
-// in a table of floats, found by a hash: 1 where marked. Cells of one slot in the table are marked together, which costs a
-// look too many and misses none. The table lies in a plane's memory, and is of the eye that sees what is half-occluded.
+// Space is cut into cells as wide as the radius. Every cell within the radius of a half-occluded surface is marked in a hash table
+// of floats: 1 where marked. Cells that share a slot are marked together: this costs some points a needless second eye and misses
+// none. The table lies in a plane's memory; it belongs to the eye that sees the half-occluded surface.
 #ifndef GLOAM_HALF_OCCLUSION_H
 #define GLOAM_HALF_OCCLUSION_H
 
@@ -15,7 +15,7 @@ static inline int bits_of_cells(Frame f) {
   return 31 - (int)clz(min((uint)MOST_CELLS, (uint)f.pitch * (uint)f.height));
 }
 
-// The whole table is emptied by work-items for all pixels of the image.
+// Clears the table; launched for all pixels of the image.
 static inline void empty_cells(PLANE_OUT cells, Frame f, int here) {
   if (here < FRAME_GUARD + (1 << bits_of_cells(f))) store((real)(0), cells, here);
 }
@@ -24,7 +24,7 @@ typedef struct {
   integer x, y, z;
 } GridCell;
 
-// Along one axis. A radius of 0 or of no end puts everything into few cells: all of it is looked at.
+// Cell number along one axis. A radius of 0 or infinity puts everything into few cells: every point uses the other eye.
 static inline integer cell_along(real coordinate, scalar radius) {
   const real most = (real)(0x1p20f), cell = floor(coordinate / radius);
   return to_integer(smaller(larger(cell, -most), most));
@@ -38,13 +38,13 @@ static inline GridCell grid_cell_of(real3 p, scalar radius) {
   return c;
 }
 
-// Slot in the table.
+// Slot of a cell in the table.
 static inline integer slot_of(Frame f, GridCell c) {
   const natural h = to_natural(c.x) * 0x8da6b343u + to_natural(c.y) * 0xd8163841u + to_natural(c.z) * 0xcb1ab31fu;
   return to_integer(h >> (uint)(32 - bits_of_cells(f))) + FRAME_GUARD;
 }
 
-// Marks a cell and all that lie within the radius of it. Each lane takes some of these; the last comes out more than once.
+// Marks a cell and its 26 neighbours. Each lane takes some of the 27; the last is marked more than once.
 static inline void mark_around(PLANE_OUT cells, Frame f, int x, int y, int z) {
   for (int first = 0; first < 27; first += LANES) {
     const integer k = min((integer)(first) + IOTA, (integer)(26));
@@ -56,7 +56,7 @@ static inline void mark_around(PLANE_OUT cells, Frame f, int x, int y, int z) {
   }
 }
 
-// The same around the points of a mask, once for each cell that they lie in.
+// As mark_around, for the cells of the points where a mask holds, once per cell.
 static inline void mark_around_all(PLANE_OUT cells, Frame f, real3 p, scalar radius, mask which) {
   if (!ANY(which)) return;
   const GridCell c = grid_cell_of(p, radius);
@@ -70,15 +70,15 @@ static inline void mark_around_all(PLANE_OUT cells, Frame f, real3 p, scalar rad
   }
 }
 
-// Whether a point lies in a cell that is marked; `p`: in the space of the eye whose table it is.
+// Whether a point lies in a marked cell. `p`: in the space of the eye whose table it is.
 static inline mask is_near_marked(PLANE cells, Frame f, real3 p, scalar radius) {
   return gather(cells, slot_of(f, grid_cell_of(p, radius))) > 0;
 }
 
-// Fewer pixels of a row than this that one eye alone sees are left by rounding and by slopes; nothing of note hides there.
+// Runs of pixels shorter than this come from rounding and slopes, and hide nothing of note.
 #define LEAST_WIDTH 2
 
-// Whether each pixel of the row belongs to so many, side by side, that one eye alone sees. `stereo_depth`: visibility.h.
+// Whether each pixel of the row is in a run of at least LEAST_WIDTH pixels that one eye alone sees. `stereo_depth`: visibility.h.
 static inline mask is_half_occluded(PLANE stereo_depth, Frame f) {
   mask alone[2 * LEAST_WIDTH - 1];
   const int here = index_of(f, FIRST_X, ROW_Y);

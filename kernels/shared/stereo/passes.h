@@ -1,14 +1,14 @@
-// Passes of two eyes (visibility.h), whatever is estimated.
+// Passes for two eyes (visibility.h), whatever the technique estimates.
 //
 // stereo_visibility   in : depth, other_depth  view-space z of either eye, scene units, +inf = background
 //                     out: stereo_depth        negative where both eyes see the surface
 // stereo_reproject    in : depth, other_depth    as left by stereo_visibility
 //                          normal, other_normal  unit, view space
 //                          other                 the other eye's result, 0 to 1
-//                     out: result                what the other eye found where both see the surface and it shows around; else 1
-//                          newly_visible         what is left to be computed (pixel_list.h)
+//                     out: result                the other eye's result where both see the surface and its pixels show it; else 1
+//                          newly_visible         pixels left to be computed (pixel_list.h)
 // stereo_half_occlusion in : depth           as left by stereo_visibility
-//                       out: half_occluded   where what this eye alone sees may matter (half_occlusion.h)
+//                       out: half_occluded   cells near surfaces that this eye alone sees (half_occlusion.h)
 // -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST, WITH_HALF_OCCLUSION (stereo_visibility empties these)
 #ifndef GLOAM_STEREO_PASSES_H
 #define GLOAM_STEREO_PASSES_H
@@ -52,7 +52,7 @@ kernel void stereo_half_occlusion(Frame frame, Params params, PLANE depth, PLANE
 #endif
 
 #if WITH_PIXEL_LIST
-// Without a back-check what the other eye sees only has to be as far away as the pixel's surface.
+// NO_BACK_CHECK: share by which the other eye's depth may differ from that of the pixel's surface.
 #define SAME_DEPTH ((scalar)0.02)
 
 kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
@@ -85,7 +85,7 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
 }
 #endif
 
-// The filters, where a pass has the taps for them.
+// The filters, for passes that define their taps.
 #ifdef COLUMNS
 #include "shared/filter/bilateral_filter.h"
 #include "shared/stereo/filter.h"

@@ -1,13 +1,13 @@
-// Joint bilateral upsampling (upsample.h) for two views that agree (Shi, Billeter, Eisemann 2022) and shall stay so.
+// Joint bilateral upsampling (upsample.h) for two views that agree (Shi, Billeter, Eisemann 2022) and still agree afterwards.
 //
-// A point gets (S + S*) / (W + W*): W is the sum of the weights of the four reduced pixels around it in the view at hand, S that of
-// weights times values; W* and S* are the same of the other view, around where that shows the point. Weights are those of upsample.h,
-// bilinear, by the distance from the point's tangent plane and by the angle between normals, and no weight depends on which view
-// is at hand: both views give a point the same mixture.
+// A point is (S + S*) / (W + W*). W: sum of the weights of the four reduced pixels around it in this view, S: sum of weights
+// times values; W* and S*: the same in the other view, around where it shows the point. Weights are bilinear, times those for
+// distance from the point's tangent plane and for angle between normals (upsample.h). No weight depends on which view is
+// computed: both views give a point the same mixture.
 //
-// Of what is as thin as a pixel the eight often show nothing. Where W + W* is below FEW, the 16 reduced pixels around it of each view
-// count as well; those of other surfaces too, the more the nearer they come. All this fades in: a choice between pixels would differ
-// from view to view.
+// Surfaces as thin as a pixel are often missing from all eight. Where W + W* is below FEW, the 16 reduced pixels around the point
+// in each view count as well, even those of other surfaces, the more the closer they are. The transition is gradual: a choice
+// between pixels would differ from view to view.
 #ifndef GLOAM_STEREO_UPSAMPLE_H
 #define GLOAM_STEREO_UPSAMPLE_H
 
@@ -15,17 +15,17 @@
 #include "shared/stereo/fetch.h"
 
 #define FEW ((scalar)0.01f)
-// What the 16 count at most, compared to the four.
+// Largest weight of the 16 pixels, relative to the four.
 #define FARTHER ((scalar)0.03f)
-// What a pixel of another surface counts at most, compared to one of the same.
+// Largest weight of a pixel of another surface, relative to one of the same.
 #define ANOTHER_SURFACE ((scalar)1e-3f)
 
 typedef struct {
   real sum, total;  // of weights times values, and of weights
 } Mixture;
 
-// Where the other view shows a row of pixels, in its reduced pixels: up to the border of the whole image, which lies beyond the last of
-// these.
+// Where the other view shows a row of pixels, in its reduced pixels. The image ends at the border of the whole image, which lies
+// beyond the last reduced pixel.
 static inline Projection project_row_into_reduced(Frame frame, Neighbour reduced, real depth) {
   reduced.frame.width += 1;
   reduced.frame.height += 1;
@@ -39,10 +39,10 @@ static inline void mix_between(Mixture* m, const Between* b, Projection there, F
   m->total += choose(there.is_seen, b->share, (real)(0));
 }
 
-// What the 16 pixels count: 0 where enough is known.
+// Weight of the 16 pixels: 0 where the four are enough.
 static inline real share_of_farther(Mixture m) { return FARTHER * larger(1 - m.total * (1 / FEW), (real)(0)); }
 
-// Above 0 and smooth for every surface, near or far. `step`: as for distance_from.
+// Positive and smooth for every surface, near or far. `step`: as for distance_from.
 static inline real likeness(TangentPlane p, Frame f, real step, real depth, real3 n) {
   const real distance = smaller(fabs(distance_from(p, f, step, depth)), (real)(1e4f));  // the weight stays above 0
   const real turned = larger(1 - signed_agreement(p, n), (real)(0));
@@ -51,8 +51,8 @@ static inline real likeness(TangentPlane p, Frame f, real step, real depth, real
   return choose(is_background(depth), (real)(0), same + ANOTHER_SURFACE / (off * off));
 }
 
-// Adds the 16 pixels around a place in a reduced frame, by how near they are, times `counts`. `plane`: in this frame's pixels;
-// `pixels`, `right`, `below`: the one at or left above, and from that to the place; `how`: pixels lie, as a constant.
+// Adds the 16 pixels around a position in a reduced frame, by how near they are, times `counts`. `plane`: in this frame's pixels;
+// `pixels`: the one at or left above; `right`, `below`: from it to the position; `how`: arrangement of the pixels, a constant.
 static inline __attribute__((always_inline)) void mix_around(Mixture* m, Frame f, TangentPlane plane,
                                                              const PixelRow* pixels, real right, real below,
                                                              real counts, SurfacePlanes planes,
@@ -75,7 +75,7 @@ static inline __attribute__((always_inline)) void mix_around(Mixture* m, Frame f
   }
 }
 
-// Of the view at hand, whose reduced pixels lie where its own do.
+// As mix_around, for this view, whose reduced pixels lie on its own.
 static inline void mix_around_own(Mixture* m, Site s, Frame reduced, real counts, SurfacePlanes planes,
                                   global const float* source) {
   PixelRow pixels;

@@ -8,8 +8,8 @@
 
 namespace gloam {
 
-/// The ray through a point of the image, in pixels (centres at +0.5). Distances along it are planar view-space depths.
-/// Relative to Scene::origin. Throws Error where a light-field display shows nothing (`view_ray`).
+/// The ray through a position in the image, in pixels (centres at +0.5), relative to Scene::origin. Distances along it are planar
+/// view-space depths, scene units. Throws Error if a light-field display shows nothing there (`view_ray`).
 TracerRay camera_ray(const Camera& camera, const glm::dvec3& scene_origin, double x, double y);
 
 }  // namespace gloam

@@ -1,4 +1,4 @@
-// What a light-field display shows of a scene.
+// Images of a scene for a light-field display.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace gloam {
 
-/// Pixels of a small image as wide as the display's screen, from top to bottom what the screen shows.
+/// Size in pixels of a small image with the shape of the display's screen.
 struct FittingSize {
   int width = 1, height = 1;
 };
 FittingSize fitting_size(const LightFieldDisplay& display);
 
-/// With the part of the world on display that a camera of an image of `fitting_size` frames: the median depth of what it sees comes
-/// to lie in the screen. None where it sees nothing of the scene. The camera has a pose.
+/// A display that shows the part of the world in the image, of `fitting_size`, of a camera: the median depth of its surfaces lies
+/// in the screen. None if the camera sees nothing of the scene. The camera needs a pose.
 std::optional<LightFieldDisplay> fitted_to(const LightFieldDisplay& display, const Tracer& tracer,
                                            const Camera& camera);
 
-/// The views of all modules, for images of a size. The display says which part of the world it shows.
+/// The views of all modules, for images of a size. The display must state which part of the world it shows.
 std::vector<CaptureView> module_views(const LightFieldDisplay& display, int width, int height);
 
 }  // namespace gloam

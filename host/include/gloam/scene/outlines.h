@@ -1,5 +1,5 @@
-// Outlines around a scene's objects, and how many of them a ray is in ("Outline-Dependent Screen-Space Ambient Occlusion",
-// 2020, sections 3.1 and 3.2).
+// Outlines around a scene's objects, and the number of outlines that a ray is in ("Outline-Dependent Screen-Space Ambient
+// Occlusion", 2020, sections 3.1 and 3.2).
 #pragma once
 
 #include <memory>
@@ -19,19 +19,19 @@ class Outlines {
   Outlines& operator=(const Outlines&) = delete;
 
   const OutlineOptions& options() const { return options_; }
-  /// The outlines: meshes by the index of their objects, which are solid even where a texture has holes.
+  /// The outlines as a scene. Meshes are in the order of their objects, and solid even where a texture has holes.
   const Scene& scene() const { return scene_; }
-  /// Seconds that building took.
+  /// Build time, seconds.
   double build_seconds() const { return build_seconds_; }
 
-  /// +1 for each face of an outline that the ray enters by its front, -1 for each by its back, from ray.near on and
-  /// before ray.far; a face at ray.far does not count.
+  /// +1 for each face of an outline that the ray enters by its front, -1 for each by its back, from ray.near to just before
+  /// ray.far.
   int crossings(const TracerRay& ray) const;
 
-  /// How many objects a point is beside: outside of the object, inside of its outline. What `crossings` of a ray from there
-  /// begins at. Parts that are not closed have no inside, and do not count.
+  /// Number of objects that a point is near: outside the object, inside its outline. The start value for `crossings` of a ray from
+  /// there. Parts that are not closed do not count.
   int around(const glm::dvec3& point) const;
-  /// The same by one ray, in any direction. It may go wrong where it meets an edge.
+  /// As above, by one ray in the given direction. It may be wrong if the ray meets an edge.
   int around(const glm::dvec3& point, const glm::dvec3& direction) const;
 
  private:

@@ -1,4 +1,4 @@
-// The light of a scene, as captures show it.
+// Direct light of a scene, as in captured colours.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace gloam {
 
-/// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with
-/// shadows) and of the sky (without occlusion, so that ambient occlusion can be multiplied in without counting it
-/// twice). Scene-linear. `seed` picks the points of the sun's disc, `sun_rays` of them: at most 16.
+/// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with shadows) and of
+/// the sky (without occlusion, so that ambient occlusion can be multiplied in without counting it twice). Scene-linear. `seed`
+/// picks `sun_rays` points of the sun's disc, at most 16.
 inline constexpr int most_sun_rays = 16;
 glm::vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays = most_sun_rays);
 
-/// What a ray that meets nothing sees.
+/// Radiance of the sky, for rays that meet nothing.
 glm::vec3 sky_radiance(const Scene& scene, const glm::dvec3& direction);
 
 }  // namespace gloam

@@ -1,4 +1,4 @@
-// A scene: triangle meshes with materials, lights and cameras, from a file or made by a built-in recipe.
+// A scene: triangle meshes with materials, lights and cameras, from a file or built in.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct Texture {
   std::vector<uint8_t> texels;  ///< 4 * width * height
 };
 
-/// What a surface is made of, after glTF's metallic-roughness model. Textures are indices into Scene::textures, -1 for
-/// none; a texture's value is multiplied by the factor beside it.
+/// The material of a surface, after glTF's metallic-roughness model. Textures are indices into Scene::textures, -1 for none; a
+/// texture's value is multiplied by the factor of the same name.
 struct Material {
   std::string name;
   glm::vec3 albedo{0.5f};  ///< base colour, linear
@@ -35,17 +35,17 @@ struct Material {
   int roughness_texture = -1;  ///< linear; roughness in G
   int metallic_texture = -1;   ///< linear; metallic in B
   int emission_texture = -1;   ///< sRGB
-  float alpha_cutoff = 0;      ///< where the albedo texture's alpha is below it there is no surface; 0: solid
+  float alpha_cutoff = 0;      ///< below this alpha of the albedo texture there is no surface; 0: solid
 };
 
-/// One instance of a mesh, in place. Positions are relative to Scene::origin. Counter-clockwise triangles face the
-/// viewer; both sides are seen.
+/// One instance of a mesh, placed in the scene. Positions are relative to Scene::origin. Counter-clockwise triangles face the
+/// viewer; both sides are visible.
 struct Mesh {
   std::string name;
   int material = 0;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  ///< one per position, unit, outward; or none: faces are flat
-  std::vector<glm::vec2> uvs;  ///< one per position, v up as glTF's is down: (0, 0) is the texture's top left; or none
+  std::vector<glm::vec3> normals;  ///< one per position, unit, outward; empty: faces are flat
+  std::vector<glm::vec2> uvs;      ///< one per position, as in glTF: (0, 0) is the texture's top left; or empty
   std::vector<glm::uvec3> triangles;
 };
 
@@ -77,7 +77,7 @@ struct Light {
 struct Scene {
   std::string name;
   glm::dvec3 origin{0.0};    ///< what positions are relative to, in the world
-  std::vector<Mesh> meshes;  ///< an index is the instance's identity
+  std::vector<Mesh> meshes;  ///< the index identifies the instance
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<SceneCamera> cameras;  ///< at least one; the first is the default
@@ -107,12 +107,12 @@ const SceneRecipe* find_builtin_scene(const std::string& name);
 /// out of range; Error as `import_scene` (import.h) does.
 Scene load_scene(const std::string& name_or_path, const Settings& settings);
 
-/// How far from a scene's origin, along each axis, vertices and the starts of rays may lie: Embree computes in float, and ends the
-/// program beyond.
+/// Largest coordinate of vertices and ray starts relative to a scene's origin: Embree computes in float, and ends the program
+/// beyond.
 inline constexpr double farthest_traced = 1e18;
 
-/// Throws Error for a scene that no ray can be traced in: no triangle, an index out of range, a position or normal that is not
-/// finite, no camera, 2^24 meshes or more.
+/// Throws Error for a scene that cannot be traced: no triangle, an index out of range, a position or normal that is not finite, no
+/// camera, 2^24 meshes or more.
 void check(const Scene& scene);
 
 }  // namespace gloam

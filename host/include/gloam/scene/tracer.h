@@ -12,10 +12,10 @@
 
 namespace gloam {
 
-/// Where a ray meets a surface. Positions are relative to Scene::origin, in double: the crossing of the ray with the
-/// triangle's plane is computed anew, so that a surface is flat to double's rounding.
+/// A point where a ray meets a surface. Positions are relative to Scene::origin, in double: the crossing of the ray with the
+/// triangle's plane is recomputed, so that a surface is flat to double's rounding.
 struct Surface {
-  double distance = 0;  ///< along the ray, in lengths of its direction
+  double distance = 0;  ///< along the ray, in units of its direction's length
   glm::dvec3 position{0.0};
   glm::dvec3 facing{0.0};  ///< unit normal of the triangle, on the ray's side
   glm::dvec3 normal{0.0};  ///< unit shading normal, on the ray's side of the surface it belongs to
@@ -27,13 +27,13 @@ struct Surface {
 
 /// A face that a ray crosses.
 struct Crossing {
-  double distance = 0;  ///< as Surface has it
+  double distance = 0;  ///< as in Surface
   int mesh = 0;
   unsigned triangle = 0;
   bool back_face = false;
 };
 
-/// What a surface is made of at a point, textures looked up.
+/// The material of a surface at a point, textures looked up.
 struct SurfaceMaterial {
   glm::vec3 albedo{0.0f};  ///< base colour, linear
   float roughness = 1;
@@ -42,16 +42,16 @@ struct SurfaceMaterial {
   glm::vec3 emission{0.0f};
 };
 
-/// A ray for `Tracer`: the direction need not be unit; distances are in its lengths.
+/// A ray for `Tracer`. The direction need not be unit; distances are in units of its length.
 struct TracerRay {
   glm::dvec3 origin{0.0}, direction{0.0};
   double near = 0, far = std::numeric_limits<double>::infinity();
 };
 
-/// A scene made ready for rays. Thread-safe. The scene must outlive it.
+/// A scene prepared for ray tracing. Thread-safe. The scene must outlive it.
 class Tracer {
  public:
-  /// Throws Error as `check(scene)` does, and when Embree runs out of memory.
+  /// Throws Error as `check(scene)` does, and if Embree runs out of memory.
   explicit Tracer(const Scene& scene);
   ~Tracer();
   Tracer(const Tracer&) = delete;
@@ -59,33 +59,34 @@ class Tracer {
 
   const Scene& scene() const;
 
-  /// The first surface on the ray. Throws Error for a ray that is not finite, here and below.
+  /// The first surface on the ray. This and the functions below throw Error for a ray that is not finite.
   std::optional<Surface> first(const TracerRay& ray) const;
 
-  /// The first surface on a ray from a point that was `lifted` off one, to the side that it faces: not that surface itself.
+  /// The first surface on a ray from a point that was `lifted` off a surface, to the side that it faces, but not that surface
+  /// itself.
   std::optional<Surface> first_from(const glm::vec3& lifted, const glm::dvec3& direction) const;
 
   /// All surfaces on the ray, nearest first. Two triangles of one mesh that meet under the ray count once.
   void all(const TracerRay& ray, std::vector<Surface>& surfaces) const;
 
-  /// All faces that the ray crosses, nearest first. Triangles that join where the ray meets them are one face; other faces of
-  /// a mesh at one place, which `all` takes for one surface, are each counted. So a closed mesh is left as often as entered.
+  /// All faces that the ray crosses, nearest first. Triangles that join where the ray meets them are one face; other faces of a
+  /// mesh at one position, which `all` counts as one surface, are each counted. So a closed mesh is left as often as it is entered.
   void crossings(const TracerRay& ray, std::vector<Crossing>& crossings) const;
 
-  /// Rays from one point: `directions` unit, in lengths; sets blocked[i] for each. `far` for all.
+  /// Whether rays from one point are blocked: `directions` are unit, distances in scene units; sets blocked[i]. `far`: for all
+  /// rays.
   void blocked(const glm::vec3& origin, const glm::vec3* directions, int count, float far, bool* blocked) const;
 
-  /// Distances to the first surface of rays from one point; +inf where none is nearer than `far`.
+  /// Distances from one point to the first surface of each ray; +inf if none is nearer than `far`.
   void distances(const glm::vec3& origin, const glm::vec3* directions, int count, float far, float* distances) const;
 
-  /// A point from which rays to the side of `facing` do not meet the surface's own triangle: the position moved off by
-  /// some units of the rounding of its coordinates. For `blocked` and `distances`, which leave out hits that lie behind
-  /// the start in double.
+  /// A start for rays to the side of `facing` that do not meet the surface's own triangle: the position moved off by some units
+  /// of the rounding of its coordinates. For `blocked` and `distances`, which ignore hits behind the start, computed in double.
   glm::vec3 lifted(const Surface& surface) const;
 
   SurfaceMaterial material(const Surface& surface) const;
 
-  /// Seconds that building took.
+  /// Build time, seconds.
   double build_seconds() const;
 
  private:
