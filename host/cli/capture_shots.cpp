@@ -81,15 +81,14 @@ LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer)
 }  // namespace
 
 std::vector<std::pair<int, int>> parse_modules(const std::string& text, const std::string& flag) {
-  constexpr int most = std::numeric_limits<int>::max();
+  constexpr Range<int> numbers = {0, std::numeric_limits<int>::max()};
   std::vector<std::pair<int, int>> items;
   try {
     for (const std::string& item : split_list(text, flag)) {
       const size_t dash = item.find('-');
-      const int first = parse_number(item.substr(0, dash), flag, Range<int>{0, most});
-      items.emplace_back(first, dash == std::string::npos
-                                    ? first
-                                    : parse_number(item.substr(dash + 1), flag, Range<int>{first, most}));
+      const int first = parse_number(item.substr(0, dash), flag, numbers);
+      const int last = dash == std::string::npos ? first : parse_number(item.substr(dash + 1), flag, numbers);
+      items.emplace_back(first, last);
     }
   } catch (const UsageError&) {
     throw UsageError("{} {} is not allowed; numbers and what lies between two of them are, such as 0,5,10-19", flag,

@@ -12,7 +12,7 @@ std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tra
 /// One file, or one for each camera of a path.
 std::vector<CaptureShot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height);
 
-/// "0,5,10-19": the first and the last of each item. Throws UsageError.
+/// "0,5,10-19": the first and the last of each item, whatever modules there are. Throws UsageError.
 std::vector<std::pair<int, int>> parse_modules(const std::string& text, const std::string& flag);
 
 }  // namespace gloam::cli

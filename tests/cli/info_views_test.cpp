@@ -145,8 +145,8 @@ TEST_F(InfoViews, SayInOneLineWhatCannotBeDrawn) {
                  {"--what colour", "did you mean 'color'?", "depth, color, ao"});
   expect_refused({"--sheet", sheet, "--what", "albedo"}, 1, {"--what albedo", "depth, color, ao"});
   expect_refused({"--scan-line", line, "--row", "54"}, 2, {"--row 54", "0 to 53"});
-  expect_refused({"--scan-line", line, "--row=-1"}, 2, {"--row -1", "0 to 53"});
-  expect_refused({"--scan-line", line, "--row", "middle"}, 2, {"--row middle", "0 to 53"});
+  expect_refused({"--scan-line", line, "--row=-1"}, 2, {"--row -1", "a whole number from 0 to"});
+  expect_refused({"--scan-line", line, "--row", "middle"}, 2, {"--row middle", "a whole number from 0 to"});
   expect_refused({"--row", "5"}, 2, {"--row 5", "--scan-line"});
   expect_refused({"--sheet", sheet, "--row", "5"}, 2, {"--row 5", "--scan-line"});
   expect_refused({"--what", "ao"}, 2, {"--what ao", "--sheet"});

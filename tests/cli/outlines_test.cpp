@@ -121,7 +121,7 @@ TEST_F(OutlineCapture, BadFlags) {
 
 TEST_F(OutlineCapture, HelpHasTheFlagsAndAnExample) {
   const std::string help = gloam({"capture", "--help"}).out;
-  for (const char* text : {"--outlines EXTENT", "--outline-method NAME", "--outline-angle DEGREES",
+  for (const char* text : {"--outlines EXTENT", "--outline-method integrated|scaling|normal", "--outline-angle DEGREES",
                            "gloam capture courtyard -o courtyard.exr --outlines 0.5"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }
