@@ -29,10 +29,10 @@ float radius_reaching(const Frame& frame, double pixels);
 /// "1920x1080"
 std::string size_name(const Frame& frame);
 
-/// --size=WIDTHxHEIGHT, repeatable. `sizes` holds what is measured without it.
+/// Adds --size=WIDTHxHEIGHT, repeatable. `sizes` holds the sizes that are measured without the flag.
 void add_sizes(CLI::App& flags, std::vector<std::pair<int, int>>& sizes);
 
-/// Takes flags out of the command line, and leaves in it what is none of them: names, Google Benchmark's flags. Throws UsageError.
+/// Removes `flags` from the command line; names and Google Benchmark's flags stay. Throws UsageError.
 void take_flags(CLI::App& flags, int& argc, char** argv);
 
 /// Runs a program's main function. An error becomes one line that begins with the program's name. Returns the exit status.

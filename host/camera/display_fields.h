@@ -10,36 +10,36 @@
 
 namespace gloam {
 
-/// Of any number in a display.
+/// Largest absolute value of any number in a display.
 inline constexpr double largest_in_display = 1e12;
 
-/// An object of the document. All functions throw Error for a field of another type or that is not finite.
+/// An object of the document. All functions throw Error for a field of the wrong type and for a number that is not finite.
 struct DisplayFields {
   const std::string& file;
-  std::string name;  ///< how messages name the object: "screen", "modules.list[3]"; empty for the document itself
+  std::string name;  ///< its name in messages: "screen", "modules.list[3]"; empty for the document itself
   const nlohmann::json& value;
 
   std::string name_of(const std::string& field) const { return name.empty() ? field : name + "." + field; }
 
   /// Throws Error: "FILE: FIELD FAULT; expected EXPECTED".
   [[noreturn]] void refuse(const std::string& field, const std::string& fault, const std::string& expected) const;
-  /// Throws Error for a field that is not `known`: a misspelt field would be taken for a missing one.
+  /// Throws Error for a field that is not `known`: a misspelt field would count as missing.
   void check_fields(const std::vector<std::string>& known) const;
 
-  /// The field, or nullptr where it is missing or null.
+  /// The field, or nullptr if it is missing or null.
   const nlohmann::json* find(const std::string& field) const;
-  /// Throws Error for fields in it that are not `known`.
+  /// An object inside this one. Throws Error for fields of it that are not `known`.
   std::optional<DisplayFields> object(const std::string& field, const std::vector<std::string>& known) const;
   DisplayFields needed_object(const std::string& field, const std::vector<std::string>& known) const;
   std::optional<double> number(const std::string& field) const;
-  /// A number > 0, which may not be missing.
+  /// A number > 0. Throws Error if it is missing.
   double positive(const std::string& field) const;
   std::optional<glm::dvec3> point(const std::string& field) const;
   glm::dvec3 needed_point(const std::string& field) const;
-  /// Written row by row; `m[column][row]` as in GLM.
+  /// The document holds rows; the result is `m[column][row]`, as in GLM.
   glm::dmat3 needed_matrix(const std::string& field) const;
 
-  /// `item`: a value under the name `field`, such as an entry of a list.
+  /// `item`: a value, such as an entry of a list. `field`: its name in messages.
   double finite(const std::string& field, const nlohmann::json& item) const;
   /// A whole number, 1 to `most`.
   int whole(const std::string& field, const nlohmann::json& item, int most) const;

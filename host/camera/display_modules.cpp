@@ -36,7 +36,7 @@ std::vector<dvec3> along_arc(const DisplayFields& modules, int count) {
   return places;
 }
 
-/// Turned from where it stands to the screen's middle.
+/// A module turned from its position to the middle of the screen.
 OpticalModule facing_the_middle(const dvec3& place) {
   const double degrees = 180 / glm::pi<double>();
   return {place, std::atan2(-place.x, -place.z) * degrees,

@@ -6,7 +6,7 @@
 
 namespace gloam {
 
-/// Reads the field "modules" of the document. Throws Error for modules that are none.
+/// Reads the field "modules" of the document. Throws Error for fields that describe no modules.
 void read_modules(const DisplayFields& document, LightFieldDisplay& display);
 
 }  // namespace gloam

@@ -12,7 +12,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-/// In relation to what its rows could span: 1 at right angles, 0 where one lies in the plane of the others.
+/// Volume of the rows relative to the product of their lengths: 1 at right angles, 0 if one lies in the plane of the others.
 double volume_share(const dmat3& m) {
   const dmat3 rows = glm::transpose(m);
   const double most = glm::length(rows[0]) * glm::length(rows[1]) * glm::length(rows[2]);
@@ -45,7 +45,7 @@ Box box_of(const DisplayFields& object) {
   return box;
 }
 
-/// The map that takes one box to the other.
+/// The map from one box to the other.
 std::optional<WorldToPhysical> from_boxes(const DisplayFields& document) {
   const std::optional<DisplayFields> region = document.object("region_of_interest", {"physical", "world"});
   if (!region) return {};
@@ -62,7 +62,7 @@ std::optional<WorldToPhysical> from_boxes(const DisplayFields& document) {
   const dvec3 scale = to.size / from.size;
   const dmat3 rows(scale.x * glm::normalize(right), scale.y * glm::normalize(up), scale.z * glm::normalize(ahead));
   WorldToPhysical map{glm::transpose(rows), {}};
-  // Sizes as far apart as doubles go.
+  // The sizes may differ by as much as doubles can.
   check_transform(document.file, "region_of_interest", map.linear);
   map.origin = from.centre - glm::inverse(map.linear) * to.centre;
   return map;

@@ -1,4 +1,4 @@
-// Which part of the world a display JSON shows: a matrix, or a box of the world and a box of physical space.
+// The part of the world that a display JSON shows: a matrix, or a box of the world and a box of physical space.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace gloam {
 
-/// By "world_to_physical" or "region_of_interest" of the document; none where it has neither. Throws Error for a transform that is
-/// singular or mirrors.
+/// From the field "world_to_physical" or "region_of_interest"; none if the document has neither. Throws Error for a transform that
+/// is singular or mirrors.
 std::optional<WorldToPhysical> read_world(const DisplayFields& document);
 
 }  // namespace gloam

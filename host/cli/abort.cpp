@@ -1,6 +1,6 @@
-// PoCL aborts where its compiled kernels are damaged, and LLVM's handler of that signal, which it installs while it compiles, lets
-// no other one have a say. So the libraries find this abort, and the one of assertions, in place of the C library's: the
-// executable exports both (CMakeLists.txt).
+// PoCL aborts if its compiled kernels are damaged. LLVM installs a handler of that signal while it compiles, and the handler calls
+// no other one. So the executable exports its own abort and its own failure of assertions (CMakeLists.txt), and the libraries call
+// these instead of the C library's.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

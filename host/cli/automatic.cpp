@@ -37,17 +37,17 @@ struct AutoCommand {
 struct Outcome {
   Decision decision;
   std::vector<std::string> outputs;
-  std::optional<Plan> plan;  ///< that was run, or would have been
+  std::optional<Plan> plan;  ///< the plan that was run, or would have been
   bool is_masked = false;
   double ms = 0;                                ///< on the device, classification and mask included
-  double ms_masked = nan, ms_everywhere = nan;  ///< without classification; NaN where it has not been measured
+  double ms_masked = nan, ms_everywhere = nan;  ///< without classification; NaN: not measured
 };
 
 double best(const RunResult& result) {
   return result.total_ms.empty() ? 0 : *std::min_element(result.total_ms.begin(), result.total_ms.end());
 }
 
-/// Planes of what is not called for: nothing is occluded, nothing is reflected.
+/// Adds the planes of effects that the frame does not call for: nothing is occluded, nothing is reflected.
 void add_idle_planes(const Frame& frame, const std::vector<std::string>& outputs, Frame& out) {
   const Layout layout(frame.width(), frame.height());
   for (View& view : out.views) {
@@ -70,7 +70,7 @@ void take_planes(Frame& from, Frame& to) {
   }
 }
 
-/// Tells what the cells of a choice are as well, where they are to be shown.
+/// Also finds the classes of the cells, for a picture of them.
 void probe_closely_for_picture(EffectChoice& choice, const EffectProbe& probe) {
   if (choice.is_wanted && !choice.is_everywhere) probe_closely(choice, probe);
 }
@@ -175,7 +175,7 @@ std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, c
   return all;
 }
 
-/// An effect that the frame has the planes for, and what is asked of it.
+/// An effect whose planes the frame has, and its request.
 struct Candidate {
   const Technique* technique;
   PlanRequest asked;
@@ -183,7 +183,7 @@ struct Candidate {
 
 struct Candidates {
   std::vector<Candidate> possible;
-  std::vector<Outcome> impossible;  ///< and why
+  std::vector<Outcome> impossible;  ///< effects that cannot be computed, with the reason
 };
 
 bool is_of_display(const FrameFiles& files) {
@@ -209,7 +209,7 @@ Outcome impossible(const Technique& technique, std::string why) {
   return outcome;
 }
 
-/// Throws what is wrong with all of them where none is possible, and for a setting that means nothing to any.
+/// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
 Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
   Candidates found;
   std::optional<MissingPlanes> missing;
@@ -217,10 +217,10 @@ Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
   for (const Technique* technique : techniques_with_effects()) {
     if (technique->effect.for_displays && !of_display) continue;
     if (of_display && !technique->any_projection) {
-      // Of one name there may be a technique that can.
+      // Another technique of the same effect may support displays.
       if (!has_effect_for_displays(technique->effect.name))
         found.impossible.push_back(
-            impossible(*technique, "its kernels need a camera with an eye, and a display has none"));
+            impossible(*technique, "its kernels need a single centre of projection, and a display has none"));
       continue;
     }
     try {
@@ -236,7 +236,7 @@ Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
       const auto& settings = candidate.asked.settings;
       return std::find(settings.begin(), settings.end(), setting) != settings.end();
     });
-    if (!is_known) found.possible.front().asked.settings.push_back(setting);  // which says so
+    if (!is_known) found.possible.front().asked.settings.push_back(setting);  // its plan reports the error
   }
   return found;
 }
@@ -250,7 +250,7 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
   return found;
 }
 
-/// Results of each effect stay, and those with its mask while it runs without.
+/// Peak memory: results of each effect stay in memory, and its masked results while it runs without the mask.
 unsigned long long bytes_of_auto(const FrameFiles& files, const std::vector<std::string>& planes,
                                  const std::vector<std::vector<Plan>>& effects, bool shares_memory) {
   const Layout layout(files.window().width(), files.window().height());
@@ -270,7 +270,7 @@ unsigned long long bytes_of_auto(const FrameFiles& files, const std::vector<std:
 
 void auto_command(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
-  // What is compared is not to hold what a device does once.
+  // Times to compare must not include what a device does only once.
   if (flags.measure) options.repeat = std::max(options.repeat, 3);
   const WriteOptions writing{flags.half, flags.compression};
   check_frame_name(flags.out, "-o");

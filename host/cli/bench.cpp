@@ -1,4 +1,4 @@
-// gloam bench -o DIR: what accuracy costs in time
+// gloam bench -o DIR: the time that accuracy costs
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,13 +36,13 @@ struct BenchCommand {
   JsonFlag json;
 };
 
-/// What is asked for, checked.
+/// The request, checked.
 struct Options : MeasureOptions {
   std::vector<const SceneRecipe*> scenes;
   SceneOptions scene;
 };
 
-// --- What is asked for
+// --- The request
 
 void choose_techniques(Options& options, const std::string& list, Measurement& result) {
   for (const Technique& t : registry()) {
@@ -53,7 +53,7 @@ void choose_techniques(Options& options, const std::string& list, Measurement& r
     else
       result.skipped.push_back({t.name, "", "", why});
   }
-  // Truths that several share are named after the one over a single layer.
+  // A truth that several techniques share has the name of the one over a single layer.
   std::stable_partition(options.techniques.begin(), options.techniques.end(),
                         [](const Technique* t) { return !reads_layers(*t); });
   if (list.empty()) return;
@@ -117,7 +117,7 @@ void choose_variants(Options& options, const std::string& list, const DeviceInfo
   }
 }
 
-/// A value that none of the techniques with the parameter takes is wrong; one that some do not take is skipped there.
+/// Throws UsageError for a value that no technique with the parameter accepts; techniques that do not accept it skip it.
 void check_sweep(const Options& options, const Sweep& sweep, const std::vector<const Technique*>& swept,
                  Measurement& result) {
   for (const std::string& value : sweep.values) {
@@ -140,7 +140,7 @@ void choose_sweeps(Options& options, const std::vector<std::string>& items, Meas
   size_t product = 1;
   for (const auto& [name, list] : parse_settings(items, "--sweep")) {
     if (!contains(known, name))
-      throw UsageError("--sweep {}: no technique that is measured has it{}; there are {}", name,
+      throw UsageError("--sweep {}: no measured technique has this parameter{}; there are {}", name,
                        suggestion(name, known), enumerate(known));
     Sweep sweep{name, {}};
     for (const std::string& value : split_list(list, "--sweep " + name)) add_new(sweep.values, value);
@@ -157,7 +157,7 @@ void choose_sweeps(Options& options, const std::vector<std::string>& items, Meas
   for (const Sweep& sweep : options.sweeps) check_sweep(options, sweep, swept, result);
 }
 
-/// The techniques asked for; else those over one depth, since layers take several times as long.
+/// Chooses the techniques asked for; else those over one depth layer, since several layers take several times as long.
 void choose_growth(Options& options, const BenchCommand& flags) {
   if (flags.no_growth) return;
   for (const Technique* t : options.techniques) {
@@ -193,7 +193,7 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw Error("-o {}: cannot be made ({})", folder.string(), error.message());
 }
 
-// --- What is printed
+// --- Output
 
 void print(const Table& table) {
   fmt::print("\n{}\n", printable(table.title));
@@ -201,7 +201,7 @@ void print(const Table& table) {
   for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
 }
 
-/// Techniques of which only one preset was measured.
+/// Techniques with only one preset measured.
 std::vector<std::string> measured_in_short(const Measurement& result, const Options& options) {
   std::vector<std::string> names;
   for (const auto& row : result.rows) {
@@ -210,7 +210,7 @@ std::vector<std::string> measured_in_short(const Measurement& result, const Opti
   return names;
 }
 
-/// Techniques that were measured and whose growth was not.
+/// Measured techniques whose growth was not measured.
 std::vector<std::string> without_growth(const Measurement& result, const Options& options) {
   std::vector<std::string> names;
   for (const auto& row : result.rows) {

@@ -20,7 +20,7 @@ const Paper& find_paper(const std::string& name) {
   for (const Paper& paper : papers()) {
     if (paper.name == name) return paper;
   }
-  throw UsageError("--paper {}: is none that can be measured{}; there is {}", name, suggestion(name, paper_names()),
+  throw UsageError("--paper {}: no such paper{}; there is {}", name, suggestion(name, paper_names()),
                    enumerate(paper_names()));
 }
 

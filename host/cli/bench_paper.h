@@ -18,7 +18,7 @@ struct PaperFlags {
 
 std::vector<std::string> paper_names();
 
-/// Measures the paper again, writes bench.json, PAPER.md and pictures to the folder, and prints the page.
+/// Repeats the paper's measurements, writes bench.json, PAPER.md and pictures to the folder, and prints the page.
 void bench_paper(const PaperFlags& flags, const JsonFlag& json);
 
 }  // namespace gloam::cli

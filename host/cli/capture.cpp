@@ -59,9 +59,9 @@ void check_flags(const CaptureCommand& flags) {
   check_frame_name(flags.out, "-o");
   check_second_view_flags(flags);
   if (flags.display.empty() && !flags.modules.empty())
-    throw UsageError("--modules are of a light-field display; give --display FILE too");
+    throw UsageError("--modules are for a light-field display; give --display FILE too");
   if (flags.display.empty() && flags.separate)
-    throw UsageError("--separate is of the modules of a light-field display; give --display FILE too");
+    throw UsageError("--separate is for the modules of a light-field display; give --display FILE too");
   if (!flags.path.empty() && flags.camera.any())
     throw UsageError(
         "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "
@@ -76,7 +76,7 @@ Choices<OutlineMethod> methods_by_name() {
   return choices;
 }
 
-/// None of what is written may be what is read, or be written twice.
+/// Throws UsageError if an output is also an input or another output.
 void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& shots) {
   std::vector<NamedPath> outputs = {{"--json", flags.json.file()}};
   for (const CaptureShot& shot : shots) {
@@ -94,7 +94,7 @@ void capture_command(const CaptureCommand& flags) {
   const WriteOptions write{flags.half, flags.compression};
   check_flags(flags);
   if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
-  if (!flags.display.empty()) read_display(flags.display);                       // what is wrong with it is said first
+  if (!flags.display.empty()) read_display(flags.display);                       // reports its errors first
   CaptureOptions options;
   if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.planes = planes_of(flags);
@@ -175,7 +175,7 @@ void add_capture(CLI::App& app) {
                    "the views of all optical modules of a light-field display (docs/light-field.md), in its size")
       ->type_name("FILE.json");
   command->add_option("--modules", flags->modules, "with --display: these only, by number: 0,5,10-19")
-      ->check(accepted_by(parse_modules, "--modules"))  // stays text: how many there are the display says
+      ->check(accepted_by(parse_modules, "--modules"))  // stays text: the display decides the number of modules
       ->type_name("N,N-N");
   command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")

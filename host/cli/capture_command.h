@@ -1,4 +1,4 @@
-// The flags of gloam capture, and what is captured and written: shared by its files.
+// The flags of gloam capture, its shots and its figures: shared by the files of the command.
 #pragma once
 
 #include <optional>
@@ -25,13 +25,13 @@ struct CaptureCommand {
   JsonFlag json;
 };
 
-/// One moment: what is captured, and the file it goes to.
+/// One moment: the views to capture, and the files to write.
 struct CaptureShot {
   std::string file, picture;
   std::vector<CaptureView> views;
 };
 
-/// How many surfaces lie under a pixel that shows any.
+/// Number of surfaces under the pixels that show any.
 struct LayerCount {
   long long pixels = 0, surfaces = 0;
   int most = 0;
@@ -57,12 +57,12 @@ struct CaptureFigures {
   double load = 0, build = 0, trace = 0, stochastic = 0, outlines = 0, write = 0;
   long long rays = 0;
   LayerCount layers;
-  std::string camera;                    ///< where the first view's camera came from
-  long long surfaces = 0;                ///< pixels that show one
-  std::optional<VisibleDepths> visible;  ///< what the second view holds
-  std::optional<Camera> second;          ///< its camera
-  double shift = 0;                      ///< of each eye's principal point, pixels
-  std::optional<double> ao_radius;  ///< that suits the scene, else the first frame; none: nothing is in the picture
+  std::string camera;                    ///< source of the first view's camera
+  long long surfaces = 0;                ///< pixels that show a surface
+  std::optional<VisibleDepths> visible;  ///< depths in the second view
+  std::optional<Camera> second;          ///< camera of the second view
+  double shift = 0;                      ///< shift of each eye's principal point, pixels
+  std::optional<double> ao_radius;       ///< that suits the scene, else the first frame; none: no surface is visible
   std::vector<std::string> files;
 };
 

@@ -21,9 +21,9 @@ std::vector<std::string> planes_of(const CaptureCommand& flags) {
 StochasticOptions stochastic_of(const CaptureCommand& flags) {
   StochasticOptions options;
   if (!flags.stochastic) {
-    if (flags.alpha) throw UsageError("--alpha is of a stochastic depth map; give --stochastic S too");
+    if (flags.alpha) throw UsageError("--alpha is for a stochastic depth map; give --stochastic S too");
     if (flags.stochastic_seed)
-      throw UsageError("--stochastic-seed is of a stochastic depth map; give --stochastic S too");
+      throw UsageError("--stochastic-seed is for a stochastic depth map; give --stochastic S too");
     return options;
   }
   options.samples = *flags.stochastic;
@@ -34,8 +34,8 @@ StochasticOptions stochastic_of(const CaptureCommand& flags) {
 
 std::optional<OutlineOptions> outlines_of(const CaptureCommand& flags) {
   if (!flags.outlines) {
-    if (flags.outline_method) throw UsageError("--outline-method is of outlines; give --outlines EXTENT too");
-    if (flags.outline_angle) throw UsageError("--outline-angle is of outlines; give --outlines EXTENT too");
+    if (flags.outline_method) throw UsageError("--outline-method is for outlines; give --outlines EXTENT too");
+    if (flags.outline_angle) throw UsageError("--outline-angle is for outlines; give --outlines EXTENT too");
     return {};
   }
   OutlineOptions options;
@@ -57,8 +57,8 @@ std::optional<double> second_view_of(const CaptureCommand& flags) {
 
 std::optional<StereoRig> stereo_of(const CaptureCommand& flags) {
   if (!flags.stereo) {
-    if (flags.convergence) throw UsageError("--convergence is of two eyes; give --stereo IPD too");
-    if (flags.toe_in) throw UsageError("--toe-in is of two eyes; give --stereo IPD and --convergence D too");
+    if (flags.convergence) throw UsageError("--convergence is for two eyes; give --stereo IPD too");
+    if (flags.toe_in) throw UsageError("--toe-in is for two eyes; give --stereo IPD and --convergence D too");
     return {};
   }
   const StereoRig rig{*flags.stereo, flags.convergence, flags.toe_in};

@@ -1,4 +1,4 @@
-// What the flags of gloam capture ask for; UsageError where they do not go together.
+// The requests of the flags of gloam capture. UsageError if flags do not go together.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace gloam::cli {
 
-/// All planes but motion, which needs a path.
+/// The planes of --planes; without it all but motion, which needs a path.
 std::vector<std::string> planes_of(const CaptureCommand& flags);
 StochasticOptions stochastic_of(const CaptureCommand& flags);
-/// None where none are wanted.
+/// None without --outlines.
 std::optional<OutlineOptions> outlines_of(const CaptureCommand& flags);
-/// By how many degrees the second view is turned; none where none is wanted.
+/// Degrees by which the second view is turned; none without --view2.
 std::optional<double> second_view_of(const CaptureCommand& flags);
-/// How two eyes stand to each other; none where one view is wanted.
+/// Distance and convergence of two eyes; none without --stereo.
 std::optional<StereoRig> stereo_of(const CaptureCommand& flags);
-/// Each says which views a frame has.
+/// Refuses more than one of the flags that decide the views of a frame.
 void check_second_view_flags(const CaptureCommand& flags);
 
 }  // namespace gloam::cli

@@ -8,7 +8,7 @@
 namespace gloam::cli {
 namespace {
 
-/// What the image of a camera spans from its left to its right border: degrees, or scene units.
+/// Extent of a camera's image from its left to its right border: degrees, or scene units.
 double span_of(const Camera& camera, int width) {
   const double left = camera.cx / camera.fx, right = (width - camera.cx) / camera.fx;
   if (camera.orthographic) return left + right;

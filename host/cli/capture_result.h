@@ -1,4 +1,4 @@
-// What gloam capture tells of what it made, for programs and for people.
+// The results of gloam capture, for programs and for people.
 #pragma once
 
 #include "cli/capture_command.h"

@@ -12,7 +12,7 @@
 namespace gloam::cli {
 namespace {
 
-/// A camera file may hold more than the one view that two are made of.
+/// Throws UsageError for a camera file with several views: two views are made from one.
 void check_single_view(const CaptureCommand& flags, const std::vector<CaptureView>& views) {
   if ((!flags.view2 && !flags.stereo) || views.size() == 1) return;
   std::vector<std::string> names;
@@ -53,14 +53,14 @@ std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
   return chosen;
 }
 
-/// The display, with the part of the world that it shows: its own, or what the scene's camera frames, whose middle depth comes
-/// to lie in the screen.
+/// The display, with the part of the world that it shows: the one that the display states, or the scene camera's image at its
+/// middle depth, which comes to lie in the screen.
 LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer) {
   LightFieldDisplay display = read_display(flags.display);
   if (display.world) {
     if (flags.camera.any())
       throw UsageError(
-          "--display {}: says itself which part of the world it shows; leave out --camera, --eye, --target "
+          "--display {}: states which part of the world it shows; leave out --camera, --eye, --target "
           "and --fov",
           flags.display);
     return display;
@@ -91,8 +91,7 @@ std::vector<std::pair<int, int>> parse_modules(const std::string& text, const st
       items.emplace_back(first, last);
     }
   } catch (const UsageError&) {
-    throw UsageError("{} {} is not allowed; numbers and what lies between two of them are, such as 0,5,10-19", flag,
-                     text);
+    throw UsageError("{} {} is not allowed; numbers and ranges are, such as 0,5,10-19", flag, text);
   }
   return items;
 }

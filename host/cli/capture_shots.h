@@ -1,4 +1,4 @@
-// Which frames a capture takes, from which cameras: one, one of each moment of a path, or those of a light-field display.
+// The frames of a capture and their cameras: one frame, one for each moment of a path, or those of a light-field display.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace gloam::cli {
 
-/// One file with all modules, or one for each. The size is the display's where none is given.
+/// One file with all modules, or one for each. The size is the display's if the flags give none.
 std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options);
 /// One file, or one for each camera of a path.
 std::vector<CaptureShot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height);

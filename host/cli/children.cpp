@@ -18,12 +18,12 @@ extern char** environ;
 namespace gloam::cli {
 namespace {
 
-/// Both ends of a pipe, closed with it; not handed on to other children.
+/// Both ends of a pipe; the destructor closes them, and other children do not inherit them.
 struct Pipe {
   int from = -1, to = -1;
   Pipe() {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw Error("no pipe to a process of our own: {}", std::strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Error("cannot open a pipe to a child process: {}", std::strerror(errno));
     from = ends[0], to = ends[1];
   }
   ~Pipe() {
@@ -48,11 +48,11 @@ pid_t spawn(const std::vector<std::string>& arguments, const Pipe& out, const Pi
   pid_t child = 0;
   const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (failed) throw Error("no process of our own: {}", std::strerror(failed));
+  if (failed) throw Error("cannot start a child process: {}", std::strerror(failed));
   return child;
 }
 
-/// Hands over what ends in a line end, and keeps the rest.
+/// Passes complete lines on, and keeps the rest.
 void take_lines(std::string& text, const std::function<void(const std::string&)>& line) {
   size_t start = 0;
   for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', start)) {
@@ -62,7 +62,7 @@ void take_lines(std::string& text, const std::function<void(const std::string&)>
   text.erase(0, start);
 }
 
-/// False at its end.
+/// Reads more of a pipe; false at its end.
 bool read_more(int end, std::string& text) {
   std::array<char, 4096> buffer;
   const ssize_t count = read(end, buffer.data(), buffer.size());

@@ -1,4 +1,4 @@
-// Commands of gloam in processes of their own, so that a driver that crashes or hangs ends one of them and not all.
+// Commands of gloam in child processes, so that a driver that crashes or hangs ends one of them and not all.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@ namespace gloam::cli {
 /// How a child ended.
 struct ChildEnd {
   int status = 0;        ///< its exit status; -1: it did not exit by itself
-  std::string ended_by;  ///< "signal 11 (Segmentation fault)", "no sign of life for 600 s"; empty where it exited
-  std::string said;      ///< on standard error
+  std::string ended_by;  ///< "signal 11 (Segmentation fault)", "no sign of life for 600 s"; empty if it exited
+  std::string said;      ///< output on standard error
 };
 
-/// Runs this program with other arguments. Calls `line` with each line that it writes on standard output; kills it when it has
-/// written none for `patience` seconds. May be called from several threads.
+/// Runs this program with other arguments, as a child. Calls `line` with each line of the child's standard output; kills the child
+/// if it has written no line for `patience` seconds. May be called from several threads.
 ChildEnd run_child(const std::vector<std::string>& arguments, double patience,
                    const std::function<void(const std::string&)>& line);
 

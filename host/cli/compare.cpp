@@ -16,7 +16,7 @@
 namespace gloam::cli {
 namespace {
 
-/// Looks through both sides and returns the planes to compare: the first that are of use in both. `is_told`: --frame tells the
+/// Surveys both sides and returns the planes to compare: the first that are usable in both. `is_told`: --frame tells the
 /// background.
 PlanePair survey_sides(Side& test, Side& reference, const std::string& asked, bool is_told) {
   const bool test_tells = contains(test.file.common_planes(), "depth");
@@ -32,12 +32,12 @@ PlanePair survey_sides(Side& test, Side& reference, const std::string& asked, bo
 
 using ViewPairs = std::vector<std::pair<std::string, std::string>>;
 
-/// Of one view each, which is compared all the same. `is_told`: by --view.
+/// Adds a note if two files of one view each hold different views; they are compared all the same. `is_told`: by --view.
 void note_other_view(const FrameFile& test, const FrameFile& reference, bool is_told) {
   const std::string &a = test.views().front(), &b = reference.views().front();
   if (test.view_is_assumed() == reference.view_is_assumed()) {
     if (a != b && !a.empty() && !b.empty())
-      note({fmt::format("view '{}' is compared with view '{}'; is that meant?", a, b)});
+      note({fmt::format("view '{}' is compared with view '{}'; is this intended?", a, b)});
     return;
   }
   const FrameFile& unsure = reference.view_is_assumed() ? reference : test;
@@ -81,7 +81,7 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_
               reference.path().string(), words(b));
 }
 
-/// By the flag, else by what the reference says.
+/// The exposure by the flag, else by the reference.
 double exposure_of(const CompareFlags& flags, const FrameFile& reference, const std::string& plane) {
   if (flags.exposure) return *flags.exposure;
   return plane == "reflection" ? reference.number_attribute("gloamExposure").value_or(0) : 0;
@@ -103,7 +103,7 @@ Json metrics_document(const Metrics& m) {
   return document;
 }
 
-/// Several views as one: sums over all their pixels.
+/// Metrics of several views as one: sums over all their pixels.
 Metrics pooled(const std::vector<Metrics>& views) {
   if (views.size() == 1) return views.front();
   Metrics all;
@@ -126,7 +126,7 @@ Metrics pooled(const std::vector<Metrics>& views) {
   return all;
 }
 
-/// What a positive and a negative bias mean for a reader.
+/// The meaning of a positive and a negative bias, in words.
 std::string bias_words(double bias, const std::string& plane) {
   if (std::abs(bias) < 5e-6) return "";
   const PlaneKind::Meaning meaning = plane_kind(plane).meaning;
@@ -171,7 +171,7 @@ std::optional<double> radius_in(const std::string& parameters) {
 /// Two radii, finite or not, as near as float and decimals keep them.
 bool is_near(double a, double b) { return a == b || std::abs(a - b) <= 1e-3 * std::min(a, b); }
 
-/// An AO made with another radius than its truth is worth a word.
+/// Adds a note for an AO made with another radius than its truth.
 void note_other_radius(const FrameFile& test, const FrameFile& reference) {
   const std::optional<double> truth = reference.number_attribute("aoRadius");
   const std::optional<double> used = radius_in(test.text_attribute("gloamParameters"));
@@ -187,7 +187,7 @@ Frame background_frame(const CompareFlags& flags, const ReadOptions& options) {
   return file.read({"depth"});
 }
 
-/// --frame first, since the user named it; then what the files themselves know.
+/// The foreground by --frame, since the user named it; else by the files' own depth.
 std::optional<Mask> mask_of(const CompareFlags& flags, const Frame& extra, const Side& test, const Side& reference,
                             const std::pair<std::string, std::string>& views, const Overlap& overlap,
                             const Rows& rows) {
@@ -201,11 +201,11 @@ std::optional<Mask> mask_of(const CompareFlags& flags, const Frame& extra, const
 
 /// One view of the test against one of the reference.
 struct ViewComparison {
-  Comparison all, shown;  ///< shown: where the frame shows what is reflected
+  Comparison all, shown;  ///< shown: pixels whose reflected surfaces the frame shows
   bool is_background_known = false;
 };
 
-/// What is compared, and what has come of it so far.
+/// The inputs of a comparison, and its results so far.
 struct Comparing {
   const CompareFlags& flags;
   Side &test, &reference;
@@ -218,7 +218,7 @@ struct Comparing {
   std::vector<std::string> pictures;
 };
 
-/// What cannot be compared, with the names of the files.
+/// Adds the files' names to an error about inputs that cannot be compared.
 template <typename Work>
 auto naming_files(const CompareFlags& flags, const Work& work) {
   try {
@@ -228,7 +228,7 @@ auto naming_files(const CompareFlags& flags, const Work& work) {
   }
 }
 
-/// Rows [first, last), with those around them that figures look at. All rows at once may be drawn.
+/// Adds rows [first, last), with the surrounding rows that figures need. All rows at once may be drawn.
 void add_rows(Comparing& c, int first, int last) {
   const int height = c.overlap.layout.height;
   const Rows rows{std::max(first - Comparison::reach(), 0), std::min(last + Comparison::reach(), height)};
@@ -257,7 +257,7 @@ void add_rows(Comparing& c, int first, int last) {
   }
 }
 
-/// A picture shows the whole image; figures need some rows at a time.
+/// Adds all rows: at once for a picture, which shows the whole image, else some at a time.
 void add_all_rows(Comparing& c) {
   const int height = c.overlap.layout.height;
   const int at_once =

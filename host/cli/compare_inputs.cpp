@@ -17,7 +17,7 @@ Channel crop(const Channel& channel, const Window& from, const Window& to) {
   return out;
 }
 
-/// What of the reference a plane of the test is measured against where the user names that plane.
+/// The plane of the reference for a plane of the test that the user names.
 std::string counterpart(const std::string& plane, const FrameFile& reference) {
   const std::vector<std::string> planes = reference.common_planes();
   if (contains(planes, plane)) return plane;
@@ -88,7 +88,7 @@ std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile&
     if (contains(a, pair.test) && contains(b, pair.reference)) pairs.push_back(pair);
   }
   if (!pairs.empty()) return pairs;
-  // A result has the depth beside it that it was made from: two depths that are the same say nothing of two results.
+  // A result is stored with the depth that it was made from: comparing equal depths says nothing about the results.
   const std::vector<std::string> results = results_among(a), truths = results_among(b);
   if (!results.empty() && !truths.empty())
     throw Error("{} has {} and {} has {}, which cannot be compared; --what PLANE compares another plane",

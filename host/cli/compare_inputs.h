@@ -1,4 +1,4 @@
-// What the forms of `gloam compare` share: flags, which planes are worth comparing, what lies under what.
+// Shared by the forms of `gloam compare`: flags, the choice of planes, and the alignment of images.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct CompareFlags {
   FrameFlags frame_flags;
   JsonFlag json;
 
-  /// A --plane that is a plane's name alone says what to compare, as --what does.
+  /// Treats a --plane that is a plane's name alone as --what: the plane to compare.
   void take_plane_names();
 };
 
@@ -25,34 +25,34 @@ struct PlanePair {
   std::string test, reference;
 };
 
-/// What techniques make, by what it can be measured against, best first. AO is AO before a filter and after.
+/// Planes that techniques make, each with a plane that it can be measured against, best first. AO before a filter and AO after it
+/// may be compared.
 const std::vector<PlanePair>& result_pairs();
 
-/// Those of a file's planes that techniques make.
+/// Planes of a file that techniques make.
 std::vector<std::string> results_among(const std::vector<std::string>& planes);
 
-/// Those of a file's planes that techniques do not make, the most telling first.
+/// Planes of a file that techniques do not make, the most informative first.
 std::vector<std::string> inputs_among(const std::vector<std::string>& planes);
 
 /// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
 std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked);
 
-/// The part of a plane, which covers `from`, that `to` covers; all of it where `to` is empty.
+/// The part of a plane inside `to`; all of it if `to` is empty. `from`: the window of the plane.
 Plane cropped(const Plane& plane, const Window& from, const Window& to);
 
-/// Whether a frame covers a window, or has its size where the window is empty.
+/// Whether a frame covers a window; if the window is empty, whether the frame has the size of `layout`.
 bool covers(const Frame& frame, const Window& window, const Layout& layout);
 
-/// The view of a --frame that goes with a view of the test: of the same name, or the only one.
+/// The view of --frame for a view of the test: that of the same name, or the only one.
 std::string view_of(const Frame& frame, const std::string& name);
 
-/// Options for a file beside the test: its channels are not those of the test, and one unnamed view leaves nothing to
-/// choose.
+/// Options for a file other than the test: without choices of channels, which are the test's, and without a choice of views if the
+/// file has one unnamed view.
 ReadOptions options_beside(const ReadOptions& options, const std::string& path);
 
-/// What of --frame lies under the images: their window where it shows the same display window, all of it (an empty
-/// window) where it has their size. Throws Error for a frame of another size: which of its pixels are theirs is not
-/// known.
+/// The part of --frame under the images: their window if the frame shows the same display window, all of it (an empty window) if
+/// it has their size. Throws Error for a frame of another size, which cannot be aligned with the images.
 Window window_under(const Frame& extra, const std::string& path, const Frame& test, const Window& window,
                     const Layout& layout);
 

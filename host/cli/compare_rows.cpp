@@ -86,7 +86,8 @@ std::optional<Mask> shown_pixels(const Plane& truth, const Mask& mask) {
   return shown;
 }
 
-/// Of the plane that comes first. A picture takes all rows at once, and copies of them; figures some, and those around them.
+/// Counts the plane that comes first. A picture needs all rows at once, and copies of them; figures need some rows and those around
+/// them.
 unsigned long long bytes_of_comparison(const CompareFlags& flags, const ReadOptions& options, const FrameFile& test,
                                        const FrameFile& reference) {
   const PlanePair pair = comparable_planes(test, reference, flags.plane).front();
@@ -107,7 +108,7 @@ unsigned long long bytes_of_comparison(const CompareFlags& flags, const ReadOpti
     constexpr int copies = 4;  // of both sides' rows: as decoded, cut to the overlap, exposed, encoded
     return bytes + test.bytes_to_read_by_rows(tests) + reference.bytes_to_read_by_rows(truths) + 2 * copies * rows;
   }
-  constexpr int copies = 3;  // of both sides', the difference and its picture among them
+  constexpr int copies = 3;  // of both sides' images, the difference and its picture included
   const unsigned long long image = components * Layout(window.width(), window.height()).bytes();
   return bytes + test.bytes_to_read(tests) + reference.bytes_to_read(truths) + 2 * copies * image;
 }

@@ -1,4 +1,4 @@
-// What `gloam compare` reads: the planes of two files over the same pixels, some rows at a time.
+// The input of `gloam compare`: the planes of two files over the same pixels, some rows at a time.
 #pragma once
 
 #include <optional>
@@ -12,45 +12,45 @@ namespace gloam::cli {
 
 /// The pixels that both images cover.
 struct Overlap {
-  Window window;  ///< of both; empty: each its own, of one size
+  Window window;  ///< of both images; empty: each has its own window, of the same size
   Layout layout;
 };
 
-/// Rows [first, last) of these.
+/// Rows [first, last) of an overlap.
 struct Rows {
   int first = 0, last = 0;
 };
 
-/// A file with the plane to compare; values as they stand in the file.
+/// A file with the plane to compare; values as in the file.
 struct Side {
   FrameFile file;
-  Frame frame;  ///< the depth, to know the background by
+  Frame frame;  ///< the depth, which tells the background
 
-  /// `with_depth`: where there is one.
+  /// Surveys the plane and, if `with_depth`, the depth if the file has one.
   void survey(const std::string& plane, bool with_depth);
-  /// Whether the plane that was surveyed is of use in all views.
+  /// Whether the surveyed plane is usable in all views.
   bool has(const std::string& plane);
   /// Decodes rows of the plane, of all views.
   Frame read(const std::string& plane, const Overlap& overlap, const Rows& rows);
-  /// Of one view what `read` came to.
+  /// The plane of one view from the result of `read`.
   Plane rows_of(const Frame& read, const std::string& plane, const std::string& view, const Overlap& overlap,
                 const Rows& rows) const;
 };
 
-/// Both frames over the same pixels: their windows, or the display window where they share one and the windows differ. Throws
-/// Error for images of different size.
+/// The pixels of both frames: their windows, or the display window if it is the same and the windows differ. Throws Error for
+/// images of different size.
 Overlap overlap_of(const Side& test, const Side& reference);
 
-/// Foreground of a view of one frame; none where it has no depth for that view.
+/// Foreground of a view of one frame; none if the frame has no depth for that view.
 std::optional<Mask> foreground(const Frame& frame, const std::string& name, const Overlap& overlap, const Rows& rows);
 
-/// How sure a reflection is, is no part of what it looks like, and in a truth it says something else.
+/// A reflection without its confidence, which is not part of its look, and has another meaning in a truth.
 Plane without_confidence(Plane plane);
 
-/// Pixels of which the truth says that a view of the frame shows most of what they reflect; none where it does not say.
+/// Pixels whose reflected surfaces are mostly visible in the frame, according to the truth; none if the truth does not tell.
 std::optional<Mask> shown_pixels(const Plane& truth, const Mask& mask);
 
-/// Memory that a comparison takes at its peak.
+/// Peak memory of a comparison, bytes.
 unsigned long long bytes_of_comparison(const CompareFlags& flags, const ReadOptions& options, const FrameFile& test,
                                        const FrameFile& reference);
 

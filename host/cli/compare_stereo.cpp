@@ -16,11 +16,11 @@
 namespace gloam::cli {
 namespace {
 
-/// An angle of normals in half precision is known to some 0.03 degrees.
+/// Angles of normals in half precision are exact to about 0.03 degrees.
 constexpr double smallest_angle = 0.1;
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Bringing together
+// Inputs
 
 /// One view of a file, and the part of its pixels that lies under the images.
 struct Source {
@@ -29,7 +29,7 @@ struct Source {
   Window window;
 };
 
-/// The same thing of both eyes.
+/// One source for each eye.
 using Sources = std::array<Source, 2>;
 
 Sources sources_of(const std::vector<StereoInput>& results) {
@@ -43,7 +43,7 @@ Sources sources_of(const std::vector<StereoInput>& results) {
   return {Source{&results[0], &first.views[0], first.window}, Source{&results[1], &second.views[0], second.window}};
 }
 
-/// The views of --frame that go with those of the results: by name; in their order where each eye has a file.
+/// The views of --frame for those of the results: by name, or in order if each eye has a file.
 Sources sources_of(const StereoInput& extra, const std::vector<StereoInput>& results) {
   const Frame &frame = extra.frame, &first = results.front().frame;
   if (frame.views.size() < 2)
@@ -60,7 +60,7 @@ Sources sources_of(const StereoInput& extra, const std::vector<StereoInput>& res
   return sources;
 }
 
-/// Their own names, as far as these tell the eyes apart.
+/// Names of the eyes: the views' own, if these differ.
 std::array<std::string, 2> names_of(const std::vector<Sources>& sources) {
   for (const Sources& s : sources) {
     const std::string &left = s[0].view->name, &right = s[1].view->name;
@@ -74,8 +74,8 @@ bool have_cameras(const Sources& sources) {
                      [](const Source& s) { return s.view->camera && s.view->camera->pose.has_value(); });
 }
 
-/// --frame first, since the user named it. But what depth and normals mean may depend on the camera: files that have it
-/// go before one that had to do without.
+/// Sources in order of preference: --frame first, since the user named it. But the meaning of depth and normals may depend on the
+/// camera: files with a camera come before a file without one.
 std::vector<Sources> sources_of(const std::vector<StereoInput>& frames, const std::vector<StereoInput>& results) {
   std::vector<Sources> sources;
   for (const StereoInput& frame : frames) sources.push_back(sources_of(frame, results));
@@ -84,7 +84,7 @@ std::vector<Sources> sources_of(const std::vector<StereoInput>& frames, const st
   return sources;
 }
 
-/// The first sources that have something for both eyes; null where none has.
+/// The first sources that have the plane for both eyes; null if none has.
 const Sources* first_with(const std::vector<Sources>& sources, const std::string& plane) {
   for (const Sources& s : sources) {
     if (s[0].view->find(plane) && s[1].view->find(plane)) return &s;
@@ -139,7 +139,7 @@ Frame pair_of(const Sources& results, const std::vector<Sources>& sources, const
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Writing
+// Outputs
 
 Json document_of(const StereoInconsistency& result, const Frame& pair, const std::string& plane) {
   const auto mean = [](const StereoFigures& f) { return f.counted > 0 ? Json(f.mean) : Json(); };
@@ -175,7 +175,7 @@ void print_result(const CompareFlags& flags, const StereoInconsistency& result, 
   for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }
 
-/// The raw errors of both views, with depth and cameras. NaN where a pixel does not count.
+/// Writes the raw errors of both views, with depth and cameras. Pixels that do not count are NaN.
 void write_errors(const std::string& path, Frame& pair, const StereoInconsistency& result) {
   Frame out;
   out.display = pair.display;
@@ -195,7 +195,7 @@ void write_errors(const std::string& path, Frame& pair, const StereoInconsistenc
 
 bool is_frame_name(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
 
-/// Returns the files written.
+/// Writes the pictures asked for, and returns their files.
 std::vector<std::string> write_pictures(const CompareFlags& flags, const StereoFlags& stereo, Frame& pair,
                                         const std::string& plane, const StereoInconsistency& result) {
   const Plane &left = *pair.views[0].find(plane), &right = *pair.views[1].find(plane);
@@ -218,7 +218,7 @@ std::vector<std::string> write_pictures(const CompareFlags& flags, const StereoF
   return written;
 }
 
-/// What was assumed of the file that the rest rests on; of all files where their normals are of no use.
+/// Adds notes on the assumptions about the first sources; about all sources if their normals are unusable.
 void note_assumptions(const std::vector<Sources>& sources, bool lacks_normals) {
   std::vector<std::string> assumed;
   for (const Sources& s : sources) {
@@ -286,7 +286,7 @@ void StereoFlags::add_to(CLI::App& app) {
       ->needs(on);
 }
 
-/// What cannot be compared, with the names of the files.
+/// Measures, and adds the files' names to an error about inputs that cannot be compared.
 StereoInconsistency inconsistency_of(const CompareFlags& flags, const Frame& pair, const std::string& plane,
                                      const StereoOptions& check) {
   try {

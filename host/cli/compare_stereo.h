@@ -1,4 +1,4 @@
-// gloam compare --stereo OUT.exr: how far the two views of a result are from each other.
+// gloam compare --stereo OUT.exr: differences between the two views of a result.
 #pragma once
 
 #include <string>

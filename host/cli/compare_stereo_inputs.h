@@ -13,7 +13,7 @@ struct StereoInput {
   Frame frame;
 
   std::string name() const { return file.path().string(); }
-  /// Those of the named planes that the file has.
+  /// Reads the named planes, if the file has them.
   void read(const std::vector<std::string>& wanted) {
     std::vector<std::string> planes;
     for (const std::string& plane : wanted) {
@@ -23,18 +23,18 @@ struct StereoInput {
   }
 };
 
-/// The file with both views, or that of each eye.
+/// The file with both views, or the file of each eye.
 std::vector<StereoInput> open_results(const CompareFlags& flags, const ReadOptions& options);
-/// That of --frame, if any.
+/// The file of --frame; empty without it.
 std::vector<StereoInput> open_frame(const CompareFlags& flags, const ReadOptions& options);
-/// Planes of both eyes as they are read, and once more as they are compared.
+/// Memory, bytes: planes of both eyes as they are read, and copies as they are compared.
 unsigned long long bytes_of(const std::vector<StereoInput>& results, const std::vector<StereoInput>& frames,
                             std::vector<std::string> geometry, const std::string& plane);
-/// Reads of each file what it has of the geometry, and a plane.
+/// Reads from each file the planes of `geometry` that it has, and a plane.
 void read_all(std::vector<StereoInput>& inputs, std::vector<std::string> geometry, const std::string& plane);
-/// The plane asked for. A point's depth is another for each eye, so that depths are not compared.
+/// The plane asked for. Refuses depth: a point's depth differs between the eyes.
 std::string plane_asked_for(const std::vector<StereoInput>& results, const std::string& asked);
-/// The first that all files have, results before inputs.
+/// The first plane that all files have, results before inputs.
 std::string plane_to_compare(const std::vector<StereoInput>& results);
 
 }  // namespace gloam::cli

@@ -47,7 +47,7 @@ Words with(Words words, const std::string& word) {
   return words;
 }
 
-/// What the registry knows of a value of that name, whichever command it belongs to; empty for others.
+/// Words of the registry for a value of this name in any command; empty for other names.
 Words words_for(const std::string& command, const std::string& name) {
   if (command == "stress" && name == "technique") return with(technique_names(), "all");
   if (name == "technique") return with(technique_names(), "ao");
@@ -101,7 +101,7 @@ Completion completion_of(const CLI::App& command, const CLI::Option& option) {
   return value;
 }
 
-/// Up to the first semicolon or bracket, and no more than fits on a terminal's line beside a flag.
+/// Help up to the first semicolon or bracket, cut to fit on a terminal's line beside a flag.
 std::string short_help(const std::string& help) {
   constexpr size_t longest = 90;
   std::string text = help.substr(0, help.find_first_of(";([\n"));

@@ -1,4 +1,4 @@
-// What a shell completes after `gloam`: read from the command's own table of commands and flags, and from the registry.
+// Completion of `gloam` in shells, from the command's own table of commands and flags, and from the registry.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,17 +8,17 @@
 
 namespace gloam::cli {
 
-/// What may stand as the value of a flag or argument.
+/// Possible values of a flag or argument.
 struct Completion {
   std::vector<std::string> words;
   bool has_files = false;
-  std::string ending;    ///< of the files, with the dot; empty: any
+  std::string ending;    ///< ending of the files, with the dot; empty: any
   bool is_list = false;  ///< several words, separated by commas
 };
 
 struct CompletedFlag {
   std::vector<std::string> names;  ///< "-o", "--output"
-  std::string help;                ///< one line without what brackets hold
+  std::string help;                ///< one line, without text in brackets
   std::string type;                ///< "OUT.exr"; empty for a switch, which takes no value
   Completion value;
 };
@@ -32,7 +32,7 @@ struct CompletedCommand {
   std::string name, help;
   std::vector<CompletedFlag> flags;
   std::vector<CompletedArgument> arguments;
-  /// Of techniques and built-in scenes, by name: the flags of their parameters.
+  /// The flags of parameters of techniques and built-in scenes, by their names.
   std::vector<std::pair<std::string, std::vector<CompletedFlag>>> parameters;
 };
 

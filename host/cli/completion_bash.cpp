@@ -9,7 +9,7 @@ namespace {
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-/// The call that completes a value; empty where nothing is known of it.
+/// The call that completes a value; empty if its values are not known.
 std::string call_for(const Completion& value) {
   std::string calls;
   if (!value.words.empty())
@@ -26,7 +26,7 @@ void add_flag_value(const std::string& command, const CompletedFlag& flag, std::
   text += fmt::format("    {}) {} ;;\n", fmt::join(patterns, "|"), call.empty() ? ":" : call);
 }
 
-/// What stands after a flag that takes a value. Parameters of one name take what any of them does.
+/// Cases for the value after a flag. Parameters of one name complete the values of all of them.
 std::string value_cases(const std::vector<CompletedCommand>& commands) {
   std::string text;
   for (const CompletedCommand& command : commands) {

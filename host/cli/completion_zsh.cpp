@@ -4,7 +4,7 @@
 namespace gloam::cli {
 namespace {
 
-/// Text inside of a specification in single quotes.
+/// Text escaped for a specification in single quotes.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -18,7 +18,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// What _arguments does to complete a value.
+/// The action of _arguments that completes a value.
 std::string action_for(const Completion& value) {
   const std::string words = fmt::format("{}", fmt::join(value.words, " "));
   const std::string files = value.ending.empty() ? "_files" : fmt::format("_files -g \"*{}(-.)\"", value.ending);

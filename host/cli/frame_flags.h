@@ -1,4 +1,4 @@
-// Flags and arguments that say which frame is read, and how.
+// Flags and arguments for the frame to read, and for how to read it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 
 namespace gloam::cli {
 
-/// A path with what it is on the command line: {"-o", "out.exr"}.
+/// A path with its name on the command line: {"-o", "out.exr"}.
 using NamedPath = std::pair<std::string, std::string>;
 
 /// How to read a frame.
@@ -23,7 +23,7 @@ struct FrameFlags {
   DepthConvention depth = DepthConvention::automatic;
   NormalSpace normal_space = NormalSpace::automatic;
   void add_to(CLI::App& app);
-  /// Throws UsageError for planes and views that are not of their form.
+  /// Throws UsageError for malformed planes and views.
   ReadOptions read_options() const;
 };
 
@@ -31,7 +31,7 @@ struct FrameFlags {
 struct FrameArguments {
   std::string frame, other_eye, history;
   void add_to(CLI::App& app);
-  /// What they name, history included.
+  /// Opens the named files, history included.
   FrameFiles open(const ReadOptions& options) const;
   /// For `check_paths`.
   std::vector<NamedPath> inputs() const {

@@ -1,4 +1,4 @@
-// gloam info FRAME.exr: what was found, what was assumed, what can run, what is lacking.
+// gloam info FRAME.exr: contents, assumptions, and the techniques that can run or lack something.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -62,7 +62,7 @@ Json camera_document(const Camera& camera, const Window& display) {
   return document;
 }
 
-/// What a technique that works on two views lacks of them.
+/// Needs of a technique for two views that the views of the frame do not meet.
 std::vector<std::string> lacking_views(const Technique& technique, const Frame& frame) {
   if (technique.views == 1) return {};
   if (frame.views.size() < 2) return {"a second view"};
@@ -72,7 +72,7 @@ std::vector<std::string> lacking_views(const Technique& technique, const Frame& 
   return has_poses ? std::vector<std::string>() : std::vector<std::string>{"cameras with poses"};
 }
 
-/// Rays of a light-field display's module meet in no eye, and most techniques need one.
+/// Whether a plan needs a single centre of projection, which views of modules of a light-field display lack.
 bool lacks_eye(const Plan& plan, const Frame& frame) {
   const bool has_modules = std::any_of(frame.views.begin(), frame.views.end(),
                                        [](const View& view) { return view.camera && view.camera->slits; });
@@ -80,12 +80,12 @@ bool lacks_eye(const Plan& plan, const Frame& frame) {
                                     [](const PlannedPass& planned) { return !planned.technique->any_projection; });
 }
 
-/// Techniques that the file can feed, and what the others lack.
+/// Techniques that can run on the file, and what the others lack.
 struct Abilities {
   std::vector<std::string> runs;
-  Json lacks = Json::object();  ///< by technique: planes, of those that do as well the one that takes least; views
+  Json lacks = Json::object();               ///< by technique: missing planes (of alternatives the cheapest) and views
   std::map<std::string, std::string> words;  ///< the same for people
-  /// How many techniques lack each of them.
+  /// Number of techniques by the plane, and by the need of views, that they lack.
   std::map<std::string, int> planes, views;
 };
 
@@ -144,7 +144,7 @@ std::string camera_line(const Json& camera) {
   return line;
 }
 
-/// Channels that serve as no plane.
+/// Channels that belong to no plane.
 std::vector<std::string> unread_channels(const FrameFile& file) {
   std::vector<std::string> read, unread;
   for (const PlaneSource& source : file.planes()) {
@@ -156,7 +156,7 @@ std::vector<std::string> unread_channels(const FrameFile& file) {
   return unread;
 }
 
-/// "peel (10 techniques), roughness (4)": what most techniques lack first.
+/// "peel (10 techniques), roughness (4)": those that most techniques lack come first.
 std::string most_wanted(const std::map<std::string, int>& lacking) {
   std::vector<std::pair<std::string, int>> sorted(lacking.begin(), lacking.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -235,7 +235,7 @@ Json planes_document(const std::vector<PlaneFacts>& facts) {
   return planes;
 }
 
-/// Drawn after everything is known to be sound and before anything is said.
+/// Draws the planes: after all checks, and before anything is printed.
 void write_planes_picture(const std::string& picture, const std::string& path, const Frame& frame) {
   if (picture.empty()) return;
   const bool drawable =

@@ -9,7 +9,7 @@
 namespace gloam::cli {
 namespace {
 
-/// Throws what is wrong with --what.
+/// Throws the error of a --what that cannot be drawn.
 [[noreturn]] void refuse(const FrameFile& file, const std::string& asked) {
   const std::vector<std::string> common = file.common_planes();
   const std::string path = file.path().string(), why = file.why_missing(asked);
@@ -42,7 +42,7 @@ struct Drawing {
   std::string plane;
 };
 
-/// The first plane that turns out to be of use.
+/// Reads the first plane that turns out to be usable.
 Drawing read_drawing(FrameFile& file, const std::string& asked) {
   const bool has_depth = contains(file.common_planes(), "depth");
   Drawing drawing;

@@ -15,13 +15,13 @@ struct ViewPictureFlags {
 
   void add_to(CLI::App& app);
   bool any() const { return !sheet.empty() || !scan_line.empty(); }
-  /// Throws UsageError for names that are no PNG's and for flags that have nothing to go with.
+  /// Throws UsageError for names without .png and for flags without the picture that they are for.
   void check() const;
   /// For `check_paths`.
   std::vector<NamedPath> outputs() const { return {{"--sheet", sheet}, {"--scan-line", scan_line}}; }
 };
 
-/// Draws what is asked for, and returns the files. Decodes the plane, and depth to know the background by, and no more.
+/// Writes the pictures asked for, and returns their files. Decodes only the plane, and the depth, which tells the background.
 std::vector<std::string> write_view_pictures(const std::string& path, const ViewPictureFlags& flags,
                                              const FrameFlags& frame_flags);
 

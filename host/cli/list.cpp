@@ -11,7 +11,7 @@
 namespace gloam::cli {
 namespace {
 
-/// All, or the one that is named.
+/// Lists all techniques, or the named one.
 void list_techniques(const std::string& name, const JsonFlag& json, bool markdown) {
   std::vector<const Technique*> wanted;
   if (!name.empty()) wanted = {&find_technique(technique_for(name))};

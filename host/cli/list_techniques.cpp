@@ -76,7 +76,7 @@ Json techniques_document(const std::vector<const Technique*>& techniques) {
 
 namespace {
 
-/// What techniques are listed under: what `gloam run` writes with them, from how many views.
+/// A group of techniques: by the planes that `gloam run` writes with them, and the number of views.
 struct Group {
   std::string heading;
   std::function<bool(const Technique&)> holds;
@@ -86,7 +86,7 @@ bool makes(const Technique& t, const std::string& plane) {
   return !bench::is_filter(t) && contains(outputs_of(t), plane);
 }
 
-/// The first that holds a technique has it.
+/// A technique belongs to the first group that fits.
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"ambient occlusion from depth",
@@ -159,7 +159,7 @@ std::string sentence(std::string text) {
   return text + ".";
 }
 
-/// How a page that shows Markdown spells the anchor of a heading: letters, digits and hyphens.
+/// The anchor of a heading in rendered Markdown: letters, digits and hyphens.
 std::string anchor(const std::string& heading) {
   std::string text;
   for (const char c : heading) {
@@ -168,7 +168,7 @@ std::string anchor(const std::string& heading) {
   return text;
 }
 
-/// Anchors of headings in their order. One that is taken is numbered: hbao, and hbao-1 for hbao+.
+/// Anchors of headings in their order. A repeated anchor gets a number: hbao, and hbao-1 for hbao+.
 std::vector<std::string> anchors_of(const std::vector<std::string>& headings) {
   std::vector<std::string> anchors;
   for (const std::string& heading : headings) {

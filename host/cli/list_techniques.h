@@ -1,4 +1,4 @@
-// What gloam tells of techniques: all of them one a line, one of them in full.
+// Lists of techniques: all of them, one a line, or one in full.
 #pragma once
 
 #include <set>
@@ -9,22 +9,22 @@
 
 namespace gloam::cli {
 
-/// As the contract has it: range, default, choices.
+/// JSON as documented: range, default, choices.
 Json parameter_document(const Parameter& parameter);
 /// The default of a parameter for people.
 std::string default_in_words(const Parameter& parameter);
 
-/// A plane stands for the technique that makes it by default: "ao".
+/// The technique of a name. A plane's name, such as "ao", stands for the technique that makes the plane by default.
 std::string technique_for(const std::string& name);
 
-/// All that there is to know of them, for programs.
+/// Everything about techniques, for programs.
 Json techniques_document(const std::vector<const Technique*>& techniques);
-/// Names and summaries, those together that make the same.
+/// Prints names and summaries, grouped by the planes that techniques make.
 void print_techniques();
-/// Parameters, defaults, presets, what it reads and writes. `settable`: parameters that the command has as flags; the others
-/// take --set.
+/// Prints parameters, defaults, presets, and the planes that the technique reads and writes. `settable`: parameters that the
+/// command has as flags; the others need --set.
 void print_technique(const Technique& technique, const std::set<std::string>& settable);
-/// docs/techniques.md: one section per technique.
+/// Prints docs/techniques.md: one section per technique.
 void print_techniques_markdown();
 
 }  // namespace gloam::cli

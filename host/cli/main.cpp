@@ -18,12 +18,12 @@
 namespace gloam::cli {
 namespace {
 
-/// What --set of a command can set: parameters of techniques, or of built-in scenes.
+/// Parameters that --set of a command accepts: those of techniques, or of built-in scenes.
 std::set<std::string> settable_by(const CLI::App* command_line) {
   std::set<std::string> names;
   if (!command_line) return names;
   const std::string command = command_line->get_name();
-  // Where a command has a flag of that name, --set alone sets the parameter.
+  // If a command has a flag of that name, only --set sets the parameter.
   const auto add = [&](const ParameterList& parameters) {
     for (const Parameter& p : parameters) {
       if (!command_line->get_option_no_throw("--" + p.name)) names.insert(p.name);
@@ -38,7 +38,7 @@ std::set<std::string> settable_by(const CLI::App* command_line) {
   return names;
 }
 
-/// The command that the arguments begin with; null where it is none.
+/// The command that the arguments begin with; null if they begin with none.
 const CLI::App* command_of(CLI::App& app, int argc, char** argv) {
   const std::vector<CLI::App*> found =
       app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; });
@@ -51,7 +51,7 @@ std::vector<std::string> with_parameter_flags(CLI::App& app, int argc, char** ar
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    // Most likely a shell variable that is not set.
+    // Most likely from an unset shell variable.
     if (argument.empty())
       throw UsageError("argument {} is empty{}; give it a value or leave it out", i,
                        i > 1 ? fmt::format(" (after '{}')", argv[i - 1]) : "");
@@ -85,7 +85,7 @@ std::vector<std::string> flag_names(const CLI::App& command) {
   return names;
 }
 
-/// What is wrong with the command line, in one line.
+/// The error in the command line, in one line.
 std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const std::string command = parsed.empty() ? "" : parsed.front()->get_name();
@@ -123,7 +123,7 @@ void print_parameters(const std::string& owner, const ParameterList& parameters,
   print_table(rows, 4);
 }
 
-/// `gloam run hbao+ --help` and `gloam capture statue --help` also show what can be set.
+/// `gloam run hbao+ --help` and `gloam capture statue --help` also show the parameters.
 void print_parameters_of(CLI::App& app, int argc, char** argv) {
   const std::set<std::string> settable = settable_by(command_of(app, argc, argv));
   for (int i = 1; i < argc; ++i) {
@@ -138,7 +138,7 @@ void print_parameters_of(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Whether --help was given, whatever else there is.
+/// Whether --help was given, among any other arguments.
 bool asks_for_help(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) {
     if (command->get_help_ptr()->count() > 0) return true;
@@ -177,8 +177,8 @@ int run_command(int argc, char** argv) {
   add_stress(app);
   add_completion(app, settable_by);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);
-  // Help for a person who wants to know what there is. The exit status is that of wrong usage, as git's is not 0 either: a
-  // script whose command came out empty has not done what it was to do.
+  // Prints help for a person who looks for the commands. The exit status is that of wrong usage, as git's is not 0 either: a script
+  // whose command is empty by mistake must fail.
   if (argc < 2) {
     fmt::print("{}", app.help());
     return UsageError("").exit_status();
@@ -204,17 +204,17 @@ int run_command(int argc, char** argv) {
 }  // namespace
 }  // namespace gloam::cli
 
-/// One line on standard error, whatever the message holds; a closed standard error is not worth more words.
+/// Prints a message as one line on standard error. A closed standard error is no further error.
 static int failed(const char* message, int status) {
-  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);  // what a progress bar left
+  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);  // remains of a progress bar
   std::fputs(("gloam: " + gloam::printable(message) + "\n").c_str(), stderr);
   return status;
 }
 
-/// Every error is one line and an exit status.
+/// Runs the command; turns every error into one line and an exit status.
 static int status_of_command(int argc, char** argv) {
   try {
-    // `stress` tells of a driver that ends one of its children.
+    // `stress` itself reports a driver that ends one of its children.
     if (argc > 1 && std::strcmp(argv[1], "stress") != 0) gloam::restart_where_the_driver_dies(argv);
     const int status = gloam::cli::run_command(argc, argv);
     if (const std::string kept = gloam::keep_kernels_made_anew(); !kept.empty()) gloam::cli::note({kept});

@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = unsigned long long;
 
-/// Less is not worth a line.
+/// A need below this gets no note.
 constexpr Bytes worth_telling = 1ull << 30;
 
 struct Limit {
@@ -28,7 +28,7 @@ Limit limit_of(const FrameFlags& flags) {
   return {bytes, fmt::format("--limit-memory {} allows {}", flags.limit_memory, memory_in_words(bytes))};
 }
 
-/// Notes or refuses what is known.
+/// Notes the need, or throws Error if it is over the limit.
 Bytes checked(Bytes need, const Limit& limit, const std::string& name, const std::string& ways_out) {
   if (need > limit.bytes)
     throw Error("{}: would take about {} of memory, and {}; {}, or allow more by --limit-memory", name,

@@ -32,7 +32,7 @@ void check_writable(const NamedPath& output) {
     throw Error("{} {}: cannot be written, {}", output.first, output.second, why);
 }
 
-/// To a file, or to standard output as "-".
+/// Writes to a file, or to standard output for "-".
 void write_document(const std::string& path, const std::string& text) {
   if (path != "-") return write_text(path, text);
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -160,7 +160,7 @@ std::string holdings(const FrameFiles& files) {
 
 namespace {
 
-/// A history that nothing asks for was most likely meant for another technique.
+/// Adds a note for a history that no pass reads: most likely it was meant for another technique.
 void check_history(const Plan& plan, const FrameFiles& files) {
   if (!files.history() || reads_history(plan)) return;
   std::vector<std::string> takers;
@@ -181,7 +181,7 @@ Plan plan_for(const FrameFiles& files, const PlanRequest& request) {
     check_history(plan, files);
     return plan;
   } catch (const MissingPlanes& missing) {
-    // Where one view has what another lacks, the list of channels would only confuse.
+    // If only some views lack the plane, a list of channels would confuse.
     std::vector<std::string> wanted = missing.planes;
     for (const auto& [plane, instead] : missing.instead) wanted.push_back(instead);
     for (const std::string& plane : wanted) {
@@ -206,8 +206,8 @@ void check_picture_name(const std::string& path, const std::string& flag) {
   throw UsageError("{} {}: the picture is a PNG; name it with .png", flag, path);
 }
 
-/// A view's name comes from a file: what a path would take for a folder, a terminal for a command, or a file system for nothing
-/// at all is written as its number, so that no two views share a name.
+/// A view's name comes from a file. Characters that mean a folder in a path or a command on a terminal, or that a file system does
+/// not accept, are written as their numbers, so that no two views share a name.
 static std::string as_file_name(const std::string& view) {
   std::string name;
   for (const char c : view) {

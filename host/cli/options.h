@@ -1,4 +1,4 @@
-// Flags that several commands share, and how results are shown.
+// Flags that several commands share, and the output of results.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,61 +18,62 @@ namespace gloam::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// "--compression zip": of the EXR file that a command writes.
+/// "--compression zip", for the EXR file that a command writes.
 void add_compression(CLI::App& app, std::string& name);
 
 /// "--json FILE|-"
 struct JsonFlag {
   std::string path;
   void add_to(CLI::App& app);
-  /// Nothing but the document goes to standard output.
+  /// Whether standard output gets the document and nothing else.
   bool only_json() const { return path == "-"; }
   /// The file, if any.
   std::string file() const { return only_json() ? "" : path; }
-  /// An object gets the notes as "notes". Written last: `complete` are the files that stay where this fails, which the message names.
+  /// Writes the document last of all files; an object gets the notes as "notes". `complete`: files that stay if writing fails; the
+  /// message names them.
   void write(const Json& document, const std::vector<std::string>& complete = {}) const;
 };
 
-/// Throws before anything is computed when an output is also an input or another output, when its folder cannot be
-/// written to, or when it is a folder or a device itself. Empty paths are passed over.
+/// Call it before computing anything: throws if an output is also an input or another output, if its folder cannot be written to,
+/// or if it is a folder or a device itself. Empty paths are ignored.
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
-/// A word as a shell takes it.
+/// A word quoted for a shell.
 std::string quoted(const std::string& word);
 
 /// median, min, max
 Json milliseconds(std::vector<double> ms);
 
-/// A plan as the contract has it.
+/// JSON of a plan, as documented.
 Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);
 
-/// Full channel names of the planes that a plan decodes; of two files with the file's: "pair_L.exr: Z".
+/// Full channel names of the planes that a plan decodes; for two files, after the file's name: "pair_L.exr: Z".
 std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFiles& files);
 
-/// "R, G, B and 7 more": no more names than a person reads.
+/// "R, G, B and 7 more": as many names as a person reads.
 std::string first_names(std::vector<std::string> names);
 
-/// "beauty.exr has only R, G, B": what a file holds, for error messages.
+/// "beauty.exr has only R, G, B": the contents of a file, for error messages.
 std::string holdings(const FrameFile& file);
 std::string holdings(const FrameFiles& files);
 
-/// Whether it takes anything over from the frame before.
+/// Whether a plan reads anything of the frame before.
 bool reads_history(const Plan& plan);
 
-/// A plan for a frame; `MissingPlanes` names what it does hold.
+/// A plan for a frame. The message of `MissingPlanes` also lists the frame's channels.
 Plan plan_for(const FrameFiles& files, const PlanRequest& request);
 
-/// Frames are EXR; throws UsageError for another ending.
+/// Throws UsageError for a frame that does not end in .exr.
 void check_frame_name(const std::string& path, const std::string& flag);
-/// Pictures are PNG; throws UsageError for another ending. Empty names no picture.
+/// Throws UsageError for a picture that does not end in .png; an empty name is allowed.
 void check_picture_name(const std::string& path, const std::string& flag);
 /// picture.png, or picture.left.png for one of several views.
 std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several);
 
-/// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are set right.
+/// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are aligned right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
 
-/// name=value items as pairs; throws UsageError for what is not of that form.
+/// name=value items as pairs; throws UsageError for items of another form.
 Settings parse_settings(const std::vector<std::string>& items, const std::string& flag);
 
 // One function per command: adds it to the app.

@@ -1,4 +1,4 @@
-// gloam pick FRAME.exr --budget 20ms | --error 0.02: which setting to take
+// gloam pick FRAME.exr --budget 20ms | --error 0.02: the setting to use
 #include "bench/pick.h"
 
 #include <unistd.h>
@@ -31,7 +31,7 @@ struct PickCommand {
 
 const Choices<PickBy> figures = {{"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}};
 
-/// "20ms", "0.02s" or "20", which is in milliseconds.
+/// Milliseconds of "20ms", "0.02s" or "20".
 double parse_budget(const std::string& text, const std::string& flag) {
   std::string number = text;
   double per_unit = 1;
@@ -48,7 +48,7 @@ double parse_budget(const std::string& text, const std::string& flag) {
   }
 }
 
-/// `left_out`: what is tried only where it is named.
+/// `left_out`: techniques that are tried only if the user names them.
 PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out) {
   if (flags.budget.has_value() == flags.error.has_value())
     throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
@@ -71,7 +71,7 @@ PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out)
   return options;
 }
 
-/// The flags on how to read the frame, as they were given.
+/// The given flags for reading the frame.
 std::string reading_flags(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
@@ -131,7 +131,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
              picked.tried, printable(device.name), picked.truth, name_of(by));
 }
 
-/// A folder of its own for a truth that is traced; gone with it.
+/// A temporary folder for a traced truth; the destructor removes it.
 class ScratchFolder {
  public:
   ScratchFolder() {

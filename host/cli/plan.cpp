@@ -22,7 +22,7 @@ void print_plan(const Plan& plan, const std::vector<std::string>& decoded) {
   for (const std::string& what : plan.depends_on_pixels) fmt::print("by pixels {}\n", what);
 }
 
-/// The depth alone tells the radius; nothing else is decoded.
+/// The radius from the depth, the only plane that is decoded.
 std::optional<RadiusReport> radius_of_depth(PlanRequest& request, Plan& plan, FrameFiles& files) {
   const std::vector<std::string> available = files.common_planes();
   if (!radius_of(plan, request, RadiusSource::frame) || !contains(available, "depth")) return {};

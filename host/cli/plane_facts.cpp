@@ -9,13 +9,13 @@
 namespace gloam::cli {
 namespace {
 
-/// Sums of a plane, each channel by itself: the same whether rows come together or one after another.
+/// Sums of a plane, for each channel by itself. They do not depend on how rows are grouped.
 struct Sums {
   explicit Sums(const PlaneSource& source) : facts{source}, of_channel(source.channels.size()) {}
   PlaneFacts facts;
   std::vector<double> of_channel;
 
-  /// `rows`: the image's from `first_row` on. A plane found to be of no use is not there; `Frame::assumed` says why.
+  /// `rows`: rows of the image from `first_row` on. Unusable planes are missing in it; `Frame::assumed` says why.
   void add(const Frame& rows, const Frame& whole, int first_row) {
     const Plane* plane = rows.view(facts.source.view).find(facts.source.plane);
     const Plane* depth = whole.view(facts.source.view).find("depth");

@@ -1,4 +1,4 @@
-// What `gloam info` says about the values of a plane.
+// Figures of `gloam info` on the values of a plane.
 #pragma once
 
 #include <limits>
@@ -8,17 +8,17 @@
 
 namespace gloam::cli {
 
-/// Range and mean of a plane over the foreground (everything where there is no depth), and values that are not finite anywhere.
+/// Range and mean of a plane over the foreground (over everything without depth), and the number of values that are not finite.
 struct PlaneFacts {
   PlaneSource source;
   double min = std::numeric_limits<double>::infinity(), max = -min, mean = 0;
   long long nonfinite = 0, counted = 0;
 };
 
-/// Of all planes of a frame that was read with them.
+/// Facts of all planes of a frame that was read with them.
 std::vector<PlaneFacts> facts_of(const FrameFile& file, const Frame& frame);
 
-/// The same of a frame that was surveyed with all planes: these are decoded a few rows at a time.
+/// As `facts_of`, for a frame that was surveyed with all planes: decodes them a few rows at a time.
 std::vector<PlaneFacts> facts_by_rows(FrameFile& file, const Frame& frame);
 
 }  // namespace gloam::cli

@@ -16,8 +16,8 @@ Json number_or_inf(double value) { return std::isfinite(value) ? Json(value) : J
 std::optional<double> stated_radius(const FrameFile& file) {
   const std::optional<double> stated = file.number_attribute("aoRadius");
   if (!stated || (*stated >= least_radius && *stated <= most_radius)) return stated;
-  note({fmt::format("{}: aoRadius {:g} in the header is no radius, and is passed over", file.path().filename().string(),
-                    *stated)});
+  note({fmt::format("{}: aoRadius {:g} in the header is not a valid radius, and is ignored",
+                    file.path().filename().string(), *stated)});
   return {};
 }
 

@@ -1,4 +1,4 @@
-// How commands choose and tell the radius of ambient occlusion.
+// The radius of ambient occlusion: how commands choose and report it.
 #pragma once
 
 #include "cli/options.h"
@@ -6,17 +6,17 @@
 
 namespace gloam::cli {
 
-/// What the header says about the radius that suits a frame (`aoRadius`, scene units); none where it says nothing. A value that
-/// is none is noted and passed over.
+/// The radius that suits a frame, by its header (`aoRadius`, scene units); none if the header lacks it. A value that is not a valid
+/// radius is noted and ignored.
 std::optional<double> stated_radius(const FrameFile& file);
 std::optional<double> stated_radius(const FrameFiles& files);
 
-/// The radius that a command works with on a frame: its line for people, its part of the document. Notes what is wrong with
-/// it on this frame (`warning_about`).
+/// The radius that a command uses for a frame: a line for people, and a part of the document. Adds a note if the radius does not
+/// suit the frame (`warning_about`).
 class RadiusReport {
  public:
   RadiusReport(const Radius& radius, const Frame& frame, std::optional<double> cap);
-  /// Adds "radius", "radius_from" and "radius_pixels"; null where no surface is shown, "inf" for an infinite one.
+  /// Adds "radius", "radius_from" and "radius_pixels"; null if no surface is visible, "inf" for an infinite radius.
   void add_to(Json& document) const;
   void print() const { fmt::print("{}\n", words_); }
   const std::string& words() const { return words_; }
@@ -27,7 +27,7 @@ class RadiusReport {
   std::string words_;
 };
 
-/// Gives the radius of a request that has none, and makes its plan anew. None where the plan has no radius.
+/// Chooses a radius for a request without one, and makes its plan again. None if the plan has no radius.
 std::optional<RadiusReport> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame,
                                           std::optional<double> stated, const std::vector<std::string>& available,
                                           const std::string& holds);

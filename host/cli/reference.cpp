@@ -25,7 +25,7 @@ struct ReferenceCommand {
   JsonFlag json;
 };
 
-/// The scene that the user names, else the one that the frame says it shows.
+/// The scene that the user names, else the one in the frame's header.
 Scene load_scene_of(const ReferenceCommand& flags, const FrameFile& file) {
   if (!flags.scene.scene.empty()) return flags.scene.load();
   SceneFlags named = scene_named_by(file.text_attribute("gloamScene"));
@@ -36,7 +36,7 @@ Scene load_scene_of(const ReferenceCommand& flags, const FrameFile& file) {
   return named.load();
 }
 
-/// The technique whose contribution is traced; none for no falloff.
+/// The technique whose contribution is traced; null for no falloff.
 const Technique* falloff_technique(const std::string& name) {
   if (name == "none") return nullptr;
   std::vector<std::string> names = {"none"};
@@ -48,7 +48,7 @@ const Technique* falloff_technique(const std::string& name) {
   throw UsageError("--falloff {} is not allowed{}; {} are", name, suggestion(name, names), enumerate(names));
 }
 
-/// `settings`: of the falloff's technique, --set hbao+.bias=0.2.
+/// `settings`: those of the falloff's technique, --set hbao+.bias=0.2.
 void set_falloff(AoReferenceOptions& options, const std::string& name, const Settings& settings) {
   const Technique* technique = falloff_technique(name);
   options.falloff = name;
@@ -63,7 +63,7 @@ void set_falloff(AoReferenceOptions& options, const std::string& name, const Set
   }
   if (!technique) return;
   for (const Parameter& p : technique->parameters) {
-    if (p.name == "radius") continue;  // that is the reference's own
+    if (p.name == "radius") continue;  // the reference has its own radius
     options.falloff_parameters += (options.falloff_parameters.empty() ? "" : " ") + p.name + "=" + values.text(p.name);
   }
   options.contribution = [contribution = technique->contribution, values](double cosine, double distance) {
@@ -71,15 +71,14 @@ void set_falloff(AoReferenceOptions& options, const std::string& name, const Set
   };
 }
 
-/// A frame that says it shows something else may still be the right one: of a file that has moved or been renamed.
+/// Adds a note if the frame's header names another scene. It may still be the right one, from a file that was moved or renamed.
 void note_other_scene(const FrameFile& file, const Scene& scene) {
   const std::string named = file.text_attribute("gloamScene");
   if (named.empty() || named == scene.name) return;
   note({fmt::format("the frame says that it shows '{}', and the scene is '{}'", named, scene.name)});
 }
 
-/// The radius that the flag gives; else the one that the frame's header states, or the scene has; else none, and it is made
-/// from the frame.
+/// The radius of the flag, else of the frame's header, else of the scene; none if the radius is to be derived from the frame.
 std::optional<Radius> known_radius(const ReferenceCommand& flags, const FrameFile& file, const Scene& scene) {
   if (flags.radius) return Radius{*flags.radius, RadiusSource::flag};
   if (const std::optional<double> stated = stated_radius(file)) return Radius{*stated, RadiusSource::scene};
@@ -87,13 +86,13 @@ std::optional<Radius> known_radius(const ReferenceCommand& flags, const FrameFil
   return {};
 }
 
-/// What is traced, from the command line.
+/// The tracing job, from the command line.
 struct Job {
   std::string plane;
   std::vector<std::string> reads;
   Json settings;                               ///< for --json
   std::string heading;                         ///< "falloff none"
-  std::function<Radius(const Frame&)> radius;  ///< empty: nothing of it has a radius
+  std::function<Radius(const Frame&)> radius;  ///< empty: the job has no radius
   std::function<Reference(const Tracer&, const Frame&, double radius)> trace;
 };
 
@@ -136,7 +135,7 @@ Job reflection_job(const ReflectionReferenceOptions& options) {
   return job;
 }
 
-/// Flags that mean something for ambient occlusion alone.
+/// Throws UsageError for flags of ambient occlusion.
 void check_reflection(const ReferenceCommand& flags) {
   if (flags.radius) throw UsageError("--radius {}: a reflection has no radius; leave it out", *flags.radius);
   if (flags.falloff != "none")

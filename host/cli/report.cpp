@@ -1,4 +1,4 @@
-// gloam report DIR: what gloam bench measured, as one page for a browser or as a page of documentation
+// gloam report DIR: results of gloam bench, as one page for a browser or as a page of documentation
 #include <algorithm>
 #include <cctype>
 #include <fstream>
@@ -24,7 +24,7 @@ Json setting_of(const report::Row& row) {
   return {{"technique", row.technique}, {"preset", row.preset}, {"variant", row.variant}};
 }
 
-/// Who is on which front.
+/// JSON of the fronts and their settings.
 Json document_of(const report::Measurements& measurements, const std::string& path) {
   Json scenes = Json::array(), classes = Json::array();
   for (const report::Scene& scene : measurements.scenes) {
@@ -72,9 +72,9 @@ void write_page(const ReportCommand& flags) {
              double(page.html.size()) / 1e6);
 }
 
-// --- Of documentation
+// --- For documentation
 
-/// As given; of an absolute path the last folder and the name, since a page is for other machines.
+/// The path as given; of an absolute path only the last folder and the name, since the page is for other machines.
 std::string shown_path(const std::filesystem::path& path) {
   if (path.is_relative()) return path.lexically_normal().generic_string();
   const std::filesystem::path normal = (path / "").lexically_normal().parent_path();  // without a slash at the end
@@ -98,7 +98,7 @@ std::vector<report::Source> read_sources(const ReportCommand& flags) {
   return sources;
 }
 
-/// Before anything is written: no output is an input, and each can be written where it is to go.
+/// Call it before writing: throws if an output is also an input or cannot be written in its place.
 void check_outputs(const ReportCommand& flags, const report::MarkdownPage& page) {
   std::vector<NamedPath> inputs, outputs{{"--markdown", flags.markdown}, {"--json", flags.json.file()}};
   for (const std::string& given : flags.sources) inputs.push_back({given, report::measurements_file(given).string()});
@@ -142,7 +142,7 @@ void write_markdown(const ReportCommand& flags) {
   const report::MarkdownPage page = report::make_markdown(sources, {command_of(flags), flags.markdown, flags.pictures});
   check_outputs(flags, page);
   note(page.notes);
-  // The page last: it never links to a picture that is not there.
+  // The page is written last, so that it never links to a missing picture.
   for (const report::PictureFile& picture : page.pictures) write_text(picture.path, picture.png);
   write_text(flags.markdown, page.text);
   flags.json.write(document_of(page, flags.markdown));

@@ -28,7 +28,7 @@ struct RunCommand {
   JsonFlag json;
 };
 
-/// Wall-clock time of the parts of a command, in order.
+/// Wall-clock times of the parts of a command, in order.
 class Stopwatch {
  public:
   void lap(const std::string& name) {
@@ -47,12 +47,12 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Eyes of a technique for two that share nothing most likely are of two scenes, or have each other's cameras.
+/// Adds a note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras.
 void check_views(const Plan& plan, const Frame& frame) {
   const auto is_of_two = [](const PlannedPass& planned) { return planned.technique->views == 2; };
   if (!std::any_of(plan.passes.begin(), plan.passes.end(), is_of_two) || frame.views.size() != 2) return;
   for (const View& view : frame.views) {
-    if (!view.find("depth") || !view.camera || !view.camera->pose) return;  // which is said elsewhere
+    if (!view.find("depth") || !view.camera || !view.camera->pose) return;  // another message says so
   }
   if (!have_surface_in_common(frame)) {
     note({fmt::format(
@@ -62,7 +62,7 @@ void check_views(const Plan& plan, const Frame& frame) {
   }
 }
 
-/// Of many views the sums, each pass with the number of views that it ran on.
+/// Times summed over many views; each pass has the number of its views.
 std::vector<PassTime> summed_over_views(const std::vector<PassTime>& passes) {
   std::vector<PassTime> sums;
   std::vector<int> views;
@@ -104,7 +104,7 @@ void print_times(const RunResult& result, const DeviceInfo& device, const Stopwa
   fmt::print("{}, {} lanes; wall {:.0f} ms: {}\n", device.name, result.lanes, watch.total(), fmt::join(parts, ", "));
 }
 
-/// The label of the pass that sees to what the first estimate leaves.
+/// The label of the pass that computes the pixels that the first estimate leaves out.
 std::string second_estimate(const Plan& plan) {
   for (const PlannedPass& planned : plan.passes) {
     for (const Binding& read : planned.pass.reads) {
@@ -138,7 +138,7 @@ Json document(const RunCommand& flags, const Plan& plan, const RunResult& result
           {"wall_ms", wall}};
 }
 
-/// Planes that the plan takes and every view of the frame still has.
+/// Planes of the list that every view of the frame still has.
 std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::string>& planes) {
   std::vector<std::string> left;
   for (const std::string& plane : planes) {
@@ -149,14 +149,14 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
   return left;
 }
 
-/// The plane that a picture shows: of a stack the first layer.
+/// The plane that a picture shows; of a stack its first layer.
 std::string pictured(const Plan& plan) {
   const std::string& first = plan.outputs.front();
   return is_stack(first) ? layer_name(first, 0) : first;
 }
 
-/// What the output carries besides the results: depth and cameras, so that `compare` knows the background by itself; of two
-/// views normals too, so that `compare --stereo` knows the edges.
+/// Moves the other contents of the output: depth and cameras, so that `compare` knows the background by itself; for two views also
+/// normals, so that `compare --stereo` knows the edges.
 void carry_over(Frame& from, Frame& to, bool bare) {
   std::vector<std::string> carried = {"depth"};
   if (from.views.size() == 2) carried.push_back("normal");
@@ -185,7 +185,7 @@ std::vector<std::string> write_pictures(const std::string& path, const Frame& fr
   return paths;
 }
 
-/// Passes an error on to who waits for the promise, unless it has been kept.
+/// Sets the error of the promise, unless the promise has a value already.
 void tell(std::promise<void>& promise, std::exception_ptr error) {
   try {
     promise.set_exception(error);
@@ -193,7 +193,7 @@ void tell(std::promise<void>& promise, std::exception_ptr error) {
   }
 }
 
-/// Other random numbers than the frame before had: the same ones would have nothing to add.
+/// A seed other than that of the frame before: the same samples would add nothing.
 int seed_after(const History& history) {
   const int before = history.seed().value_or(0);
   return before < std::numeric_limits<int>::max() ? before + 1 : 0;
@@ -246,7 +246,7 @@ void run_command(const RunCommand& given) {
   watch.lap("decode");
   note(frame.assumed);
   const std::vector<std::string> left = planes_left(frame, plan.inputs);
-  // A plane turned out to be of no use (normals in the space of an unknown camera): make it instead.
+  // If a plane turned out to be unusable (normals in the space of an unknown camera), make it instead.
   const bool is_all_left = left.size() == plan.inputs.size();
   if (!is_all_left) plan = make_plan(request, left, holdings(files));
   const std::optional<RadiusReport> radius =
@@ -273,7 +273,7 @@ void run_command(const RunCommand& given) {
   print_times(result, device.info(), watch);
   if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
   if (!plan.rest.empty())
-    fmt::print("{} saw to {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
+    fmt::print("{} computed {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
   fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }

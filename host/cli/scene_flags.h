@@ -11,22 +11,22 @@
 
 namespace gloam::cli {
 
-/// Which scene, and how it is made.
+/// The scene, and its settings.
 struct SceneFlags {
   std::string scene;
   std::vector<std::string> settings;
-  /// The scene itself is an argument of `capture` and a flag of other commands: added there.
+  /// Adds the settings only: the scene itself is an argument of `capture` and a flag of other commands.
   void add_settings_to(CLI::App& app);
-  /// Loads it; what was repaired goes to the notes.
+  /// Loads the scene; repairs become notes.
   Scene load() const;
-  /// Takes out settings of others than the scene, which have a dot in the name: {"hbao+.bias", "0.2"}.
+  /// Removes and returns the settings of techniques, which have a dot in the name: {"hbao+.bias", "0.2"}.
   Settings take_dotted_settings();
 };
 
-/// The scene that a frame's header names (gloamScene), as a name and settings; empty where it names none.
+/// The scene that a frame's header names (gloamScene), as a name and settings; empty if it names none.
 SceneFlags scene_named_by(const std::string& attribute);
 
-/// From where a scene is seen.
+/// The camera of a scene.
 struct SceneCameraFlags {
   std::string camera;
   std::optional<glm::dvec3> eye, target;

@@ -31,7 +31,7 @@ std::string text_of(const stress::Place& place) {
                      place.holds);
 }
 
-/// Every finding of one technique.
+/// Prints every finding of one technique.
 void print_findings(const std::vector<CaseResult>& results) {
   std::vector<std::vector<std::string>> rows = {{"case", "", "worst", "bound", "measured"}};
   for (const CaseResult& result : results) {
@@ -62,7 +62,7 @@ void print_failures(const StressRun& run, const std::string& device_flag) {
   }
 }
 
-/// One line for a technique that is done, among many that take their time.
+/// Prints one line for a finished technique, in a long run over many.
 void print_done(const std::string& technique, const std::vector<CaseResult>& results) {
   int held = 0, opted_out = 0, failed = 0, trials = 0;
   for (const CaseResult& result : results) {
@@ -79,7 +79,7 @@ void print_done(const std::string& technique, const std::vector<CaseResult>& res
 
 using ResultsByTechnique = std::map<std::string, std::vector<CaseResult>>;
 
-/// Puts what is known into the run, by technique.
+/// Puts the known results into the run, by technique.
 void gather(const StressRequest& request, const ResultsByTechnique& known, StressRun& run) {
   run.results.clear();
   run.left.clear();
@@ -93,14 +93,14 @@ void gather(const StressRequest& request, const ResultsByTechnique& known, Stres
   }
 }
 
-/// What is said with the results: a device that was asked for by name, and what it was compared with.
+/// The device flags to repeat a trial: a device asked for by name, and the devices compared with.
 std::string device_flags(const StressCommand& flags) {
   return (flags.device.empty() ? "" : " --device " + quoted(flags.device)) +
          (flags.against == "all" ? "" : " --against " + quoted(flags.against));
 }
 
-/// All techniques, several at a time. What ends one of them by an ordinary error, such as a device that is not there, ends all.
-/// The file of --json holds all that is known after each: a run of an hour that is interrupted has not been in vain.
+/// Examines all techniques, several at a time. An ordinary error of one of them, such as a missing device, ends all. The file of
+/// --json is written after each technique, so that an interrupted run keeps its results.
 void examine_all(const StressCommand& flags, const StressRequest& request, StressRun& run) {
   const int cores = int(std::max(1u, std::thread::hardware_concurrency()));
   const int jobs = flags.jobs.value_or(cores);
@@ -118,7 +118,7 @@ void examine_all(const StressCommand& flags, const StressRequest& request, Stres
       run.others = examination.device.at("against");
     }
     gather(request, known, run);
-    if (run.left.empty()) return;  // the last words are said with the exit status
+    if (run.left.empty()) return;  // the final message comes with the exit status
     if (!flags.json.file().empty()) {
       flags.json.write(document_of(run, device_flags(flags)));
       say_on_interruption("the file of --json holds the techniques that were done");
@@ -166,7 +166,7 @@ stress::Json read_document(const std::string& path) {
   return document;
 }
 
-/// A page from what earlier runs have found.
+/// Makes a page from the results of earlier runs.
 void page_from_files(const StressCommand& flags) {
   if (!flags.technique.empty())
     throw UsageError("stress: --from makes a page of earlier results and examines nothing; leave out '{}'",
@@ -183,7 +183,7 @@ void page_from_files(const StressCommand& flags) {
   fmt::print("wrote {}\n", printable(flags.markdown));
 }
 
-/// Throws UsageError where a trial was asked for that there is not.
+/// Throws UsageError if the requested trial does not exist.
 void check_trial(const StressCommand& flags, const StressRequest& request, const StressRun& run) {
   if (!request.trial || run.results.empty()) return;
   const CaseResult& result = run.results[0];

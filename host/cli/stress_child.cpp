@@ -14,10 +14,10 @@ namespace {
 
 struct OtherDevices {
   std::vector<std::unique_ptr<Device>> opened;
-  std::vector<std::string> names;  ///< also of those that could not be opened, and why
+  std::vector<std::string> names;  ///< names, also of devices that could not be opened, with the reason
 };
 
-/// Every device but the one at hand; those whose name holds `text`. Throws UsageError where one is asked for and there is none.
+/// Every device but `own` whose name contains `text`. Throws UsageError if the user asked for a device that does not exist.
 OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
   OtherDevices others;
   if (text == "none") return others;
@@ -39,17 +39,17 @@ OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
   return others;
 }
 
-/// On a line of its own, whatever a driver may have written before.
+/// Writes a line of its own, even after an incomplete line of a driver.
 void say(const stress::Json& line) {
   fmt::print("\n{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
   std::fflush(stdout);
 }
 
-/// What an ordinary failure has said, without our name.
+/// The message of an ordinary failure, without the program's name.
 std::string why(std::string said) {
   while (!said.empty() && said.back() == '\n') said.pop_back();
   said.erase(0, said.rfind('\n') + 1);
-  return said.starts_with("gloam: ") ? said.substr(7) : said.empty() ? "it ended without a word" : said;
+  return said.starts_with("gloam: ") ? said.substr(7) : said.empty() ? "it ended without a message" : said;
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ void Examination::run() {
   while (!left_.empty()) {
     case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
     const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
-    if (left_.empty()) return;  // all has been told, however it ended
+    if (left_.empty()) return;  // all results have arrived, however the child ended
     if (end.ended_by.empty() && trial_ == 0) {
       if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end.said));
       throw Error("{}", why(end.said));
@@ -125,7 +125,7 @@ void Examination::take(const std::string& text) {
     results.push_back(stress::case_result_of(line.at("result")));
     std::erase(left_, results.back().number);
     if (!left_.empty()) case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
-  } else if (line.contains("conditions")) {  // else it is a driver's own chatter
+  } else if (line.contains("conditions")) {  // other lines are a driver's own output
     case_ = line.at("case"), trial_ = line.at("trial"), conditions_ = line.at("conditions");
   }
 }

@@ -1,4 +1,4 @@
-// A technique is examined in a process of its own, so that a driver that ends it ends nothing else.
+// Examines a technique in a child process, so that a driver that crashes ends only this process.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace gloam::cli {
 
-/// In the child: examines and tells on standard output, a line for each trial that begins and for each case that is done.
+/// In the child: examines, and writes a line on standard output for each trial that begins and each case that is done.
 void examine_here(const StressCommand& flags);
 
-/// In the parent: one technique in a child, again with the cases that are left where one ends it.
+/// In the parent: examines one technique in a child. If a case ends the child, starts another with the remaining cases.
 class Examination {
  public:
   Examination(const StressCommand& flags, const StressRequest& request, std::string technique);

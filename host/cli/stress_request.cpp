@@ -32,7 +32,7 @@ StressRequest request_of(const StressCommand& flags) {
   if (flags.frames) {
     request.frames = *flags.frames;
     if (std::find(request.cases.begin(), request.cases.end(), 1) == request.cases.end())
-      throw UsageError("--frames {} is how many random frames case 1 draws, and --case {} leaves it out", *flags.frames,
+      throw UsageError("--frames {} is for the random frames of case 1, which --case {} leaves out", *flags.frames,
                        flags.cases);
   }
   if (flags.seed) request.seed = unsigned(*flags.seed);

@@ -1,4 +1,4 @@
-// What gloam stress is asked to examine.
+// The request of gloam stress.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct StressCommand {
   JsonFlag json;
 };
 
-/// What is examined, as the flags have it.
+/// What to examine, according to the flags.
 struct StressRequest {
   std::vector<std::string> techniques;
   std::vector<int> cases;
@@ -29,10 +29,10 @@ struct StressRequest {
   stress::Extent extent = stress::Extent::full;
 };
 
-/// The numbers of hard cases in "3" or "1,7", each once; all where the text is empty. Throws UsageError.
+/// The numbers of hard cases in "3" or "1,7", each once; all if the text is empty. Throws UsageError.
 std::vector<int> parse_cases(const std::string& text, const std::string& flag);
 
-/// Throws UsageError where the flags do not go together.
+/// Throws UsageError if flags do not go together.
 StressRequest request_of(const StressCommand& flags);
 
 }  // namespace gloam::cli

@@ -16,7 +16,7 @@ void erase_status() {
   if (shows_progress()) fmt::print(stderr, "\r\033[K");
 }
 
-/// On a terminal, what is being done; it is written over.
+/// Shows the current work on a terminal, in a line that the next one overwrites.
 void show_status(const std::string& what, double share) {
   if (!shows_progress()) return;
   fmt::print(stderr, "\r\033[K{} {:.0f} %", printable(what), 100 * share);
@@ -31,7 +31,7 @@ std::vector<std::string> techniques_with_ao() {
   return names;
 }
 
-/// Empty, or why a technique has no place in the table.
+/// Why a technique is not in the table; else empty.
 std::string no_ao(const Technique& technique) {
   if (is_filter(technique)) return "is a filter: its time is part of the techniques that it follows";
   if (!contains(outputs_of(technique), "ao")) return fmt::format("makes {}, not ao", enumerate(technique.writes));
@@ -44,7 +44,7 @@ std::string needs_naming(const Technique& technique) {
 
 namespace {
 
-/// All layers at hand of the stacks that a technique reads: settings other than its own may take more than those do.
+/// Adds all available layers of the stacks that a technique reads: other settings may read more layers than its defaults.
 void add_layers(const Technique& technique, const std::vector<std::string>& available,
                 std::vector<std::string>& planes) {
   for (const std::string& plane : available) {
@@ -53,7 +53,7 @@ void add_layers(const Technique& technique, const std::vector<std::string>& avai
   }
 }
 
-/// What any technique takes of a file, and what the baselines and the figures need.
+/// Planes of a file that any technique reads, and that the baselines and figures need.
 std::vector<std::string> planes_to_read(const FrameFile& file, const std::vector<const Technique*>& techniques) {
   const std::vector<std::string> available = file.common_planes();
   std::vector<std::string> planes;
@@ -66,7 +66,7 @@ std::vector<std::string> planes_to_read(const FrameFile& file, const std::vector
       add_layers(*each, available, planes);
       try {
         for (const std::string& plane : whole_plan({each, "", 0.5}, available, "").inputs) add_new(planes, plane);
-      } catch (const MissingPlanes&) {  // said where it is skipped
+      } catch (const MissingPlanes&) {  // reported where the technique is skipped
       }
     }
   }
@@ -81,7 +81,7 @@ void read_frame(Subject& subject, FrameFile& file, const std::vector<const Techn
   note(subject.frame.assumed);
 }
 
-/// What is measured in turn is on the device together: each preset, at full and at half resolution.
+/// Memory of the plans that are measured in turn and so are on the device together: each preset, at full and half resolution.
 unsigned long long bytes_of_plans(const FrameFile& file, const std::vector<const Technique*>& techniques) {
   const Layout layout(file.window().width(), file.window().height());
   unsigned long long bytes = 0;
@@ -91,14 +91,14 @@ unsigned long long bytes_of_plans(const FrameFile& file, const std::vector<const
         const Plan plan = whole_plan({.technique = technique, .resolution = resolution}, file.common_planes(), "");
         bytes += std::max<size_t>(technique->presets.size(), 1) *
                  bytes_beside_frame(plan, layout, file.views().size(), true);
-      } catch (const Error&) {  // said where it is skipped
+      } catch (const Error&) {  // reported where the technique is skipped
       }
     }
   }
   return bytes;
 }
 
-/// Besides, the truth, an image that is measured against it, and masks.
+/// Counts the plans, the truth, an image that is measured against it, and masks.
 unsigned long long planned_memory_of(const FrameFile& file, const FrameFlags& flags,
                                      const std::vector<const Technique*>& techniques) {
   constexpr unsigned long long images = 4;
@@ -121,7 +121,7 @@ void trace_truth(Subject& subject) {
   }
 }
 
-/// The cap on the radius that the techniques have by default; none where none has one.
+/// The techniques' default cap on the radius; none if no technique has one.
 std::optional<double> default_cap(const std::vector<const Technique*>& techniques) {
   for (const Technique* technique : techniques) {
     const ParameterValues initial(technique->parameters);
@@ -150,7 +150,7 @@ Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Techn
   return subject;
 }
 
-/// The user's frame. Its scene is at hand where the header names a built-in one.
+/// The user's frame. Its scene is known if the header names a built-in one.
 Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::vector<std::string>& truths,
                     const std::vector<const Technique*>& techniques, const SceneOptions& options) {
   Subject subject;

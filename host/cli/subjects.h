@@ -10,28 +10,28 @@
 
 namespace gloam::cli {
 
-/// On a terminal, what is being done; it is written over.
+/// Shows the current work on a terminal, in a line that the next one overwrites.
 void show_status(const std::string& what, double share);
 void erase_status();
 
-/// Techniques that make `ao`, filters left out.
+/// Techniques that make `ao`, without filters.
 std::vector<std::string> techniques_with_ao();
-/// Empty, or why a technique is none of them.
+/// Why a technique is not among `techniques_with_ao`; else empty.
 std::string no_ao(const Technique& technique);
 
-/// Why a technique is left out where nobody names it; empty for most.
+/// Why a technique is left out unless the user names it; empty for most.
 std::string needs_naming(const Technique& technique);
 
 /// The radius that techniques are measured with on a frame.
 RadiusReport report_of(const bench::Subject& subject, const std::vector<const Technique*>& techniques);
 
-/// A built-in scene from its first camera, with its truth.
+/// A built-in scene seen by its first camera, with its truth.
 bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                                const bench::SceneOptions& options);
 
-/// The user's frame, with what the techniques read of it. Its scene is at hand where the header names a built-in one. The
-/// radius is that of the options, else the truth's, else the scene's own, else made from the frame. `truths`: files, one for
-/// all views or one each, or none.
+/// The user's frame, with the planes that the techniques read. Its scene is known if the header names a built-in one. The radius is
+/// that of the options, else the truth's, else the scene's own, else derived from the frame. `truths`: files, one for all views or
+/// one each, or none.
 bench::Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::vector<std::string>& truths,
                            const std::vector<const Technique*>& techniques, const bench::SceneOptions& options);
 

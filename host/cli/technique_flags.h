@@ -1,4 +1,4 @@
-// Flags that say which technique runs, with which parameters, where, and how.
+// Flags for techniques, their parameters, the device and the precision.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,12 +12,12 @@
 
 namespace gloam::cli {
 
-/// Which techniques, and with which parameters.
+/// Techniques and their parameters.
 struct TechniqueFlags {
   std::vector<std::string> settings;
   std::string preset, then, with, adaptive, only, elsewhere;
   int resolution = 1;
-  /// `with_mask`: --only and --elsewhere too.
+  /// `with_mask`: adds --only and --elsewhere as well.
   void add_to(CLI::App& app, bool with_mask = true);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };
@@ -25,7 +25,7 @@ struct TechniqueFlags {
 inline const Choices<Math> math_words = {{"precise", Math::precise}, {"fast", Math::fast}};
 inline const Choices<Real> real_words = {{"float", Real::float32}, {"double", Real::float64}};
 
-/// Where and how to compute.
+/// The device, and how it computes.
 struct RunFlags {
   std::string device;
   int lanes = 0, repeat = 1;

@@ -12,7 +12,7 @@
 namespace gloam::cli {
 namespace {
 
-/// All of the text as a number; none where it is not one.
+/// The whole text as a number; none if it is not a number.
 template <typename Number>
 std::optional<Number> number_in(const std::string& text) {
   Number value{};
@@ -24,7 +24,7 @@ std::optional<Number> number_in(const std::string& text) {
 
 bool is_within(double value, const Range<double>& range) {
   if (range.or_infinite && std::isinf(value)) return value > 0 || range.least < 0;
-  return value >= range.least && value <= range.most;  // not so of NaN
+  return value >= range.least && value <= range.most;  // false for NaN
 }
 
 }  // namespace

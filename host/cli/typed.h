@@ -1,5 +1,5 @@
-// Flags with a type. Their values are checked while the command line is read, so that what is wrong with them is told before a file is
-// opened, in one line that names the flag, the value and what is allowed.
+// Flags with a type. Their values are checked while the command line is read, so that errors are reported before a file is opened,
+// in one line that names the flag, the value and the allowed values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,14 +12,14 @@
 
 namespace gloam::cli {
 
-/// What a number may be, both ends included.
+/// Allowed values of a number, both ends included.
 template <typename Number>
 struct Range {
   Number least, most;
-  bool or_infinite = false;  ///< beyond the range as well; of both signs where the least is below 0
+  bool or_infinite = false;  ///< infinity is allowed as well; of both signs if `least` is below 0
 };
 
-/// Words and what they stand for.
+/// Words and the values that they stand for.
 template <typename Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
@@ -27,7 +27,7 @@ inline constexpr Range<int> allowed_seeds = {0, std::numeric_limits<int>::max()}
                             allowed_rounds = {1, 10000};
 inline constexpr Range<double> allowed_radii = {1e-30, 1e30};
 
-/// The type of a flag's value: that of the variable, or what an optional holds.
+/// The type of a flag's value: that of the variable, or of the optional's content.
 template <typename Target>
 struct ValueIn {
   using type = Target;
@@ -42,7 +42,7 @@ struct ValueIn<std::optional<Value>> {
 double parse_number(const std::string& text, const std::string& flag, const Range<double>& range);
 int parse_number(const std::string& text, const std::string& flag, const Range<int>& range);
 
-/// Throws where a number that is known to be one is out of a range that is known later.
+/// Throws if a parsed number is outside a range that is known only later.
 void check_number(int value, const std::string& flag, const Range<int>& range);
 
 /// Width and height in pixels.
@@ -54,7 +54,7 @@ Size parse_size(const std::string& text, const std::string& flag);
 /// "a,b" -> a b; none of them empty.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);
 
-/// Throws that a word is none of those that are allowed.
+/// Throws UsageError for a word that is not allowed.
 [[noreturn]] void refuse_word(const std::string& word, const std::string& flag, const std::vector<std::string>& words);
 
 template <typename Value>
@@ -82,14 +82,14 @@ std::string word_for(const Value& value, const Choices<Value>& choices) {
 
 // --- Flags.
 
-/// Refuses the text that `parse(text, flag)` refuses. For flags that stay text.
+/// Refuses text that `parse(text, flag)` refuses. For flags that stay text.
 template <typename Parse>
 CLI::Validator accepted_by(Parse parse, const std::string& flag) {
   return CLI::Validator([parse, flag](std::string& text) { return parse(text, flag), std::string(); }, "");
 }
 
-/// What `parse(text, flag)` makes of the text, in a variable or an optional. CLI11's own conversion takes 010 for 8, rounds decimals twice,
-/// and knows neither sizes nor units.
+/// A flag whose value is the result of `parse(text, flag)`, in a variable or an optional. CLI11's own conversion reads 010 as 8,
+/// rounds decimals twice, and knows neither sizes nor units.
 template <typename Target, typename Parse>
 CLI::Option* add_parsed(CLI::App& app, const std::string& flag, Target& target, Parse parse, const std::string& help) {
   const CLI::callback_t take = [&target, parse, flag](const CLI::results_t& texts) {
@@ -99,7 +99,7 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& flag, Target& target, 
   return app.add_option(flag, take, help)->check(accepted_by(parse, flag));
 }
 
-/// A number within a range, in an `int`, a `double` or an optional one.
+/// A flag for a number within a range, in an `int`, a `double` or an optional one.
 template <typename Target, typename Number = typename ValueIn<Target>::type>
 CLI::Option* add_number(CLI::App& app, const std::string& flag, Target& target, const Range<Number>& range,
                         const std::string& help) {
@@ -112,7 +112,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& flag, Target& target, 
 /// "full|half|quarter": the type of a flag that takes one of a few words. `--help` shows it, and shells complete from it.
 std::string type_of_words(const std::vector<std::string>& words);
 
-/// One of a few words, as the value that it stands for, in a variable or an optional.
+/// A flag for one of a few words, stored as the value that it stands for, in a variable or an optional.
 template <typename Target, typename Value = typename ValueIn<Target>::type>
 CLI::Option* add_choice(CLI::App& app, const std::string& flag, Target& target, const Choices<Value>& choices,
                         const std::string& help) {
@@ -122,7 +122,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& flag, Target& target, 
   return add_parsed(app, flag, target, parse, help)->type_name(type_of_words(words_of(choices)));
 }
 
-/// One of a few words, as it is.
+/// A flag for one of a few words, stored as text.
 CLI::Option* add_word(CLI::App& app, const std::string& flag, std::string& target,
                       const std::vector<std::string>& words, const std::string& help);
 

@@ -19,7 +19,7 @@ void assume_missing_camera(const ExrFile& file, const FileCameras& known, View& 
   const auto pose = known.poses.find(view.name);
   if (pose != known.poses.end()) view.camera->pose = pose->second;
   if (!view.find("depth") && !view.find("normal")) return;
-  // Why a JSON or half a header was of no use is said by its own sentence.
+  // Another note already says why a JSON or an incomplete header was not used.
   const bool is_explained = !known.json_misfit.empty() || pose != known.poses.end();
   const char* none = is_explained ? "" : "none by flag, header or a JSON beside the file; ";
   add_new(frame.assumed,

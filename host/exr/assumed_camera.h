@@ -1,4 +1,4 @@
-// The camera that is assumed for a view of which none is known.
+// The camera that is assumed for a view without a known one.
 #pragma once
 
 #include "exr/file.h"
@@ -7,8 +7,8 @@
 
 namespace gloam {
 
-/// Gives the view a camera with a horizontal field of view of 60 degrees where it has none, and says so in `Frame::assumed` where
-/// depth or normals depend on the camera.
+/// Gives a view without a camera one with a horizontal field of view of 60 degrees, and says so in `Frame::assumed` if depth or
+/// normals depend on the camera.
 void assume_missing_camera(const ExrFile& file, const FileCameras& known, View& view, Frame& frame);
 
 }  // namespace gloam

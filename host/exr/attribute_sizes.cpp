@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An attribute of a header, and where its value lies.
+/// An attribute of a header, and the place of its value in the file.
 struct Attribute {
   std::string name, type;
   uint64_t begin = 0, end = 0;
@@ -22,7 +22,7 @@ struct Attribute {
               path.string(), attribute.name, attribute.type, attribute.size());
 }
 
-/// Up to the 0 behind it.
+/// Reads a name and the 0 that ends it.
 std::string read_name(ExrInput& stream) {
   std::string name;
   for (char c = 0; stream.read(&c, 1), c != 0;) name += c;
@@ -35,13 +35,13 @@ uint32_t read_number(ExrInput& stream) {
   return bytes[0] | uint32_t(bytes[1]) << 8 | uint32_t(bytes[2]) << 16 | uint32_t(bytes[3]) << 24;
 }
 
-/// Names with 16 bytes each, up to an empty one.
+/// The end of a list of channels: names followed by 16 bytes each, up to an empty name.
 uint64_t end_of_channels(ExrInput& stream, const Attribute& attribute) {
   while (stream.tellg() < attribute.end && !read_name(stream).empty()) stream.seekg(stream.tellg() + 16);
   return stream.tellg();
 }
 
-/// Lengths with as many bytes each.
+/// The end of a list of texts: each is a length and as many bytes.
 uint64_t end_of_texts(ExrInput& stream, const Attribute& attribute) {
   while (stream.tellg() < attribute.end) {
     const uint64_t length = read_number(stream);
@@ -50,13 +50,13 @@ uint64_t end_of_texts(ExrInput& stream, const Attribute& attribute) {
   return stream.tellg();
 }
 
-/// Width, height, and four bytes for each pixel.
+/// The end of a preview: width, height, and four bytes for each pixel.
 uint64_t end_of_preview(ExrInput& stream) {
   const uint64_t width = read_number(stream), height = read_number(stream);
   return width <= 1 << 16 && height <= 1 << 16 ? stream.tellg() + 4 * width * height : 0;
 }
 
-/// Where OpenEXR would be when it has read the value, for the types whose stated size it ignores.
+/// The place that OpenEXR reaches by reading the value, for the types whose stated size it ignores.
 uint64_t end_of_value(ExrInput& stream, const Attribute& attribute) {
   static const std::map<std::string, uint64_t> sizes = {{"box2f", 16},
                                                         {"box2i", 16},
@@ -89,7 +89,7 @@ uint64_t end_of_value(ExrInput& stream, const Attribute& attribute) {
   return attribute.end;
 }
 
-/// False where the header has no attributes, which ends the headers of several parts.
+/// Returns false for a header without attributes, which ends the headers of a file of several parts.
 bool check_header(const fs::path& path, ExrInput& stream) {
   bool any = false;
   for (Attribute attribute; !(attribute.name = read_name(stream)).empty(); any = true) {

@@ -7,10 +7,10 @@
 
 namespace gloam {
 
-/// OpenEXR allocates what an attribute states as its size before OpenEXR reads it, and reads types that it knows by their own
-/// size, whatever the file states, so that the next attribute may be any bytes. Goes through the headers from where the stream
-/// stands, and back there. Throws Error naming the file and the attribute for a size that is larger than the file or not that of
-/// the attribute's type, and what the stream throws at its end.
+/// OpenEXR allocates memory of an attribute's stated size before it reads the attribute. It reads types that it knows by their own
+/// size, whatever the file states, and then takes the wrong bytes for the next attribute. This function goes through the headers
+/// from the stream's position, and returns the stream there. Throws Error naming the file and the attribute for a size that is
+/// larger than the file or does not match the attribute's type; throws the stream's error at the end of the file.
 void check_attribute_sizes(const std::filesystem::path& path, ExrInput& stream, bool is_multipart);
 
 }  // namespace gloam

@@ -10,16 +10,16 @@
 
 namespace gloam {
 
-/// A matrix of floats or doubles; none where the header has none of this name.
+/// A matrix of floats or doubles; none if the header has no such matrix.
 std::optional<Imath::M44d> matrix_attribute(const Imf::Header& header, const std::string& name);
 
-/// A float or a double.
+/// A float or a double; none if the header has no such number.
 std::optional<double> number_attribute(const Imf::Header& header, const std::string& name);
 
-/// Empty where the header has no text of this name.
+/// A text; empty if the header has none of this name.
 std::string text_attribute(const Imf::Header& header, const std::string& name);
 
-/// `gloamOrigin`, the place in the world that matrices and positions are relative to; none where the header does not have it.
+/// `gloamOrigin`, the point of the world that matrices and positions are relative to; none if the header lacks it.
 std::optional<glm::dvec3> origin_attribute(const Imf::Header& header, const std::string& prefix);
 
 }  // namespace gloam

@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// Ends exclusive and in 64 bits, so that a damaged window cannot overflow.
+/// A window in 64 bits, so that a damaged one cannot overflow. x1 and y1 are exclusive.
 struct Box {
   int64_t x0, y0, x1, y1;
   bool empty() const { return x1 <= x0 || y1 <= y0; }

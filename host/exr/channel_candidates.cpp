@@ -11,24 +11,24 @@
 namespace gloam::channel_names {
 namespace {
 
-/// How well a spelling fits a layer, as a rank; nothing where it does not.
+/// Rank of a spelling for a layer; none if it does not fit.
 std::optional<int> fit(const Spelling& spelling, const Layer& layer) {
   const std::string_view wanted = spelling.layer;
-  const int shared = layer.shared ? 100 : 0;  // a view's own channels come before what all views share
+  const int shared = layer.shared ? 100 : 0;  // a view's own channels come before shared ones
   if (wanted == "*") {
     if (layer.path.empty()) return spelling.rank + shared;
     return is_other_data(layer.name) ? std::nullopt : std::optional(10 + spelling.rank + shared);
   }
   if (wanted == "") {
     if (!layer.path.empty() || is_other_data(layer.name)) return {};
-    return spelling.rank + shared;  // candidates_of weighs the name of the part
+    return spelling.rank + shared;  // candidates_of takes the part's name into account
   }
   if (layer.name != wanted) return {};
   return spelling.rank + shared;
 }
 
-/// In a part named "albedo" a plain R G B is the albedo, not the finished picture: channels that the part's name speaks
-/// for, by the plane that it says.
+/// Channels whose plane the part's name tells, with that plane: in a part named "albedo" a plain R G B is the albedo, not the
+/// finished picture.
 std::map<const FileChannel*, std::string> claimed_by_part_name(const Layer& layer) {
   std::map<const FileChannel*, std::string> claimed;
   if (!layer.path.empty() || layer.name.empty()) return claimed;
@@ -82,7 +82,7 @@ std::vector<Candidate> candidates_of(const std::string& plane, const std::vector
       const std::optional<int> rank = fit(spelling, layer);
       if (!rank) continue;
       const std::string_view wanted = spelling.layer;
-      if (wanted == "*" && spelling.rank == last_resort && layer.components.size() > 1) continue;  // "st.t" is no depth
+      if (wanted == "*" && spelling.rank == last_resort && layer.components.size() > 1) continue;  // "st.t": no depth
       auto channels = pick(layer, spelling.components);
       if (channels.empty() || (wanted.empty() && claimed_by_other(claimed, channels, plane))) continue;
       // A part with a strange name, "diffuse_direct", comes after one named "beauty".
@@ -125,7 +125,7 @@ std::string tie_in_words(const std::string& plane, const std::vector<Candidate>&
   for (const Candidate& other : candidates)
     if (other.rank == best.rank && other.layer != best.layer && other.channels != best.channels) {
       std::string taken = fmt::format("'{}'", shown(best)), left = fmt::format("'{}'", shown(other));
-      std::string name = shown(other);  // what --plane knows the other by
+      std::string name = shown(other);  // the name of the other for --plane
       if (taken == left) {
         const FileChannel& channel = *other.channels.front();
         const std::string part = channel.part_name.empty() ? std::to_string(channel.part) : channel.part_name;

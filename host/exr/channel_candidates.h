@@ -19,22 +19,23 @@ struct Candidate {
   float y_scale;
 };
 
-/// The layer's channels for the first of the alternatives (`Spelling::components`) that it has all components of; else none.
+/// The layer's channels for the first alternative (`Spelling::components`) of which the layer has every component; else none.
 std::vector<const FileChannel*> pick(const Layer& layer, const std::string& alternatives);
 
 /// All ways to fill a plane, in file order.
 std::vector<Candidate> candidates_of(const std::string& plane, const std::vector<Layer>& layers);
 
-/// Mitsuba names the beauty after its nested integrator, whatever that is called: the only RGBA layer left over.
+/// Adds the beauty of Mitsuba, which has the name of the nested integrator, any text: it is the only RGBA layer left over.
 void add_unnamed_beauty(std::vector<Candidate>& candidates, const std::vector<Layer>& layers, const char* components);
 
-/// The best candidate: rank, then the view layer that the depth came from, then file order.
+/// The best candidate: by rank, then in the depth's view layer, then by file order.
 const Candidate* best_of(const std::vector<Candidate>& candidates, const std::optional<std::string>& prefix);
 
-/// The candidate's channel or layer, as the file names it.
+/// The name of the candidate's channel or layer in the file.
 std::string shown(const Candidate& candidate);
 
-/// That `best` is taken and not another that is as good, with what chooses the other; empty where none is.
+/// A sentence that `best` is taken instead of an equally good candidate, with the flag that chooses the other; empty if there is
+/// none.
 std::string tie_in_words(const std::string& plane, const std::vector<Candidate>& candidates, const Candidate& best);
 
 }  // namespace gloam::channel_names

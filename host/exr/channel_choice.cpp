@@ -25,7 +25,7 @@ std::string alternatives_for(const PlaneKind& kind) {
   }
 }
 
-/// A channel by its full name or its name without the view; exact spelling before any other case.
+/// A channel by its full name or its name without the view. The exact case wins over other cases.
 const FileChannel* find_channel(const std::vector<Entry>& entries, const std::string& view, const std::string& name) {
   for (const bool exact : {true, false})
     for (const Entry& entry : entries) {
@@ -56,8 +56,8 @@ std::vector<const FileChannel*> find_layer(const std::vector<Layer>& layers, con
   return {};
 }
 
-/// The part that "PART:CHANNEL" names, by its name or its number, and the rest; none where it names no part. Channels have colons
-/// in their names too.
+/// The part that "PART:CHANNEL" names, by name or number, and the text after the colon; none if it names no part. Names of channels
+/// may contain colons too.
 std::optional<std::pair<int, std::string>> part_in(const std::vector<Entry>& entries, const std::string& text) {
   for (const Entry& entry : entries) {
     for (const std::string& part : {entry.file->part_name, std::to_string(entry.file->part)}) {
@@ -74,7 +74,7 @@ void check_plane_name(const std::string& plane) {
   std::vector<std::string> names;
   for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
   if (std::find(names.begin(), names.end(), plane) != names.end()) return;
-  throw UsageError("--plane {}: no plane is called so{}; there are {}", plane, suggestion(plane, names),
+  throw UsageError("--plane {}: no plane has this name{}; there are {}", plane, suggestion(plane, names),
                    enumerate(names));
 }
 

@@ -18,7 +18,7 @@ Entry entry_of(const FileChannel& channel, const std::vector<std::string>& multi
   if (entry.named && !pieces.empty() && pieces.back() == entry.view) pieces.pop_back();
   if (!entry.named && !multi_view.empty()) {
     entry.view = multi_view.front();
-    // The longest first, as a view's name may have dots, and end as another's does.
+    // The longest name first: a view's name may have dots, and end with another view's name.
     std::vector<std::string> views = multi_view;
     std::stable_sort(views.begin(), views.end(),
                      [](const std::string& a, const std::string& b) { return a.size() > b.size(); });

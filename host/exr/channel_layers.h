@@ -12,8 +12,8 @@ namespace gloam::channel_names {
 /// A channel with its view taken out of its name.
 struct Entry {
   const FileChannel* file;
-  std::string view;   ///< "" = named by no view
-  bool named;         ///< the file says the view (part, or the name itself)
+  std::string view;   ///< "": the name states no view
+  bool named;         ///< the file states the view, by the part or by the name
   std::string layer;  ///< dotted path without view and component
   std::string component;
   std::string plain() const { return layer.empty() ? component : layer + "." + component; }
@@ -21,15 +21,15 @@ struct Entry {
 
 std::vector<Entry> entries_of(const std::vector<FileChannel>& channels, const std::vector<std::string>& multi_view);
 
-/// Views in file order; one empty name where the file names none.
+/// Views in file order; one empty name if the file names none.
 std::vector<std::string> views_of(const std::vector<Entry>& entries, const std::vector<std::string>& multi_view);
 
 /// Channels of one layer of one part.
 struct Layer {
   int part;
   bool shared;         ///< belongs to a part that names no view, while the file has views
-  std::string path;    ///< as the file has it
-  std::string name;    ///< canonical form of its last piece, or of the part's name where the path is empty
+  std::string path;    ///< as in the file
+  std::string name;    ///< canonical form of the path's last piece, or of the part's name if the path is empty
   std::string prefix;  ///< path without its last piece: Blender's view layer
   std::map<std::string, const FileChannel*> components;  ///< by lower-case name
 };

@@ -31,7 +31,7 @@ void note(NamedPlanes& named, const std::string& plane, const std::string& sente
   if (std::find(notes.begin(), notes.end(), sentence) == notes.end()) notes.push_back(sentence);
 }
 
-/// Depth layers of a gloam file: peel.00.Z, stochastic.00.Z.
+/// Adds the depth layers of a gloam file: peel.00.Z, stochastic.00.Z.
 void add_depth_layers(NamedPlanes& named, const std::vector<Layer>& layers, const std::string& view) {
   std::set<std::string> seen;
   for (const Layer& layer : layers) {
@@ -58,8 +58,8 @@ std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
   return views;
 }
 
-/// A file that lists views and names none of them in its channels means one picture; which view it shows, the user
-/// says, else it is the first.
+/// A file that lists views but names none of them in its channels holds one picture. It shows the view that the user names, else
+/// the first.
 void apply_unnamed_view(std::vector<Entry>& entries, NamedPlanes& named, const std::vector<std::string>& multi_view,
                         const std::vector<std::string>& asked) {
   const bool unnamed = std::none_of(entries.begin(), entries.end(), [](const Entry& e) { return e.named; });
@@ -96,9 +96,9 @@ void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std:
     if (!prefix) prefix = best->layer->prefix;
     if (const std::string tie = tie_in_words(kind.name, candidates, *best); !tie.empty()) note(named, kind.name, tie);
     if (best->rank == only_rgba)
-      note(
-          named, kind.name,
-          fmt::format("{}: from '{}', the only RGBA layer whose name says nothing else", kind.name, best->layer->path));
+      note(named, kind.name,
+           fmt::format("{}: from '{}', the only RGBA layer whose name means no other plane", kind.name,
+                       best->layer->path));
     if (best->said == DeclaredConvention::unsure_motion)
       note(named, kind.name,
            fmt::format("motion: '{}' taken as pixels, current to previous frame, y down", shown(*best)));
@@ -132,7 +132,7 @@ NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vec
   for (const std::string& view : views) {
     const size_t before = named.planes.size();
     name_view(named, entries, view, options, overridden);
-    // A view that is only listed, as in a reference rendered eye by eye, is no view of this file.
+    // A view that is listed but has no planes, as in a reference rendered eye by eye, is not a view of this file.
     if (named.planes.size() > before || !options.views.empty()) named.views.push_back(view);
   }
   if (named.views.empty()) named.views.push_back(views.front());

@@ -1,4 +1,4 @@
-// Which channels of a file serve as which plane.
+// The planes that the channels of a file hold, by their names.
 #pragma once
 
 #include <map>
@@ -12,24 +12,24 @@ namespace gloam {
 /// A channel as the headers list it.
 struct FileChannel {
   int part = 0;
-  std::string part_view;  ///< attribute `view` of its part; "" where there is none
+  std::string part_view;  ///< attribute `view` of its part; "" if there is none
   std::string part_name;  ///< attribute `name` of its part
   std::string name;       ///< full name in the file
   std::string type;       ///< "half", "float" or "uint"
 };
 
-/// "left" or "right" where a part is called so, alone or beside other words: "right", "beauty.left", "depth_R"; else empty.
+/// The eye in the name of a part, alone or beside other words: "right", "beauty.left", "depth_R"; else empty.
 std::string eye_in_name(const std::string& part_name);
 
-/// What the channel names of a file mean.
+/// The meaning of the channel names of a file.
 struct NamedPlanes {
-  std::vector<std::string> views;   ///< that hold channels or are asked for; one empty name where the file names none
+  std::vector<std::string> views;   ///< views with channels, and views asked for; one empty name if the file names none
   std::vector<PlaneSource> planes;  ///< by view, then in the order of plane_kinds()
   std::map<std::string, std::vector<std::string>> assumed;  ///< by plane: a sentence for each choice among equals
-  bool view_is_assumed = false;  ///< several views are listed, no channel names one, and the user says none either
+  bool view_is_assumed = false;  ///< several views are listed, no channel names one, and the user names none
 };
 
-/// What the user says (see ReadOptions).
+/// The user's choices (see ReadOptions).
 struct NameOptions {
   std::vector<std::string> views;
   std::map<std::string, std::string> channels;

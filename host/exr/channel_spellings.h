@@ -1,4 +1,4 @@
-// How renderers spell the channels of each plane.
+// The names that renderers give to the channels of each plane.
 #pragma once
 
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace gloam::channel_names {
 
-/// How sure a spelling is: smaller wins.
+/// Certainty of a spelling: smaller wins.
 enum Rank { own, renderer, generic, last_resort, only_rgba = 50 };
 
-/// A layer and the channels in it that make up a plane.
+/// A layer, and its channels that make up a plane.
 struct Spelling {
   const char* plane;
-  const char* layer;       ///< canonical; "" = no layer at all; "*" = any layer, for channels whose own name is enough
-  const char* components;  ///< alternatives, best first, separated by '|'; components of one separated by ','
+  const char* layer;       ///< canonical; "": no layer; "*": any layer, for channels whose own name is enough
+  const char* components;  ///< alternatives separated by '|', best first; the components of each separated by ','
   Rank rank;
   DeclaredConvention said = DeclaredConvention::nothing;
   float y_scale = 1;  ///< for the second component: -1 turns y up into y down
 };
 
-/// All of them, for the names of layers that mean something.
+/// All spellings of all planes.
 const std::vector<Spelling>& spellings();
 
-/// Those of a plane, in the order of the table.
+/// The spellings of a plane, in the order of the table.
 const std::vector<Spelling>& spellings_of(const std::string& plane);
 
-/// Layers whose channels are never taken for something else by their component alone, as when the part is named so.
+/// Whether a layer (or part) holds data of another kind, so that its channels are never taken for a plane by their component alone.
 bool is_other_data(const std::string& layer);
 
 }  // namespace gloam::channel_names

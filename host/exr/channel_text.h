@@ -14,7 +14,7 @@ std::vector<std::string> split(const std::string& text, char separator);
 /// The inverse of `split` at '.'.
 std::string join(const std::vector<std::string>& pieces);
 
-/// Letters and digits in lower case, without what renderers put before every pass:
+/// Letters and digits in lower case, without the prefix that renderers put before every pass:
 /// "FinalImageMovieRenderQueue_WorldDepth" and "World Depth" are both "worlddepth".
 std::string canonical(std::string_view layer);
 

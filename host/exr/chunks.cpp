@@ -28,7 +28,7 @@ int64_t lines_per_chunk(const Imf::Header& header) {
   }
 }
 
-/// Sizes are 32 bits without a sign: their product may not fit into 64 with one.
+/// Sizes are unsigned 32-bit numbers: their product may not fit into a signed 64-bit number.
 int64_t pixels_per_tile(const Imf::TileDescription& tile) {
   return int64_t(std::min<uint32_t>(tile.xSize, INT32_MAX)) * std::min<uint32_t>(tile.ySize, INT32_MAX);
 }

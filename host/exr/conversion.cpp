@@ -15,10 +15,10 @@ void add_all_new(std::vector<std::string>& list, const std::vector<std::string>&
   for (const std::string& item : items) add_new(list, item);
 }
 
-/// Positions are the world's.
+/// Positions are in the world, and of no use without a pose.
 void drop_positions_without_pose(View& view, Frame& frame) {
   if (view.camera->pose || view.planes.erase("position") == 0) return;
-  add_new(frame.assumed, "positions: not used, as where the camera stands is not known (--camera tells)");
+  add_new(frame.assumed, "positions: not used, since the camera's pose is unknown (--camera gives it)");
 }
 
 }  // namespace

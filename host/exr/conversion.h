@@ -1,4 +1,4 @@
-// From planes as a file has them to gloam's conventions, with a note for each assumption.
+// Converts the planes of a file to gloam's conventions, with a note for each assumption.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace gloam {
 
-/// How the values of a file were understood: of the view that was converted last.
+/// The conventions found for the values of a file, of the view that was converted last.
 struct Conventions {
-  std::string depth;         ///< as of `to_view_depth`; empty before
+  std::string depth;         ///< as returned by `to_view_depth`; empty before
   std::string normal_space;  ///< "view" or "world"; empty before, and without usable normals
 
   void take(const std::string& depth_convention);
@@ -23,14 +23,14 @@ struct Conventions {
 /// The planes asked for and, for the background of normals, depth.
 std::vector<std::string> planes_to_decode(const std::vector<std::string>& asked);
 
-/// What was assumed of views, names and cameras, and which views lack what is asked for.
+/// Adds notes on the assumptions about views, names and cameras, and on views that lack a plane asked for.
 void note_assumptions(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& asked,
                       Frame& frame);
 
-/// Of whole planes. Views get cameras where none is known.
+/// Converts whole planes. Views without a known camera get one.
 void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& frame, Conventions& conventions);
 
-/// Of a frame that has been converted: the background, the length of normals, padding; sentences become printable.
+/// Finishes a converted frame: the background, the length of normals, padding; makes the notes printable.
 void finish_frame(const ExrFile& file, Frame& frame);
 
 }  // namespace gloam

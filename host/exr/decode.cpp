@@ -27,7 +27,7 @@ Imf::FrameBuffer frame_buffer(PartDecoding& decoding, const Window& window) {
   return buffer;
 }
 
-/// Sets what the part's data window leaves out.
+/// Sets the pixels outside the part's data window.
 void fill_outside(Channel& channel, const Box& data, const Window& window, float value) {
   const int width = window.width();
   const int left = int(data.x0 - window.x0), right = int(data.x1 - window.x0);
@@ -50,7 +50,7 @@ struct Rows {
   int64_t first, last;
 };
 
-/// Tiles are decoded whole: where the window cuts them, beside it.
+/// Tiles are decoded whole. Tiles that the window cuts are decoded into memory of their own.
 void decode_tiles(Imf::TiledInputPart& input, PartDecoding& decoding, const Box& data, const Window& window,
                   const Rows& rows) {
   const int64_t tile = input.tileYSize(), first_tile = (rows.first - data.y0) / tile,

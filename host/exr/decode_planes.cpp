@@ -40,7 +40,7 @@ void for_each_channel(const ExrFile& file, AnyFrame& frame, const Work& work) {
         for (size_t i = 0; i < from->channels.size(); ++i) work(from->channels[i], plane.channels[i], *from);
 }
 
-/// What is decoded of each part.
+/// The channels to decode, by part.
 std::map<int, PartDecoding> decodings_of(const ExrFile& file, Frame& frame) {
   std::map<int, PartDecoding> parts;
   for_each_channel(file, frame, [&](const ChannelSource& source, Channel& channel, const PlaneSource& plane) {

@@ -1,4 +1,4 @@
-// From the channels of an EXR file to the planes of a frame, with values as they stand in the file.
+// Decodes the channels of an EXR file into the planes of a frame, with values as in the file.
 #pragma once
 
 #include <map>
@@ -12,18 +12,18 @@
 
 namespace gloam {
 
-/// NaN and infinite values, by plane and view.
+/// Number of NaN and infinite values, by plane and view.
 using NonfiniteCounts = std::map<std::pair<std::string, std::string>, long long>;
 
-/// The planes, of all views that have them, of the rows that `window` covers, which is as wide as the file's. Layers that a view
-/// lacks are filled, the others are still to be decoded.
+/// Allocates the planes, for all views that have them and the rows of `window`, which is as wide as the file's. Fills the layers
+/// that a view lacks; the others are to be decoded.
 Frame allocate_planes(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& planes,
                       const Window& window);
 
-/// Throws Error naming the file where it is damaged.
+/// Throws Error naming the file if it is damaged.
 void decode_planes(const ExrFile& file, Frame& frame);
 
-/// Inside the data windows, since the rest is not in the file.
+/// Counts inside the data windows: the file has no other values.
 void add_nonfinite(const ExrFile& file, const Frame& frame, NonfiniteCounts& counts);
 
 }  // namespace gloam

@@ -25,7 +25,7 @@ bool all_background(const Channel& depth) {
   return true;
 }
 
-/// The options, with what the file declares in place of `automatic`.
+/// The options, with the file's declared convention in place of `automatic`.
 ReadOptions with_declared_depth(const ExrFile& file, const PlaneSource& depth, std::vector<std::string>& assumed) {
   ReadOptions options = file.options;
   if (options.depth != DepthConvention::automatic) return options;

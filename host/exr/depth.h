@@ -1,4 +1,4 @@
-// The depth of a file, as flags, the header and channel names say what it means.
+// The depth of a file, with the meaning that flags, the header and channel names give it.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace gloam {
 /// The convention before any pixel is decoded: "z", "ray", "ndc" or "reversed"; empty without depth.
 std::string declared_depth_convention(const ExrFile& file);
 
-/// Whether some pixel of a view, as stored, has the depth that --background names.
+/// Whether any stored depth of a view is the value of --background.
 bool has_named_background(const ExrFile& file, const View& view);
 
-/// Brings a view's depth to planar view-space z, and notes what was assumed. Returns the convention (normalise/depth.h); empty
+/// Brings a view's depth to planar view-space z, and notes assumptions. Returns the convention (normalise/depth.h); empty
 /// without depth.
 std::string convert_depth(const ExrFile& file, View& view, Frame& frame);
 
-/// For a frame of which no view has the background that --background names.
+/// Adds the note for a frame without any pixel of the depth that --background names.
 void note_missing_background(const ExrFile& file, Frame& frame);
 
 }  // namespace gloam

@@ -10,10 +10,10 @@
 
 namespace gloam {
 
-/// OpenEXR's message on one line, without the file's name, which stands before the message anyway.
+/// OpenEXR's message on one line, without the file's name, which the caller puts before it.
 std::string cause(const std::exception& error, const std::filesystem::path& path);
 
-/// Runs what OpenEXR does with a file; whatever `work` throws becomes one line that names the file.
+/// Runs work that calls OpenEXR. Any exception of it becomes an Error of one line that names the file.
 template <typename Work>
 auto guarded(const std::filesystem::path& path, Work&& work) {
   try {

@@ -1,4 +1,4 @@
-// FrameFile and write_frame, by the parts of this folder.
+// FrameFile and write_frame, on top of the other files of this folder.
 #include "gloam/exr.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 struct FrameFile::Impl {
   ExrFile file;
   FileCameras cameras;
-  std::vector<std::string> camera_notes;  ///< of the file and of its cameras
+  std::vector<std::string> camera_notes;  ///< notes on the file and on its cameras
   Conventions conventions;
   std::map<std::string, std::optional<NormalForm>> normal_forms;  ///< of the last survey
   NonfiniteCounts nonfinite;
@@ -62,7 +62,7 @@ FrameFile::FrameFile(const fs::path& path, const ReadOptions& options) : FrameFi
   impl_->find_cameras({});
 }
 
-/// One picture of a file that lists several views is the eye's, not that of the first view.
+/// If the file lists several views but holds one picture, the picture is this eye's, not the first view's.
 void FrameFile::become(const Eye& eye) {
   ExrFile& file = impl_->file;
   if (file.names.view_is_assumed && contains(file.headers.listed_views(), eye.name)) choose_view(file, eye.name);
@@ -71,7 +71,7 @@ void FrameFile::become(const Eye& eye) {
   if (impl_->cameras.has_pose(views().front())) return;
   const std::string& misfit = impl_->cameras.json_misfit;
   throw Error(
-      "{}: has no camera that tells where it stands{}, and two files are two eyes; give --camera FILE with a pose for "
+      "{}: has no camera with a pose{}, which each of two eyes needs; give --camera FILE with a pose for "
       "each of the views '{}' and '{}'",
       file.path.string(), misfit.empty() ? "" : fmt::format(" ({}: it is not used)", misfit), eye.name, eye.other_name);
 }
@@ -79,7 +79,7 @@ void FrameFile::become(const Eye& eye) {
 FrameFile::~FrameFile() = default;
 FrameFile::FrameFile(FrameFile&&) noexcept = default;
 
-// --- What the headers tell
+// --- From the headers
 
 const fs::path& FrameFile::path() const { return impl_->file.path; }
 Window FrameFile::display() const { return impl_->file.display; }
@@ -112,7 +112,7 @@ std::optional<double> FrameFile::number_attribute(const std::string& name) const
 
 std::string FrameFile::text_attribute(const std::string& name) const { return impl_->file.headers.text(name); }
 
-// --- What the pixels tell
+// --- From the pixels
 
 std::string FrameFile::depth_convention() const {
   return impl_->conventions.depth.empty() ? declared_depth_convention(impl_->file) : impl_->conventions.depth;
@@ -155,7 +155,7 @@ Frame FrameFile::survey(const std::vector<std::string>& planes) {
   Frame whole = allocate_planes(file, impl_->cameras, planes_surveyed_whole(planes), file.window);
   impl_->nonfinite.clear();
   impl_->decode(whole);
-  // Alpha comes once more, with the rows.
+  // Alpha is counted again with the rows.
   for (const std::string& view : views()) impl_->nonfinite.erase({"alpha", view});
   Survey survey = survey_planes(file, impl_->cameras, planes, std::move(whole));
   impl_->conventions.take(survey.conventions.depth);
@@ -187,7 +187,7 @@ unsigned long long FrameFile::bytes_to_read_by_rows(const std::vector<std::strin
   const auto whole_bytes = [&](const char* plane) {
     return contains(whole, plane) ? plane_bytes(impl_->file, {plane}, window().height()) : 0;
   };
-  // Alpha is whole only while the depth is understood; tiles lie beside the rows that they are cut to.
+  // Alpha is in memory as a whole only until the depth convention is known. Tiles need memory besides the rows cut from them.
   const uint64_t by_rows = 2 * plane_bytes(impl_->file, planes_by_rows(planes), rows_at_once(planes));
   return whole_bytes("depth") + std::max(by_rows, whole_bytes("alpha")) + decoder_bytes(impl_->file, planes);
 }

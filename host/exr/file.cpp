@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Width over height: beyond, a header's pixelAspectRatio is no statement about pixels.
+/// Least width over height, and height over width, of a pixel: beyond, pixelAspectRatio is ignored as meaningless.
 constexpr float narrowest_pixel = 0.01f;
 
 void check_magic(ExrInput& stream, const fs::path& path) {
@@ -39,7 +39,7 @@ void find_planes(ExrFile& file) {
     file.names =
         name_planes(file.headers.channels(), file.headers.listed_views(), {file.options.views, file.options.channels});
   });
-  // Mitsuba's depth is the length of the ray, whatever the user called the channel.
+  // Mitsuba's depth is the length of the ray, whatever name the user gave the channel.
   if (file.headers.text("generatedBy").find("Mitsuba") == std::string::npos) return;
   for (PlaneSource& plane : file.names.planes)
     if (plane.plane == "depth") plane.said = DeclaredConvention::ray_distance;
@@ -50,7 +50,7 @@ void find_pixel_aspect(ExrFile& file) {
   if (aspect >= narrowest_pixel && aspect <= 1 / narrowest_pixel)
     file.pixel_aspect = double(aspect);
   else
-    file.notes.push_back(fmt::format("camera: pixelAspectRatio {:g} in the header cannot be; 1 is taken", aspect));
+    file.notes.push_back(fmt::format("camera: pixelAspectRatio {:g} in the header is impossible; 1 is used", aspect));
 }
 
 void find_windows(ExrFile& file) {
@@ -95,7 +95,7 @@ void choose_view(ExrFile& file, const std::string& view) {
 
 void set_window(ExrFile& file, const Box& window) {
   check_size(file.path, window, "display and data", file.options.most_pixels);
-  // Rows are padded: a frame of one column takes sixteen.
+  // Rows are padded: a frame of one column takes the memory of sixteen.
   const Layout layout(int(window.x1 - window.x0), int(window.y1 - window.y0));
   if (layout.count() > size_t(std::numeric_limits<int>::max()))
     throw Error("{}: {} x {} pixels take {} x {} with their padding, more than 2^31", file.path.string(), layout.width,

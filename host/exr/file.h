@@ -1,4 +1,4 @@
-// An open EXR file and what its headers tell of views, planes and windows.
+// An open EXR file, and the views, planes and windows that its headers describe.
 #pragma once
 
 #include <OpenEXR/ImfMultiPartInputFile.h>
@@ -23,23 +23,23 @@ struct ExrFile {
   std::unique_ptr<Imf::MultiPartInputFile> parts;
   Headers headers;
   NamedPlanes names;
-  Window display, window;  ///< `window`: that frames cover
+  Window display, window;  ///< `window`: the one that frames cover
   double pixel_aspect = 1;
-  std::vector<std::string> notes;  ///< what was assumed of views and pixels, a sentence each
+  std::vector<std::string> notes;  ///< assumptions about views and pixels, a sentence each
 
-  /// What serves as a plane of a view; nullptr where nothing does.
+  /// The source of a view's plane; nullptr if there is none.
   const PlaneSource* source(const std::string& plane, const std::string& view) const;
   bool has(const std::string& plane, const std::string& view) const;
 };
 
-/// Reads the headers. Throws Error (one line, naming the file) for a file that is none, damaged, deep or too large, and for
-/// views and channels of the options that the file does not have.
+/// Reads the headers. Throws Error (one line, naming the file) for a file that is not an EXR, damaged, deep or too large, and for
+/// views and channels of the options that the file lacks.
 ExrFile open_exr(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Takes the planes of this view, as --view would.
+/// Selects the planes of this view, as --view does.
 void choose_view(ExrFile& file, const std::string& view);
 
-/// Frames of the file will cover `window`. Throws Error where that is too large.
+/// Sets the window that frames of the file cover. Throws Error if it is too large.
 void set_window(ExrFile& file, const Box& window);
 
 }  // namespace gloam

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// Of one file, a view after the other.
+/// Finds the cameras of one file, one view after the other.
 class Search {
  public:
   Search(const ExrFile& file, const std::optional<EyeOfPair>& eye)
@@ -37,11 +37,11 @@ class Search {
     found_.cameras.emplace(view, *camera);
   }
 
-  /// `pose`: where the header has no whole camera.
+  /// Sets `pose` if the header has a pose but no whole camera.
   std::optional<Camera> by_header(const std::string& view, std::optional<Pose>& pose) {
     std::optional<Camera> camera;
     if (has_camera_flag()) return camera;
-    // A flag is there to overrule what the file says, also where that is no camera.
+    // A flag overrides the header, even if the header describes no valid camera.
     passing_over(options_.fov_degrees || options_.only_looks, [&] {
       named(file_.path, [&] {
         guarded(file_.path, [&] {
@@ -57,7 +57,7 @@ class Search {
     std::optional<Camera> camera;
     passing_over(options_.only_looks || (options_.fov_degrees && !has_camera_flag()), [&] {
       if (!json_) {
-        json_.emplace();  // stays without cameras where the JSON cannot be read
+        json_.emplace();  // stays without cameras if the JSON cannot be read
         *json_ = read_json_cameras({file_.path, options_.camera_file, file_.display, eye_}, found_.notes);
       }
       camera = of_json(view);
@@ -65,7 +65,7 @@ class Search {
     return camera;
   }
 
-  /// Where the JSON has none for the view: Error if the user named the JSON, else a note.
+  /// If the JSON has no camera for the view: throws Error if the user named the JSON, else adds a note.
   std::optional<Camera> of_json(const std::string& view) {
     if (json_->cameras.empty()) return {};
     const std::vector<std::string> wanted = eye_ ? std::vector<std::string>{eye_->name} : file_.names.views;
@@ -79,7 +79,7 @@ class Search {
     return {};
   }
 
-  /// --fov, with what else is known.
+  /// The camera by --fov, with all else that is known.
   Camera by_field_of_view(const std::optional<Camera>& known, const std::optional<Pose>& pose) const {
     Camera camera = camera_from_fov(*options_.fov_degrees, file_.display, file_.pixel_aspect, "--fov");
     camera.pose = known ? known->pose : pose;
@@ -87,7 +87,7 @@ class Search {
     return camera;
   }
 
-  /// One of the two is from a flag, the other from the camera.
+  /// Throws if near and far, one from a flag and the other from the camera, do not go together.
   void check_clipping(const Camera& camera) const {
     if (!camera.near || !camera.far || *camera.near < *camera.far || (!options_.near && !options_.far)) return;
     if (options_.near)
@@ -97,15 +97,15 @@ class Search {
                 camera.source);
   }
 
-  /// Where it is allowed to, an Error of `find` becomes a note.
+  /// Runs `find`. An Error of it becomes a note if `is_allowed`.
   void passing_over(bool is_allowed, const std::function<void()>& find) {
     try {
       find();
     } catch (const Error& error) {
-      if (!is_allowed && !has_camera_flag()) throw Error("{}; --fov or --camera tells another", error.what());
+      if (!is_allowed && !has_camera_flag()) throw Error("{}; --fov or --camera gives another", error.what());
       if (!is_allowed) throw;
       const char* instead =
-          options_.fov_degrees ? "--fov takes its place" : "gloam run refuses it; --fov or --camera tell another";
+          options_.fov_degrees ? "--fov takes its place" : "gloam run refuses it; --fov or --camera gives another";
       add_new(found_.notes, fmt::format("camera: {}: not used; {}", error.what(), instead));
     }
   }
@@ -116,7 +116,7 @@ class Search {
   const ReadOptions& options_;
   const std::optional<EyeOfPair>& eye_;
   HeaderCameras headers_;
-  std::optional<JsonCameras> json_;  ///< once it has been looked for
+  std::optional<JsonCameras> json_;  ///< set once the JSON has been looked for
   FileCameras found_;
 };
 

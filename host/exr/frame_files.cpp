@@ -18,10 +18,10 @@ using Names = std::array<std::string, 2>;
 
 std::string file_name(const FrameFile& file) { return file.path().filename().string(); }
 
-/// The view that the file itself names; empty where it names none or that is only assumed.
+/// The view that the file itself names; empty if it names none or the view is only assumed.
 std::string own_name(const FrameFile& file) { return file.view_is_assumed() ? "" : file.views().front(); }
 
-/// "left" or "right" by how the file's name ends, before a frame number: "pair_L.exr", "pair-right.0012.exr"; else empty.
+/// "left" or "right" by the end of the file's name, before a frame number: "pair_L.exr", "pair-right.0012.exr"; else empty.
 std::string eye_in_name(const fs::path& path) {
   static const std::regex ending("(?:.*[._-])?(?:(l|left)|(r|right))(?:[._-][0-9]+)?", std::regex::icase);
   std::smatch match;
@@ -34,7 +34,7 @@ std::string other_eye(const std::string& eye) { return eye == "left" ? "right" :
 
 bool tell_apart(const Names& names) { return !names[0].empty() && !names[1].empty() && names[0] != names[1]; }
 
-/// `how` stays empty where the files say their names themselves.
+/// Names of the two eyes. `how` stays empty if the files themselves name them.
 Names eye_names(const FrameFile& first, const FrameFile& second, std::string& how) {
   const Names own = {own_name(first), own_name(second)};
   if (tell_apart(own)) return own;
@@ -51,8 +51,9 @@ void check_one_view(const FrameFile& file) {
   if (file.views().size() == 1) return;
   std::vector<std::string> quoted;
   for (const std::string& view : file.views()) quoted.push_back("'" + view + "'");
-  throw UsageError("{}: has the views {}, and of two files each is one eye; give this file alone, or files of one view",
-                   file.path().string(), enumerate(quoted));
+  throw UsageError(
+      "{}: has the views {}, but each of two files must hold one eye; give this file alone, or files of one view",
+      file.path().string(), enumerate(quoted));
 }
 
 void check_same_size(const FrameFile& first, const FrameFile& second) {
@@ -65,7 +66,7 @@ Window united(const Window& a, const Window& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-/// What both say once, and what one says with its name.
+/// Notes of both eyes: a common note once, others with the name of their eye.
 std::vector<std::string> merged_notes(const std::vector<std::string>& first, const std::vector<std::string>& second,
                                       const std::string& first_name, const std::string& second_name) {
   std::vector<std::string> notes;
@@ -93,9 +94,9 @@ FrameFiles::FrameFiles(const std::vector<std::string>& paths, const ReadOptions&
     views_ = files_[0].views();
     return;
   }
-  if (paths.size() != 2) throw UsageError("{} files are no frame; give one, or two that are an eye each", paths.size());
+  if (paths.size() != 2) throw UsageError("a frame is one file, or two with one eye each; {} were given", paths.size());
   if (!options.views.empty())
-    throw UsageError("--view {}: of two files each is one view already; leave it out, or give one file",
+    throw UsageError("--view {}: each of two files is one view already; leave it out, or give one file",
                      fmt::join(options.views, ","));
   std::error_code unknown;
   if (fs::equivalent(paths[0], paths[1], unknown))
@@ -119,7 +120,7 @@ std::string FrameFiles::name() const {
   return enumerate(names);
 }
 
-/// With the views' names in this frame.
+/// Sources under the views' names in this frame.
 std::vector<PlaneSource> FrameFiles::sources() const {
   std::vector<PlaneSource> sources;
   for (size_t i = 0; i < files_.size(); ++i) {
@@ -162,7 +163,7 @@ Frame FrameFiles::read_files(const std::vector<std::string>& planes) {
   for (size_t i : {0, 1}) {
     View& view = frame.views[i];
     view.name = views_[i];
-    // A file knows nothing of the layers that only the other one's stack has.
+    // Layers that only the other file's stack has.
     for (const std::string& plane : planes) {
       if (find_source(all, plane, view.name) || !has_plane(all, plane, view.name)) continue;
       Plane& empty = view.planes[plane];

@@ -23,10 +23,10 @@ bool declares_unknown_pose(const AttributePlace& place) {
 }
 
 void note_unusable(const std::string& what, std::vector<std::string>& notes) {
-  add_new(notes, fmt::format("camera: {} in the header cannot be and is not used", what));
+  add_new(notes, fmt::format("camera: {} in the header is impossible and is not used", what));
 }
 
-/// Near and far planes are trusted only where they can be planes.
+/// Reads the near and far planes, unless their values are impossible.
 void read_clipping(const AttributePlace& place, Camera& camera, std::vector<std::string>& notes) {
   const auto usable = [&](const char* name) -> std::optional<double> {
     const std::optional<double> value = number_attribute(*place.header, place.prefix + name);
@@ -48,7 +48,7 @@ std::optional<Camera> camera_at(const AttributePlace& place, const Window& displ
   Camera camera = camera_from_matrices(*to_camera, *to_ndc, display, origin(place), &notes);
   camera.source = printable(text_attribute(*place.header, place.prefix + "gloamCamera"));
   if (camera.source.empty()) camera.source = "header";
-  // gloam writes matrices for a camera whose place is unknown too; they must not come back as knowledge.
+  // gloam writes matrices for a camera of unknown pose too; they must not be taken for a known pose.
   if (declares_unknown_pose(place)) camera.pose.reset();
   read_clipping(place, camera, notes);
   return camera;
@@ -88,7 +88,7 @@ std::optional<Pose> HeaderCameras::pose(const std::string& view, std::vector<std
     has_projection = has_projection || matrix(place, "worldToNDC");
   }
   if (pose)
-    add_new(notes, "camera: the header has worldToCamera and no worldToNDC: it tells the pose only");
+    add_new(notes, "camera: the header has worldToCamera and no worldToNDC: only the pose is used");
   else if (has_projection)
     add_new(notes, "camera: the header has worldToNDC and no worldToCamera: it is not used");
   return pose;

@@ -17,12 +17,12 @@ class HeaderCameras {
   /// Cameras are in pixels of `display`. The headers must outlive this.
   HeaderCameras(const Headers& headers, const Window& display) : headers_(headers), display_(display) {}
 
-  /// By `worldToCamera` and `worldToNDC`, or as a module of the light-field display in `gloamDisplay`; none where the headers
-  /// have no whole camera. What cannot be used becomes a sentence in `notes`. Throws Error for matrices and displays that
-  /// describe no camera.
+  /// From `worldToCamera` and `worldToNDC`, or a module of the light-field display in `gloamDisplay`; none if the headers have no
+  /// whole camera. Unusable attributes become a sentence in `notes`. Throws Error for matrices and displays that describe no
+  /// camera.
   std::optional<Camera> camera(const std::string& view, std::vector<std::string>& notes);
 
-  /// By `worldToCamera` alone, where the headers have no whole camera.
+  /// From `worldToCamera` alone, for headers without a whole camera.
   std::optional<Pose> pose(const std::string& view, std::vector<std::string>& notes) const;
 
  private:

@@ -25,7 +25,7 @@ Headers::Headers(const Imf::MultiPartInputFile& file) : file_(&file), listed_vie
   find_views();
 }
 
-/// Names of parts tell where no part has the attribute, and both eyes have parts: "left", "beauty_right".
+/// Uses the names of parts ("left", "beauty_right") if no part has the attribute `view` and both eyes have parts.
 void Headers::find_views() {
   std::vector<std::string> eyes;
   bool is_declared = !listed_views_.empty();

@@ -11,7 +11,7 @@
 
 namespace gloam {
 
-/// Where attributes of a view may stand: a header, and what precedes the attributes' names there ("right.", or nothing).
+/// A place for attributes of a view: a header, and the prefix of the attributes' names there ("right.", or nothing).
 struct AttributePlace {
   const Imf::Header* header;
   std::string prefix;
@@ -25,21 +25,21 @@ class Headers {
 
   int parts() const { return file_->parts(); }
   const Imf::Header& of_part(int part) const { return file_->header(part); }
-  /// The header that speaks for a view: that of the view's first part, else the file's first.
+  /// The header with the attributes of a view: that of the view's first part, else the file's first.
   const Imf::Header& of_view(const std::string& view) const;
-  /// In the order in which attributes of a view are looked up.
+  /// The places where attributes of a view are looked up, in order.
   std::vector<AttributePlace> places_of(const std::string& view) const;
 
   /// The attribute `multiView` of the first part that has it; else empty.
   const std::vector<std::string>& listed_views() const { return listed_views_; }
-  /// No attribute names a view, and the names of the parts do.
+  /// Whether the views are named by the parts' names only, not by attributes.
   bool has_views_by_part_names() const { return has_views_by_part_names_; }
-  /// In the order of the file.
+  /// All channels, in file order.
   std::vector<FileChannel> channels() const;
 
-  /// The first part's value that has the attribute.
+  /// The attribute of the first part that has it.
   std::optional<double> number(const std::string& name) const;
-  /// The first text of this name that is not empty.
+  /// The first text attribute of this name that is not empty.
   std::string text(const std::string& name) const;
   bool has(const std::string& name) const;
 
@@ -49,7 +49,7 @@ class Headers {
 
   const Imf::MultiPartInputFile* file_ = nullptr;
   std::vector<std::string> listed_views_;
-  std::vector<std::string> part_views_;  ///< by the attribute `view`, else by the parts' names; "" where nothing tells
+  std::vector<std::string> part_views_;  ///< by the attribute `view`, else by the parts' names; "" if unknown
   bool has_views_by_part_names_ = false;
 };
 

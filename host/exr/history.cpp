@@ -12,7 +12,7 @@
 namespace gloam {
 namespace {
 
-/// One frame for every surface that reflects: what a mask left out has none.
+/// A history of one frame for every surface with a reflection: pixels that a mask left out have none.
 Plane one_frame(const Plane& depth, const Plane& reflection) {
   Plane frames{"frames", {}};
   const Layout& layout = depth.channels.front().layout();
@@ -57,7 +57,7 @@ void History::add_to(Frame& frame, const std::vector<std::string>& planes) {
   for (View& view : frame.views) {
     const auto same = std::find_if(before.views.begin(), before.views.end(),
                                    [&](const View& other) { return other.name == view.name; });
-    // A file that names no view is of the only one there is.
+    // A file that names no view is for the only view of the frame.
     const bool is_unnamed =
         before.views.size() == 1 && frame.views.size() == 1 && (view.name.empty() || before.views.front().name.empty());
     if (same == before.views.end() && !is_unnamed)

@@ -18,7 +18,7 @@ std::string views_in_words(const std::vector<std::string>& views) {
   return (views.size() == 1 ? "the view " : "the views ") + enumerate(views);
 }
 
-/// Whether the JSON was found beside both eyes' files, or --camera names it for both.
+/// Whether the JSON belongs to both eyes: it lies beside both files, or --camera names it.
 bool is_shared_by_eyes(const JsonRequest& request, const fs::path& json) {
   if (!request.eye) return false;
   const std::optional<fs::path> others = request.json.empty() ? find_camera_file(request.eye->other) : json;
@@ -36,7 +36,7 @@ std::map<std::string, Camera> cameras_of_display(const fs::path& json, const Win
 
 const Camera* JsonCameras::find(const std::string& view, const std::vector<std::string>& wanted) const {
   if (const auto exact = cameras.find(view); exact != cameras.end()) return &exact->second;
-  // A single camera serves a single view, under any name; two eyes do not share one.
+  // A single camera is for a single view of any name; two eyes do not share it.
   const auto single = cameras.find("");
   return single != cameras.end() && wanted.size() == 1 && !is_shared ? &single->second : nullptr;
 }
@@ -56,7 +56,7 @@ std::string misfit_in_words(const JsonCameras& json, const std::string& frame, c
   for (const auto& [view, camera] : json.cameras)
     if (!view.empty()) own.push_back(view);
   return fmt::format("{} has {}, and {} {}", json.name,
-                     own.empty() ? "one camera, for no view by name" : views_in_words(own), frame,
+                     own.empty() ? "one camera that names no view" : views_in_words(own), frame,
                      views == std::vector<std::string>{""} ? "names none" : "has " + views_in_words(views));
 }
 

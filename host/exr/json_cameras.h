@@ -12,33 +12,33 @@
 
 namespace gloam {
 
-/// An EXR file that is one of two, an eye each.
+/// For an EXR file that holds one eye of two.
 struct EyeOfPair {
-  std::string name;             ///< of the view in the frame of both
+  std::string name;             ///< the view's name in the frame of both eyes
   std::filesystem::path other;  ///< the other eye's file
 };
 
-/// What a JSON is looked for by.
+/// The files that decide which JSON is read.
 struct JsonRequest {
   std::filesystem::path frame;  ///< the EXR file
   std::filesystem::path json;   ///< --camera; empty: the one beside the EXR file
-  Window display;               ///< cameras are in its pixels
+  Window display;               ///< cameras are in pixels of it
   std::optional<EyeOfPair> eye;
 };
 
 struct JsonCameras {
   std::string name;                       ///< of the JSON file, for messages
-  std::map<std::string, Camera> cameras;  ///< by view; "" of a JSON of one view; none where there is no JSON
-  bool is_shared = false;                 ///< the JSON lies beside the other eye's file too
+  std::map<std::string, Camera> cameras;  ///< by view; under "" if the JSON has one view; empty without a JSON
+  bool is_shared = false;                 ///< the JSON also belongs to the other eye's file
 
-  /// The camera of a view of `wanted`, all views that need one; nullptr where there is none.
+  /// The camera of a view; nullptr if there is none. `wanted`: all views that need one.
   const Camera* find(const std::string& view, const std::vector<std::string>& wanted) const;
 };
 
-/// Reads a camera JSON, or a display JSON where --camera names it. Throws Error for a JSON that cannot be read.
+/// Reads a camera JSON, or a display JSON if --camera names it. Throws Error for a JSON that cannot be read.
 JsonCameras read_json_cameras(const JsonRequest& request, std::vector<std::string>& notes);
 
-/// "cam.json has the view left, and frame.exr has the views ...": what the cameras are for, and what the frame has instead.
+/// "cam.json has the view left, and frame.exr has the views ...": the views of the cameras, and those of the frame.
 std::string misfit_in_words(const JsonCameras& json, const std::string& frame, const std::vector<std::string>& views);
 
 }  // namespace gloam

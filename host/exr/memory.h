@@ -1,4 +1,4 @@
-// Memory that decoding a file takes, and how many rows to decode at once.
+// Memory for decoding a file, and the number of rows to decode at once.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace gloam {
 
-/// Of planes with so many rows, of all views.
+/// Bytes of the planes of all views, with `rows` rows.
 uint64_t plane_bytes(const ExrFile& file, const std::vector<std::string>& planes, int rows);
 
-/// What the decoder holds beside these planes, of the part that takes most.
+/// Bytes that the decoder needs besides these planes, for the part that needs most.
 uint64_t decoder_bytes(const ExrFile& file, const std::vector<std::string>& planes);
 
-/// So many that no chunk is decoded much more than once, and that all planes take some 4 MiB; more where that is in one chunk.
+/// Number of rows for which no chunk is decoded much more than once and all planes take about 4 MiB, or more if one chunk does.
 int rows_at_once(const ExrFile& file, const std::vector<std::string>& planes);
 
 }  // namespace gloam

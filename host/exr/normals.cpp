@@ -7,7 +7,7 @@
 namespace gloam {
 namespace {
 
-/// What flags, the header and the names declare.
+/// The space that flags, the header and channel names declare.
 NormalSpace declared_space(const ExrFile& file, const PlaneSource& normal) {
   if (file.options.normal_space != NormalSpace::automatic) return file.options.normal_space;
   const std::string written = file.headers.text("gloamNormalSpace");
@@ -18,11 +18,11 @@ NormalSpace declared_space(const ExrFile& file, const PlaneSource& normal) {
   return file.headers.text("BlenderMultiChannel").empty() ? NormalSpace::automatic : NormalSpace::world;
 }
 
-/// What the normals themselves tell, where nothing declares their space.
+/// The form found from the normals themselves, for normals of undeclared space.
 NormalForm detected_form(const ExrFile& file, const View& view, const NormalSamples& samples, Frame& frame) {
   const Plane* depth = view.find("depth");
   if (!depth) {
-    add_new(frame.assumed, "normal: taken as view space, as there is no depth to tell it from (--normal-space)");
+    add_new(frame.assumed, "normal: taken as view space, since there is no depth to compare with (--normal-space)");
     return {NormalSpace::view};
   }
   std::vector<std::string> notes;
@@ -47,7 +47,7 @@ std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view
   NormalForm form{declared_space(file, *file.source("normal", view.name))};
   if (form.space == NormalSpace::automatic) form = detected_form(file, view, samples, frame);
   if (form.space == NormalSpace::world && !view.camera->pose) {
-    add_new(frame.assumed, "normals: not used, as where the camera stands is not known (--camera tells)");
+    add_new(frame.assumed, "normals: not used, since the camera's pose is unknown (--camera gives it)");
     return {};
   }
   if (view.find("depth")) note_missing(count_missing(form), frame);

@@ -15,8 +15,8 @@ bool may_be_white_by_default(const ExrFile& file, const View& view) {
 void note_white_reflectance(double share, Frame& frame) {
   if (share < 0.5) return;
   add_new(frame.assumed,
-          fmt::format("reflectance: GlossCol is 1 on {:.0f} % of the surfaces, as a Principled BSDF writes it whatever "
-                      "it reflects: reflections will be far too bright (--plane reflectance=none takes 0.04)",
+          fmt::format("reflectance: GlossCol is 1 on {:.0f} % of the surfaces, as a Principled BSDF writes it for "
+                      "any material: reflections will be far too bright (--plane reflectance=none takes 0.04)",
                       100 * share));
 }
 

@@ -1,4 +1,4 @@
-// Reflectance that a renderer may have written as 1 whatever the surface reflects.
+// Reflectance that a renderer may have written as 1 for any surface.
 #pragma once
 
 #include "exr/file.h"
@@ -6,10 +6,11 @@
 
 namespace gloam {
 
-/// Cycles' GlossCol is 1 where a Principled BSDF is no metal. Not where the user chose the channel.
+/// Whether the reflectance is Cycles' GlossCol, which is 1 for any Principled BSDF that is not metallic. False if the user chose
+/// the channel.
 bool may_be_white_by_default(const ExrFile& file, const View& view);
 
-/// Notes it where the reflectance is 1 on half of the surfaces or more. `share`: of surfaces where it is 1.
+/// Adds a note if `share`, the share of surfaces with a reflectance of 1, is half or more.
 void note_white_reflectance(double share, Frame& frame);
 
 /// Counts the white pixels of a view whose reflectance may be white by default, and notes them.

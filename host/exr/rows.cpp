@@ -16,11 +16,11 @@
 namespace gloam {
 namespace {
 
-/// Over a view's rows.
+/// Sums over a view's rows.
 struct ViewSums {
   explicit ViewSums(const Layout& image) : samples(image) {}
   NormalSamples samples;
-  long long missing = 0, missing_where_encoded = 0;  ///< normals, as they stand and as they would be decoded
+  long long missing = 0, missing_where_encoded = 0;  ///< missing normals, taken as stored and taken as encoded
   WhitePixels white;
 };
 
@@ -44,7 +44,7 @@ void add_rows(ViewSums& sums, const View& rows, const View& whole, int first_row
     sums.white.add(*reflectance, depth->channels.front(), first_row);
 }
 
-/// Planes of which something has to be known before they can be used.
+/// Planes that can be used only after a survey.
 std::vector<std::string> planes_to_survey(const ExrFile& file, const Frame& frame,
                                           const std::vector<std::string>& asked) {
   std::vector<std::string> planes;
@@ -55,7 +55,7 @@ std::vector<std::string> planes_to_survey(const ExrFile& file, const Frame& fram
   return planes;
 }
 
-/// By the frame's views.
+/// One entry per view of the frame.
 std::vector<ViewSums> sums_of(const ExrFile& file, const FileCameras& cameras, const Frame& frame,
                               const std::vector<std::string>& planes) {
   const Layout image(file.window.width(), file.window.height());
@@ -68,7 +68,7 @@ std::vector<ViewSums> sums_of(const ExrFile& file, const FileCameras& cameras, c
   return sums;
 }
 
-/// Converts the depth of all views. Returns whether some view has the background that --background names.
+/// Converts the depth of all views. Returns whether any view has a pixel of the depth that --background names.
 bool convert_depths(const ExrFile& file, const FileCameras& cameras, Survey& survey) {
   bool has_background = false;
   for (View& view : survey.frame.views) {

@@ -1,4 +1,4 @@
-// A file read by rows: for figures of a frame that is never in memory as a whole.
+// A file read by rows, for figures of a frame that is never in memory as a whole.
 #pragma once
 
 #include <map>
@@ -13,20 +13,20 @@
 
 namespace gloam {
 
-/// What has to be known of the whole image before rows of it can be used.
+/// Facts about the whole image that are needed before its rows can be used.
 struct Survey {
-  Frame frame;  ///< the depth alone, as far as it is needed, and all that was assumed
+  Frame frame;  ///< the depth alone, if needed, and all assumptions
   Conventions conventions;
-  std::map<std::string, std::optional<NormalForm>> normal_forms;  ///< by view; none: the normals are of no use
+  std::map<std::string, std::optional<NormalForm>> normal_forms;  ///< by view; none: the normals are unusable
 };
 
-/// Planes that a survey decodes whole: the depth, and alpha where it may tell what a depth means.
+/// Planes that a survey decodes whole: the depth, and alpha if the meaning of the depth may depend on it.
 std::vector<std::string> planes_surveyed_whole(const std::vector<std::string>& asked);
 
 /// Planes that are read by rows: all but the depth.
 std::vector<std::string> planes_by_rows(const std::vector<std::string>& asked);
 
-/// As stored: rows [first, last) of the window.
+/// Rows [first, last) of the window, as stored.
 Frame decode_rows(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& planes, int first,
                   int last);
 

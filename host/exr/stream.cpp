@@ -25,7 +25,7 @@ void use_all_threads() {
 }
 
 ExrInput::ExrInput(const std::filesystem::path& path) : Imf::IStream(path.c_str()) {
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // not waiting for the other end of a pipe
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for the other end of a pipe
   if (descriptor_ < 0) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   struct stat about {};
   ::fstat(descriptor_, &about);

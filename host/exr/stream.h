@@ -10,14 +10,14 @@
 
 namespace gloam {
 
-/// Lets OpenEXR compress and decompress on every core. Takes effect once.
+/// Lets OpenEXR compress and decompress on every core. Only the first call has an effect.
 void use_all_threads();
 
 /// Reads a regular file. Small reads (headers come byte by byte) go through a buffer, whole chunks straight to OpenEXR.
-/// Not memory-mapped on purpose: a mapped file that another program cuts short while it is read ends this one.
+/// Not memory-mapped on purpose: if another program truncated a mapped file while it is read, this program would end.
 class ExrInput : public Imf::IStream {
  public:
-  /// Throws Error naming the path when it is missing, a folder, not readable or not a regular file.
+  /// Throws Error naming the path if it is missing, a folder, not readable or not a regular file.
   explicit ExrInput(const std::filesystem::path& path);
   ~ExrInput() override;
   bool read(char* bytes, int count) override;
@@ -32,8 +32,8 @@ class ExrInput : public Imf::IStream {
   std::vector<char> buffer_;
 };
 
-/// Writes to a file that somebody else opened and closes. OpenEXR writes its last bytes in a destructor that swallows errors:
-/// `finish` throws what was missed.
+/// Writes to a file that the caller opens and closes. OpenEXR writes its last bytes in a destructor that swallows errors: `finish`
+/// throws these errors.
 class ExrOutput : public Imf::OStream {
  public:
   /// `name` is for messages.

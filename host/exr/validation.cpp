@@ -24,7 +24,7 @@ void check_windows(const fs::path& path, const Imf::Header& header, long long mo
 }  // namespace
 
 void check_size(const fs::path& path, const Box& box, const char* what, long long most_pixels) {
-  constexpr int64_t end = 1LL << 30;  // coordinates beyond it overflow in OpenEXR
+  constexpr int64_t end = 1LL << 30;  // larger coordinates overflow in OpenEXR
   if (box.empty()) throw Error("{}: corrupted EXR: its {} window is empty", path.string(), what);
   if (!box.larger_than(most_pixels) && box.x0 > -end && box.y0 > -end && box.x1 < end && box.y1 < end) return;
   throw Error("{}: claims a {} window of {} x {} pixels; at most 2^{} pixels in all are read", path.string(), what,
@@ -58,7 +58,7 @@ void check_parts(const fs::path& path, const Imf::MultiPartInputFile& file, long
   }
 }
 
-// No codec packs a million to one.
+// No codec compresses a million to one.
 void check_plausible(const fs::path& path, const Imf::Header& header, uint64_t file_size) {
   const Box data = box_of(header.dataWindow());
   const int64_t width = data.x1 - data.x0, height = data.y1 - data.y0, per_pixel = bytes_per_pixel(header);

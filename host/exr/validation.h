@@ -1,4 +1,4 @@
-// Checks of EXR headers, before anything is allocated for sizes that they may overstate.
+// Checks of EXR headers, before memory is allocated for sizes that they may overstate.
 #pragma once
 
 #include <OpenEXR/ImfHeader.h>
@@ -15,14 +15,14 @@ namespace gloam {
 /// Throws Error naming the file for a window that is empty, overflows or has more than `most_pixels` pixels.
 void check_size(const std::filesystem::path& path, const Box& box, const char* what, long long most_pixels);
 
-/// Checks the attributes and windows of all headers before OpenEXR allocates memory for them. A header that cannot be parsed is
-/// left to OpenEXR to refuse.
+/// Checks the attributes and windows of all headers before OpenEXR allocates memory for them. OpenEXR itself refuses headers that
+/// cannot be parsed.
 void check_headers(const std::filesystem::path& path, ExrInput& stream, long long most_pixels);
 
-/// Refuses parts that cannot be read: deep ones, and windows as by `check_size`.
+/// Throws Error for parts that cannot be read: deep ones, and those with windows that `check_size` refuses.
 void check_parts(const std::filesystem::path& path, const Imf::MultiPartInputFile& file, long long most_pixels);
 
-/// Refuses a part whose header overstates its size: a file of `file_size` bytes cannot hold so many pixels.
+/// Throws Error for a part whose header overstates its size: a file of `file_size` bytes cannot hold so many pixels.
 void check_plausible(const std::filesystem::path& path, const Imf::Header& header, uint64_t file_size);
 
 }  // namespace gloam

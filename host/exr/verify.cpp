@@ -16,7 +16,7 @@ namespace {
 /// A multiple of the rows in every codec's block, so that no block is decoded twice.
 constexpr int band_rows = 256;
 
-/// Memory for one band of the channels in question.
+/// Memory for one band of the channels to decode.
 class Band {
  public:
   Band(const Imf::Header& header, int part, const std::set<std::pair<int, std::string>>& decoded, int rows)

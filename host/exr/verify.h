@@ -10,7 +10,7 @@
 namespace gloam {
 
 /// Decodes the channels (part, name) that are not in `decoded` and drops them, a band of rows at a time: damage shows only
-/// when pixels are read. Throws what OpenEXR throws.
+/// when pixels are read. Lets OpenEXR's exceptions through.
 void decode_the_rest(Imf::MultiPartInputFile& file, const std::set<std::pair<int, std::string>>& decoded);
 
 }  // namespace gloam

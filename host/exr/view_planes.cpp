@@ -15,7 +15,7 @@ std::string in_words(const Window& window) {
 
 namespace {
 
-/// Whether a view's stack ends before this layer, and another view's does not.
+/// Whether a view's stack ends before this layer while another view's stack has it.
 bool is_empty_layer(const std::vector<PlaneSource>& sources, const std::string& plane, const std::string& view) {
   const std::optional<StackLayer> layer = stack_layer(plane);
   if (!layer) return false;
@@ -70,7 +70,7 @@ std::vector<std::string> unused_planes(const std::vector<PlaneSource>& sources, 
   for (const std::string& plane : planes) add_new(expected, plane);
   for (const std::string& plane : expected)
     if (const std::string why = why_missing(sources, views, plane); !why.empty())
-      sentences.push_back(fmt::format("{}, so that no view is used with it ({})", why, remedy));
+      sentences.push_back(fmt::format("{}, so no view uses it ({})", why, remedy));
   return sentences;
 }
 

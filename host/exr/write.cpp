@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// What OpenEXR would not refuse but no reader would make sense of.
+/// Throws Error for frames that OpenEXR would write but no reader would understand.
 void check_frame(const Frame& frame) {
   if (frame.views.empty()) throw Error("the frame has no view");
   if (frame.width() <= 0 || frame.height() <= 0) throw Error("the frame is empty");

@@ -9,8 +9,8 @@
 
 namespace gloam {
 
-/// `name`: of the file, for messages. Throws Error with the cause alone for a frame that no reader would understand, and for what
-/// cannot be written.
+/// `name`: the file's name, for messages. Throws Error, with the cause alone, for a frame that no reader would understand and if
+/// writing fails.
 void write_exr(NewFile& file, const std::string& name, const Frame& frame, const WriteOptions& options);
 
 }  // namespace gloam

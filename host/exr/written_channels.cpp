@@ -24,7 +24,8 @@ Imf::PixelType type_of(const PlaneKind& kind, const WriteOptions& options) {
   return options.half && kind.meaning == PlaneKind::unit_interval ? Imf::HALF : Imf::FLOAT;
 }
 
-/// The planes of one camera are written relative to its place, so that matrices in float keep their digits.
+/// The point that a view's positions and matrices are written relative to: the camera's position, so that matrices in float keep
+/// their digits.
 glm::dvec3 written_origin(const View& view, const Window& display) {
   return view.camera ? matrices_of(*view.camera, display).origin : view.origin;
 }
@@ -35,7 +36,7 @@ Imf::Slice slice_of(Imf::PixelType type, const void* first, const Window& window
                           bytes * pitch);
 }
 
-/// A packed copy of a channel, each value through `convert`.
+/// A copy of a channel without padding, with each value converted.
 template <typename To, typename Convert>
 Imf::Slice converted(ChannelCopies& copies, const WrittenChannel& written, const Window& window, Convert convert) {
   const size_t width = size_t(window.width()), height = size_t(window.height());

@@ -1,4 +1,4 @@
-// The channels that a frame is written as.
+// The channels of a frame in an EXR file.
 #pragma once
 
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -20,16 +20,16 @@ struct WrittenChannel {
   std::string name;
   Imf::PixelType type;
   const Channel* channel;
-  double shift = 0;  ///< added on the way: positions move to the written origin
+  double shift = 0;  ///< added to each value: positions become relative to the written origin
 };
 
 /// gloam's channel names, in OpenEXR's multi-view form.
 std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOptions& options);
 
-/// Copies of channels, which have to live until the file is written.
+/// Copies of channels; they must live until the file is written.
 using ChannelCopies = std::list<std::vector<uint32_t>>;
 
-/// Where OpenEXR finds a channel's values, packed into `copies` where their type differs.
+/// The place of a channel's values in memory, for OpenEXR; converted into `copies` if their type differs.
 Imf::Slice slice_for(ChannelCopies& copies, const WrittenChannel& written, const Window& window);
 
 }  // namespace gloam

@@ -1,4 +1,4 @@
-// The header that a frame is written with.
+// The header of a frame in an EXR file.
 #pragma once
 
 #include <OpenEXR/ImfHeader.h>

@@ -1,4 +1,4 @@
-// What the sections of the generated page are made of.
+// The data of the sections of the generated page.
 #pragma once
 
 #include <string>

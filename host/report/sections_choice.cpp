@@ -1,4 +1,4 @@
-// What to take: needs, fronts, and every figure of each scene.
+// Choosing a setting: needs, fronts, and every figure of each scene.
 #include "report/sections_choice.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// How near to the truth, and what keeps it from being nearer.
+// Distances from the truth, and their causes.
 #include "report/sections_errors.h"
 
 #include <fmt/format.h>

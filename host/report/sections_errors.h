@@ -1,4 +1,4 @@
-// Sections of the page on how near to the truth techniques are, and what keeps them from being nearer.
+// Sections of the page on the distances of techniques from the truth, and their causes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gloam::report {
 
-/// Each is Markdown with its heading, or empty where nothing was measured for it.
+/// Each is Markdown with its heading, or empty if nothing was measured for it.
 std::string converged_section(const Material& material);
 std::string ladder_section(const Material& material);
 std::string scales_section(const Material& material);

@@ -1,4 +1,4 @@
-// What the time is spent on, and how it compares with other ways to compute the same.
+// Where the time goes, and how it compares with other programs that compute the same.
 #include "report/sections_time.h"
 
 #include <fmt/format.h>

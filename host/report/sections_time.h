@@ -1,4 +1,4 @@
-// Sections of the page on what the time is spent on, and how it compares with other ways to compute the same.
+// Sections of the page on where the time goes, and how it compares with other programs that compute the same.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gloam::report {
 
-/// Each is Markdown with its heading, or empty where nothing was measured for it.
+/// Each is Markdown with its heading, or empty if nothing was measured for it.
 std::string floor_section(const Material& material);
 std::string others_section(const Material& material);
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that ends: some of assimp's readers (PLY) ask for more for ever where a file is cut short.
+/// A file that ends: some of assimp's readers (PLY) would read for ever if a file is cut short.
 class EndingStream : public Assimp::IOStream {
  public:
   explicit EndingStream(Assimp::IOStream* from) : from_(from) {}
@@ -39,7 +39,7 @@ class EndingStream : public Assimp::IOStream {
   int reads_past_end_ = 0;
 };
 
-/// assimp ends the program where a property of a material comes before any material.
+/// Whether a material file begins with a material: assimp ends the program if a property comes first.
 bool begins_with_material(const fs::path& mtl) {
   std::ifstream file(mtl);
   std::string first;
@@ -53,7 +53,7 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-/// Text that assimp reads in place of a file's.
+/// Text that assimp reads instead of a file's.
 class TextStream : public Assimp::MemoryIOStream {
  public:
   static TextStream* of(const std::string& text) {
@@ -69,7 +69,7 @@ class TextStream : public Assimp::MemoryIOStream {
 }  // namespace
 
 bool AssimpFiles::Exists(const char* file) const {
-  return fs::exists(file) || fs::exists(percent_decoded(file));  // assimp's own opens it, and waits for a pipe
+  return fs::exists(file) || fs::exists(percent_decoded(file));  // assimp's test would wait for a pipe
 }
 
 Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
@@ -87,7 +87,7 @@ Assimp::IOStream* AssimpFiles::open_obj(const fs::path& path) {
     const ObjText obj = readable_obj(read_text(path), path.string());
     faces = obj.faces;
     return obj.text.empty() ? nullptr : TextStream::of(obj.text);
-  } catch (const Error& error) {  // assimp would keep it to itself
+  } catch (const Error& error) {  // assimp would not report it
     why_not = error.what();
     return nullptr;
   }

@@ -1,4 +1,4 @@
-// Files of a scene as assimp's readers get them.
+// The files of a scene in the form that assimp's readers need.
 #pragma once
 
 #include <assimp/DefaultIOSystem.h>
@@ -11,16 +11,16 @@
 
 namespace gloam {
 
-/// Gives assimp OBJ and MTL in a form that assimp reads right, and opens buffers whose names have escapes. Remembers which .mtl
-/// files were of use, as assimp goes on without and says nothing, and what an OBJ holds.
+/// Opens files for assimp: OBJ and MTL in a form that it reads correctly, and buffers whose names have escapes. Remembers which
+/// .mtl files were usable, since assimp goes on without them silently, and the contents of an OBJ.
 class AssimpFiles : public Assimp::DefaultIOSystem {
  public:
   bool Exists(const char* file) const override;
   Assimp::IOStream* Open(const char* file, const char* mode) override;
 
   std::vector<std::string> found, missing, left_out;  ///< .mtl files; statements of them
-  std::optional<size_t> faces;                        ///< of an OBJ file
-  std::string why_not;                                ///< an OBJ file cannot be read
+  std::optional<size_t> faces;                        ///< faces of an OBJ file
+  std::string why_not;                                ///< why an OBJ file cannot be read
 
  private:
   Assimp::IOStream* open_obj(const std::filesystem::path& path);

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
   throw Error("{}: cannot be read as a scene: {}", path.string(), reason.empty() ? "no reason given" : reason);
 }
 
-/// assimp checks the indices of some formats only, and its triangulation trusts them; and it ends the program where a
-/// mesh says that it has polygons and has none.
+/// Checks indices, which assimp does for some formats only and its triangulation trusts, and meshes that claim polygons but have
+/// none, for which assimp ends the program.
 void check_faces(const aiScene& scene, const fs::path& path) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     aiMesh& mesh = *scene.mMeshes[m];
@@ -37,7 +37,7 @@ void check_faces(const aiScene& scene, const fs::path& path) {
   }
 }
 
-/// What assimp does not understand of an OBJ file it passes over without a word.
+/// Throws Error if assimp silently skipped parts of an OBJ file.
 void check_understood(const aiScene& scene, size_t expected, const fs::path& path) {
   size_t found = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -67,7 +67,7 @@ const aiScene& read_assimp_scene(Assimp::Importer& importer, const fs::path& pat
   if (!scene || !scene->mRootNode) refuse(path, reason_on_one_line(importer.GetErrorString()));
   check_faces(*scene, path);
   if (files.faces) check_understood(*scene, *files.faces, path);
-  // Of glTF it gets texture transforms with a rotation wrong: import_materials takes care of those.
+  // assimp gets glTF texture transforms with a rotation wrong: import_materials handles those.
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | (is_gltf ? 0u : aiProcess_TransformUVCoords));
   if (!scene) refuse(path, reason_on_one_line(importer.GetErrorString()));
   return *scene;

@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// Triangles. No smooth normals are made (missing ones mean flat faces) and no vertices joined. The scene is the importer's,
-/// which has `files`. Throws Error for what assimp cannot read, or reads and does not understand.
+/// A scene of triangles. Makes no smooth normals (missing ones mean flat faces) and joins no vertices. The importer owns the scene
+/// and `files`. Throws Error for a file that assimp cannot read, and for one whose contents it silently skipped or got wrong.
 const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::filesystem::path& path, bool is_gltf,
                                  const AssimpFiles& files);
 

@@ -1,4 +1,4 @@
-// By assimp: meshes in place, cameras, and what was repaired or left out.
+// Scenes from files, by assimp: placed meshes, cameras, and notes on repairs and omissions.
 #include "gloam/scene/import.h"
 
 #include <assimp/scene.h>
@@ -25,7 +25,7 @@ constexpr size_t most_triangles = 100'000'000;
 
 std::string counted(size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
 
-/// As the file says (FBX); assimp keeps its axes, and turns others to y up.
+/// The up axis that the file states (FBX), whose axes assimp keeps; other formats come with y up.
 glm::dvec3 up_of(const aiScene& from) {
   int axis = 1, sign = 1;
   if (from.mMetaData) from.mMetaData->Get("UpAxis", axis), from.mMetaData->Get("UpAxisSign", sign);
@@ -58,7 +58,7 @@ void add_notes(const Repairs& repairs, const Bounds& bounds, const aiScene& from
                     bounds.largest_local, step));
 }
 
-/// Of material files.
+/// Adds notes on material files.
 void add_notes(const AssimpFiles& files, Scene& scene) {
   if (files.found.empty()) {
     for (const std::string& name : std::set(files.missing.begin(), files.missing.end()))
@@ -94,7 +94,7 @@ Scene imported(const fs::path& path) {
   const GltfJson gltf = is_gltf ? read_gltf_json(path) : GltfJson{};
   Assimp::Importer importer;
   AssimpFiles* files = new AssimpFiles;
-  importer.SetIOHandler(files);  // which owns it
+  importer.SetIOHandler(files);  // the importer owns it
   const aiScene& from = read_assimp_scene(importer, path, is_gltf, *files);
 
   Scene scene;

@@ -11,7 +11,7 @@
 namespace gloam {
 namespace {
 
-/// "name", or "name 2" and so on where there is one.
+/// "name", or "name 2" and so on if the name is taken.
 std::string unique_name(const Scene& scene, const std::string& wanted) {
   const std::string base = wanted.empty() ? "camera" : wanted;
   std::string name = base;
@@ -21,7 +21,7 @@ std::string unique_name(const Scene& scene, const std::string& wanted) {
   return name;
 }
 
-/// The transform of the node with a name; identity where there is none.
+/// The transform of the node with this name; identity if there is none.
 glm::dmat4 to_world_of(const aiNode* node) {
   glm::dmat4 m(1.0);
   for (; node; node = node->mParent) m = matrix_of(node->mTransformation) * m;
@@ -30,8 +30,8 @@ glm::dmat4 to_world_of(const aiNode* node) {
 
 }  // namespace
 
-/// assimp's cameras stand at a place and look along a direction within their node. The field of view is the whole
-/// horizontal angle, whatever assimp's header says of half of it.
+/// assimp's cameras have a position and a direction within their node. The field of view is the whole horizontal angle; assimp's
+/// header says half of it, wrongly.
 void add_assimp_cameras(const aiScene& from, Scene& scene) {
   for (unsigned i = 0; i < from.mNumCameras; ++i) {
     const aiCamera& camera = *from.mCameras[i];

@@ -10,13 +10,13 @@
 
 namespace gloam {
 
-/// Those that assimp read. A camera that cannot be used becomes a note.
+/// Adds the cameras that assimp read. A camera that cannot be used becomes a note.
 void add_assimp_cameras(const aiScene& from, Scene& scene);
 
-/// Those of a glTF file (gltf_json.h).
+/// Adds the cameras of a glTF file (gltf_json.h).
 void add_cameras(const std::vector<SceneCamera>& cameras, Scene& scene);
 
-/// "overview": from a corner above, so near that all of the bounding box is in an image of up to 16:9.
+/// Adds "overview", a camera above a corner, as near as possible with the whole bounding box in an image of up to 16:9.
 void add_overview(const Bounds& bounds, Scene& scene);
 
 }  // namespace gloam

@@ -47,7 +47,7 @@ struct Bounds {
 /// Throws Error for a coordinate too large for float.
 Bounds bounds_of(const std::vector<Instance>& instances, const std::filesystem::path& path);
 
-/// What was repaired or left out.
+/// Counts of repairs and omissions.
 struct Repairs {
   size_t degenerate = 0, not_finite = 0;  ///< triangles
   size_t not_surfaces = 0;                ///< points and lines

@@ -108,7 +108,7 @@ TEST_F(ForeignCameras, ACameraThatCannotBeUsedIsANoteForThoseWhoLookAndAFlagOver
     EXPECT_EQ(result.status, 0) << result.err;
     const std::string said = result.out + result.err;
     EXPECT_NE(said.find("worldToNDC: mirrors the image"), std::string::npos) << said;
-    EXPECT_NE(said.find("--fov or --camera tell another"), std::string::npos) << said;
+    EXPECT_NE(said.find("--fov or --camera gives another"), std::string::npos) << said;
   }
   const Result refused = gloam({"run", "gtao", file("mirrored.exr"), "-o", file("ao.exr")});
   EXPECT_EQ(refused.status, 1);

@@ -180,7 +180,7 @@ TEST_F(Display, AutoComputesWhatItsViewsAllow) {
   EXPECT_EQ(effects[0]["runs"], "lightfield-ssao");
   EXPECT_EQ(effects[1]["name"], "reflections");
   EXPECT_EQ(effects[1]["runs"], nullptr);
-  EXPECT_NE(effects[1]["why"].get<std::string>().find("a camera with an eye"), std::string::npos);
+  EXPECT_NE(effects[1]["why"].get<std::string>().find("a single centre of projection"), std::string::npos);
 }
 
 TEST_F(Display, ReferenceAndItsError) {

@@ -345,7 +345,7 @@ TEST_F(Cli, StereoNormalsOfNoUseAreNotCompared) {
   write_frame(path("normals.exr"), frame);
   expect_refused(gloam({"compare", "--stereo", path("normals.exr"), "--frame", path("frame.exr"), "--what", "normal",
                         "--normal-space", "world"}),
-                 1, {"normals.exr", "'normal' is of no use", "where the camera stands is not known"});
+                 1, {"normals.exr", "'normal' is of no use", "the camera's pose is unknown"});
 }
 
 /// A frame without cameras has unknown conventions for depth and normals: the result's depth counts.

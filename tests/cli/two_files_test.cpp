@@ -293,7 +293,7 @@ TEST_F(TwoFiles, RefusesInOneLine) {
   Frame lost = eye_of_pair("right");
   lost.views[0].camera->pose.reset();
   write_frame(path("lost.exr"), lost);
-  expect_refused({left, file("lost.exr")}, 1, {"lost.exr: has no camera that tells where it stands", "--camera FILE"});
+  expect_refused({left, file("lost.exr")}, 1, {"lost.exr: has no camera with a pose", "--camera FILE"});
 }
 
 TEST_F(TwoFiles, EyesThatARendererWrote) {

@@ -158,7 +158,7 @@ TEST_F(EveryCommand, HasItsKindOfFlagsTold) {
        "gloam: --mask measure is not allowed (did you mean 'measured'?); measured, always and never are\n"},
       {{"capture", "--size", "5x"}, "gloam: --size 5x is not WIDTHxHEIGHT; write 1920x1080\n"},
       {{"capture", "--modules", "3-"},
-       "gloam: --modules 3- is not allowed; numbers and what lies between two of them are, such as 0,5,10-19\n"},
+       "gloam: --modules 3- is not allowed; numbers and ranges are, such as 0,5,10-19\n"},
       {{"stress", "--case", "1,b"}, "gloam: --case b is not allowed; a whole number from 1 to 999 is\n"}};
   for (const auto& [arguments, message] : told) {
     const Result result = gloam(arguments);

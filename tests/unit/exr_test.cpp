@@ -388,7 +388,7 @@ TEST(CameraOfFile, JsonWhoseViewsDoNotFit) {
   options.camera_file = folder / "other/mono.json";
   EXPECT_TRUE(FrameFile(folder / "f.exr", options).camera("").has_value());
   expect_in(read_error(folder / "pair.exr", {"depth"}, options),
-            "mono.json has one camera, for no view by name, and pair.exr has the views left and right; ");
+            "mono.json has one camera that names no view, and pair.exr has the views left and right; ");
   // Found, but not asked for: a note, without a statement that there is no camera.
   std::ofstream(folder / "camera_stereo.json") << two_cameras;
   const std::string assumed = assumed_in(folder / "f.exr");
@@ -477,7 +477,7 @@ TEST(CameraOfFile, HeaderOfWhichNothingCanBeUsed) {
     ASSERT_TRUE(camera.has_value());
     EXPECT_NEAR(camera->fx, 4, 1e-5);
     EXPECT_FALSE(camera->near && camera->far);
-    expect_in(assumed_in(folder / "g.exr"), "in the header cannot be and is not used");
+    expect_in(assumed_in(folder / "g.exr"), "in the header is impossible and is not used");
   }
 }
 

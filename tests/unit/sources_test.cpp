@@ -1,5 +1,5 @@
-// What the sources promise a reader: files of host/ are short or say why not, a .cpp has its own header, and the public headers
-// show no library that a program which uses gloam would have to have.
+// Promises about the sources: files of host/ are short or say why not, a .cpp has its own header, and the public headers show no
+// library that a program using gloam would then need.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -73,8 +73,8 @@ std::vector<std::string> without_own_header(const fs::path& host) {
   return found;
 }
 
-/// "FILE:LINE: text" for each line of a public header that includes another than gloam's public headers, the standard's, those
-/// of glm and of fmt, or that names a type of OpenCV, Embree or OpenCL.
+/// "FILE:LINE: text" for each line of a public header that includes anything but gloam's public headers, the standard's, glm and
+/// fmt, or that names a type of OpenCV, Embree or OpenCL.
 std::vector<std::string> not_public(const fs::path& include) {
   static const std::regex other_library(R"(#\s*include\s*<(?!glm/|fmt/)[^>]*/.*)");
   static const std::regex internal_header(R"(#\s*include\s*"(?!gloam/).*)");

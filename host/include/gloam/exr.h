@@ -122,7 +122,8 @@ class FrameFile {
   /// info`). Throws as `read` does.
   void verify();
 
-  /// NaN and infinite values that `read` found in a plane, inside the data window, before anything was repaired; 0 unless `count_nonfinite`.
+  /// Number of NaN and infinite values that `read` found in a plane inside the data window, before any repair; 0 unless
+  /// `count_nonfinite`.
   long long nonfinite(const std::string& plane, const std::string& view) const;
 
   /// The depth convention in use: "z", "ray", "ndc", "reversed", "negative z"; empty without depth.
@@ -153,10 +154,10 @@ struct WriteOptions {
   std::string compression = "zip";  ///< one of `compressions`
 };
 
-/// Names of the lossless ones that frames can be written with.
+/// Names of the lossless compressions that frames can be written with.
 std::vector<std::string> compressions();
 
-/// Throws UsageError when the options cannot be used, before anything is computed.
+/// Throws UsageError if the options cannot be used; call it before computing anything.
 void check(const WriteOptions& options);
 
 /// Writes all planes of all views as one scanline EXR: gloam's channel names (planes.h); further views in OpenEXR's multi-view form

@@ -26,7 +26,7 @@ struct WorldToPhysical {
   glm::dvec3 origin{0.0};  ///< in double: it may be far from the world's own origin
 };
 
-/// What a display JSON says (display_json.h). Lengths in the display's units.
+/// Contents of a display JSON (display_json.h). Lengths in the display's units.
 struct LightFieldDisplay {
   std::string name;
   double observer_distance = 1, observer_height = 0;  ///< of the observer line, from the middle of the screen
@@ -37,7 +37,7 @@ struct LightFieldDisplay {
   std::optional<WorldToPhysical> world;  ///< none: a capture chooses one
 };
 
-/// "module00", "module01", ...: names of views, with as many digits as the last one needs, two at least.
+/// Names of the views: "module00", "module01", ..., with as many digits as the last one needs, at least two.
 std::vector<std::string> module_names(const LightFieldDisplay& display);
 
 /// The camera of every module, by name, in pixels of an image of `window`'s size. Each image holds the module's view of the whole

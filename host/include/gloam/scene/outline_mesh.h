@@ -9,37 +9,36 @@
 
 namespace gloam {
 
-/// How an object's vertices are pushed outwards. All three are the paper's; figure 4 compares them.
+/// How an object's vertices are moved outwards. All three methods are the paper's; figure 4 compares them.
 enum class OutlineMethod {
   integrated,  ///< algorithm 2: along the mean of the distinct normals of the faces around the vertex
   scaling,     ///< the object scaled about the centre of its bounding box
   normal       ///< along the vertex normal, else the face's: faces come apart at hard edges
 };
 
-/// By their place in the enumeration: integrated, scaling, normal.
+/// Names in the order of the enumeration: integrated, scaling, normal.
 const std::vector<std::string>& outline_methods();
 
 struct OutlineOptions {
   double extent = 0;  ///< scene units, more than 0, 1e15 at most
   OutlineMethod method = OutlineMethod::integrated;
-  double angle_degrees = 1;  ///< between face normals that count as one, at most; 0 to 90; integrated
+  double angle_degrees = 1;  ///< largest angle between face normals that count as one, 0 to 90; integrated only
 };
 
-/// An object's outline: the same triangles in the same order, with vertices moved. It has no normals and no texture
-/// coordinates.
+/// An object's outline: its triangles in the same order, with vertices moved. It has no normals and no texture coordinates.
 struct Outline {
   Mesh mesh;
-  /// Per triangle: whether it belongs to a part of the object that is closed (each edge is used as often one way as the
-  /// other, by exact position) and has stayed so. Only of such is inside and outside known.
+  /// Per triangle: whether its part of the object is closed (each edge is used as often one way as the other, by exact position)
+  /// and still is so in the outline. Only closed parts have an inside and an outside.
   std::vector<char> closed;
 };
 
-/// `integrated`: vertices at the same position are one, and move by the whole extent along the mean made unit, as in the
-/// paper: at a cube's corner faces move by extent / sqrt 3 (nothing is added to make up for that). Normals are taken in the
-/// order of the faces; one within the angle of one taken before is left out. Where they cancel, as on a sheet with two sides,
-/// the vertex stays.
+/// `integrated`: vertices at the same position are moved as one, by the whole extent along the normalised mean normal, as in the
+/// paper: at a cube's corner, faces move by extent / sqrt 3, and nothing makes up for that. Normals are taken in the order of the
+/// faces; a normal within the angle of an earlier one is left out. If the normals cancel, as on a sheet with two sides, the vertex
+/// stays.
 /// `scaling`: the largest half extent of the bounding box grows by the extent.
-/// `normal`: a mesh without normals has three vertices of its own per triangle then.
+/// `normal`: a mesh without normals gets three vertices of its own per triangle.
 /// Throws UsageError for options out of range.
 Outline outline_of(const Mesh& mesh, const OutlineOptions& options);
 

@@ -48,7 +48,7 @@ using AoReference = Reference;
 /// scene's if the frame has none), as the mean over cosine-weighted directions of a randomised low-discrepancy set. Directions
 /// below the surface are closed. The surface is the scene's at the pixel centre.
 ///
-/// `frame`: planes `depth` and, where the file has it, `normal`, normalised; cameras with poses.
+/// `frame`: planes `depth` and, if the file has it, `normal`, normalised; cameras with poses.
 /// Attributes of the result: aoRadius, aoSamples, aoNoise, aoFalloff, aoFalloffParameters, aoDefinition, gloamScene.
 /// Throws Error if a view has no pose, if over a quarter of the foreground is unlike the scene (another scene, unit or camera;
 /// names both depths at one pixel), and if another file lies in the checkpoint's place.

@@ -60,7 +60,7 @@ struct SceneCamera {
 
 /// Intrinsics for a size: square pixels, centred.
 Camera camera_for(const SceneCamera& camera, int width, int height);
-/// A camera at `eye` that looks at `target`. Throws UsageError where these are one point, or not finite.
+/// A camera at `eye` that looks at `target`. Throws UsageError if the two are one point, or not finite.
 SceneCamera looking_at(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target, double fov_degrees,
                        const glm::dvec3& up = {0, 1, 0});
 
@@ -76,14 +76,14 @@ struct Light {
 
 struct Scene {
   std::string name;
-  glm::dvec3 origin{0.0};    ///< what positions are relative to, in the world
+  glm::dvec3 origin{0.0};    ///< the point of the world that positions are relative to
   std::vector<Mesh> meshes;  ///< the index identifies the instance
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<SceneCamera> cameras;  ///< at least one; the first is the default
   glm::dvec3 up{0, 1, 0};
   Light light;
-  double ao_radius = 0;            ///< the radius of ambient occlusion that suits it, scene units; 0: not known
+  double ao_radius = 0;            ///< radius of ambient occlusion that suits the scene, scene units; 0: unknown
   std::vector<std::string> notes;  ///< what was repaired or left out, one sentence each
   size_t faces() const;
 };
@@ -92,19 +92,19 @@ struct Scene {
 struct SceneRecipe {
   std::string name;     ///< "courtyard"
   std::string summary;  ///< one line
-  std::string kind;     ///< what it stands for: "architecture", "thin", "object" or "flat"
+  std::string kind;     ///< the kind of scene that it represents: "architecture", "thin", "object" or "flat"
   ParameterList parameters;
   std::function<Scene(const ParameterValues&)> make;  ///< deterministic
 };
 
 /// All of host/scene/built_in/, sorted by name.
 const std::vector<SceneRecipe>& builtin_scenes();
-/// None when there is no such scene.
+/// nullptr if there is no such scene.
 const SceneRecipe* find_builtin_scene(const std::string& name);
 
-/// A scene by what a user typed: a built-in name, else a file. `settings`: name = value, for built-in scenes.
-/// Throws UsageError for a name that is neither (with the nearest built-in name), for unknown settings and for values
-/// out of range; Error as `import_scene` (import.h) does.
+/// A scene by what a user typed: a built-in name, else a file. `settings`: name = value, for built-in scenes. Throws UsageError
+/// for a name that is neither (with the nearest built-in name), for unknown settings and for values out of range; Error as
+/// `import_scene` (import.h) does.
 Scene load_scene(const std::string& name_or_path, const Settings& settings);
 
 /// Largest coordinate of vertices and ray starts relative to a scene's origin: Embree computes in float, and ends the program
