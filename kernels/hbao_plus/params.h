@@ -1,14 +1,12 @@
+#include "estimators/obscurance_params.h"
 #include "shared/sampling/ambient_occlusion.h"
 #include "shared/stereo/params.h"
 
-#define HBAO_PLUS_PARAMS(P)                                                                         \
-  REACH_PARAMS(P)                                                                                   \
-  P(float, bias, 0.1f, 0, 0.99f, "", "cosine to the normal below which an occluder does not count") \
-  P(int, directions, 8, 1, 32, "", "directions searched per pixel")                                 \
-  P(int, steps, 4, 1, 32, "", "samples along each direction")                                       \
-  P(float, strength, 1, 0, 8, "", "factor on the obscurance")                                       \
-  P(int, power, 1, 1, 4, "", "exponent on the result: NVIDIA's library uses 2 for contrast")        \
-  P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")
+#define HBAO_PLUS_PARAMS(P)                                                                  \
+  REACH_PARAMS(P)                                                                            \
+  OBSCURANCE_SEARCH_PARAMS(P)                                                                \
+  P(int, power, 1, 1, 4, "", "exponent on the result: NVIDIA's library uses 2 for contrast") \
+  OBSCURANCE_FALLOFF(P)
 
 #define SD_HBAO_PLUS_PARAMS(P) \
   HBAO_PLUS_PARAMS(P)          \

@@ -1,4 +1,6 @@
+#include "estimators/obscurance_params.h"
 #include "shared/sampling/ambient_occlusion.h"
+#include "shared/sampling/mask_params.h"
 
 #define REUSE_PARAMS(P, from)                                                                               \
   P(bool, reuse, off, "reuse the AO of key views for points that they show too, and compute only the rest") \
@@ -21,22 +23,16 @@
     "an occluder up to this far before the pixel's point counts in full, from twice that on not at all")             \
   REUSE_PARAMS(P, both)
 
-#define LIGHTFIELD_HBAO_PLUS_PARAMS(P)                                                              \
-  REACH_PARAMS(P)                                                                                   \
-  P(float, bias, 0.1f, 0, 0.99f, "", "cosine to the normal below which an occluder does not count") \
-  P(int, directions, 8, 1, 32, "", "directions searched per pixel")                                 \
-  P(int, steps, 4, 1, 32, "", "samples along each direction")                                       \
-  P(float, strength, 1, 0, 8, "", "factor on the obscurance")                                       \
-  P(choice, falloff, quadratic, (quadratic, none), "how an occluder fades towards the radius")      \
+#define LIGHTFIELD_HBAO_PLUS_PARAMS(P) \
+  REACH_PARAMS(P)                      \
+  OBSCURANCE_SEARCH_PARAMS(P)          \
+  OBSCURANCE_FALLOFF(P)                \
   REUSE_PARAMS(P, nearest)
 
-#define LIGHTFIELD_MASK_PARAMS(P)                                                                      \
-  REACH_PARAMS(P)                                                                                      \
-  P(int, search_directions, 8, 1, 32, "", "directions searched from the pixel that stands for a cell") \
-  P(int, search_steps, 3, 1, 32, "", "samples along each direction")                                   \
-  P(float, least_sine, 0.02f, 0.001f, 1, "",                                                           \
-    "something occludes if the sine of its elevation over the tangent plane is at least this")         \
-  P(int, cell, 4, 2, 16, "pixels", "width and height of a cell of the mask")
+#define LIGHTFIELD_MASK_PARAMS(P) \
+  REACH_PARAMS(P)                 \
+  MASK_SEARCH_PARAMS(P)           \
+  MASK_CELL(P)
 
 PARAMS(LightfieldMaskParams, LIGHTFIELD_MASK_PARAMS)
 PARAMS(LightfieldSsaoParams, LIGHTFIELD_SSAO_PARAMS)
