@@ -15,4 +15,8 @@ inline void add_new(std::vector<std::string>& list, const std::string& item) {
   if (!contains(list, item)) list.push_back(item);
 }
 
+inline void add_new(std::vector<std::string>& list, const std::vector<std::string>& items) {
+  for (const std::string& item : items) add_new(list, item);
+}
+
 }  // namespace gloam

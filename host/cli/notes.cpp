@@ -27,7 +27,7 @@ void note(const std::vector<std::string>& notes) { kept_notes.insert(kept_notes.
 
 std::vector<std::string> notes_so_far() {
   std::vector<std::string> notes;
-  for (const std::string& note : kept_notes) add_new(notes, note);
+  add_new(notes, kept_notes);
   return notes;
 }
 

@@ -27,6 +27,12 @@ bool is_within(double value, const Range<double>& range) {
   return value >= range.least && value <= range.most;  // false for NaN
 }
 
+[[noreturn]] void refuse_number(const std::string& text, const std::string& flag, const Range<int>& range) {
+  throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, range.least, range.most);
+}
+
+bool is_within(int value, const Range<int>& range) { return value >= range.least && value <= range.most; }
+
 }  // namespace
 
 double parse_number(const std::string& text, const std::string& flag, const Range<double>& range) {
@@ -39,12 +45,12 @@ double parse_number(const std::string& text, const std::string& flag, const Rang
 
 int parse_number(const std::string& text, const std::string& flag, const Range<int>& range) {
   const std::optional<int> value = number_in<int>(text);
-  if (value && *value >= range.least && *value <= range.most) return *value;
-  throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, range.least, range.most);
+  if (value && is_within(*value, range)) return *value;
+  refuse_number(text, flag, range);
 }
 
 void check_number(int value, const std::string& flag, const Range<int>& range) {
-  parse_number(std::to_string(value), flag, range);
+  if (!is_within(value, range)) refuse_number(std::to_string(value), flag, range);
 }
 
 Size parse_size(const std::string& text, const std::string& flag) {

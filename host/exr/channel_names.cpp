@@ -54,7 +54,7 @@ std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
     }
   if (asked.empty()) return in_file;
   std::vector<std::string> views;
-  for (const std::string& view : asked) add_new(views, view);
+  add_new(views, asked);
   return views;
 }
 

@@ -11,10 +11,6 @@
 namespace gloam {
 namespace {
 
-void add_all_new(std::vector<std::string>& list, const std::vector<std::string>& items) {
-  for (const std::string& item : items) add_new(list, item);
-}
-
 /// Positions are in the world, and of no use without a pose.
 void drop_positions_without_pose(View& view, Frame& frame) {
   if (view.camera->pose || view.planes.erase("position") == 0) return;
@@ -31,9 +27,14 @@ void Conventions::take(const std::optional<NormalForm>& form) {
   if (form) normal_space = form->space == NormalSpace::world ? "world" : "view";
 }
 
+void Conventions::take(const Conventions& found) {
+  take(found.depth);
+  if (!found.normal_space.empty()) normal_space = found.normal_space;
+}
+
 std::vector<std::string> planes_to_decode(const std::vector<std::string>& asked) {
   std::vector<std::string> planes;
-  add_all_new(planes, asked);
+  add_new(planes, asked);
   if (contains(planes, "normal")) add_new(planes, "depth");
   return planes;
 }
@@ -41,12 +42,12 @@ std::vector<std::string> planes_to_decode(const std::vector<std::string>& asked)
 void note_assumptions(const ExrFile& file, const FileCameras& cameras, const std::vector<std::string>& asked,
                       Frame& frame) {
   const auto& by_plane = file.names.assumed;
-  if (const auto general = by_plane.find(""); general != by_plane.end()) add_all_new(frame.assumed, general->second);
+  if (const auto general = by_plane.find(""); general != by_plane.end()) add_new(frame.assumed, general->second);
   for (const std::string& plane : planes_to_decode(asked))
-    if (const auto notes = by_plane.find(plane); notes != by_plane.end()) add_all_new(frame.assumed, notes->second);
-  add_all_new(frame.assumed, unused_planes(file.names.planes, file.names.views, asked, "--view chooses one"));
-  add_all_new(frame.assumed, file.notes);
-  add_all_new(frame.assumed, cameras.notes);
+    if (const auto notes = by_plane.find(plane); notes != by_plane.end()) add_new(frame.assumed, notes->second);
+  add_new(frame.assumed, unused_planes(file.names.planes, file.names.views, asked, "--view chooses one"));
+  add_new(frame.assumed, file.notes);
+  add_new(frame.assumed, cameras.notes);
 }
 
 void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& frame, Conventions& conventions) {

@@ -18,6 +18,7 @@ struct Conventions {
 
   void take(const std::string& depth_convention);
   void take(const std::optional<NormalForm>& form);
+  void take(const Conventions& found);
 };
 
 /// The planes asked for and, for the background of normals, depth.

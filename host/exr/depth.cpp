@@ -78,7 +78,7 @@ std::string convert_depth(const ExrFile& file, View& view, Frame& frame) {
   if (all_background(depth))
     notes.push_back(fmt::format("depth: no pixel{} has a usable depth; all of it is background",
                                 view.name.empty() ? "" : " of view '" + view.name + "'"));
-  for (const std::string& note : notes) add_new(frame.assumed, note);
+  add_new(frame.assumed, notes);
   return convention;
 }
 

@@ -158,8 +158,7 @@ Frame FrameFile::survey(const std::vector<std::string>& planes) {
   // Alpha is counted again with the rows.
   for (const std::string& view : views()) impl_->nonfinite.erase({"alpha", view});
   Survey survey = survey_planes(file, impl_->cameras, planes, std::move(whole));
-  impl_->conventions.take(survey.conventions.depth);
-  if (!survey.conventions.normal_space.empty()) impl_->conventions.normal_space = survey.conventions.normal_space;
+  impl_->conventions.take(survey.conventions);
   impl_->normal_forms = std::move(survey.normal_forms);
   return std::move(survey.frame);
 }

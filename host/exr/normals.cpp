@@ -28,7 +28,7 @@ NormalForm detected_form(const ExrFile& file, const View& view, const NormalSamp
   std::vector<std::string> notes;
   const NormalForm form =
       named(file.path, [&] { return samples.form(depth->channels.front(), frame.window, *view.camera, notes); });
-  for (const std::string& note : notes) add_new(frame.assumed, note);
+  add_new(frame.assumed, notes);
   return form;
 }
 

@@ -67,7 +67,7 @@ std::string why_missing(const std::vector<PlaneSource>& sources, const std::vect
 std::vector<std::string> unused_planes(const std::vector<PlaneSource>& sources, const std::vector<std::string>& views,
                                        const std::vector<std::string>& planes, const std::string& remedy) {
   std::vector<std::string> expected = {"depth", "normal"}, sentences;
-  for (const std::string& plane : planes) add_new(expected, plane);
+  add_new(expected, planes);
   for (const std::string& plane : expected)
     if (const std::string why = why_missing(sources, views, plane); !why.empty())
       sentences.push_back(fmt::format("{}, so no view uses it ({})", why, remedy));
