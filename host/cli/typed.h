@@ -96,7 +96,7 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& flag, Target& target, 
     target = parse(texts.front(), flag);
     return true;
   };
-  return app.add_option(flag, take, help)->check(accepted_by(parse, flag));
+  return app.add_option(flag, take, help);
 }
 
 /// A flag for a number within a range, in an `int`, a `double` or an optional one.
