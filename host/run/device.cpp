@@ -253,12 +253,12 @@ Device::Impl& Device::impl() {
 
 const DeviceInfo& Device::info() const { return const_cast<Device*>(this)->impl().info; }
 
-cl::Program& Device::Impl::program(const std::string& source, const std::string& options) {
-  const std::string key = source + " " + options;
+cl::Program& Device::Impl::program(const std::string& source, const std::string& kernel, const std::string& options) {
+  const std::string key = source + " " + kernel + " " + options;
   const auto known = programs.find(key);
   if (known != programs.end()) return known->second;
   const DriverAtWork driver;
-  auto built = std::make_unique<cl::Program>(context, flatten(source));
+  auto built = std::make_unique<cl::Program>(context, with_one_kernel(flatten(source), kernel));
   try {
     built->build({device}, options.c_str());
   } catch (const cl::Error& error) {

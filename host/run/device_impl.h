@@ -19,10 +19,10 @@ struct Device::Impl {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::map<std::string, cl::Program> programs;  ///< by build options and source file
+  std::map<std::string, cl::Program> programs;  ///< by source file, kernel and build options
 
-  /// The built program of a kernel file. Throws Error with the build log.
-  cl::Program& program(const std::string& source, const std::string& options);
+  /// The built program of a kernel of a file. Throws Error with the build log.
+  cl::Program& program(const std::string& source, const std::string& kernel, const std::string& options);
 };
 
 }  // namespace gloam

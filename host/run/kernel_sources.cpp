@@ -17,6 +17,9 @@ std::string included(const std::string& line) {
   return end == std::string::npos ? "" : line.substr(start + word.size(), end - start - word.size());
 }
 
+/// Macros are in capitals: ESTIMATE_NAME.
+bool is_macro(const std::string& name) { return name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != std::string::npos; }
+
 void append(const std::string& file, std::set<std::string>& seen, std::string& out) {
   if (!seen.insert(file).second) return;
   out += fmt::format("#line 1 \"{}\"\n", file);
@@ -40,6 +43,20 @@ std::string flatten(const std::string& file) {
   std::string out;
   if (kernel_sources().count(file) == 0) throw Error("no kernel file kernels/{}", file);
   append(file, seen, out);
+  return out;
+}
+
+std::string with_one_kernel(const std::string& source, const std::string& kernel) {
+  const std::string start = "kernel void ";
+  std::istringstream lines(source);
+  std::string line, out;
+  while (std::getline(lines, line)) {
+    if (line.rfind(start, 0) == 0) {
+      const std::string name = line.substr(start.size(), line.find('(') - start.size());
+      if (name != kernel && !is_macro(name)) line.replace(0, start.size(), "static void ");
+    }
+    out += line + "\n";
+  }
   return out;
 }
 

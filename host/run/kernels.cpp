@@ -44,7 +44,7 @@ int lanes_for(const DeviceInfo& info, const RunOptions& options) {
 cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
                         const RunOptions& options, int lanes) {
   const std::string& source = source_of(*planned.technique, planned.pass);
-  cl::Program& program = device.program(source, build_options(planned, device, options, lanes));
+  cl::Program& program = device.program(source, planned.pass.kernel, build_options(planned, device, options, lanes));
   cl::Kernel kernel;
   try {
     kernel = cl::Kernel(program, planned.pass.kernel.c_str());

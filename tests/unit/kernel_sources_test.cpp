@@ -1,0 +1,34 @@
+#include "run/kernel_sources.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "base/lists.h"
+
+namespace gloam {
+namespace {
+
+std::vector<std::string> kernels_of(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("kernel void ", 0) == 0) names.push_back(line.substr(12, line.find('(') - 12));
+  }
+  return names;
+}
+
+TEST(KernelSources, AProgramKeepsOneKernel) {
+  const std::string file = flatten("gtao/gtao.cl");
+  ASSERT_GT(kernels_of(file).size(), 4u);
+  EXPECT_EQ(kernels_of(with_one_kernel(file, "gtao_stereo")), std::vector<std::string>{"gtao_stereo"});
+  EXPECT_EQ(kernels_of(with_one_kernel(file, "stereo_blend")), std::vector<std::string>{"stereo_blend"});
+}
+
+TEST(KernelSources, KernelsNamedByAMacroStay) {
+  const std::vector<std::string> kept = kernels_of(with_one_kernel(flatten("lightfield/lightfield.cl"), "other"));
+  EXPECT_TRUE(contains(kept, "ESTIMATE_NAME"));
+}
+
+}  // namespace
+}  // namespace gloam
