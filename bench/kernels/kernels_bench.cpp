@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "base/lists.h"
@@ -65,12 +66,22 @@ std::vector<int> layer_counts(const Technique& technique) {
   return reads_layers(technique) ? std::vector<int>{1, 2, 4, most_layers} : std::vector<int>{0};
 }
 
-void measure(benchmark::State& state, const Plan& plan, const Frame& frame, Device& device, int lanes) {
+double seconds(const Plan& plan, const Frame& frame, Device& device, int lanes, int runs) {
   RunOptions options;
   options.lanes = lanes;
-  options.repeat = 2;
+  options.repeat = runs + 1;
+  const std::vector<double> ms = run(plan, frame, device, options).total_ms;
+  return std::accumulate(ms.begin() + 1, ms.end(), 0.0) * 1e-3;  // the first run warms up
+}
+
+/// Many runs for each call of run(), which takes far longer than a kernel to check and copy the planes.
+void measure(benchmark::State& state, const Plan& plan, const Frame& frame, Device& device, int lanes) {
+  constexpr double seconds_a_call = 0.05;
+  constexpr int most_runs = 200;
   try {
-    for (auto _ : state) state.SetIterationTime(run(plan, frame, device, options).total_ms.back() * 1e-3);
+    const double once = seconds(plan, frame, device, lanes, 1);
+    const int runs = static_cast<int>(std::clamp(seconds_a_call / once, 1.0, double{most_runs}));
+    while (state.KeepRunningBatch(runs)) state.SetIterationTime(seconds(plan, frame, device, lanes, runs));
   } catch (const Error& error) {
     state.SkipWithError(error.what());
   }
