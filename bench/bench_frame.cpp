@@ -45,16 +45,11 @@ void fill_with_noise(Plane& plane) {
   }
 }
 
-}  // namespace
-
-Frame loggia_frame(int width, int height) {
+View loggia_view(const Camera& camera, int width, int height) {
   using namespace analytic;
   const Scene scene = loggia_scene();
-  Frame frame;
-  frame.display = frame.window = {0, 0, width, height};
-  frame.views.resize(1);
-  View& view = frame.views[0];
-  view.camera = loggia_camera(width, height);
+  View view;
+  view.camera = camera;
   const Layout layout(width, height);
   Plane& depth = emplace(view, "depth", layout);
   Plane& normal = emplace(view, "normal", layout);
@@ -62,23 +57,24 @@ Frame loggia_frame(int width, int height) {
 #pragma omp parallel for schedule(dynamic)
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const Ray ray = camera_ray(*view.camera, x + 0.5, y + 0.5);
+      const Ray ray = camera_ray(camera, x + 0.5, y + 0.5);
       const std::optional<Hit> hit = first_hit(scene, ray);
       if (!hit) continue;
-      depth.channels[0].at(x, y) = float(view_depth(*view.camera, ray.origin + hit->distance * ray.direction));
-      set3(normal, x, y, glm::vec3(view.camera->pose->world_to_view * hit->normal));
+      depth.channels[0].at(x, y) = float(view_depth(camera, ray.origin + hit->distance * ray.direction));
+      set3(normal, x, y, glm::vec3(camera.pose->world_to_view * hit->normal));
       set3(albedo, x, y, hit->object->albedo);
     }
   }
+  return view;
+}
+
+Frame frame_of(int width, int height) {
+  Frame frame;
+  frame.display = frame.window = {0, 0, width, height};
   return frame;
 }
 
-void add_plane(Frame& frame, const std::string& name) {
-  if (is_stack(name)) {
-    for (int number = 0; number < most_layers; ++number) add_plane(frame, layer_name(name, number));
-    return;
-  }
-  View& view = frame.views[0];
+void add_plane(View& view, const std::string& name) {
   if (view.find(name)) return;
   const PlaneKind kind = plane_kind(name);
   Plane plane;
@@ -94,6 +90,35 @@ void add_plane(Frame& frame, const std::string& name) {
   }
   plane.name = name;
   view.planes.emplace(name, std::move(plane));
+}
+
+}  // namespace
+
+Frame loggia_frame(int width, int height) {
+  Frame frame = frame_of(width, height);
+  frame.views.push_back(loggia_view(analytic::loggia_camera(width, height), width, height));
+  return frame;
+}
+
+Frame loggia_stereo_frame(int width, int height) {
+  Frame frame = frame_of(width, height);
+  for (const char* name : {"left", "right"}) {
+    Camera camera = analytic::loggia_camera(width, height);
+    const glm::dvec3 right = glm::transpose(camera.pose->world_to_view)[0];
+    camera.pose->position += right * (name == std::string("left") ? -0.0325 : 0.0325);
+    View view = loggia_view(camera, width, height);
+    view.name = name;
+    frame.views.push_back(std::move(view));
+  }
+  return frame;
+}
+
+void add_plane(Frame& frame, const std::string& name) {
+  if (is_stack(name)) {
+    for (int number = 0; number < most_layers; ++number) add_plane(frame, layer_name(name, number));
+    return;
+  }
+  for (View& view : frame.views) add_plane(view, name);
 }
 
 float radius_reaching(const Frame& frame, double pixels) { return float(pixels / median_reach(frame, 1)); }

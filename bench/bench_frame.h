@@ -13,10 +13,13 @@ namespace gloam::bench {
 /// The bundled loggia at any size, with depth, normal and albedo.
 Frame loggia_frame(int width, int height);
 
+/// The same seen by two eyes 65 mm apart.
+Frame loggia_stereo_frame(int width, int height);
+
 /// Depth layers of a stack in the benchmarks.
 constexpr int most_layers = 8;
 
-/// Adds a plane that the frame lacks: a copy of depth or normal for planes of that meaning, else noise from a hash. A stack gets
+/// Adds a plane that the frame's views lack: a copy of depth or normal for planes of that meaning, else noise from a hash. A stack gets
 /// `most_layers` layers, each a tenth of the depth behind the one before.
 void add_plane(Frame& frame, const std::string& name);
 

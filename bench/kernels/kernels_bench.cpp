@@ -1,13 +1,14 @@
-// Every kernel of the registry by itself: one line per pass of a technique with default settings, for one lane and for the
-// device's own width; kernels that read a stack of layers with 1, 2, 4 and 8 of them. A new technique is included by itself.
+// Every kernel of the registry: one line per pass of a technique with default settings, for one lane and for the device's own
+// width; kernels that read a stack of layers with 1, 2, 4 and 8 of them. A line is the median of 5 to 101 runs of the technique,
+// by the device's clock. A new technique is included by itself.
 //
 // bench_kernels [--size=WIDTHxHEIGHT]... [Google Benchmark's flags]      Default size: 1920x1080
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <optional>
+#include <set>
 
 #include "base/lists.h"
 #include "bench/bench_frame.h"
@@ -44,57 +45,53 @@ std::optional<Plan> plan_alone(const Technique& technique, float radius, int lay
   }
 }
 
-/// One pass of the technique, with all its inputs in the frame.
-Plan pass_alone(const Plan& technique, const PlannedPass& pass) {
-  Plan plan;
-  plan.technique = pass.label();
-  plan.passes = {pass};
-  for (const Binding& binding : pass.pass.reads) {
-    const auto stack = technique.stacks.find(binding.plane);
-    if (stack == technique.stacks.end()) {
-      add_new(plan.inputs, binding.plane);
-      continue;
-    }
-    plan.stacks.insert(*stack);
-    for (const std::string& layer : stack->second) add_new(plan.inputs, layer);
-  }
-  return plan;
-}
-
 /// 0 if it reads no stack.
 std::vector<int> layer_counts(const Technique& technique) {
   return reads_layers(technique) ? std::vector<int>{1, 2, 4, most_layers} : std::vector<int>{0};
 }
 
-double seconds(const Plan& plan, const Frame& frame, Device& device, int lanes, int runs) {
-  RunOptions options;
-  options.lanes = lanes;
-  options.repeat = runs + 1;
-  const std::vector<double> ms = run(plan, frame, device, options).total_ms;
-  return std::accumulate(ms.begin() + 1, ms.end(), 0.0) * 1e-3;  // the first run warms up
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
 }
 
-/// Many runs for each call of run(), which takes far longer than a kernel to check and copy the planes.
-void measure(benchmark::State& state, const Plan& plan, const Frame& frame, Device& device, int lanes) {
-  constexpr double seconds_a_call = 0.05;
-  constexpr int most_runs = 200;
+/// Milliseconds of a pass, in the middle of the plan's runs: mean over the views that run it.
+double pass_ms(const RunResult& result, const std::string& pass) {
+  double sum = 0;
+  int views = 0;
+  for (const PassTime& time : result.passes) {
+    if (time.name != pass) continue;
+    sum += median(time.ms);
+    ++views;
+  }
+  return views == 0 ? 0 : sum / views;
+}
+
+/// The pass runs within its plan, since it may read what only the passes before it can make: lists of pixels, coarse levels.
+void measure(benchmark::State& state, const Plan& plan, const std::string& pass, const Frame& frame, Device& device,
+             int lanes) {
+  constexpr double ms_in_all = 200;
+  RunOptions options;
+  options.lanes = lanes;
   try {
-    const double once = seconds(plan, frame, device, lanes, 1);
-    const int runs = static_cast<int>(std::clamp(seconds_a_call / once, 1.0, double{most_runs}));
-    while (state.KeepRunningBatch(runs)) state.SetIterationTime(seconds(plan, frame, device, lanes, runs));
+    const double once = run(plan, frame, device, options).total_ms.front();
+    options.repeat = static_cast<int>(std::clamp(ms_in_all / once, 5.0, 101.0));
+    for (auto _ : state) state.SetIterationTime(pass_ms(run(plan, frame, device, options), pass) * 1e-3);
   } catch (const Error& error) {
     state.SkipWithError(error.what());
   }
 }
 
-void add_benchmark(const Plan& plan, Frame& frame, Device& device, int lanes, int layers) {
-  for (const std::string& plane : plan.inputs) add_plane(frame, plane);
-  const std::string name = fmt::format("{}/lanes:{}{}/{}", plan.technique, lanes,
+void add_benchmark(const Plan& plan, const std::string& pass, const Frame& frame, Device& device, int lanes,
+                   int layers) {
+  const std::string name = fmt::format("{}/lanes:{}{}/{}", pass, lanes,
                                        layers == 0 ? "" : fmt::format("/layers:{}", layers), size_name(frame));
-  benchmark::RegisterBenchmark(
-      name.c_str(),
-      [plan, &frame, &device, lanes](benchmark::State& state) { measure(state, plan, frame, device, lanes); })
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [plan, pass, &frame, &device, lanes](benchmark::State& state) {
+                                 measure(state, plan, pass, frame, device, lanes);
+                               })
       ->UseManualTime()
+      ->Iterations(1)
       ->Unit(benchmark::kMillisecond);
 }
 
@@ -104,8 +101,11 @@ void add_benchmarks(const Technique& technique, Frame& frame, Device& device, fl
   for (const int layers : layer_counts(technique)) {
     const std::optional<Plan> plan = plan_alone(technique, radius, layers);
     if (!plan) continue;
+    for (const std::string& plane : plan->inputs) add_plane(frame, plane);
+    std::set<std::string> passes;
     for (const PlannedPass& pass : plan->passes) {
-      for (const int lanes : widths) add_benchmark(pass_alone(*plan, pass), frame, device, lanes, layers);
+      if (!passes.insert(pass.label()).second) continue;
+      for (const int lanes : widths) add_benchmark(*plan, pass.label(), frame, device, lanes, layers);
     }
   }
 }
@@ -120,9 +120,11 @@ int bench_main(int argc, char** argv) {
   Device device;
   std::vector<std::unique_ptr<Frame>> frames;
   for (const auto& [width, height] : sizes) {
-    frames.push_back(std::make_unique<Frame>(loggia_frame(width, height)));
-    const float radius = radius_reaching(*frames.back(), reach_in_full_hd * width / 1920);
-    for (const Technique& technique : registry()) add_benchmarks(technique, *frames.back(), device, radius);
+    Frame& mono = *frames.emplace_back(std::make_unique<Frame>(loggia_frame(width, height)));
+    Frame& stereo = *frames.emplace_back(std::make_unique<Frame>(loggia_stereo_frame(width, height)));
+    const float radius = radius_reaching(mono, reach_in_full_hd * width / 1920);
+    for (const Technique& technique : registry())
+      add_benchmarks(technique, technique.views == 2 ? stereo : mono, device, radius);
   }
   benchmark::RunSpecifiedBenchmarks();
   return 0;
