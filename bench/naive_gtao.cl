@@ -2,7 +2,7 @@
 // the eye, and the cosine-weighted integral between them in closed form. Compiled after naive.cl.
 //
 // As in kernels/gtao, and unlike the paper: the positions of slices and samples; no falloff up to the radius and nothing beyond;
-// samples are moved into the slice along the surface's tangent plane; each pixel's mean is over its own slices.
+// samples are moved into the slice along the surface's tangent plane; slices are drawn in proportion to their weight.
 
 // One side of equation 7 without the 1/4, from the line to the eye to the horizon h; n: the projected normal's angle.
 float inner_integral(float h, float n, float cosine_n, float sine_n) {
@@ -29,12 +29,22 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
   const float reach_y = fmin(settings.radius / (z * camera.scale_y), settings.max_pixels);
   const float radius_square = settings.radius * settings.radius;
 
-  float open = 0, all = 0;
+  // kernels/shared/sampling/slice_angle.h: the normal's own slice, and the polynomials for its tilt.
+  const float across_right = dot(normal, right), across_up = dot(normal, up);
+  const float own_angle = atan2(across_up, across_right);
+  const float tilt = fmin(across_right * across_right + across_up * across_up, 1.0f);
+  const float p0 = tilt * (0.224f + tilt * (0.17208f - 0.17788f * tilt)),
+              p1 = tilt * (0.06328f - tilt * (0.44239f - 0.25163f * tilt)),
+              p2 = tilt * (-0.08113f + tilt * (0.35633f - 0.1916f * tilt));
+
+  float closed = 0;
 #ifdef UNROLLED
 #pragma unroll
 #endif
   for (int d = 0; d < slices; ++d) {
-    const float angle = M_PI_F * (d + turn) / slices;
+    const float even_angle = M_PI_F * (d + turn) / slices, twice = 2 * (even_angle - own_angle);
+    const float c = native_cos(twice), s = native_sin(twice), shape = p0 + c * (p1 + c * p2);
+    const float angle = even_angle - s * shape, width = 1 - 2 * (c * shape - s * s * (p1 + 2 * c * p2));
     const float3 tangent = native_cos(angle) * right + native_sin(angle) * up;
     // The slice's direction on the screen: the tangent moved along the line to the eye into the image plane.
     const float3 screen = tangent - tangent.z / to_eye.z * to_eye;
@@ -78,8 +88,8 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
       horizon[side] = sign * acos(fmin(highest, 1.0f));
     }
     const float h1 = n + fmax(horizon[0] - n, -M_PI_2_F), h2 = n + fmin(horizon[1] - n, M_PI_2_F);
-    open += length * 0.25f * (inner_integral(h1, n, cosine, sine) + inner_integral(h2, n, cosine, sine));
-    all += length * (cosine + n * sine);  // the same without occluders
+    const float open = 0.25f * (inner_integral(h1, n, cosine, sine) + inner_integral(h2, n, cosine, sine));
+    closed += width * length * (cosine + n * sine - open);  // less what is open without occluders
   }
-  ao[here] = clamp(open / all, 0.0f, 1.0f);
+  ao[here] = clamp(1 - closed / slices, 0.0f, 1.0f);
 }

@@ -1,6 +1,7 @@
 // Ambient occlusion by slices: GTAO's sampling and integral (Jimenez, Wu, Pesce, Jarabo 2016, sections 4 and 5), where the
 // highest occluder closes everything below it; or with BITMASK occluders of one thickness that close what lies between their
-// front and back (Therrien, Levesque, Gilet 2023). AO = weighted mean over slices of the open share of their cosine-weighted mass.
+// front and back (Therrien, Levesque, Gilet 2023). AO = 1 - mean over slices of the closed share of their cosine-weighted mass;
+// slices are drawn in proportion to that mass (slice_angle.h), so that one slice a pixel is the integral over all on average.
 //
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
@@ -16,6 +17,7 @@
 #include "estimators/bent_normal.h"
 #include "estimators/sectors.h"
 #include "gtao/params.h"
+#include "shared/sampling/slice_steps.h"
 
 #if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"
@@ -147,10 +149,10 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
   }
 }
 
-// Distance of sample k from the pixel, in reaches: denser towards the pixel.
-static inline real distance_of_step(int k, Noise noise) {
-  const real even = (k + noise.shift) * (scalar)(1.0f / STEPS);
-  return even * ((scalar)0.4f + (scalar)0.6f * even);
+static inline void place_sample(Side* side, SliceSample sample) {
+  side->least = sample.least;
+  side->along = sample.along;
+  side->above = sample.above;
 }
 
 // Samples both sides of a slice.
@@ -158,26 +160,13 @@ static inline __attribute__((always_inline)) void search_slice(Frame frame, Para
                                                                Search search, Slice slice, int within, Side* right,
                                                                Side* left) {
   const Receiver r = search.receiver;
-  const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
   for (int k = 0; k < STEPS; ++k) {
-    const real t = distance_of_step(k, r.noise);
-    integer dx = nearest(reach_x * t), dy = nearest(reach_y * t), other_dx = -dx, other_dy = -dy;
-    // From the unclamped position: at the border `along` may shrink to rounding.
-    right->least = left->least = params.bias * (to_real(dx) * slice.along_x + to_real(dy) * slice.along_y);
-    const mask in_frame = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
-    right->along = to_real(dx) * slice.along_x + to_real(dy) * slice.along_y;
-    right->above = to_real(dx) * slice.above_x + to_real(dy) * slice.above_y;
-    left->along = right->along;
-    left->above = -right->above;
-    mask other_in_frame = in_frame;
-    if (within != SAMPLES_INSIDE) {
-      other_in_frame = keep_in_frame(frame, r.x, r.y, within, &other_dx, &other_dy);
-      left->along = -(to_real(other_dx) * slice.along_x + to_real(other_dy) * slice.along_y);
-      left->above = to_real(other_dx) * slice.above_x + to_real(other_dy) * slice.above_y;
-    }
-    look(frame, params, layers, search, r.here, index_within(frame, within, dx, dy), in_frame, (mask)(0), right);
-    look(frame, params, layers, search, r.here, index_within(frame, within, other_dx, other_dy), other_in_frame,
-         (mask)(0), left);
+    SliceSample there, other;
+    samples_of_step(frame, params.bias, r, slice, within, k, &there, &other);
+    place_sample(right, there);
+    place_sample(left, other);
+    look(frame, params, layers, search, r.here, there.place, there.in_frame, (mask)(0), right);
+    look(frame, params, layers, search, r.here, other.place, other.in_frame, (mask)(0), left);
   }
 }
 
@@ -217,9 +206,11 @@ static inline real closed_side(Params params, Slice slice, real sine, Side* side
 
 #if WITH_OPEN_DIRECTIONS
 #define BENT_STEPS 32
-// Takes away the closed directions on one side, in steps of the angle to the line to the eye.
-static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, Side side, real sign) {
-  const scalar wedge = (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
+// Takes away the closed directions on one side, in steps of the angle to the line to the eye. `width`: of the slice, in shares
+// of half a turn over DIRECTIONS.
+static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, real width, Side side,
+                                    real sign) {
+  const real wedge = width * (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
   // Half a step, pi / 64, then whole ones, pi / 32.
   scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
   for (int k = 0; k < BENT_STEPS; ++k) {
@@ -235,7 +226,7 @@ static inline void take_closed_side(OpenDirections* open, Search search, Slice s
     const real3 v = search.surface.to_eye, t = slice.tangent;
     const real across = sign * sine;
     add_open(open, make3(v.x * cosine + t.x * across, v.y * cosine + t.y * across, v.z * cosine + t.z * across),
-             choose(is_closed, (real)(-wedge * sine), (real)(0)));
+             choose(is_closed, -wedge * sine, (real)(0)));
     const scalar next = cosine * (scalar)0.9951847267 - sine * (scalar)0.0980171403;
     sine = sine * (scalar)0.9951847267 + cosine * (scalar)0.0980171403;
     cosine = next;
@@ -246,24 +237,23 @@ static inline void take_closed_side(OpenDirections* open, Search search, Slice s
 static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, DepthLayers layers,
                                                              Search search, int within, OpenDirections* directions) {
   const Receiver r = search.receiver;
-  real open = 0, weights = 0;
+  real all_closed = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
     real cosine, sine;
-    cosine_sine_of_turns(((scalar)d + r.noise.turn) * (scalar)(0.5f / DIRECTIONS), &cosine, &sine);
+    const real width = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
     const Slice slice = slice_at(r.point, search.surface, cosine, sine);
     Side right = side_of(slice, search, (real)(1)), left = side_of(slice, search, (real)(-1));
     search_slice(frame, params, layers, search, slice, within, &right, &left);
-    const real closed = closed_side(params, slice, slice.sine, &right) + closed_side(params, slice, -slice.sine, &left);
-    const real share = larger(1 - closed, (real)(0));
+    const real counts = width * slice.weight;
+    const real closed_right = counts * closed_side(params, slice, slice.sine, &right);
+    const real closed_left = counts * closed_side(params, slice, -slice.sine, &left);
+    all_closed += closed_right + closed_left;
 #if WITH_OPEN_DIRECTIONS
-    take_closed_side(directions, search, slice, right, (real)(1));
-    take_closed_side(directions, search, slice, left, (real)(-1));
+    take_closed_side(directions, search, slice, width, right, (real)(1));
+    take_closed_side(directions, search, slice, width, left, (real)(-1));
 #endif
-    if (DIRECTIONS == 1) return share;
-    open += slice.weight * share;
-    weights += slice.weight;
   }
-  return open / weights;
+  return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
 }
 
 kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
@@ -285,15 +275,19 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 }
 
 #if STEREO
-// One slice as one eye sees it. Each eye measures its samples in a slice of its own, at the same angle about its own line to the
-// point. Moved into the other eye's slice they would lie beside it, and the eyes would agree less.
+// One slice as one eye sees it. Each eye measures its samples in a slice of its own, drawn from the same even angle about its own
+// line to the point. Moved into the other eye's slice they would lie beside it, and the eyes would agree less.
 typedef struct {
   Slice slice;
+  real counts;  // width * weight
   Side right, left;
 } View;
 
-static inline void start_view(View* view, Search search, real cosine, real sine) {
+static inline void start_view(View* view, Search search, real turn) {
+  real cosine, sine;
+  const real width = draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
   view->slice = slice_at(search.receiver.point, search.surface, cosine, sine);
+  view->counts = width * view->slice.weight;
   view->right = side_of(view->slice, search, (real)(1));
   view->left = side_of(view->slice, search, (real)(-1));
 }
@@ -349,14 +343,21 @@ static inline Taken taken_by_either(Taken a, Taken b) {
 }
 
 // A surface that both eyes see closes each eye's slice as that eye sees it, and the mean of both counts; a surface that one eye
-// alone sees closes both. Section 3.1 combines obscurance sample by sample. Horizons combined so are too low, as two samples
-// rarely meet the highest occluder alike; sectors of one eye alone are noisier.
+// alone sees closes both, and counts as in the slice of the eye that it closes more of. Section 3.1 combines obscurance sample by
+// sample. Horizons combined so are too low, as two samples rarely meet the highest occluder alike; sectors of one eye alone are
+// noisier.
 static inline real closed_by_both(View* own, View* other, real sine, real other_sine, Side* side, Side* other_side) {
-  const Taken alone = taken_by_either(taken_of(own->slice, sine, side->scale, &side->closed),
-                                      taken_of(other->slice, other_sine, other_side->scale, &other_side->closed));
+  const Taken by_own_alone = taken_of(own->slice, sine, side->scale, &side->closed);
+  const Taken by_other_alone = taken_of(other->slice, other_sine, other_side->scale, &other_side->closed);
+  const Taken alone = taken_by_either(by_own_alone, by_other_alone);
+  const real own_alone = share_of(by_own_alone), other_alone = share_of(by_other_alone), by_one = share_of(alone);
   const Taken by_own = taken_of(own->slice, sine, side->scale, &side->closed_for_both);
   const Taken by_other = taken_of(other->slice, other_sine, other_side->scale, &other_side->closed_for_both);
-  return (scalar)0.5 * (share_of(taken_by_either(by_own, alone)) + share_of(taken_by_either(by_other, alone)));
+  const real more_by_own = share_of(taken_by_either(by_own, alone)) - by_one;
+  const real more_by_other = share_of(taken_by_either(by_other, alone)) - by_one;
+  const real mean = (scalar)0.5 * (own->counts + other->counts);
+  const real counts = choose(own_alone > other_alone, own->counts, choose(own_alone < other_alone, other->counts, mean));
+  return counts * by_one + (scalar)0.5 * (own->counts * more_by_own + other->counts * more_by_other);
 }
 
 // `there`: the point as the other eye shows it, valid where `is_seen`.
@@ -364,23 +365,18 @@ static inline __attribute__((always_inline)) real share_open_to_both(Frame frame
                                                                      DepthLayers layers, DepthLayers other_layers,
                                                                      Search here, Search there, mask is_seen,
                                                                      int within) {
-  real open = 0, weights = 0;
+  real all_closed = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
-    real cosine, sine;
-    cosine_sine_of_turns(((scalar)d + here.receiver.noise.turn) * (scalar)(0.5f / DIRECTIONS), &cosine, &sine);
+    const real turn = (scalar)d + here.receiver.noise.turn;
     View own, others;
-    start_view(&own, here, cosine, sine);
-    start_view(&others, there, cosine, sine);
+    start_view(&own, here, turn);
+    start_view(&others, there, turn);
     search_view(frame, params, layers, here, EVERY_LANE, is_seen, within, &own);
     if (ANY(is_seen)) search_view(other, params, other_layers, there, is_seen, is_seen, within, &others);
-    const real closed = closed_by_both(&own, &others, own.slice.sine, others.slice.sine, &own.right, &others.right) +
-                        closed_by_both(&own, &others, -own.slice.sine, -others.slice.sine, &own.left, &others.left);
-    const real share = larger(1 - closed, (real)(0));
-    if (DIRECTIONS == 1) return share;
-    open += own.slice.weight * share;
-    weights += own.slice.weight;
+    all_closed += closed_by_both(&own, &others, own.slice.sine, others.slice.sine, &own.right, &others.right) +
+                  closed_by_both(&own, &others, -own.slice.sine, -others.slice.sine, &own.left, &others.left);
   }
-  return open / weights;
+  return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
 }
 
 // AO of one point per lane. `may_differ`: lanes that use the other eye.

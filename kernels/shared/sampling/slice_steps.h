@@ -1,0 +1,53 @@
+// Where a search of slices samples: DIRECTIONS slices a pixel, STEPS samples on each side of a slice.
+// -D DIRECTIONS, STEPS
+#ifndef GLOAM_SLICE_STEPS_H
+#define GLOAM_SLICE_STEPS_H
+
+#include "shared/sampling/ambient_occlusion.h"
+#include "shared/sampling/slice_angle.h"
+
+// One slice of DIRECTIONS, drawn in proportion to its weight. `turn`: in directions. Sets the cosine and sine of its angle;
+// returns its width in shares of half a turn over DIRECTIONS.
+static inline real draw_slice(Anchor point, Surface surface, real turn, real* cosine, real* sine) {
+  cosine_sine_of_turns(turn * (scalar)(0.5f / DIRECTIONS), cosine, sine);
+  return turn_by_weight(point, surface, cosine, sine);
+}
+
+// Distance of sample k from the pixel, in reaches: denser towards the pixel.
+static inline real distance_of_step(int k, Noise noise) {
+  const real even = (k + noise.shift) * (scalar)(1.0f / STEPS);
+  return even * ((scalar)0.4f + (scalar)0.6f * even);
+}
+
+// One sample on one side of a slice.
+typedef struct {
+  real along, above;  // if it had the pixel's depth (slice.h); units of the pixel's depth
+  real least;         // height above the tangent above which an occluder counts
+  integer place;      // index from the pixel's own
+  mask in_frame;
+} SliceSample;
+
+// Sample k on both sides.
+static inline __attribute__((always_inline)) void samples_of_step(Frame frame, scalar bias, Receiver r, Slice slice,
+                                                                  int within, int k, SliceSample* right,
+                                                                  SliceSample* left) {
+  const real t = distance_of_step(k, r.noise);
+  integer dx = nearest(slice.screen_x * r.reach.pixels_x * t), dy = nearest(slice.screen_y * r.reach.pixels_y * t);
+  integer other_dx = -dx, other_dy = -dy;
+  // From the unclamped position: at the border `along` may shrink to rounding.
+  right->least = left->least = bias * (to_real(dx) * slice.along_x + to_real(dy) * slice.along_y);
+  right->in_frame = left->in_frame = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
+  right->along = to_real(dx) * slice.along_x + to_real(dy) * slice.along_y;
+  right->above = to_real(dx) * slice.above_x + to_real(dy) * slice.above_y;
+  left->along = right->along;
+  left->above = -right->above;
+  if (within != SAMPLES_INSIDE) {
+    left->in_frame = keep_in_frame(frame, r.x, r.y, within, &other_dx, &other_dy);
+    left->along = -(to_real(other_dx) * slice.along_x + to_real(other_dy) * slice.along_y);
+    left->above = to_real(other_dx) * slice.above_x + to_real(other_dy) * slice.above_y;
+  }
+  right->place = index_within(frame, within, dx, dy);
+  left->place = index_within(frame, within, other_dx, other_dy);
+}
+
+#endif
