@@ -149,7 +149,7 @@ struct Encoding {
 };
 
 const Encoding encodings[] = {
-    {"reversed-Z float, infinite far", DepthConvention::reversed, [](double z) { return float(near / z); }, 1e-5},
+    {"reversed-Z float, infinite far", DepthConvention::reversed, [](double z) { return float(near / z); }, 2e-5},
     {"NDC float", DepthConvention::ndc, [](double z) { return float(ndc_of(z)); }, 5e-5},
     {"NDC 24 bit", DepthConvention::ndc, [](double z) { return float(quantised(ndc_of(z), 24)); }, 5e-5},
     {"linear 24 bit", DepthConvention::z,
@@ -206,7 +206,8 @@ double mean_of_difference(const Frame& out, const Frame& expected) {
 
 // The bounds are for normals made from depth, which suffer most: a step of the encoding over the width of a pixel (1/125 of the
 // depth here), 0.007 for half, 0.02 for 16 bits of 20 units at depth 2; a mean lies well below. Planes of 0..1, AO and its
-// filters, are held to a fifth of that.
+// filters, are held to a fifth of that. Slices follow the normal: with normals from depth the last bit of a depth may move a
+// sample to the next pixel, so single pixels have no bound there.
 void depth_encodings(Probe& probe) {
   const Shot shot = fine_shot();
   const RunOptions way{.math = Math::precise};
@@ -227,7 +228,7 @@ void depth_encodings(Probe& probe) {
       probe.measure(what + ": mean difference to float32", {mean_of_difference(out, expected.get()), d.place},
                     (is_share ? 0.2 : 1) * encoding.mean_bound);
       probe.measure(what + ": largest difference to float32", d,
-                    encoding.convention == DepthConvention::reversed ? 1e-4 : INFINITY);
+                    encoding.convention == DepthConvention::reversed && with_normals ? 1e-4 : INFINITY);
     }
   }
 }
@@ -245,7 +246,7 @@ std::vector<Case> depths() {
           {6,
            "depth in every encoding",
            "Depth as half, as 16 and 24 bit integers, as NDC and as reversed Z with an infinite far plane changes the "
-           "image by no more than the encoding's own steps; reversed Z by 1e-4 at most.",
+           "image by no more than the encoding's own steps; reversed Z by 1e-4 at most where the frame has normals.",
            {depth_encodings}}};
 }
 
