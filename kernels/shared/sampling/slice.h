@@ -64,6 +64,11 @@ static inline real mass_below(real c, real square, real cosine, real sine) {
   return multiply_add(sine, HALF_PI - arc_mass(c), cosine * square);
 }
 
+// Share of a slice's mass on the side to which the normal leans by (cosine, sine).
+static inline real share_of_side(real cosine, real sine, real mass) {
+  return mass_below(-sine, cosine * cosine, cosine, sine) * ((scalar)0.5 * quick_inverse(mass));
+}
+
 // `cosine`, `sine`: of the slice's angle about the line to the eye.
 static inline Slice slice_at(Anchor a, Surface s, real cosine, real sine) {
   Slice c;

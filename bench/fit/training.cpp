@@ -1,0 +1,126 @@
+#include "bench/fit/training.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/random.h"
+#include "gloam/error.h"
+#include "gloam/exr.h"
+#include "gloam/projection.h"
+#include "gloam/radius.h"
+#include "gloam/scene/camera_ray.h"
+#include "gloam/scene/capture.h"
+#include "gloam/scene/reference.h"
+
+namespace gloam::bench {
+namespace {
+
+/// The surface that a random pixel of a camera shows; world.
+std::optional<glm::dvec3> seen_at_random(const Tracer& tracer, const Camera& camera, int width, int height,
+                                         Random& random) {
+  const glm::dvec2 place(random.uniform(0, width), random.uniform(0, height));
+  const std::optional<ViewRay> ray = view_ray(camera, place);
+  const glm::dmat3 to_world = glm::transpose(camera.pose->world_to_view);
+  TracerRay traced;
+  traced.origin = camera.pose->position - tracer.scene().origin + to_world * ray->start;
+  traced.direction = glm::normalize(to_world * ray->per_depth);
+  const std::optional<Surface> surface = tracer.first(traced);
+  if (!surface) return {};
+  return surface->position + tracer.scene().origin;
+}
+
+/// A camera between one of the scene's own and a surface that it sees, looking at another surface that it sees.
+std::optional<SceneCamera> random_camera(const Tracer& tracer, Random& random) {
+  const SceneCamera& from = random.pick(tracer.scene().cameras);
+  const Camera camera = camera_for(from, 640, 360);
+  const auto ahead = seen_at_random(tracer, camera, 640, 360, random);
+  const auto target = seen_at_random(tracer, camera, 640, 360, random);
+  const double share = random.uniform(0, 0.65);
+  const double fov = random.uniform(45, 80);
+  if (!ahead || !target) return {};
+  const glm::dvec3 eye = from.pose.position + share * (*ahead - from.pose.position);
+  return looking_at("random", eye, *target, fov, tracer.scene().up);
+}
+
+/// Surfaces, and those nearer to the eye than the radius, over all pixels.
+struct Shares {
+  double surfaces = 0, near = 0;
+};
+
+Shares shares_of(const Channel& depth, double radius) {
+  Shares shares;
+  for (int y = 0; y < depth.layout().height; ++y)
+    for (int x = 0; x < depth.layout().width; ++x) {
+      if (is_background(depth.at(x, y))) continue;
+      ++shares.surfaces;
+      if (depth.at(x, y) < radius) ++shares.near;
+    }
+  const double pixels = double(depth.layout().width) * depth.layout().height;
+  return {shares.surfaces / pixels, shares.near / pixels};
+}
+
+/// What a camera at random shows, and a radius at random. None if it sees too little, or stands too near to a surface.
+std::optional<TrainingFrame> shot_at_random(const Tracer& tracer, const TrainingOptions& options, Random& random) {
+  const std::optional<SceneCamera> camera = random_camera(tracer, random);
+  if (!camera) return {};
+  CaptureOptions capturing;
+  capturing.width = options.width;
+  capturing.height = options.height;
+  capturing.planes = {"depth", "normal"};
+  capturing.views = {{"", camera_for(*camera, options.width, options.height), {}}};
+  TrainingFrame training{0, capture(tracer, capturing).frame};
+  const auto pixels = pixels_at_median_depth(training.frame);
+  if (!pixels) return {};
+  training.radius = random.of_any_size(options.least_pixels, options.most_pixels) / *pixels;
+  const Shares shares = shares_of(training.frame.views[0].planes.at("depth").channels[0], training.radius);
+  if (shares.surfaces < 0.4 || shares.near > 0.1) return {};
+  return training;
+}
+
+TrainingFrame made(const SceneRecipe& recipe, const Tracer& tracer, const TrainingOptions& options, int number) {
+  constexpr int most_trials = 200;
+  uint64_t name = 0;
+  for (const char c : recipe.name) name = name * 31 + uint64_t(c);
+  Random random(options.seed, name * 1000 + uint64_t(number));
+  for (int trial = 0; trial < most_trials; ++trial) {
+    std::optional<TrainingFrame> training = shot_at_random(tracer, options, random);
+    if (!training) continue;
+    AoReferenceOptions tracing;
+    tracing.radius = training->radius;
+    tracing.samples = options.rays;
+    AoReference truth = ao_reference(tracer, training->frame, tracing);
+    training->frame.views[0].planes["ao"] = truth.frame.views[0].planes.at("ao").clone();
+    training->frame.numbers["aoRadius"] = training->radius;
+    return std::move(*training);
+  }
+  throw Error("{}: none of {} random cameras sees enough of it", recipe.name, most_trials);
+}
+
+TrainingFrame read(const std::filesystem::path& file) {
+  FrameFile kept(file, {});
+  TrainingFrame training{kept.number_attribute("aoRadius").value_or(0), kept.read({"depth", "normal", "ao"})};
+  if (training.radius <= 0) throw Error("{}: has no aoRadius: not a frame made for fitting", file.string());
+  return training;
+}
+
+}  // namespace
+
+std::vector<TrainingFrame> training_frames(const SceneRecipe& recipe, const TrainingOptions& options) {
+  std::vector<TrainingFrame> frames;
+  std::optional<Scene> scene;
+  std::optional<Tracer> tracer;
+  for (int number = 0; number < options.frames; ++number) {
+    const std::filesystem::path file = options.folder / fmt::format("{}.{:02}.exr", recipe.name, number);
+    if (!std::filesystem::exists(file)) {
+      if (!tracer) tracer.emplace(scene.emplace(load_scene(recipe.name, {})));
+      if (options.progress) options.progress(file.string());
+      write_frame(file, made(recipe, *tracer, options, number).frame);
+    }
+    // As stored, so that the first run reads the same bits as later ones.
+    frames.push_back(read(file));
+  }
+  return frames;
+}
+
+}  // namespace gloam::bench

@@ -1,0 +1,34 @@
+// Frames of built-in scenes from random cameras, with ray-traced truth: the material that coefficients are fitted to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gloam/frame.h"
+#include "gloam/scene/scene.h"
+
+namespace gloam::bench {
+
+struct TrainingOptions {
+  int width = 640, height = 360;
+  int frames = 7;                              ///< of each scene
+  int rays = 64;                               ///< per pixel, for the truth
+  double least_pixels = 22, most_pixels = 95;  ///< reach of the radius at the median depth
+  uint64_t seed = 1;
+  std::filesystem::path folder;  ///< keeps the frames; those that are there already are read
+  std::function<void(const std::string& file)> progress = {};  ///< before a frame is made
+};
+
+struct TrainingFrame {
+  double radius = 0;  ///< scene units
+  Frame frame;        ///< depth, normal and `ao`, the truth
+};
+
+/// Frames of a scene: cameras stand between one of the scene's own and a surface that it sees, and look at another such surface.
+/// Throws Error if no camera sees enough of the scene.
+std::vector<TrainingFrame> training_frames(const SceneRecipe& recipe, const TrainingOptions& options);
+
+}  // namespace gloam::bench

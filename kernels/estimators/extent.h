@@ -1,0 +1,43 @@
+// How thick occluders on one side of a slice are, judged by how far each extends on the screen: wide things are thick. Samples
+// from the receiver outwards are divided into runs of one surface each.
+#ifndef GLOAM_EXTENT_H
+#define GLOAM_EXTENT_H
+
+#include "shared/sampling/slice.h"
+
+// A run ends where the depth changes by more than this multiple of the distance, plus this share of the radius.
+#define RUN_SLOPE ((scalar)2)
+#define RUN_SLACK ((scalar)0.02f)
+
+// Half as thick as wide, within these bounds in radii.
+#define THICKNESS_OF_EXTENT ((scalar)0.5f)
+#define LEAST_THICKNESS ((scalar)0.05f)
+#define MOST_THICKNESS ((scalar)2)
+
+// The surface of the last sample. Lengths in units of the receiver's depth.
+typedef struct {
+  real depth, along;  // of the last sample: relative depth, distance on the screen from the receiver
+  real start;         // of the run
+} Run;
+
+static inline Run run_from_receiver(void) {
+  Run run;
+  run.depth = run.along = run.start = (real)(0);
+  return run;
+}
+
+// Takes the next sample. Returns the extent of its surface so far, and a step on.
+static inline real extend_run(Run* run, real depth, real along, real radius) {
+  const real change = fabs(depth - run->depth), distance = along - run->along;
+  const real most = multiply_add(distance, (real)(RUN_SLOPE), RUN_SLACK * radius);
+  run->start = choose(change > most, along, run->start);
+  run->depth = depth;
+  run->along = along;
+  return along - run->start + distance;
+}
+
+static inline real thickness_of(real extent, real radius) {
+  return smaller(larger(THICKNESS_OF_EXTENT * extent, LEAST_THICKNESS * radius), MOST_THICKNESS * radius);
+}
+
+#endif
