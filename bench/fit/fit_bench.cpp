@@ -23,12 +23,14 @@ bool is_fitted(const SceneRecipe& recipe) { return recipe.kind != "thin"; }
 
 std::vector<const SceneRecipe*> scenes_named(const std::vector<std::string>& names) {
   std::vector<const SceneRecipe*> scenes;
+  std::vector<std::string> all;
   for (const SceneRecipe& recipe : builtin_scenes()) {
+    all.push_back(recipe.name);
     if (names.empty() && recipe.kind != "flat") scenes.push_back(&recipe);
   }
   for (const std::string& name : names) {
     const SceneRecipe* recipe = find_builtin_scene(name);
-    if (!recipe) throw UsageError("no scene '{}' (gloam list scenes)", name);
+    if (!recipe) throw UsageError("no scene '{}'{} (gloam list scenes)", name, suggestion(name, all));
     scenes.push_back(recipe);
   }
   return scenes;
@@ -80,7 +82,9 @@ int bench_main(int argc, char** argv) {
   take_flags(flags, argc, argv);
   if (argc > 1) throw UsageError("{} is no flag of it", argv[1]);
   options.progress = [](const std::string& file) { fmt::print(stderr, "making {}\n", file); };
-  std::filesystem::create_directories(options.folder);
+  std::error_code failed;
+  std::filesystem::create_directories(options.folder, failed);
+  if (failed) throw Error("--folder {}: cannot be made: {}", options.folder.string(), failed.message());
 
   const std::vector<const SceneRecipe*> recipes = scenes_named(names);
   std::vector<std::vector<SceneSamples>> by_sampling(std::size(samplings));

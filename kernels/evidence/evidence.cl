@@ -78,6 +78,10 @@ static inline Side side_of(Slice slice, Search search, scalar sign) {
 
 static inline __attribute__((always_inline)) void take_sample(Frame frame, Search search, SliceSample sample,
                                                               real depth, Side* s) {
+#if GATHERS_ONLY
+  s->horizon = smaller(s->horizon, depth);
+  return;
+#endif
   const Receiver r = search.receiver;
   const real e = relative_depth(r.point, r.depth, depth);
   const real extent = extend_run(&s->run, e, sample.along, search.radius) * s->cosine;
@@ -97,8 +101,8 @@ static inline __attribute__((always_inline)) void take_sample(Frame frame, Searc
   const mask floats = counts & (back > 0);
   s->solid_horizon = raised(s->solid_horizon, along, above, counts & (back <= 0));
   if (ANY(floats)) {
-    const real low = sectors_below(multiply_add(s->sine, thickness, along), back, s->scale);
-    s->covered |= sectors_between(low, sectors_below(along, above, s->scale)) & bits_of(floats);
+    const real low = sectors_below_roughly(multiply_add(s->sine, thickness, along), back, s->scale);
+    s->covered |= sectors_between(low, sectors_below_roughly(along, above, s->scale)) & bits_of(floats);
   }
 }
 
