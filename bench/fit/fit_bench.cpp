@@ -1,5 +1,5 @@
 // Fits the coefficients of the technique `evidence` to ray-traced truth, and shows how they travel: each scene is measured with
-// coefficients that were fitted without it. Thin things (fences, leaves, hair) are measured but not fitted to.
+// coefficients that were fitted without it. Without --scenes, thin things (fences, leaves, hair) are measured but not fitted to.
 //
 // bench_fit --folder DIR [-o coefficients.h] [--scenes A,B] [--frames N] [--rays N] [--seed N]
 #include <fstream>
@@ -16,10 +16,9 @@ constexpr int pixels_of_frame = 2500;
 
 struct SceneSamples {
   const SceneRecipe* recipe;
+  bool is_fitted;
   std::vector<FitSample> samples;
 };
-
-bool is_fitted(const SceneRecipe& recipe) { return recipe.kind != "thin"; }
 
 std::vector<const SceneRecipe*> scenes_named(const std::vector<std::string>& names) {
   std::vector<const SceneRecipe*> scenes;
@@ -40,7 +39,7 @@ std::vector<const SceneRecipe*> scenes_named(const std::vector<std::string>& nam
 Coefficients fitted_without(const std::vector<SceneSamples>& scenes, const SceneRecipe* left_out) {
   std::vector<const std::vector<FitSample>*> lists;
   for (const SceneSamples& scene : scenes) {
-    if (scene.recipe != left_out && is_fitted(*scene.recipe)) lists.push_back(&scene.samples);
+    if (scene.recipe != left_out && scene.is_fitted) lists.push_back(&scene.samples);
   }
   return fitted(lists);
 }
@@ -51,7 +50,7 @@ void print_how_they_travel(const std::vector<SceneSamples>& scenes, Sampling sam
              sampling.directions, sampling.steps);
   for (const SceneSamples& scene : scenes) {
     fmt::print("| {} | {}{} | {:.4f} | {:.4f} | {:.4f} |\n", scene.recipe->name, scene.recipe->kind,
-               is_fitted(*scene.recipe) ? "" : ", not fitted to", rmse(scene.samples, &FitSample::gtao),
+               scene.is_fitted ? "" : ", not fitted to", rmse(scene.samples, &FitSample::gtao),
                rmse(scene.samples, &FitSample::bitmask), rmse(scene.samples, fitted_without(scenes, scene.recipe)));
   }
   std::fflush(stdout);
@@ -87,12 +86,16 @@ int bench_main(int argc, char** argv) {
   if (failed) throw Error("--folder {}: cannot be made: {}", options.folder.string(), failed.message());
 
   const std::vector<const SceneRecipe*> recipes = scenes_named(names);
+  if (recipes.size() < 2)
+    throw UsageError("--scenes {}: at least two, since each is measured by a fit to the others", names[0]);
+  // Whoever names scenes wants a fit to them.
+  const auto is_fitted = [&](const SceneRecipe& recipe) { return !names.empty() || recipe.kind != "thin"; };
   std::vector<std::vector<SceneSamples>> by_sampling(std::size(samplings));
   Device device;
   for (const SceneRecipe* recipe : recipes) {
     const std::vector<TrainingFrame> frames = training_frames(*recipe, options);
     for (size_t i = 0; i < std::size(samplings); ++i) {
-      SceneSamples scene{recipe, {}};
+      SceneSamples scene{recipe, is_fitted(*recipe), {}};
       for (const TrainingFrame& frame : frames) {
         const std::vector<FitSample> samples = fit_samples(frame, samplings[i], device, pixels_of_frame);
         scene.samples.insert(scene.samples.end(), samples.begin(), samples.end());
