@@ -29,13 +29,13 @@ kernel void naive_gtao(Camera camera, Settings settings, global const float* res
   const float reach_y = fmin(settings.radius / (z * camera.scale_y), settings.max_pixels);
   const float radius_square = settings.radius * settings.radius;
 
-  // kernels/shared/sampling/slice_angle.h: the normal's own slice, and the polynomials for its tilt.
+  // kernels/shared/sampling/slice_angle.h: the normal's own slice, and the polynomials for its sine_square.
   const float across_right = dot(normal, right), across_up = dot(normal, up);
   const float own_angle = atan2(across_up, across_right);
-  const float tilt = fmin(across_right * across_right + across_up * across_up, 1.0f);
-  const float p0 = tilt * (0.224f + tilt * (0.17208f - 0.17788f * tilt)),
-              p1 = tilt * (0.06328f - tilt * (0.44239f - 0.25163f * tilt)),
-              p2 = tilt * (-0.08113f + tilt * (0.35633f - 0.1916f * tilt));
+  const float sine_square = fmin(across_right * across_right + across_up * across_up, 1.0f);
+  const float p0 = sine_square * (0.224f + sine_square * (0.17208f - 0.17788f * sine_square)),
+              p1 = sine_square * (0.06328f - sine_square * (0.44239f - 0.25163f * sine_square)),
+              p2 = sine_square * (-0.08113f + sine_square * (0.35633f - 0.1916f * sine_square));
 
   float closed = 0;
 #ifdef UNROLLED

@@ -28,7 +28,9 @@ const Channel& ao_of(const Frame& frame) { return frame.views[0].planes.at("ao")
 std::vector<glm::ivec2> pixels_of_surfaces(const Channel& depth, int count) {
   std::vector<glm::ivec2> pixels;
   Random random(1);
-  while (int(pixels.size()) < count) {
+  constexpr int most_trials = 1000;  // for each pixel
+  for (int trial = 0; int(pixels.size()) < count; ++trial) {
+    if (trial == most_trials * count) throw Error("a frame for fitting shows next to no surface");
     const glm::ivec2 pixel(int(random.below(size_t(depth.layout().width))),
                            int(random.below(size_t(depth.layout().height))));
     if (!is_background(depth.at(pixel.x, pixel.y))) pixels.push_back(pixel);

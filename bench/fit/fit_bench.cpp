@@ -1,9 +1,10 @@
-// Fits the coefficients of the technique `evidence` to ray-traced truth, and shows how they travel: each scene is measured with
-// coefficients that were fitted without it. Without --scenes, thin things (fences, leaves, hair) are measured but not fitted to.
+// Fits the coefficients of the technique `evidence` to ray-traced truth. Prints a leave-one-scene-out cross-validation: each scene is
+// measured with coefficients that were fitted without it. Without --scenes, thin things (fences, leaves, hair) are measured but not fitted to.
 //
 // bench_fit --folder DIR [-o coefficients.h] [--scenes A,B] [--frames N] [--rays N] [--seed N]
-#include <fstream>
+#include <algorithm>
 
+#include "base/files.h"
 #include "bench/bench_frame.h"
 #include "bench/fit/fit.h"
 #include "gloam/error.h"
@@ -30,7 +31,7 @@ std::vector<const SceneRecipe*> scenes_named(const std::vector<std::string>& nam
   for (const std::string& name : names) {
     const SceneRecipe* recipe = find_builtin_scene(name);
     if (!recipe) throw UsageError("no scene '{}'{} (gloam list scenes)", name, suggestion(name, all));
-    scenes.push_back(recipe);
+    if (std::find(scenes.begin(), scenes.end(), recipe) == scenes.end()) scenes.push_back(recipe);
   }
   return scenes;
 }
@@ -44,8 +45,8 @@ Coefficients fitted_without(const std::vector<SceneSamples>& scenes, const Scene
   return fitted(lists);
 }
 
-/// A table in Markdown.
-void print_how_they_travel(const std::vector<SceneSamples>& scenes, Sampling sampling) {
+/// Leave-one-scene-out, a table in Markdown.
+void print_cross_validation(const std::vector<SceneSamples>& scenes, Sampling sampling) {
   fmt::print("\n{} x {} x 2 samples\n\n| scene | kind | gtao | bitmask | evidence |\n|---|---|---|---|---|\n",
              sampling.directions, sampling.steps);
   for (const SceneSamples& scene : scenes) {
@@ -79,16 +80,18 @@ int bench_main(int argc, char** argv) {
   flags.add_option("--rays", options.rays)->check(CLI::Range(1, 65536));
   flags.add_option("--seed", options.seed);
   take_flags(flags, argc, argv);
-  if (argc > 1) throw UsageError("{} is no flag of it", argv[1]);
+  if (argc > 1) throw UsageError("unknown argument '{}'", argv[1]);
   options.progress = [](const std::string& file) { fmt::print(stderr, "making {}\n", file); };
-  std::error_code failed;
-  std::filesystem::create_directories(options.folder, failed);
-  if (failed) throw Error("--folder {}: cannot be made: {}", options.folder.string(), failed.message());
-
   const std::vector<const SceneRecipe*> recipes = scenes_named(names);
   if (recipes.size() < 2)
     throw UsageError("--scenes {}: at least two, since each is measured by a fit to the others", names[0]);
-  // Whoever names scenes wants a fit to them.
+  if (!output.empty()) {
+    if (const std::string why = why_unwritable(output); !why.empty()) throw Error("{}: {}", output, why);
+  }
+  std::error_code failed;
+  std::filesystem::create_directories(options.folder, failed);
+  if (failed) throw Error("--folder {}: cannot be made: {}", options.folder.string(), failed.message());
+  // Scenes named by --scenes are all fitted to.
   const auto is_fitted = [&](const SceneRecipe& recipe) { return !names.empty() || recipe.kind != "thin"; };
   std::vector<std::vector<SceneSamples>> by_sampling(std::size(samplings));
   Device device;
@@ -106,7 +109,7 @@ int bench_main(int argc, char** argv) {
 
   std::vector<std::string> rows;
   for (size_t i = 0; i < std::size(samplings); ++i) {
-    print_how_they_travel(by_sampling[i], samplings[i]);
+    print_cross_validation(by_sampling[i], samplings[i]);
     std::string row = fmt::format("SET({}, {}", samplings[i].directions, samplings[i].steps);
     for (const double c : fitted_without(by_sampling[i], nullptr)) row += fmt::format(", {:.4f}f", c);
     rows.push_back(row + ")");
@@ -125,9 +128,7 @@ int bench_main(int argc, char** argv) {
     fmt::print("\n{}", header);
     return 0;
   }
-  std::ofstream file(output);
-  file << header;
-  if (!file.flush()) throw Error("{}: cannot be written", output);
+  write_text(output, header);
   return 0;
 }
 

@@ -111,7 +111,8 @@ std::vector<TrainingFrame> training_frames(const SceneRecipe& recipe, const Trai
   std::optional<Scene> scene;
   std::optional<Tracer> tracer;
   for (int number = 0; number < options.frames; ++number) {
-    const std::filesystem::path file = options.folder / fmt::format("{}.{:02}.exr", recipe.name, number);
+    const std::filesystem::path file =
+        options.folder / fmt::format("{}.seed{}.rays{}.{:02}.exr", recipe.name, options.seed, options.rays, number);
     if (!std::filesystem::exists(file)) {
       if (!tracer) tracer.emplace(scene.emplace(load_scene(recipe.name, {})));
       if (options.progress) options.progress(file.string());

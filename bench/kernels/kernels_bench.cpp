@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/lists.h"
+#include "base/statistics.h"
 #include "bench/bench_frame.h"
 #include "bench/plans.h"
 #include "gloam/error.h"
@@ -50,13 +51,8 @@ std::vector<int> layer_counts(const Technique& technique) {
   return reads_layers(technique) ? std::vector<int>{1, 2, 4, most_layers} : std::vector<int>{0};
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
-/// Milliseconds of a pass, in the middle of the plan's runs: mean over the views that run it.
-double pass_ms(const RunResult& result, const std::string& pass) {
+/// Milliseconds of a pass, in the middle of the plan's runs: mean over the views that run it. None if no view does.
+std::optional<double> pass_ms(const RunResult& result, const std::string& pass) {
   double sum = 0;
   int views = 0;
   for (const PassTime& time : result.passes) {
@@ -64,7 +60,8 @@ double pass_ms(const RunResult& result, const std::string& pass) {
     sum += median(time.ms);
     ++views;
   }
-  return views == 0 ? 0 : sum / views;
+  if (views == 0) return {};
+  return sum / views;
 }
 
 /// The pass runs within its plan, since it may read what only the passes before it can make: lists of pixels, coarse levels.
@@ -76,7 +73,11 @@ void measure(benchmark::State& state, const Plan& plan, const std::string& pass,
   try {
     const double once = run(plan, frame, device, options).total_ms.front();
     options.repeat = static_cast<int>(std::clamp(ms_in_all / once, 5.0, 101.0));
-    for (auto _ : state) state.SetIterationTime(pass_ms(run(plan, frame, device, options), pass) * 1e-3);
+    for (auto _ : state) {
+      const std::optional<double> ms = pass_ms(run(plan, frame, device, options), pass);
+      if (!ms) return state.SkipWithError("no view runs this pass");
+      state.SetIterationTime(*ms * 1e-3);
+    }
   } catch (const Error& error) {
     state.SkipWithError(error.what());
   }

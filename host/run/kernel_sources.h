@@ -13,8 +13,8 @@ const std::map<std::string, std::string>& kernel_sources();
 /// and line. Throws Error for a missing file.
 std::string flatten(const std::string& file);
 
-/// The text of a program with its other kernels as static functions, which no compiler translates: PoCL takes a third less time for
-/// the files with several. Kernels whose name is a macro stay.
+/// The text with all other kernels made static functions. Unused ones are dropped, so PoCL compiles files with several kernels a
+/// third faster. Kernels whose name is a macro stay.
 std::string with_one_kernel(const std::string& source, const std::string& kernel);
 
 }  // namespace gloam

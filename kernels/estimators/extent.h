@@ -5,7 +5,7 @@
 
 #include "shared/sampling/slice.h"
 
-// A run ends where the depth changes by more than this multiple of the distance, plus this share of the radius.
+// A run ends where the depth changes by more than this multiple of the distance along the tangent, plus this share of the radius.
 #define RUN_SLOPE ((scalar)2)
 #define RUN_SLACK ((scalar)0.02f)
 
@@ -16,7 +16,7 @@
 
 // The surface of the last sample. Lengths in units of the receiver's depth.
 typedef struct {
-  real depth, along;  // of the last sample: relative depth, distance on the screen from the receiver
+  real depth, along;  // of the last sample: relative depth; distance along the tangent if it had the receiver's depth
   real start;         // of the run
 } Run;
 
@@ -26,7 +26,7 @@ static inline Run run_from_receiver(void) {
   return run;
 }
 
-// Takes the next sample. Returns the extent of its surface so far, and a step on.
+// Takes the next sample. Returns the extent of its surface so far plus one step.
 static inline real extend_run(Run* run, real depth, real along, real radius) {
   const real change = fabs(depth - run->depth), distance = along - run->along;
   const real most = multiply_add(distance, (real)(RUN_SLOPE), RUN_SLACK * radius);

@@ -36,13 +36,15 @@ static inline real sectors_below(real along, real above, Scale s) {
   return mass_below(along * inverse, sine * sine, s.cosine, s.sine) + s.shift;
 }
 
-// As sectors_below, off by up to half a sector, in less time.
-static inline real sectors_below_roughly(real along, real above, Scale s) {
+// As sectors_below, in less time: off by up to .16 sectors of a whole slice. On a side with a small share of the slice that is
+// many of its own sectors, hence the clamp: a count outside 0 to SECTORS would be no shift.
+static inline real approximate_sectors_below(real along, real above, Scale s) {
   const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
   const real inverse = inverse_sqrt(square), sine = above * inverse, c = along * inverse;
   // arc_mass within .015, exact at 0 and 1.
   const real arc = c * multiply_add(c * c, (real)(-0.489f), (real)(2.0597963f));
-  return multiply_add(s.sine, HALF_PI - arc, multiply_add(s.cosine, sine * sine, s.shift));
+  const real sectors = multiply_add(s.sine, HALF_PI - arc, s.cosine * (sine * sine));
+  return smaller(larger(sectors, (real)(0)), (real)(SECTORS)) + s.shift;
 }
 
 // One bit for each whole sector from `low` to `high`.

@@ -21,10 +21,8 @@
 #include "evidence/params.h"
 #include "shared/sampling/slice_steps.h"
 
-#define TERMS 12
-
 #define ROW(directions, steps, ...) {__VA_ARGS__},
-constant float coefficients[][TERMS] = {EVIDENCE_COEFFICIENTS(ROW)};
+constant float coefficients[][EVIDENCE_TERMS] = {EVIDENCE_COEFFICIENTS(ROW)};
 
 // What is the same for all slices of a row of pixels.
 typedef struct {
@@ -45,8 +43,8 @@ static inline Search search_of(Params params, Receiver r) {
 
 #define LEAST_SLOPE_OF_UNKNOWN ((scalar)0.01f)
 
-// A side with hardly any mass has no sectors to speak of.
-#define LEAST_SHARE ((scalar)1e-6f)
+// Sectors of a side with less of the slice's mass are wider: rounding of the horizon alone would reach one.
+#define LEAST_SHARE ((scalar)0.01f)
 
 // One side of a slice, searched outwards. Lengths in units of the pixel's depth.
 typedef struct {
@@ -101,12 +99,12 @@ static inline __attribute__((always_inline)) void take_sample(Frame frame, Searc
   const mask floats = counts & (back > 0);
   s->solid_horizon = raised(s->solid_horizon, along, above, counts & (back <= 0));
   if (ANY(floats)) {
-    const real low = sectors_below_roughly(multiply_add(s->sine, thickness, along), back, s->scale);
-    s->covered |= sectors_between(low, sectors_below_roughly(along, above, s->scale)) & bits_of(floats);
+    const real low = approximate_sectors_below(multiply_add(s->sine, thickness, along), back, s->scale);
+    s->covered |= sectors_between(low, approximate_sectors_below(along, above, s->scale)) & bits_of(floats);
   }
 }
 
-// What speaks for closed: a, b and u above.
+// a, b and u above.
 typedef struct {
   real below_horizon, within_extent, unknown;
 } Evidence;
@@ -158,7 +156,7 @@ static inline real closed_share(Evidence e, real facing) {
 #else
   real closed = (real)(0);
 #pragma unroll
-  for (int k = 0; k < TERMS; ++k) {
+  for (int k = 0; k < EVIDENCE_TERMS; ++k) {
     const real term = term_of(k, e.below_horizon, e.within_extent, e.unknown, facing);
     closed = multiply_add((real)(coefficients[COEFFICIENTS][k]), term, closed);
   }
@@ -172,10 +170,10 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
   real closed = (real)(0);
   for (int d = 0; d < DIRECTIONS; ++d) {
     real cosine, sine;
-    const real width = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
+    const real inverse_density = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
     const Slice slice = slice_at(r.point, search.surface, cosine, sine);
     const Evidence evidence = evidence_of(frame, params, depth, search, slice, within);
-    closed += width * slice.weight * closed_share(evidence, search.surface.facing);
+    closed += inverse_density * slice.weight * closed_share(evidence, search.surface.facing);
   }
   return 1 - closed * (scalar)(1.0f / DIRECTIONS);
 }

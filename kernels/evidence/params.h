@@ -1,5 +1,8 @@
 #include "shared/sampling/ambient_occlusion.h"
 
+// Of the polynomial in evidence.cl.
+#define EVIDENCE_TERMS 12
+
 #define EVIDENCE_PARAMS(P)                                                                          \
   REACH_PARAMS(P)                                                                                   \
   P(int, directions, 1, 1, 64, "", "slices searched per pixel")                                     \

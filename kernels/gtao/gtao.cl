@@ -206,11 +206,11 @@ static inline real closed_side(Params params, Slice slice, real sine, Side* side
 
 #if WITH_OPEN_DIRECTIONS
 #define BENT_STEPS 32
-// Takes away the closed directions on one side, in steps of the angle to the line to the eye. `width`: of the slice, in shares
-// of half a turn over DIRECTIONS.
-static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, real width, Side side,
+// Takes away the closed directions on one side, in steps of the angle to the line to the eye. `inverse_density`: of the slice
+// (draw_slice).
+static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, real inverse_density, Side side,
                                     real sign) {
-  const real wedge = width * (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
+  const real wedge = inverse_density * (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
   // Half a step, pi / 64, then whole ones, pi / 32.
   scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
   for (int k = 0; k < BENT_STEPS; ++k) {
@@ -240,17 +240,17 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
   real all_closed = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
     real cosine, sine;
-    const real width = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
+    const real inverse_density = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
     const Slice slice = slice_at(r.point, search.surface, cosine, sine);
     Side right = side_of(slice, search, (real)(1)), left = side_of(slice, search, (real)(-1));
     search_slice(frame, params, layers, search, slice, within, &right, &left);
-    const real counts = width * slice.weight;
-    const real closed_right = counts * closed_side(params, slice, slice.sine, &right);
-    const real closed_left = counts * closed_side(params, slice, -slice.sine, &left);
+    const real importance = inverse_density * slice.weight;
+    const real closed_right = importance * closed_side(params, slice, slice.sine, &right);
+    const real closed_left = importance * closed_side(params, slice, -slice.sine, &left);
     all_closed += closed_right + closed_left;
 #if WITH_OPEN_DIRECTIONS
-    take_closed_side(directions, search, slice, width, right, (real)(1));
-    take_closed_side(directions, search, slice, width, left, (real)(-1));
+    take_closed_side(directions, search, slice, inverse_density, right, (real)(1));
+    take_closed_side(directions, search, slice, inverse_density, left, (real)(-1));
 #endif
   }
   return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
@@ -279,15 +279,15 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 // line to the point. Moved into the other eye's slice they would lie beside it, and the eyes would agree less.
 typedef struct {
   Slice slice;
-  real counts;  // width * weight
+  real importance;  // inverse density * weight
   Side right, left;
 } View;
 
 static inline void start_view(View* view, Search search, real turn) {
   real cosine, sine;
-  const real width = draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
+  const real inverse_density = draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
   view->slice = slice_at(search.receiver.point, search.surface, cosine, sine);
-  view->counts = width * view->slice.weight;
+  view->importance = inverse_density * view->slice.weight;
   view->right = side_of(view->slice, search, (real)(1));
   view->left = side_of(view->slice, search, (real)(-1));
 }
@@ -299,7 +299,7 @@ static inline __attribute__((always_inline)) void look_around(Frame frame, Param
                                                               int within, Side* side) {
   integer dx = nearest(x - c.left), dy = nearest(y - c.up);
   const real along = sign * ((to_real(dx) + c.left) * slice.along_x + (to_real(dy) + c.up) * slice.along_y);
-  // From the unclamped position, as in search_slice.
+  // From the unclamped position, as in samples_of_step.
   side->least = params.bias * along;
   mask is_inside;
   const integer place = place_around(frame, c, within, &dx, &dy, &is_inside);
@@ -355,9 +355,10 @@ static inline real closed_by_both(View* own, View* other, real sine, real other_
   const Taken by_other = taken_of(other->slice, other_sine, other_side->scale, &other_side->closed_for_both);
   const real more_by_own = share_of(taken_by_either(by_own, alone)) - by_one;
   const real more_by_other = share_of(taken_by_either(by_other, alone)) - by_one;
-  const real mean = (scalar)0.5 * (own->counts + other->counts);
-  const real counts = choose(own_alone > other_alone, own->counts, choose(own_alone < other_alone, other->counts, mean));
-  return counts * by_one + (scalar)0.5 * (own->counts * more_by_own + other->counts * more_by_other);
+  const real mean = (scalar)0.5 * (own->importance + other->importance);
+  const real of_larger = choose(own_alone > other_alone, own->importance,
+                                choose(own_alone < other_alone, other->importance, mean));
+  return of_larger * by_one + (scalar)0.5 * (own->importance * more_by_own + other->importance * more_by_other);
 }
 
 // `there`: the point as the other eye shows it, valid where `is_seen`.

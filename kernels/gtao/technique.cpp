@@ -62,8 +62,8 @@ Technique gtao_over_depth() {
   return t;
 }
 
-/// The technique that `ao` stands for, and that `gloam auto` runs: of those over one layer the nearest to the truth on most
-/// frames (docs/accuracy.md).
+/// The technique that `ao` stands for, and that `gloam auto` runs: of those over one layer without fitted coefficients
+/// the nearest to the truth on most frames (docs/accuracy.md).
 Technique bitmask_over_depth() {
   Technique t = row("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
                     "Therrien, Levesque, Gilet 2023");

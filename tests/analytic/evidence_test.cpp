@@ -1,7 +1,10 @@
 // The technique `evidence` against ray-traced truth, beside the techniques with one thickness for all occluders.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 
 #include "evidence/coefficients.h"
 #include "gloam/scene/capture.h"
@@ -52,15 +55,29 @@ TEST(Evidence, IsNearerToTheTruthThanOneThickness) {
   }
 }
 
-/// Coefficients of one number of steps do not suit another: each preset has its own.
-TEST(Evidence, EachPresetHasItsOwnCoefficients) {
-#define DIRECTIONS_TIMES_STEPS(directions, steps, ...) {#directions, #steps},
-  const std::vector<std::pair<std::string, std::string>> rows = {EVIDENCE_COEFFICIENTS(DIRECTIONS_TIMES_STEPS)};
-  for (const Preset& preset : find_technique("evidence").presets) {
-    std::map<std::string, std::string> values(preset.settings.begin(), preset.settings.end());
-    const std::pair<std::string, std::string> wanted{values.at("directions"), values.at("steps")};
-    EXPECT_NE(std::find(rows.begin(), rows.end(), wanted), rows.end()) << preset.name;
+using SlicesAndSteps = std::pair<std::string, std::string>;
+
+/// What the coefficients were fitted with that the technique takes for these settings.
+SlicesAndSteps fitted_with(const Settings& settings) {
+#define DIRECTIONS_AND_STEPS(directions, steps, ...) {#directions, #steps},
+  const std::vector<SlicesAndSteps> rows = {EVIDENCE_COEFFICIENTS(DIRECTIONS_AND_STEPS)};
+  const Technique& technique = find_technique("evidence");
+  ParameterValues values(technique.parameters);
+  for (const auto& [name, value] : settings) values.set(name, value, technique.name);
+  for (const auto& [name, value] : technique.passes(values).front().defines) {
+    if (name == "COEFFICIENTS") return rows.at(size_t(value));
   }
+  throw std::out_of_range("no COEFFICIENTS");
+}
+
+/// Coefficients of one number of steps do not suit another.
+TEST(Evidence, EachPresetHasItsOwnCoefficients) {
+  const Technique& technique = find_technique("evidence");
+  for (const Preset& preset : technique.presets) {
+    const std::map<std::string, std::string> values(preset.settings.begin(), preset.settings.end());
+    EXPECT_EQ(fitted_with(preset.settings), SlicesAndSteps(values.at("directions"), values.at("steps"))) << preset.name;
+  }
+  EXPECT_EQ(fitted_with(technique.converged), SlicesAndSteps("4", "18"));
 }
 
 }  // namespace

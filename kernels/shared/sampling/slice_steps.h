@@ -7,7 +7,7 @@
 #include "shared/sampling/slice_angle.h"
 
 // One slice of DIRECTIONS, drawn in proportion to its weight. `turn`: in directions. Sets the cosine and sine of its angle;
-// returns its width in shares of half a turn over DIRECTIONS.
+// returns the inverse of its density, in shares of half a turn over DIRECTIONS.
 static inline real draw_slice(Anchor point, Surface surface, real turn, real* cosine, real* sine) {
   cosine_sine_of_turns(turn * (scalar)(0.5f / DIRECTIONS), cosine, sine);
   return turn_by_weight(point, surface, cosine, sine);
