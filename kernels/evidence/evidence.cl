@@ -116,14 +116,14 @@ static inline void add_side(Slice slice, const Side* s, Evidence* evidence) {
   evidence->unknown += s->unknown * (scalar)(0.5f / STEPS);
 }
 
-static inline Evidence evidence_of(Frame frame, Params params, PLANE depth, Search search, Slice slice, int within) {
+static inline Evidence evidence_of(Frame frame, Params params, DepthLayers layers, Search search, Slice slice, int within) {
   const Receiver r = search.receiver;
   Side right = side_of(slice, search, (scalar)1), left = side_of(slice, search, (scalar)-1);
   for (int k = 0; k < STEPS; ++k) {
     SliceSample there, other;
     samples_of_step(frame, params.bias, r, slice, within, k, &there, &other);
-    take_sample(frame, search, there, gather(depth + r.here, there.place), &right);
-    take_sample(frame, search, other, gather(depth + r.here, other.place), &left);
+    take_sample(frame, search, there, gather(layers.first + r.here, there.place), &right);
+    take_sample(frame, search, other, gather(layers.first + r.here, other.place), &left);
   }
   Evidence evidence;
   evidence.below_horizon = evidence.within_extent = evidence.unknown = (real)(0);
@@ -164,7 +164,7 @@ static inline real closed_share(Evidence e, real facing) {
 #endif
 }
 
-static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, PLANE depth, Search search,
+static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, DepthLayers layers, Search search,
                                                              int within) {
   const Receiver r = search.receiver;
   real closed = (real)(0);
@@ -172,7 +172,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     real cosine, sine;
     const real inverse_density = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
     const Slice slice = slice_at(r.point, search.surface, cosine, sine);
-    const Evidence evidence = evidence_of(frame, params, depth, search, slice, within);
+    const Evidence evidence = evidence_of(frame, params, layers, search, slice, within);
     closed += inverse_density * slice.weight * closed_share(evidence, search.surface.facing);
   }
   return 1 - closed * (scalar)(1.0f / DIRECTIONS);
@@ -181,6 +181,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
 kernel void evidence_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                               WANTED_ARGUMENT PLANE_OUT ao_raw) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   leave_out(&r, is_wanted);
   real open = 1;
@@ -188,7 +189,7 @@ kernel void evidence_estimate(Frame frame, Params params, PLANE depth, PLANE nor
     const Search search = search_of(params, r);
     // A slice that is not parallel to the image plane reaches further on the screen than the radius at the pixel's depth.
     const Reach widest = longer(r.reach, search.surface.length);
-    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, depth, search, within))
+    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, layers, search, within))
   }
   store_open(open, r, ao_raw);
 }

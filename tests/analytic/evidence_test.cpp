@@ -64,7 +64,8 @@ SlicesAndSteps fitted_with(const Settings& settings) {
   const Technique& technique = find_technique("evidence");
   ParameterValues values(technique.parameters);
   for (const auto& [name, value] : settings) values.set(name, value, technique.name);
-  for (const auto& [name, value] : technique.passes(values).front().defines) {
+  const std::vector<Pass> passes = technique.passes(values);
+  for (const auto& [name, value] : passes.front().defines) {
     if (name == "COEFFICIENTS") return rows.at(size_t(value));
   }
   throw std::out_of_range("no COEFFICIENTS");
