@@ -8,11 +8,11 @@
 #include "bench/bench_frame.h"
 #include "bench/fit/fit.h"
 #include "gloam/error.h"
+#include "gloam/technique.h"
 
 namespace gloam::bench {
 namespace {
 
-constexpr Sampling samplings[] = {{1, 4}, {1, 9}, {1, 18}, {4, 18}};
 constexpr int pixels_of_frame = 2500;
 
 struct SceneSamples {
@@ -34,6 +34,18 @@ std::vector<const SceneRecipe*> scenes_named(const std::vector<std::string>& nam
     if (std::find(scenes.begin(), scenes.end(), recipe) == scenes.end()) scenes.push_back(recipe);
   }
   return scenes;
+}
+
+/// Those of the presets, which get coefficients of their own.
+std::vector<Sampling> samplings_of_presets() {
+  const Technique& technique = find_technique("evidence");
+  std::vector<Sampling> samplings;
+  for (const Preset& preset : technique.presets) {
+    ParameterValues values(technique.parameters);
+    for (const auto& [name, value] : preset.settings) values.set(name, value, technique.name);
+    samplings.push_back({int(values.number("directions")), int(values.number("steps"))});
+  }
+  return samplings;
 }
 
 /// Coefficients fitted to all scenes but one; to all for none.
@@ -93,11 +105,12 @@ int bench_main(int argc, char** argv) {
   if (failed) throw Error("--folder {}: cannot be made: {}", options.folder.string(), failed.message());
   // Scenes named by --scenes are all fitted to.
   const auto is_fitted = [&](const SceneRecipe& recipe) { return !names.empty() || recipe.kind != "thin"; };
-  std::vector<std::vector<SceneSamples>> by_sampling(std::size(samplings));
+  const std::vector<Sampling> samplings = samplings_of_presets();
+  std::vector<std::vector<SceneSamples>> by_sampling(samplings.size());
   Device device;
   for (const SceneRecipe* recipe : recipes) {
     const std::vector<TrainingFrame> frames = training_frames(*recipe, options);
-    for (size_t i = 0; i < std::size(samplings); ++i) {
+    for (size_t i = 0; i < samplings.size(); ++i) {
       SceneSamples scene{recipe, is_fitted(*recipe), {}};
       for (const TrainingFrame& frame : frames) {
         const std::vector<FitSample> samples = fit_samples(frame, samplings[i], device, pixels_of_frame);
@@ -108,7 +121,7 @@ int bench_main(int argc, char** argv) {
   }
 
   std::vector<std::string> rows;
-  for (size_t i = 0; i < std::size(samplings); ++i) {
+  for (size_t i = 0; i < samplings.size(); ++i) {
     print_cross_validation(by_sampling[i], samplings[i]);
     std::string row = fmt::format("SET({}, {}", samplings[i].directions, samplings[i].steps);
     for (const double c : fitted_without(by_sampling[i], nullptr)) row += fmt::format(", {:.4f}f", c);

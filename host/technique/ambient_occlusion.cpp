@@ -46,6 +46,16 @@ int directions_times_steps(const ParameterValues& values) {
   return int(values.number("directions") * values.number("steps"));
 }
 
+Technique over_slices(Technique technique) {
+  technique.presets = {{"low", {{"directions", "1"}, {"steps", "4"}}},
+                       {"medium", {{"directions", "1"}, {"steps", "9"}}},
+                       {"high", {{"directions", "1"}, {"steps", "18"}}},
+                       {"ultra", {{"directions", "4"}, {"steps", "18"}}}};
+  technique.converged = {{"directions", "32"}, {"steps", "64"}};
+  technique.samples = [](const ParameterValues& values) { return 2 * directions_times_steps(values); };
+  return technique;
+}
+
 Technique over_peeled_layers(Technique technique) {
   technique.summary = technique.name + " over all peeled depth layers: the upper bound of what more layers can give";
   technique.name.insert(0, peeled_prefix);

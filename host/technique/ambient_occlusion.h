@@ -25,6 +25,10 @@ std::vector<Preset> presets_of_samples();
 int value_of_samples(const ParameterValues& values);
 int directions_times_steps(const ParameterValues& values);
 
+/// With the presets, the converged form and the number of samples of a search of slices (shared/sampling/slice_steps.h):
+/// `directions` slices, `steps` samples on each side of a slice.
+Technique over_slices(Technique technique);
+
 /// The pass "estimate" over the depth alone, with the choices of REACH_PARAMS (shared/sampling/ambient_occlusion.h) besides
 /// `defines`.
 template <typename Params>

@@ -84,12 +84,11 @@ static inline __attribute__((always_inline)) void take_sample(Frame frame, Searc
   const real e = relative_depth(r.point, r.depth, depth);
   const real extent = extend_run(&s->run, e, sample.along, search.radius) * s->cosine;
   const real thickness = thickness_of(extent, search.radius);
-  const real q = multiply_add((real)(frame.perspective), e, (real)(1));
-  const real above = multiply_add(e, s->above_e, q * sample.above);
-  const real along = multiply_add(-s->slope, above, q * sample.along);
-  const real square = multiply_add(along, along, above * above);
+  SlicePoint p;
+  point_in_slice(frame, sample, s->slope, s->above_e, e, &p);
+  const real along = p.along, above = p.above;
   const mask rises = sample.in_frame & (above > sample.least);
-  const mask counts = rises & (square < search.radius_square);
+  const mask counts = rises & (p.square < search.radius_square);
   // Rounding alone must not count, whatever the bias.
   const mask hides = rises & !counts & (e < 0) & (above > LEAST_SLOPE_OF_UNKNOWN * sample.along);
   s->unknown += choose(hides, (real)(1), (real)(0));

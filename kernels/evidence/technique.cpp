@@ -38,23 +38,14 @@ std::vector<Pass> passes(const EvidenceParams& p) {
                                       {"TERM", p.term}})};
 }
 
-/// On both sides of each slice.
-int samples(const ParameterValues& values) { return 2 * directions_times_steps(values); }
-
 }  // namespace
 
 std::vector<Technique> evidence() {
-  Technique t = ambient_occlusion(
+  Technique t = over_slices(ambient_occlusion(
       "evidence", "ambient occlusion expected from what slices show: thickness is judged by extent",
-      "coefficients fitted to ray-traced truth; slices after Jimenez, Wu, Pesce, Jarabo 2016", "evidence/evidence.cl");
+      "coefficients fitted to ray-traced truth; slices after Jimenez, Wu, Pesce, Jarabo 2016", "evidence/evidence.cl"));
   t.parameters = EvidenceParams::table();
   t.passes = passes_of(passes);
-  t.presets = {{"low", {{"directions", "1"}, {"steps", "4"}}},
-               {"medium", {{"directions", "1"}, {"steps", "9"}}},
-               {"high", {{"directions", "1"}, {"steps", "18"}}},
-               {"ultra", {{"directions", "4"}, {"steps", "18"}}}};
-  t.converged = {{"directions", "32"}, {"steps", "64"}};
-  t.samples = samples;
   return {t};
 }
 

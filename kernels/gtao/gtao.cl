@@ -57,8 +57,7 @@ typedef struct {
 
 // One side of a slice.
 typedef struct {
-  real along, above;                // of the sample, if it had the pixel's depth (slice.h)
-  real least;                       // height above the tangent above which an occluder counts
+  SliceSample sample;
   real slope, above_e;              // slice.h
   real deeper_along, deeper_above;  // from the front of an occluder to its back
   Scale scale;
@@ -87,7 +86,7 @@ static inline Side side_of(Slice slice, Search search, real sign) {
 
 static inline void take_point(Closed* closed, const Side* side, Params params, Search search, real along, real above,
                               real square, mask in_frame) {
-  const mask counts = in_frame & (square < search.radius_square) & (above > side->least);
+  const mask counts = in_frame & (square < search.radius_square) & (above > side->sample.least);
 #if BITMASK
   // An occluder that reaches down to the tangent only raises the horizon, which is cheap; few float above it.
   const real back = above + side->deeper_above;
@@ -116,12 +115,10 @@ static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params
                                                              const Side* side, real depth, mask counts,
                                                              Closed* closed) {
   const real e = relative_depth(search.receiver.point, search.receiver.depth, depth);
-  const real q = multiply_add((real)(frame.perspective), e, (real)(1));
-  const real above = multiply_add(e, side->above_e, q * side->above);
-  const real along = multiply_add(-side->slope, above, q * side->along);
-  const real square = multiply_add(along, along, above * above);
-  take_point(closed, side, params, search, along, above, square, counts);
-  return counts & asks_further(above > side->least, e < 0, square >= search.radius_square);
+  SlicePoint p;
+  point_in_slice(frame, side->sample, side->slope, side->above_e, e, &p);
+  take_point(closed, side, params, search, p.along, p.above, p.square, counts);
+  return counts & asks_further(p.above > side->sample.least, e < 0, p.square >= search.radius_square);
 }
 
 // Takes every layer at an index from `here`. `is_shared`: where both eyes see the point (STEREO).
@@ -149,24 +146,15 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
   }
 }
 
-static inline void place_sample(Side* side, SliceSample sample) {
-  side->least = sample.least;
-  side->along = sample.along;
-  side->above = sample.above;
-}
-
 // Samples both sides of a slice.
 static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params, DepthLayers layers,
                                                                Search search, Slice slice, int within, Side* right,
                                                                Side* left) {
   const Receiver r = search.receiver;
   for (int k = 0; k < STEPS; ++k) {
-    SliceSample there, other;
-    samples_of_step(frame, params.bias, r, slice, within, k, &there, &other);
-    place_sample(right, there);
-    place_sample(left, other);
-    look(frame, params, layers, search, r.here, there.place, there.in_frame, (mask)(0), right);
-    look(frame, params, layers, search, r.here, other.place, other.in_frame, (mask)(0), left);
+    samples_of_step(frame, params.bias, r, slice, within, k, &right->sample, &left->sample);
+    look(frame, params, layers, search, r.here, right->sample.place, right->sample.in_frame, (mask)(0), right);
+    look(frame, params, layers, search, r.here, left->sample.place, left->sample.in_frame, (mask)(0), left);
   }
 }
 
@@ -300,15 +288,15 @@ static inline __attribute__((always_inline)) void look_around(Frame frame, Param
   integer dx = nearest(x - c.left), dy = nearest(y - c.up);
   const real along = sign * ((to_real(dx) + c.left) * slice.along_x + (to_real(dy) + c.up) * slice.along_y);
   // From the unclamped position, as in samples_of_step.
-  side->least = params.bias * along;
+  side->sample.least = params.bias * along;
   mask is_inside;
   const integer place = place_around(frame, c, within, &dx, &dy, &is_inside);
   // A sample on the point's own pixel would hold nothing but rounding.
   mask counts = is_read & (along >= least_along) & to_mask((dx != 0) | (dy != 0));
   if (OUTSIDE_OPEN) counts &= is_inside;
   const real right = to_real(dx) + c.left, below = to_real(dy) + c.up;
-  side->along = sign * (right * slice.along_x + below * slice.along_y);
-  side->above = right * slice.above_x + below * slice.above_y;
+  side->sample.along = sign * (right * slice.along_x + below * slice.along_y);
+  side->sample.above = right * slice.above_x + below * slice.above_y;
   look(frame, params, layers, search, 0, place, counts, is_seen & is_inside, side);
 }
 

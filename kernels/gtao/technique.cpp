@@ -36,18 +36,9 @@ std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
   return stereo_passes({bitmask_pass(p)}, "gtao_stereo", stereo_choices(p));
 }
 
-/// On both sides of each slice.
-int samples(const ParameterValues& values) { return 2 * directions_times_steps(values); }
-
 Technique row(std::string name, std::string summary, std::string paper) {
-  Technique t = ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl");
+  Technique t = over_slices(ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl"));
   t.extras = {"bent_normal", "cone"};
-  t.presets = {{"low", {{"directions", "1"}, {"steps", "4"}}},
-               {"medium", {{"directions", "1"}, {"steps", "9"}}},
-               {"high", {{"directions", "1"}, {"steps", "18"}}},
-               {"ultra", {{"directions", "4"}, {"steps", "18"}}}};
-  t.converged = {{"directions", "32"}, {"steps", "64"}};
-  t.samples = samples;
   return t;
 }
 

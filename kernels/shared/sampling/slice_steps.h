@@ -27,6 +27,21 @@ typedef struct {
   mask in_frame;
 } SliceSample;
 
+// Where the surface that a sample shows lies: along the tangent and above it, and the square of its distance.
+typedef struct {
+  real along, above, square;
+} SlicePoint;
+
+// `e`: relative depth (camera.h). `slope`, `above_e`: slice.h, `slope` with the sign of the side. Not returned, as oclgrind runs
+// no function in a loop that returns a struct and is always inlined.
+static inline __attribute__((always_inline)) void point_in_slice(Frame frame, SliceSample sample, real slope,
+                                                                 real above_e, real e, SlicePoint* p) {
+  const real q = multiply_add((real)(frame.perspective), e, (real)(1));
+  p->above = multiply_add(e, above_e, q * sample.above);
+  p->along = multiply_add(-slope, p->above, q * sample.along);
+  p->square = multiply_add(p->along, p->along, p->above * p->above);
+}
+
 // Sample k on both sides.
 static inline __attribute__((always_inline)) void samples_of_step(Frame frame, scalar bias, Receiver r, Slice slice,
                                                                   int within, int k, SliceSample* right,
