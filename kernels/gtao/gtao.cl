@@ -6,8 +6,7 @@
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
 //      occluders  further depth layers (layers.h); without them, depth is the only layer
-//      other_depth  of the other eye (gtao_stereo); both depths with the sign of visibility.h
-//      newly_visible  the pixels that gtao_stereo_list computes
+//      other_depth  of the other eye (shared/stereo/slices.h)
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
@@ -21,10 +20,6 @@
 
 #if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"
-#endif
-#if STEREO
-#include "shared/stereo/estimate.h"
-#include "shared/stereo/passes.h"
 #endif
 
 // What is the same for all slices of a row of pixels.
@@ -192,35 +187,17 @@ static inline real closed_side(Params params, Slice slice, real sine, Side* side
   return COMPENSATE(params, all, closed_share(slice, sine, side->scale, &side->closed_by_depth));
 }
 
-#if WITH_OPEN_DIRECTIONS
-#define BENT_STEPS 32
-// Takes away the closed directions on one side, in steps of the angle to the line to the eye. `inverse_density`: of the slice
-// (draw_slice).
-static inline void take_closed_side(OpenDirections* open, Search search, Slice slice, real inverse_density, Side side,
-                                    real sign) {
-  const real wedge = inverse_density * (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
-  // Half a step, pi / 64, then whole ones, pi / 32.
-  scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
-  for (int k = 0; k < BENT_STEPS; ++k) {
-    // Elevation above the tangent.
-    const real up = cosine * slice.cosine + sign * sine * slice.sine;
-    const real along = sine * slice.cosine - sign * cosine * slice.sine;
+// How far a direction on a side is closed, 0 to 1; `along` the tangent and `up` from it.
+static inline real closed_towards(const Side* side, real along, real up) {
 #if BITMASK
-    const natural sector = to_natural(to_integer(sectors_below(along, larger(up, (real)(0)), side.scale)));
-    const mask is_closed = to_mask(((side.closed.covered >> sector) & 1u) != 0u) & (up > 0);
+  const natural sector = to_natural(to_integer(sectors_below(along, larger(up, (real)(0)), side->scale)));
+  const mask is_closed = to_mask(((side->closed.covered >> sector) & 1u) != 0u);
 #else
-    const mask is_closed = (along > side.closed.horizon * up) & (up > 0);
+  const mask is_closed = along > side->closed.horizon * up;
 #endif
-    const real3 v = search.surface.to_eye, t = slice.tangent;
-    const real across = sign * sine;
-    add_open(open, make3(v.x * cosine + t.x * across, v.y * cosine + t.y * across, v.z * cosine + t.z * across),
-             choose(is_closed, -wedge * sine, (real)(0)));
-    const scalar next = cosine * (scalar)0.9951847267 - sine * (scalar)0.0980171403;
-    sine = sine * (scalar)0.9951847267 + cosine * (scalar)0.0980171403;
-    cosine = next;
-  }
+  return choose(is_closed, (real)(1), (real)(0));
 }
-#endif
+#include "shared/sampling/slice_directions.h"
 
 static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, DepthLayers layers,
                                                              Search search, int within, OpenDirections* directions) {
@@ -237,8 +214,8 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     const real closed_left = importance * closed_side(params, slice, -slice.sine, &left);
     all_closed += closed_right + closed_left;
 #if WITH_OPEN_DIRECTIONS
-    take_closed_side(directions, search, slice, inverse_density, right, (real)(1));
-    take_closed_side(directions, search, slice, inverse_density, left, (real)(-1));
+    take_closed_side(directions, search.surface, slice, inverse_density, &right, (scalar)1);
+    take_closed_side(directions, search.surface, slice, inverse_density, &left, (scalar)-1);
 #endif
   }
   return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
@@ -263,64 +240,7 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 }
 
 #if STEREO
-// One slice as one eye sees it. Each eye measures its samples in a slice of its own, drawn from the same even angle about its own
-// line to the point. Moved into the other eye's slice they would lie beside it, and the eyes would agree less.
-typedef struct {
-  Slice slice;
-  real importance;  // inverse density * weight
-  Side right, left;
-} View;
-
-static inline void start_view(View* view, Search search, real turn) {
-  real cosine, sine;
-  const real inverse_density = draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
-  view->slice = slice_at(search.receiver.point, search.surface, cosine, sine);
-  view->importance = inverse_density * view->slice.weight;
-  view->right = side_of(view->slice, search, (real)(1));
-  view->left = side_of(view->slice, search, (real)(-1));
-}
-
-// The sample of a side nearest to (x, y) pixels from a centre. Samples nearer than `least_along` along the tangent are left out.
-static inline __attribute__((always_inline)) void look_around(Frame frame, Params params, DepthLayers layers,
-                                                              Search search, Slice slice, Centre c, real x, real y,
-                                                              real sign, real least_along, mask is_read, mask is_seen,
-                                                              int within, Side* side) {
-  integer dx = nearest(x - c.left), dy = nearest(y - c.up);
-  const real along = sign * ((to_real(dx) + c.left) * slice.along_x + (to_real(dy) + c.up) * slice.along_y);
-  // From the unclamped position, as in samples_of_step.
-  side->sample.least = params.bias * along;
-  mask is_inside;
-  const integer place = place_around(frame, c, within, &dx, &dy, &is_inside);
-  // A sample on the point's own pixel would hold nothing but rounding.
-  mask counts = is_read & (along >= least_along) & to_mask((dx != 0) | (dy != 0));
-  if (OUTSIDE_OPEN) counts &= is_inside;
-  const real right = to_real(dx) + c.left, below = to_real(dy) + c.up;
-  side->sample.along = sign * (right * slice.along_x + below * slice.along_y);
-  side->sample.above = right * slice.above_x + below * slice.above_y;
-  look(frame, params, layers, search, 0, place, counts, is_seen & is_inside, side);
-}
-
-// As search_slice, around a point that need not lie on a pixel centre.
-static inline __attribute__((always_inline)) void search_view(Frame frame, Params params, DepthLayers layers,
-                                                              Search search, mask is_read, mask is_seen, int within,
-                                                              View* view) {
-  const Receiver r = search.receiver;
-  const Slice slice = view->slice;
-  const Centre c = centre_of(frame, r.point);
-  const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
-  // Around a point between pixels, samples nearer than this lie beside the point rather than along the slice: the little that
-  // they rise would look steep. Around a pixel centre no sample is that near.
-  const real half_a_pixel = (scalar)0.5 * (reach_x * slice.along_x + reach_y * slice.along_y) *
-                            inverse_sqrt(reach_x * reach_x + reach_y * reach_y);
-  const real least_along = choose((c.left == 0) & (c.up == 0), (real)(0), half_a_pixel);
-  for (int k = 0; k < STEPS; ++k) {
-    const real t = distance_of_step(k, r.noise), x = reach_x * t, y = reach_y * t;
-    look_around(frame, params, layers, search, slice, c, x, y, (real)(1), least_along, is_read, is_seen, within,
-                &view->right);
-    look_around(frame, params, layers, search, slice, c, -x, -y, (real)(-1), least_along, is_read, is_seen, within,
-                &view->left);
-  }
-}
+#include "shared/stereo/slice_view.h"
 
 static inline Taken taken_by_either(Taken a, Taken b) {
 #if BITMASK
@@ -349,65 +269,11 @@ static inline real closed_by_both(View* own, View* other, real sine, real other_
   return of_larger * by_one + (scalar)0.5 * (own->importance * more_by_own + other->importance * more_by_other);
 }
 
-// `there`: the point as the other eye shows it, valid where `is_seen`.
-static inline __attribute__((always_inline)) real share_open_to_both(Frame frame, Frame other, Params params,
-                                                                     DepthLayers layers, DepthLayers other_layers,
-                                                                     Search here, Search there, mask is_seen,
-                                                                     int within) {
-  real all_closed = 0;
-  for (int d = 0; d < DIRECTIONS; ++d) {
-    const real turn = (scalar)d + here.receiver.noise.turn;
-    View own, others;
-    start_view(&own, here, turn);
-    start_view(&others, there, turn);
-    search_view(frame, params, layers, here, EVERY_LANE, is_seen, within, &own);
-    if (ANY(is_seen)) search_view(other, params, other_layers, there, is_seen, is_seen, within, &others);
-    all_closed += closed_by_both(&own, &others, own.slice.sine, others.slice.sine, &own.right, &others.right) +
-                  closed_by_both(&own, &others, -own.slice.sine, -others.slice.sine, &own.left, &others.left);
-  }
-  return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
+// Both sides of a slice, times its importance.
+static inline real closed_to_both(Search search, View* own, View* other, mask is_seen) {
+  return closed_by_both(own, other, own->slice.sine, other->slice.sine, &own->right, &other->right) +
+         closed_by_both(own, other, -own->slice.sine, -other->slice.sine, &own->left, &other->left);
 }
 
-// AO of one point per lane. `may_differ`: lanes that use the other eye.
-static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
-                                DepthLayers other_layers, Receiver receiver, mask may_differ) {
-  const Frame other = neighbour.frame;
-  mask is_seen;
-  Receiver receiver_of_other =
-      receiver_there(frame, neighbour, params.radius, params.max_reach, receiver, may_differ, &is_seen);
-  receiver_of_other.noise = receiver.noise;
-  const Search here = search_of(params, receiver), there = search_of(params, receiver_of_other);
-  real open;
-  if (frame.pitch < SHORT_PITCH &&
-      reaches_only_inside(frame, receiver.point, longer(receiver.reach, here.surface.length)) &&
-      reaches_only_inside(other, receiver_of_other.point, longer(receiver_of_other.reach, there.surface.length)))
-    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
-  else
-    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
-  return choose(receiver.point.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1)));
-}
-
-kernel void gtao_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                        PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
-  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
-  real open = (real)(1);
-  if (ANY(!r.point.background))
-    open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
-                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r,
-                        MAY_DIFFER(frame, neighbour, params.radius, r));
-  store(open, ao_raw, r.here);
-}
-
-// gtao_stereo for the pixels of a list.
-kernel void gtao_stereo_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                             PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible, PLANE other_depth,
-                             PLANE_OUT ao_raw) {
-  integer index;
-  if (!pixels_of_item(newly_visible, frame, &index)) return;
-  const Receiver r =
-      receiver_at_index(frame, params.radius, params.max_reach, index, depth, normal_x, normal_y, normal_z);
-  scatter(open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
-                       OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE),
-          ao_raw, index);
-}
+#include "shared/stereo/slices.h"
 #endif

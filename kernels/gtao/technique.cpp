@@ -29,11 +29,11 @@ std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return behind_depth(gt
 std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return behind_depth(bitmask_pass(p), p); }
 
 std::vector<Pass> stereo_gtao_passes(const StereoGtaoParams& p) {
-  return stereo_passes({gtao_pass(p)}, "gtao_stereo", stereo_choices(p));
+  return stereo_passes({gtao_pass(p)}, "stereo_slices", stereo_choices(p));
 }
 
 std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
-  return stereo_passes({bitmask_pass(p)}, "gtao_stereo", stereo_choices(p));
+  return stereo_passes({bitmask_pass(p)}, "stereo_slices", stereo_choices(p));
 }
 
 Technique row(std::string name, std::string summary, std::string paper) {

@@ -21,7 +21,7 @@ std::vector<std::string> kernels_of(const std::string& text) {
 TEST(KernelSources, AProgramKeepsOneKernel) {
   const std::string file = flatten("gtao/gtao.cl");
   ASSERT_GT(kernels_of(file).size(), 4u);
-  EXPECT_EQ(kernels_of(with_one_kernel(file, "gtao_stereo")), std::vector<std::string>{"gtao_stereo"});
+  EXPECT_EQ(kernels_of(with_one_kernel(file, "stereo_slices")), std::vector<std::string>{"stereo_slices"});
   EXPECT_EQ(kernels_of(with_one_kernel(file, "stereo_blend")), std::vector<std::string>{"stereo_blend"});
 }
 

@@ -1,0 +1,131 @@
+// Kernels that estimate from slices as both eyes see them (Shi, Billeter, Eisemann 2022, section 3.1). Include it after the types
+// Search (with a receiver and its surface) and Side (with a sample), and the functions
+//   search_of(params, receiver), side_of(slice, search, sign),
+//   look(frame, params, layers, search, here, place, in_frame, is_shared, side)   takes a sample; `here`: what `place` starts from
+//   closed_to_both(search, own, other, is_seen)                                   closed share of a slice, times its importance
+//
+// in : depth, other_depth  view-space z of either eye, scene units, +inf = background; with the sign of visibility.h
+//      normal              unit, view space
+//      newly_visible       the pixels that stereo_slices_list computes
+// out: ao_raw              1 = open .. 0 = closed, unfiltered; 1 on background
+// -D DIRECTIONS, STEPS, OUTSIDE_OPEN, OCCLUDERS_LAYERS, ESTIMATE_MONO, WITH_HALF_OCCLUSION
+#ifndef GLOAM_STEREO_SLICES_H
+#define GLOAM_STEREO_SLICES_H
+
+#include "shared/stereo/estimate.h"
+#include "shared/stereo/passes.h"
+#include "shared/stereo/slice_view.h"
+
+static inline void start_view(View* view, Search search, real turn) {
+  real cosine, sine;
+  const real inverse_density = draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
+  view->slice = slice_at(search.receiver.point, search.surface, cosine, sine);
+  view->importance = inverse_density * view->slice.weight;
+  view->right = side_of(view->slice, search, (real)(1));
+  view->left = side_of(view->slice, search, (real)(-1));
+}
+
+// The sample of a side nearest to (x, y) pixels from a centre. Samples nearer than `least_along` along the tangent are left out.
+static inline __attribute__((always_inline)) void look_around(Frame frame, Params params, DepthLayers layers,
+                                                              Search search, Slice slice, Centre c, real x, real y,
+                                                              real sign, real least_along, mask is_read, mask is_seen,
+                                                              int within, Side* side) {
+  integer dx = nearest(x - c.left), dy = nearest(y - c.up);
+  const real along = sign * ((to_real(dx) + c.left) * slice.along_x + (to_real(dy) + c.up) * slice.along_y);
+  // From the unclamped position, as in samples_of_step.
+  side->sample.least = params.bias * along;
+  mask is_inside;
+  const integer place = place_around(frame, c, within, &dx, &dy, &is_inside);
+  // A sample on the point's own pixel would hold nothing but rounding.
+  mask counts = is_read & (along >= least_along) & to_mask((dx != 0) | (dy != 0));
+  if (OUTSIDE_OPEN) counts &= is_inside;
+  const real right = to_real(dx) + c.left, below = to_real(dy) + c.up;
+  side->sample.along = sign * (right * slice.along_x + below * slice.along_y);
+  side->sample.above = right * slice.above_x + below * slice.above_y;
+  look(frame, params, layers, search, 0, place, counts, is_seen & is_inside, side);
+}
+
+// As search_slice, around a point that need not lie on a pixel centre.
+static inline __attribute__((always_inline)) void search_view(Frame frame, Params params, DepthLayers layers,
+                                                              Search search, mask is_read, mask is_seen, int within,
+                                                              View* view) {
+  const Receiver r = search.receiver;
+  const Slice slice = view->slice;
+  const Centre c = centre_of(frame, r.point);
+  const real reach_x = slice.screen_x * r.reach.pixels_x, reach_y = slice.screen_y * r.reach.pixels_y;
+  // Around a point between pixels, samples nearer than this lie beside the point rather than along the slice: the little that
+  // they rise would look steep. Around a pixel centre no sample is that near.
+  const real half_a_pixel = (scalar)0.5 * (reach_x * slice.along_x + reach_y * slice.along_y) *
+                            inverse_sqrt(reach_x * reach_x + reach_y * reach_y);
+  const real least_along = choose((c.left == 0) & (c.up == 0), (real)(0), half_a_pixel);
+  for (int k = 0; k < STEPS; ++k) {
+    const real t = distance_of_step(k, r.noise), x = reach_x * t, y = reach_y * t;
+    look_around(frame, params, layers, search, slice, c, x, y, (real)(1), least_along, is_read, is_seen, within,
+                &view->right);
+    look_around(frame, params, layers, search, slice, c, -x, -y, (real)(-1), least_along, is_read, is_seen, within,
+                &view->left);
+  }
+}
+
+// `there`: the point as the other eye shows it, valid where `is_seen`.
+static inline __attribute__((always_inline)) real share_open_to_both(Frame frame, Frame other, Params params,
+                                                                     DepthLayers layers, DepthLayers other_layers,
+                                                                     Search here, Search there, mask is_seen,
+                                                                     int within) {
+  real all_closed = 0;
+  for (int d = 0; d < DIRECTIONS; ++d) {
+    const real turn = (scalar)d + here.receiver.noise.turn;
+    View own, others;
+    start_view(&own, here, turn);
+    start_view(&others, there, turn);
+    search_view(frame, params, layers, here, EVERY_LANE, is_seen, within, &own);
+    if (ANY(is_seen)) search_view(other, params, other_layers, there, is_seen, is_seen, within, &others);
+    all_closed += closed_to_both(here, &own, &others, is_seen);
+  }
+  return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
+}
+
+// AO of one point per lane. `may_differ`: lanes that use the other eye.
+static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
+                                DepthLayers other_layers, Receiver receiver, mask may_differ) {
+  const Frame other = neighbour.frame;
+  mask is_seen;
+  Receiver receiver_of_other =
+      receiver_there(frame, neighbour, params.radius, params.max_reach, receiver, may_differ, &is_seen);
+  receiver_of_other.noise = receiver.noise;
+  const Search here = search_of(params, receiver), there = search_of(params, receiver_of_other);
+  real open;
+  if (frame.pitch < SHORT_PITCH &&
+      reaches_only_inside(frame, receiver.point, longer(receiver.reach, here.surface.length)) &&
+      reaches_only_inside(other, receiver_of_other.point, longer(receiver_of_other.reach, there.surface.length)))
+    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
+  else
+    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
+  return choose(receiver.point.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1)));
+}
+
+kernel void stereo_slices(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
+                        PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
+  const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  real open = (real)(1);
+  if (ANY(!r.point.background))
+    open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r,
+                        MAY_DIFFER(frame, neighbour, params.radius, r));
+  store(open, ao_raw, r.here);
+}
+
+// stereo_slices for the pixels of a list.
+kernel void stereo_slices_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
+                             PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible, PLANE other_depth,
+                             PLANE_OUT ao_raw) {
+  integer index;
+  if (!pixels_of_item(newly_visible, frame, &index)) return;
+  const Receiver r =
+      receiver_at_index(frame, params.radius, params.max_reach, index, depth, normal_x, normal_y, normal_z);
+  scatter(open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+                       OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE),
+          ao_raw, index);
+}
+
+#endif
