@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <sstream>
 
@@ -42,7 +43,32 @@ std::string with_underscores(std::string text) {
   return text;
 }
 
+/// Names of files, by value - 1.
+struct FileNames {
+  std::mutex mutex;
+  std::vector<std::string> names;
+};
+
+FileNames& file_names() {
+  static FileNames names;
+  return names;
+}
+
+int value_of_file(const std::string& name) {
+  if (name == "none") return 0;
+  FileNames& files = file_names();
+  const std::lock_guard lock(files.mutex);
+  const auto found = std::find(files.names.begin(), files.names.end(), name);
+  if (found != files.names.end()) return int(found - files.names.begin()) + 1;
+  files.names.push_back(name);
+  return int(files.names.size());
+}
+
 std::optional<double> parse(const Parameter& p, const std::string& text) {
+  if (p.type == Parameter::Type::file) {
+    if (text.empty()) return {};
+    return value_of_file(text);
+  }
   if (p.type == Parameter::Type::boolean) {
     if (text == "on" || text == "true" || text == "1") return 1;
     if (text == "off" || text == "false" || text == "0") return 0;
@@ -87,6 +113,16 @@ Parameter choice_parameter(const char* name, const char* initial, const char* ch
   return p;
 }
 
+Parameter file_parameter(const char* name, const char* help) {
+  return {name, Parameter::Type::file, 0, 0, 0, {}, "", help};
+}
+
+std::string file_name(int value) {
+  FileNames& files = file_names();
+  const std::lock_guard lock(files.mutex);
+  return value == 0 ? "" : files.names.at(size_t(value) - 1);
+}
+
 std::string type_name(const Parameter& p) {
   switch (p.type) {
     case Parameter::Type::floating:
@@ -95,6 +131,8 @@ std::string type_name(const Parameter& p) {
       return "int";
     case Parameter::Type::boolean:
       return "bool";
+    case Parameter::Type::file:
+      return "file";
     default:
       return "choice";
   }
@@ -103,12 +141,14 @@ std::string type_name(const Parameter& p) {
 std::string allowed_values(const Parameter& p) {
   if (p.type == Parameter::Type::boolean) return "on or off";
   if (p.type == Parameter::Type::choice) return fmt::format("{}", fmt::join(p.choices, ", "));
+  if (p.type == Parameter::Type::file) return "a file, or none";
   const std::string range = fmt::format("{:g} to {:g}", p.min, p.max);
   return p.unit.empty() ? range : range + " " + p.unit;
 }
 
 ParameterValues::ParameterValues(ParameterList table) : table_(std::move(table)), bytes_(4 * table_.size()) {
   for (const Parameter& p : table_) {
+    if (p.type == Parameter::Type::file) continue;  // none is 0
     const bool is_choice = p.type == Parameter::Type::choice;
     const bool is_bool = p.type == Parameter::Type::boolean;
     const std::string text = is_choice ? p.choices.at(size_t(p.initial))
@@ -163,6 +203,7 @@ std::string ParameterValues::text(const std::string& name) const {
   const double value = number(name);
   if (p.type == Parameter::Type::boolean) return value != 0 ? "on" : "off";
   if (p.type == Parameter::Type::choice) return p.choices.at(size_t(value));
+  if (p.type == Parameter::Type::file) return value == 0 ? "none" : file_name(int(value));
   return p.type == Parameter::Type::integer ? fmt::format("{}", int(value)) : fmt::format("{}", float(value));
 }
 

@@ -36,7 +36,7 @@ std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
   std::vector<Settings> all;
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
     for (const Parameter& p : planned.technique->parameters) {
-      if (p.type == Parameter::Type::floating || planned.technique != &technique) continue;
+      if (p.type == Parameter::Type::floating || p.type == Parameter::Type::file || planned.technique != &technique) continue;
       const int usual = int(planned.values.number(p.name));
       for (const int value : values_of(p, usual)) {
         if (value == usual) continue;

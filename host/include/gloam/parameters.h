@@ -18,7 +18,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// One parameter. Its index in the table is its position in the kernel's struct.
 struct Parameter {
-  enum class Type { floating, integer, boolean, choice };
+  enum class Type { floating, integer, boolean, choice, file };
   std::string name;
   Type type;
   double initial, min, max;          ///< bool: 0 or 1; choice: index
@@ -40,7 +40,12 @@ Parameter bool_parameter(const char* name, int initial, const char* help);
 /// `choices`: text of the form "(a, b, c)".
 Parameter choice_parameter(const char* name, const char* initial, const char* choices, const char* help);
 
-/// "float", "int", "bool" or "choice".
+/// A file that the host reads, or none, the default.
+Parameter file_parameter(const char* name, const char* help);
+/// The file that a value stands for; empty for none. Values of the same name are alike.
+std::string file_name(int value);
+
+/// "float", "int", "bool", "choice" or "file".
 std::string type_name(const Parameter& parameter);
 /// "0 to 32", "on or off", "a, b, c".
 std::string allowed_values(const Parameter& parameter);

@@ -5,11 +5,13 @@
 //     P(float,  radius,     0.5f, 0, INFINITY, "scene units", "reach of an occluder")
 //     P(int,    directions, 8, 1, 32, "", "directions searched per pixel")
 //     P(bool,   jitter,     on, "turn the directions from pixel to pixel")
+//     P(file,   points,     "a file with points of your own; none: those that are built in")
 //     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
 //   PARAMS(NameParams, NAME_PARAMS)
 //
 // Kernels name the struct Params, and are compiled with -D Params=NameParams.
-// Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints.
+// Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints, and a file is the number of its
+// name (file_name, gloam/parameters.h), which only the host reads.
 #ifndef GLOAM_PARAMS_H
 #define GLOAM_PARAMS_H
 
@@ -17,6 +19,7 @@
 #define PARAM_STORED_int int
 #define PARAM_STORED_bool int
 #define PARAM_STORED_choice int
+#define PARAM_STORED_file int
 #define PARAM_ONE(...) +1
 
 #ifdef __OPENCL_VERSION__
@@ -43,6 +46,7 @@
     enum { PARAM_CHOICES choices };                   \
   };                                                  \
   int name = name##_values::value;
+#define PARAM_FIELD_file(name, ...) int name = 0;
 #define PARAM_FIELD(type, name, ...) PARAM_FIELD_##type(name, __VA_ARGS__)
 
 #define PARAM_ENTRY_float(name, value, min, max, unit, help) \
@@ -50,6 +54,7 @@
 #define PARAM_ENTRY_int(name, value, min, max, unit, help) ::gloam::int_parameter(#name, value, min, max, unit, help)
 #define PARAM_ENTRY_bool(name, value, help) ::gloam::bool_parameter(#name, ::gloam::value, help)
 #define PARAM_ENTRY_choice(name, value, choices, help) ::gloam::choice_parameter(#name, #value, #choices, help)
+#define PARAM_ENTRY_file(name, help) ::gloam::file_parameter(#name, help)
 #define PARAM_ENTRY(type, name, ...) PARAM_ENTRY_##type(name, __VA_ARGS__),
 
 #define PARAMS(Type, LIST)                                                         \
