@@ -148,6 +148,7 @@ const std::vector<Spelling>& spellings() {
       {"ao", "ambientocclusion", "r|v|x|y|z", generic},
       {"ao", "*", "occlusion|ambientocclusion|ambient_occlusion", generic},
       {"ao_raw", "*", "ao_raw", own},
+      {"ao_error", "*", "ao_error", own},
       {"ao_noise", "*", "ao_noise", own},
       {"bent_normal", "bent", "x,y,z", own},
       {"bent_normal", "bentnormal", xyz, generic},

@@ -46,6 +46,7 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("motion", {"x", "y"}, {"motion.X", "motion.Y"}, 0, K::value, "pixels, current to previous frame, y down"),
       kind("ao", {""}, {"AO"}, 1, K::unit_interval, "ambient occlusion; 1 is open"),
       kind("ao_raw", {""}, {"AO_raw"}, 1, K::unit_interval, "ambient occlusion before filtering"),
+      kind("ao_error", {""}, {"AO_error"}, 0, K::unit_interval, "expected absolute error of `ao`"),
       kind("ao_noise", {""}, {"AO_noise"}, 0, K::value, "estimated error of a ray-traced AO"),
       kind("bent_normal", {"x", "y", "z"}, {"bent.X", "bent.Y", "bent.Z"}, 0, K::unit_vector,
            "mean unoccluded direction, view space"),

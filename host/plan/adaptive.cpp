@@ -42,7 +42,9 @@ ParameterValues with_preset(const Technique& technique, ParameterValues values, 
 /// A technique's passes as planned, with the values of a preset and without extras.
 std::vector<PlannedPass> passes_with(const Technique& technique, const ParameterValues& values) {
   std::vector<PlannedPass> planned;
-  for (Pass& pass : technique.passes(values)) planned.push_back({&technique, std::move(pass), values});
+  for (Pass& pass : technique.passes(values)) {
+    if (!pass.writes.empty()) planned.push_back({&technique, std::move(pass), values});
+  }
   return planned;
 }
 
@@ -96,6 +98,7 @@ PlannedPass estimate_of_rest(const PlannedPass& planned, const ParameterValues& 
                                  [&](const PlannedPass& p) { return p.pass.name == planned.pass.name; });
   PlannedPass rest = *same;
   rest.pass.name += " of the rest";
+  rest.pass.reads = planned.pass.reads;
   rest.pass.writes = planned.pass.writes;
   for (const auto& define : planned.pass.defines) {
     if (define.first.rfind("WITH_", 0) == 0) rest.pass.defines.push_back(define);

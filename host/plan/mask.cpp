@@ -54,7 +54,7 @@ class Restriction {
       PlannedPass planned = plan_.passes[i];
       if (is_restricted_[i]) {
         const int scale = planned.pass.scale;
-        const Footprint after = footprint_after(i + 1, scale);
+        const Footprint after = footprint_after(i);
         const bool is_read_around = after.columns > 0 || after.rows > 0;
         need_wanted(scale);
         if (is_read_around) need_grown(scale);
@@ -71,15 +71,38 @@ class Restriction {
   std::string estimated;  ///< bits by which the first restricted pass skips pixels
 
  private:
-  /// Footprint of all passes of the same resolution from pass `from` on, added up.
-  Footprint footprint_after(size_t from, int scale) const {
-    Footprint all;
-    for (size_t i = from; i < plan_.passes.size(); ++i) {
-      if (!is_restricted_[i] || plan_.passes[i].pass.scale != scale) continue;
-      all.columns += plan_.passes[i].pass.footprint.columns;
-      all.rows += plan_.passes[i].pass.footprint.rows;
+  bool reads_result_of(const Pass& reader, const Pass& writer) const {
+    return std::any_of(reader.reads.begin(), reader.reads.end(), [&](const Binding& read) {
+      return std::any_of(writer.writes.begin(), writer.writes.end(),
+                         [&](const Binding& written) { return written.plane == read.plane; });
+    });
+  }
+
+  /// How far around a pixel later passes of the same resolution read the results of pass `i`: filters one after another add up.
+  Footprint footprint_after(size_t i) const {
+    Footprint widest;
+    for (size_t k = i + 1; k < plan_.passes.size(); ++k) {
+      const Pass& later = plan_.passes[k].pass;
+      if (!is_restricted_[k] || later.scale != plan_.passes[i].pass.scale ||
+          !reads_result_of(later, plan_.passes[i].pass))
+        continue;
+      const Footprint after = footprint_after(k);
+      widest.columns = std::max(widest.columns, later.footprint.columns + after.columns);
+      widest.rows = std::max(widest.rows, later.footprint.rows + after.rows);
     }
-    return all;
+    return widest;
+  }
+
+  /// The widest after any restricted pass of a resolution.
+  Footprint widest_footprint(int scale) const {
+    Footprint widest;
+    for (size_t i = 0; i < plan_.passes.size(); ++i) {
+      if (!is_restricted_[i] || plan_.passes[i].pass.scale != scale) continue;
+      const Footprint after = footprint_after(i);
+      widest.columns = std::max(widest.columns, after.columns);
+      widest.rows = std::max(widest.rows, after.rows);
+    }
+    return widest;
   }
 
   void need_wanted(int scale) {
@@ -98,7 +121,7 @@ class Restriction {
   /// Grown by the footprint of all filters together: every pass before the last filter uses the same bits.
   void need_grown(int scale) {
     if (!grown_.insert(scale).second) return;
-    add_grown(wanted(scale), grown(scale), footprint_after(0, scale), scale);
+    add_grown(wanted(scale), grown(scale), widest_footprint(scale), scale);
   }
 
   void add_grown(const std::string& from, const std::string& to, Footprint by, int scale) {

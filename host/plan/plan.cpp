@@ -19,9 +19,18 @@ namespace {
 /// Adds the extras that are asked for to a pass's outputs.
 void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
   for (const Binding& extra : pass.extras) {
-    if (!contains(outputs, extra.plane)) continue;
+    if (!contains(outputs, extra.plane) && !contains(outputs, extra.argument)) continue;
     pass.writes.push_back(extra);
     pass.defines.emplace_back("WITH_" + upper_case(extra.argument), 1);
+  }
+}
+
+/// Adds the planes at hand of those that a pass may read.
+void add_optional_reads(Pass& pass, const std::vector<std::string>& inputs) {
+  for (const Binding& plane : pass.may_read) {
+    if (!contains(inputs, plane.plane)) continue;
+    pass.reads.push_back(plane);
+    pass.defines.emplace_back("WITH_" + upper_case(plane.argument), 1);
   }
 }
 
@@ -104,6 +113,8 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
       add_extras(pass, wanted.outputs);
+      if (pass.writes.empty()) continue;
+      add_optional_reads(pass, plan.inputs);
       define_layers(pass, plan, *walk.order[i]);
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
     }

@@ -37,6 +37,9 @@ void Walk::need(const std::string& plane, const Technique* asking) {
 void Walk::schedule(const Technique& technique) {
   begun_.push_back(&technique);
   for (const std::string& plane : technique.reads) need(plane, &technique);
+  for (const std::string& plane : technique.may_read) {
+    if (contains(available_, plane) && !contains(inputs, plane)) inputs.push_back(plane);
+  }
   order.push_back(&technique);
   for (const std::string& plane : technique.writes) made_.push_back(plane);
 }

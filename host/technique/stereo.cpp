@@ -127,6 +127,7 @@ std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
 std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& c) {
   Pass estimate = std::move(mono.back());
   estimate.extras.clear();
+  estimate.may_read.clear();
   mono.pop_back();
   std::vector<Pass> passes = std::move(mono);
   if (c.estimate_both || c.reproject) passes.push_back(visibility(c));

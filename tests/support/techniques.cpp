@@ -44,6 +44,16 @@ Frame outputs_of(const Technique& technique, Frame& frame, const Settings& setti
   return stress::outputs_of(technique, frame, settings, options, device(device_name));
 }
 
+std::vector<std::string> unfiltered_extras(const Technique& technique) {
+  std::vector<std::string> names;
+  for (const Pass& pass : technique.passes(ParameterValues(technique.parameters))) {
+    for (const Binding& extra : pass.extras) {
+      if (!pass.writes.empty() && extra.plane == extra.argument) names.push_back(extra.plane);
+    }
+  }
+  return names;
+}
+
 std::string identifier(const std::string& name) {
   std::string text;
   for (const char c : name) {

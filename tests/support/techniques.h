@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "support/stress.h"
 
@@ -16,6 +17,9 @@ bool has_device(const std::string& text);
 /// Plans and runs; returns the planes asked for.
 Frame outputs_of(const Technique& technique, Frame& frame, const Settings& settings, const RunOptions& options,
                  const std::string& device_name = "");
+
+/// Those of a technique's extras that its estimate makes, without those that a filter of its own completes.
+std::vector<std::string> unfiltered_extras(const Technique& technique);
 
 /// Name for a test: letters, digits and underscores, "hbao_plus".
 std::string identifier(const std::string& name);

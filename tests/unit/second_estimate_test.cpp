@@ -71,7 +71,7 @@ struct Case {
 PlanRequest request_for(const Case& c, const std::string& preset, const std::string& adaptive = "",
                         const std::string& least_range = "", const std::string& filter = "none") {
   PlanRequest request{.outputs = {c.technique->name},
-                      .with = c.technique->extras,
+                      .with = unfiltered_extras(*c.technique),
                       .then = filter,
                       .preset = preset,
                       .settings = {{"radius", "0.3"}},

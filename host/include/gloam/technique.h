@@ -86,8 +86,12 @@ struct Pass {
   std::vector<Binding> reads, writes;  ///< planes that no technique declares are intermediate results
   Defines defines;                     ///< loop counts and choices
   /// Those of the technique's `extras` that this pass can make. If one is asked for, it joins `writes`, and the kernel gets a
-  /// define: WITH_BENT_NORMAL.
+  /// define: WITH_BENT_NORMAL. One that a later pass completes has the extra's name as its argument and another plane:
+  /// {"ao_error", "ao_error_raw"}. A pass that makes nothing but extras runs only where one is asked for.
   std::vector<Binding> extras;
+  /// Planes that it reads where the frame has them (the technique's `may_read`). They join `reads` after the others, and the kernel
+  /// gets a define: WITH_BACK_DEPTH.
+  std::vector<Binding> may_read;
   /// Pixels of the image per computed pixel, along each axis: the launch and the planes written are smaller by this factor
   /// (`reduced`, frame.h).
   int scale = 1;
@@ -136,6 +140,7 @@ struct Technique {
   std::string paper;    ///< author, year
   std::string source;   ///< default kernel file of its passes, below kernels/: "hbao_plus/hbao_plus.cl"
   std::vector<std::string> reads, writes;
+  std::vector<std::string> may_read;  ///< planes that it reads where the frame has them
   std::vector<std::string> outputs;  ///< planes that `gloam run` writes; empty: `writes`. The technique in `then` makes
                                      ///< those that are not in `writes`
   std::string then;                  ///< technique that follows by default, such as a filter; it inherits parameters of
