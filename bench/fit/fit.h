@@ -1,4 +1,5 @@
-// Coefficients of the technique `evidence`: least squares of the closed share of ray-traced truth over filtered terms.
+// Coefficients of the technique `evidence`: least squares over filtered terms, of the closed share of ray-traced truth and of the error
+// that is left.
 #pragma once
 
 #include <array>
@@ -6,34 +7,58 @@
 #include <vector>
 
 #include "bench/fit/training.h"
-#include "evidence/params.h"
+#include "evidence/coefficients.h"
 #include "gloam/device.h"
 
 namespace gloam::bench {
 
-constexpr int evidence_terms = EVIDENCE_TERMS;
+/// All terms that the kernel makes: those of AO, and the two more of the error.
+constexpr int fitted_terms = closed_terms + error_terms - evidence_terms;
 
 /// One pixel: its filtered terms, the truth, and what other techniques read there.
 struct FitSample {
-  std::array<float, evidence_terms> terms;
+  std::array<float, fitted_terms> terms;
   float truth = 1, gtao = 1, bitmask = 1;
 };
 
-/// Slices a pixel, and samples on each side of a slice.
+/// What a set of coefficients is for: who the occluders are known by (EvidenceSet), slices a pixel, and samples on each side of a
+/// slice.
 struct Sampling {
+  std::string occluders;
   int directions, steps;
 };
 
-using Coefficients = std::array<double, evidence_terms>;
-
 /// Random surface pixels of a frame, the same each time, after the default filter. Throws Error for a frame without surfaces.
-std::vector<FitSample> fit_samples(const TrainingFrame& training, Sampling sampling, Device& device, int pixels);
+std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device, int pixels);
 
-/// Ridge regression, pixels of all lists alike. Throws Error for fewer pixels than terms.
-Coefficients fitted(const std::vector<const std::vector<FitSample>*>& samples);
+/// Pixels of one kind of scene, and how much each counts.
+struct FitGroup {
+  const std::vector<FitSample>* samples;
+  double weight;
+};
+
+/// What has been fitted.
+struct Fit {
+  std::array<double, closed_terms> closed{};
+  std::array<double, error_terms> error{};
+  /// AO, and its expected absolute error.
+  double ao(const FitSample& sample) const;
+  double expected_error(const FitSample& sample) const;
+};
+
+/// Ridge regression. Throws Error for fewer pixels than terms.
+Fit fitted(const std::vector<FitGroup>& groups);
 
 /// Root mean square error to the truth, of AO clamped to 0 to 1 after the filter. (The technique clamps before the filter.)
-double rmse(const std::vector<FitSample>& samples, const Coefficients& coefficients);
+double rmse(const std::vector<FitSample>& samples, const Fit& fit);
 double rmse(const std::vector<FitSample>& samples, float FitSample::*ao);
+
+/// Expected and actual absolute error of a tenth of the pixels.
+struct Decile {
+  double expected, actual;
+};
+
+/// Pixels by expected error, the smallest first.
+std::vector<Decile> deciles(std::vector<std::pair<double, double>> expected_and_actual);
 
 }  // namespace gloam::bench

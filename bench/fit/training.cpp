@@ -60,6 +60,9 @@ Shares shares_of(const Channel& depth, double radius) {
   return {shares.surfaces / pixels, shares.near / pixels};
 }
 
+/// As many as estimates usually read.
+constexpr int peeled_layers = 6, stochastic_depths = 4;
+
 /// What a camera at random shows, and a radius at random. None if it sees too little, or stands too near to a surface.
 std::optional<TrainingFrame> shot_at_random(const Tracer& tracer, const TrainingOptions& options, Random& random) {
   const std::optional<SceneCamera> camera = random_camera(tracer, random);
@@ -68,6 +71,11 @@ std::optional<TrainingFrame> shot_at_random(const Tracer& tracer, const Training
   capturing.width = options.width;
   capturing.height = options.height;
   capturing.planes = {"depth", "normal"};
+  if (options.with_layers) {
+    capturing.planes.push_back("back_depth");
+    capturing.peel = peeled_layers;
+    capturing.stochastic.samples = stochastic_depths;
+  }
   capturing.views = {{"", camera_for(*camera, options.width, options.height), {}}};
   TrainingFrame training{0, capture(tracer, capturing).frame};
   const auto pixels = pixels_at_median_depth(training.frame);
@@ -78,11 +86,15 @@ std::optional<TrainingFrame> shot_at_random(const Tracer& tracer, const Training
   return training;
 }
 
-TrainingFrame made(const SceneRecipe& recipe, const Tracer& tracer, const TrainingOptions& options, int number) {
+uint64_t number_of(const std::string& name) {
+  uint64_t number = 0;
+  for (const char c : name) number = number * 31 + uint64_t(c);
+  return number;
+}
+
+TrainingFrame made(const TrainingScene& scene, const Tracer& tracer, const TrainingOptions& options, int number) {
   constexpr int most_trials = 200;
-  uint64_t name = 0;
-  for (const char c : recipe.name) name = name * 31 + uint64_t(c);
-  Random random(options.seed, name * 1000 + uint64_t(number));
+  Random random(options.seed, number_of(scene.name) * 1000 + uint64_t(number));
   for (int trial = 0; trial < most_trials; ++trial) {
     std::optional<TrainingFrame> training = shot_at_random(tracer, options, random);
     if (!training) continue;
@@ -94,29 +106,43 @@ TrainingFrame made(const SceneRecipe& recipe, const Tracer& tracer, const Traini
     training->frame.numbers["aoRadius"] = training->radius;
     return std::move(*training);
   }
-  throw Error("{}: none of {} random cameras sees enough of it", recipe.name, most_trials);
+  throw Error("{}: none of {} random cameras sees enough of it", scene.name, most_trials);
+}
+
+/// Two files of one name in different folders get different names.
+std::string name_for_files(const TrainingScene& scene) {
+  if (scene.kind != "own") return scene.name;
+  return fmt::format("{}-{:016x}", std::filesystem::path(scene.name).stem().string(), number_of(scene.name));
 }
 
 TrainingFrame read(const std::filesystem::path& file) {
   FrameFile kept(file, {});
-  TrainingFrame training{kept.number_attribute("aoRadius").value_or(0), kept.read({"depth", "normal", "ao"})};
+  std::vector<std::string> planes;
+  for (const std::string& plane : kept.common_planes()) {
+    if (plane != "peel_count") planes.push_back(plane);
+  }
+  TrainingFrame training{kept.number_attribute("aoRadius").value_or(0), kept.read(planes)};
   if (training.radius <= 0) throw Error("{}: has no aoRadius: not a frame made for fitting", file.string());
   return training;
 }
 
 }  // namespace
 
-std::vector<TrainingFrame> training_frames(const SceneRecipe& recipe, const TrainingOptions& options) {
+std::vector<TrainingFrame> training_frames(const TrainingScene& wanted, const TrainingOptions& options) {
   std::vector<TrainingFrame> frames;
   std::optional<Scene> scene;
   std::optional<Tracer> tracer;
   for (int number = 0; number < options.frames; ++number) {
     const std::filesystem::path file =
-        options.folder / fmt::format("{}.seed{}.rays{}.{:02}.exr", recipe.name, options.seed, options.rays, number);
+        options.folder / fmt::format("{}.seed{}.rays{}{}.{:02}.exr", name_for_files(wanted), options.seed, options.rays,
+                                     options.with_layers ? ".layers" : "", number);
     if (!std::filesystem::exists(file)) {
-      if (!tracer) tracer.emplace(scene.emplace(load_scene(recipe.name, {})));
+      if (!tracer) tracer.emplace(scene.emplace(load_scene(wanted.name, {})));
+      if (scene->cameras.empty())
+        throw Error("{}: has no camera to begin with; frames for fitting are made around a scene's own cameras",
+                    wanted.name);
       if (options.progress) options.progress(file.string());
-      write_frame(file, made(recipe, *tracer, options, number).frame);
+      write_frame(file, made(wanted, *tracer, options, number).frame);
     }
     // As stored, so that the first run reads the same bits as later ones.
     frames.push_back(read(file));

@@ -15,7 +15,8 @@ namespace gloam::bench {
 struct TrainingOptions {
   int width = 640, height = 360;
   int frames = 7;                              ///< of each scene
-  int rays = 64;                               ///< per pixel, for the truth
+  int rays = 256;                              ///< per pixel, for the truth
+  bool with_layers = false;                    ///< also back_depth, peeled layers and stochastic depths
   double least_pixels = 22, most_pixels = 95;  ///< reach of the radius at the median depth
   uint64_t seed = 1;
   std::filesystem::path folder;  ///< keeps the frames; those that are there already are read
@@ -24,11 +25,17 @@ struct TrainingOptions {
 
 struct TrainingFrame {
   double radius = 0;  ///< scene units
-  Frame frame;        ///< depth, normal and `ao`, the truth
+  Frame frame;        ///< depth, normal, the planes of `with_layers`, and `ao`, the truth
+};
+
+/// A built-in scene, or one from a file.
+struct TrainingScene {
+  std::string name;  ///< as a user types it
+  std::string kind;  ///< of a built-in scene (SceneRecipe), else "own"
 };
 
 /// Frames of a scene: cameras stand between one of the scene's own and a surface that it sees, and look at another such surface.
-/// Throws Error if no camera sees enough of the scene.
-std::vector<TrainingFrame> training_frames(const SceneRecipe& recipe, const TrainingOptions& options);
+/// Throws Error for a scene without cameras, and if no camera sees enough of the scene.
+std::vector<TrainingFrame> training_frames(const TrainingScene& scene, const TrainingOptions& options);
 
 }  // namespace gloam::bench

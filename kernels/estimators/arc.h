@@ -30,4 +30,9 @@ static inline real share_below(real horizon, real cosine, real sine, real mass) 
   return mass_below(horizon * inverse, inverse * inverse, cosine, sine) * ((scalar)0.5 * quick_inverse(mass));
 }
 
+// The same below an elevation by its cosine.
+static inline real share_below_cosine(real c, real cosine, real sine, real mass) {
+  return mass_below(c, multiply_add(-c, c, (real)(1)), cosine, sine) * ((scalar)0.5 * quick_inverse(mass));
+}
+
 #endif

@@ -18,23 +18,27 @@
 typedef struct {
   real depth, along;  // of the last sample: relative depth; distance along the tangent if it had the receiver's depth
   real start;         // of the run
+  real extent;        // of the run so far, plus one step
 } Run;
 
 static inline Run run_from_receiver(void) {
   Run run;
-  run.depth = run.along = run.start = (real)(0);
+  run.depth = run.along = run.start = run.extent = (real)(0);
   return run;
 }
 
-// Takes the next sample. Returns the extent of its surface so far plus one step.
-static inline real extend_run(Run* run, real depth, real along, real radius) {
+// Takes the next sample.
+static inline void extend_run(Run* run, real depth, real along, real radius) {
   const real change = fabs(depth - run->depth), distance = along - run->along;
   const real most = multiply_add(distance, (real)(RUN_SLOPE), RUN_SLACK * radius);
   run->start = choose(change > most, along, run->start);
+  run->extent = along - run->start + distance;
   run->depth = depth;
   run->along = along;
-  return along - run->start + distance;
 }
+
+// Whether the last sample lies on another surface than the receiver.
+static inline mask has_left_receiver(const Run* run) { return run->start > 0; }
 
 static inline real thickness_of(real extent, real radius) {
   return smaller(larger(THICKNESS_OF_EXTENT * extent, LEAST_THICKNESS * radius), MOST_THICKNESS * radius);

@@ -1,15 +1,32 @@
-// Coefficients of evidence.cl, by slices a pixel and samples on each side of a slice. Made by script/fit.
-// Fitted to 7 frames of each of banquet, colonnade, corridor, courtyard, gallery, lounge, pillar, slab, statue, temple, 640x360, radius 22 to 95 pixels at the median depth, 64 rays a pixel, seed 1.
-#ifndef GLOAM_EVIDENCE_COEFFICIENTS_H
-#define GLOAM_EVIDENCE_COEFFICIENTS_H
+// Coefficients of evidence.cl: sets, each for what occluders are known by and for a number of slices and steps.
+#pragma once
 
-// In the order of evidence.cl: a, b, u, aa, ab, bb, au, bu, uu, af, bf, uf.
-// clang-format off
-#define EVIDENCE_COEFFICIENTS(SET) \
-  SET(1, 4, 1.1112f, 0.6362f, 0.0887f, -0.5822f, 0.7255f, -1.1855f, 0.5163f, -0.8294f, -0.0387f, -0.1038f, 0.1112f, 0.2968f) \
-  SET(1, 9, 1.0941f, 0.1905f, 0.0266f, -0.7807f, 1.5497f, -1.1995f, 0.7156f, -1.0024f, 0.0188f, -0.1382f, 0.1877f, 0.2671f) \
-  SET(1, 18, 0.9411f, 0.2039f, 0.0187f, -0.7549f, 1.6628f, -1.1681f, 0.8205f, -1.0877f, 0.0056f, -0.1139f, 0.1592f, 0.2545f) \
-  SET(4, 18, 1.0026f, 0.1064f, -0.0179f, -0.8596f, 2.0160f, -1.3060f, 0.9365f, -1.1914f, 0.0361f, -0.1429f, 0.1630f, 0.2752f)
-// clang-format on
+#include <string>
+#include <vector>
 
-#endif
+namespace gloam {
+
+/// Terms of a slice: t of evidence.cl.
+constexpr int evidence_terms = 12;
+/// Those that AO is fitted to: t, and t times r. Those that the error is fitted to: t, and the roots of a and u.
+constexpr int closed_terms = 2 * evidence_terms, error_terms = evidence_terms + 2;
+
+/// What was fitted for one sampling.
+struct EvidenceSet {
+  std::string occluders;  ///< depth, back_depth, peel or stochastic
+  int directions, steps;
+  std::vector<float> closed, error;  ///< `closed_terms` and `error_terms` numbers
+};
+
+/// The sets of a JSON document: {"sets": [{"occluders", "directions", "steps", "closed", "error"}]}. `name`: of the file, for
+/// messages. Throws UsageError for anything else.
+std::vector<EvidenceSet> evidence_sets(const std::string& text, const std::string& name);
+
+/// Those that script/fit has made.
+const std::vector<EvidenceSet>& fitted_evidence_sets();
+
+/// The set that was fitted with the most similar sampling, of those for the same occluders. Null if there is none.
+const EvidenceSet* nearest_set(const std::vector<EvidenceSet>& sets, const std::string& occluders, int directions,
+                               int steps);
+
+}  // namespace gloam

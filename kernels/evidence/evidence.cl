@@ -1,34 +1,77 @@
 // Ambient occlusion expected from evidence: what slices (Jimenez, Wu, Pesce, Jarabo 2016) show of occluders is combined into the
-// expected closed share, by a polynomial with coefficients that are fitted to ray-traced truth (coefficients.h).
+// expected closed share, by a polynomial with coefficients that are fitted to ray-traced truth (coefficients.json).
 //
 // Of each slice, both sides together:
 //   a  share of the mass below the highest occluder: occluders have no back (estimators/arc.h)
 //   b  share of the mass between front and back of occluders that are half as thick as they are wide (estimators/extent.h), by
-//      sectors (estimators/sectors.h; Therrien, Levesque, Gilet 2023)
+//      sectors (estimators/sectors.h; Therrien, Levesque, Gilet 2023); where layers or a back tell the thickness, the known one
 //   u  share of the samples above the tangent, out of reach and nearer to the eye than the point: what they hide is unknown
+//   r  share of the samples that lie beyond a jump of the depth, on another surface than the point
 //   f  cosine between the normal and the line to the eye
-//   AO = 1 - mean over slices of w . (a, b, u, aa, ab, bb, au, bu, uu, af, bf, uf)
-// There is no constant term: a plane is open to the last bit.
+//   t = (a, b, u, aa, ab, bb, au, bu, uu, af, bf, uf)
+//   AO = 1 - mean over slices of (w + r v) . t
+// w holds where one surface fills the surroundings, w + v among leaves and hair. There is no constant term: a plane is open to the
+// last bit. The expected absolute error of AO is e . (t, sqrt(a), sqrt(u)).
 //
-// in : depth       view-space z, scene units, +inf = background
-//      normal      unit, view space
-// out: ao_raw      1 = open .. 0 = closed, unfiltered; 1 on background
-// -D DIRECTIONS, STEPS, COEFFICIENTS (row of coefficients.h), TERM (one term alone, for fitting), JITTER, OUTSIDE_OPEN, MASKED
+// in : depth         view-space z, scene units, +inf = background
+//      normal        unit, view space
+//      occluders     further depth layers (layers.h); without them, depth is the only layer
+//      back_depth    of the back of what is seen, +inf where it is unknown (WITH_BACK_DEPTH)
+//      other_depth   of the other eye (shared/stereo/slices.h)
+//      coefficients  w, v, e; then those for a known back
+// out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
+//      ao_error_raw  expected absolute error of the filtered AO, unfiltered (WITH_AO_ERROR); 0 on background
+//      bent_normal   unit, view space (WITH_BENT_NORMAL); zero on background
+//      cone          cosine of the half angle of the open cone about it (WITH_CONE)
+// -D DIRECTIONS, STEPS, EDGE_FACTOR, SURE_BIAS (the bias is at least LEAST_SLOPE_OF_UNKNOWN), TERMS_ONLY (for fitting: the terms as
+//    planes), JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED, STEREO, ESTIMATE_MONO,
+//    WITH_HALF_OCCLUSION
 #include "estimators/arc.h"
+#include "estimators/bent_normal.h"
 #include "estimators/extent.h"
 #include "estimators/sectors.h"
-#include "evidence/coefficients.h"
 #include "evidence/params.h"
+#include "shared/filter/isolated.h"
 #include "shared/sampling/slice_steps.h"
 
-#define ROW(directions, steps, ...) {__VA_ARGS__},
-constant float coefficients[][EVIDENCE_TERMS] = {EVIDENCE_COEFFICIENTS(ROW)};
+#if STOCHASTIC
+#include "shared/sampling/hidden_depths.h"
+#endif
+#ifdef COLUMNS
+#if !STEREO
+// Of the expected error.
+#define FILTER_DISTANCE (ISOLATED_DISTANCE * params.radius)
+#define FILTER_ANGLE ISOLATED_ANGLE
+#define FILTER_OUTSIDE ((real)(0))
+#endif
+#include "shared/filter/bilateral_filter.h"
+#endif
+
+#ifndef WITH_BACK_DEPTH
+#define WITH_BACK_DEPTH 0
+#endif
+#define COEFFICIENTS constant float* coefficients
+#define TABLES_ARGUMENT COEFFICIENTS,
+#define TABLES coefficients,
+#if WITH_BACK_DEPTH
+#define BACK_ARGUMENT PLANE back_depth,
+#else
+#define BACK_ARGUMENT
+#endif
+#if WITH_AO_ERROR
+#define AO_ERROR_ARGUMENT , PLANE_OUT ao_error
+#define STORE_NO_ERROR store((real)(0), ao_error, here);
+#else
+#define AO_ERROR_ARGUMENT
+#define STORE_NO_ERROR
+#endif
 
 // What is the same for all slices of a row of pixels.
 typedef struct {
   Receiver receiver;
   Surface surface;
   real radius, radius_square;  // units of the pixel's depth
+  global const float* back;    // WITH_BACK_DEPTH
 } Search;
 
 static inline Search search_of(Params params, Receiver r) {
@@ -38,25 +81,39 @@ static inline Search search_of(Params params, Receiver r) {
   // Capped so that background is out of reach of an infinite radius too.
   search.radius = smaller((scalar)params.radius * r.point.inverse_depth, (real)(1e8f));
   search.radius_square = search.radius * search.radius;
+  search.back = 0;
   return search;
 }
 
-#define LEAST_SLOPE_OF_UNKNOWN ((scalar)0.01f)
+// What closes one side of a slice.
+typedef struct {
+  real lowest;      // twice the cosine of the highest occluder's elevation
+  natural covered;  // sectors between front and back of occluders
+} Closed;
 
-// Sectors of a side with less of the slice's mass are wider: rounding of the horizon alone would reach one.
-#define LEAST_SHARE ((scalar)0.01f)
+// Directions below the horizon are closed to one degree and those within a thickness to another, so that the slice is closed as
+// expected.
+typedef struct {
+  real below_horizon, within_thickness, elsewhere;
+} Degrees;
 
 // One side of a slice, searched outwards. Lengths in units of the pixel's depth.
 typedef struct {
-  real cosine, sine;      // of the normal's lean towards this side
-  real slope, above_e;    // slice.h
-  real share;             // of the slice's mass
-  Scale scale;            // all sectors lie on this side
-  real horizon;           // of all occluders (arc.h)
-  real solid_horizon;     // of occluders that reach down to the tangent
-  natural covered;        // sectors of the other occluders
-  real unknown;           // number of samples
+  SliceSample sample;
+  real cosine, sine;    // of the normal's lean towards this side
+  real slope, above_e;  // slice.h
+  real share;           // of the slice's mass
+  QuickScale scale;     // all sectors lie on this side
   Run run;
+  real unknown, others;    // numbers of samples
+  Closed closed;           // with two eyes: by surfaces that this eye alone sees
+  Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
+#if WITH_OPEN_DIRECTIONS
+  Degrees degrees;  // to which the slice's directions are closed
+#endif
+#if STEREO
+  Closed closed_for_both;  // by surfaces that both eyes see
+#endif
 } Side;
 
 static inline Side side_of(Slice slice, Search search, scalar sign) {
@@ -65,130 +122,395 @@ static inline Side side_of(Slice slice, Search search, scalar sign) {
   s.sine = sign * slice.sine;
   s.slope = sign * slice.slope;
   s.above_e = slice.above_e;
-  s.share = larger(share_of_side(s.cosine, s.sine, slice.mass), (real)(LEAST_SHARE));
-  s.scale = scale_of(s.cosine, s.sine, slice.mass * s.share, search.receiver.noise.shift);
-  s.horizon = s.solid_horizon = (real)(NO_HORIZON);
-  s.covered = (natural)(0u);
-  s.unknown = (real)(0);
+  s.share = larger(share_of_side(s.cosine, s.sine, slice.mass), (real)(LEAST_QUICK_SHARE));
+  s.scale = quick_scale_of(scale_of(s.cosine, s.sine, slice.mass * s.share, search.receiver.noise.shift));
   s.run = run_from_receiver();
+  s.unknown = s.others = (real)(0);
+  s.closed.lowest = (real)(2);
+  s.closed.covered = (natural)(0u);
+  s.closed_by_depth = s.closed;
+#if STEREO
+  s.closed_for_both = s.closed;
+#endif
   return s;
 }
 
-static inline __attribute__((always_inline)) void take_sample(Frame frame, Search search, SliceSample sample,
-                                                              real depth, Side* s) {
+// Takes an occluder with a thickness, where it `counts`.
+static inline __attribute__((always_inline)) void take_occluder(const Side* s, SlicePoint p, real thickness,
+                                                                mask counts, Closed* closed) {
+  const real twice_cosine = p.along * twice_inverse_sqrt(p.square);
+  closed->lowest = choose(counts, smaller(twice_cosine, closed->lowest), closed->lowest);
+  const real high = smaller(quick_sectors_below(twice_cosine, s->scale), (real)(MOST_SECTORS));
+  const real along = multiply_add(s->sine, thickness, p.along), above = multiply_add(-s->cosine, thickness, p.above);
+  const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
+  const real back = quick_sectors_below(along * quick_twice_inverse_sqrt(square), s->scale);
+  // A back below the tangent closes everything below the front.
+  const real low = choose(above > 0, smaller(back, high), (real)(0));
+  closed->covered |= sectors_between(low, high) & bits_of(counts);
+}
+
+// Rounding alone must not hide anything, whatever the bias.
+#define LEAST_SLOPE_OF_UNKNOWN ((scalar)0.01f)
+
+// A depth that lies behind another by less than this share may be the same surface, rounded in another way.
+#define SAME_SURFACE ((scalar)1e-3f)
+
+// Thickness of surfaces behind the first, in radii: their extent is not followed.
+#define HIDDEN_THICKNESS ((scalar)0.05f)
+
+// Takes a surface at a side's sample, at relative depth e, where it `counts`.
+static inline __attribute__((always_inline)) void take_surface(Frame frame, Search search, const Side* s, real e,
+                                                               real thickness, mask counts, Closed* closed) {
+  SlicePoint p;
+  point_in_slice(frame, s->sample, s->slope, s->above_e, e, &p);
+  counts &= (p.above > s->sample.least) & (p.square < search.radius_square);
+  if (ANY(counts)) take_occluder(s, p, thickness, counts, closed);
+}
+
+// Takes every layer at an index from `here`. `is_shared`: where both eyes see the point (STEREO).
+static inline __attribute__((always_inline)) void look(Frame frame, Params params, DepthLayers layers, Search search,
+                                                       int here, integer place, mask in_frame, mask is_shared,
+                                                       Side* s) {
+  const Receiver r = search.receiver;
 #if GATHERS_ONLY
-  s->horizon = smaller(s->horizon, depth);
+  s->closed.lowest = smaller(s->closed.lowest, sum_of_depths(layers, frame, here, place, r.farthest));
+#if WITH_BACK_DEPTH
+  s->closed.lowest = smaller(s->closed.lowest, gather(search.back + here, place));
+#endif
   return;
 #endif
-  const Receiver r = search.receiver;
-  const real e = relative_depth(r.point, r.depth, depth);
-  const real extent = extend_run(&s->run, e, sample.along, search.radius) * s->cosine;
-  const real thickness = thickness_of(extent, search.radius);
+  mask by_both;
+  real e = relative_depth(r.point, r.depth, depth_seen(gather(layers.first + here, place), &by_both));
+  extend_run(&s->run, e, s->sample.along, search.radius);
   SlicePoint p;
-  point_in_slice(frame, sample, s->slope, s->above_e, e, &p);
-  const real along = p.along, above = p.above;
-  const mask rises = sample.in_frame & (above > sample.least);
+  point_in_slice(frame, s->sample, s->slope, s->above_e, e, &p);
+  const mask rises = in_frame & (p.above > s->sample.least);
   const mask counts = rises & (p.square < search.radius_square);
-  // Rounding alone must not count, whatever the bias.
-  const mask hides = rises & !counts & (e < 0) & (above > LEAST_SLOPE_OF_UNKNOWN * sample.along);
+  mask hides = rises & !counts & (e < 0);
+#if !SURE_BIAS
+  hides &= p.above > LEAST_SLOPE_OF_UNKNOWN * s->sample.along;
+#endif
   s->unknown += choose(hides, (real)(1), (real)(0));
-  s->horizon = raised(s->horizon, along, above, counts);
-  // As for the bitmask of gtao: few occluders float above the tangent.
-  const real back = above - s->cosine * thickness;
-  const mask floats = counts & (back > 0);
-  s->solid_horizon = raised(s->solid_horizon, along, above, counts & (back <= 0));
-  if (ANY(floats)) {
-    const real low = approximate_sectors_below(multiply_add(s->sine, thickness, along), back, s->scale);
-    s->covered |= sectors_between(low, approximate_sectors_below(along, above, s->scale)) & bits_of(floats);
-  }
-}
-
-// a, b and u above.
-typedef struct {
-  real below_horizon, within_extent, unknown;
-} Evidence;
-
-static inline void add_side(Slice slice, const Side* s, Evidence* evidence) {
-  const natural covered = s->covered | sectors_between((real)(0), sectors_below_horizon(s->solid_horizon, s->scale));
-  evidence->below_horizon += share_below(s->horizon, s->cosine, s->sine, slice.mass);
-  evidence->within_extent += count_of(covered) * (1 / SECTORS) * s->share;
-  evidence->unknown += s->unknown * (scalar)(0.5f / STEPS);
-}
-
-static inline Evidence evidence_of(Frame frame, Params params, DepthLayers layers, Search search, Slice slice, int within) {
-  const Receiver r = search.receiver;
-  Side right = side_of(slice, search, (scalar)1), left = side_of(slice, search, (scalar)-1);
-  for (int k = 0; k < STEPS; ++k) {
-    SliceSample there, other;
-    samples_of_step(frame, params.bias, r, slice, within, k, &there, &other);
-    take_sample(frame, search, there, gather(layers.first + r.here, there.place), &right);
-    take_sample(frame, search, other, gather(layers.first + r.here, other.place), &left);
-  }
-  Evidence evidence;
-  evidence.below_horizon = evidence.within_extent = evidence.unknown = (real)(0);
-  add_side(slice, &right, &evidence);
-  add_side(slice, &left, &evidence);
-  return evidence;
-}
-
-static inline real term_of(int term, real a, real b, real u, real facing) {
-  switch (term) {
-    case 0: return a;
-    case 1: return b;
-    case 2: return u;
-    case 3: return a * a;
-    case 4: return a * b;
-    case 5: return b * b;
-    case 6: return a * u;
-    case 7: return b * u;
-    case 8: return u * u;
-    case 9: return a * facing;
-    case 10: return b * facing;
-    default: return u * facing;
-  }
-}
-
-// Expected closed share of a slice.
-static inline real closed_share(Evidence e, real facing) {
-#if TERM
-  return term_of(TERM - 1, e.below_horizon, e.within_extent, e.unknown, facing);
+  s->others += choose(has_left_receiver(&s->run), (real)(1), (real)(0));
+  const real extent = s->run.extent * s->cosine;
+#if STEREO
+  by_both &= is_shared;
+  const real thickness = thickness_of(extent, search.radius);
+  if (ANY(counts & by_both)) take_occluder(s, p, thickness, counts & by_both, &s->closed_for_both);
+  if (ANY(counts & !by_both)) take_occluder(s, p, thickness, counts & !by_both, &s->closed);
+#elif WITH_BACK_DEPTH
+  const real back = relative_depth(r.point, r.depth, gather(search.back + here, place));
+  const real known = larger(back - e, LEAST_THICKNESS * search.radius);
+  if (ANY(counts))
+    take_occluder(s, p, choose(back < FARTHEST, known, thickness_of(extent, search.radius)), counts, &s->closed);
+#elif LAYERS == 1
+  if (ANY(counts)) take_occluder(s, p, thickness_of(extent, search.radius), counts, &s->closed);
 #else
-  real closed = (real)(0);
-#pragma unroll
-  for (int k = 0; k < EVIDENCE_TERMS; ++k) {
-    const real term = term_of(k, e.below_horizon, e.within_extent, e.unknown, facing);
-    closed = multiply_add((real)(coefficients[COEFFICIENTS][k]), term, closed);
+  real thickness = thickness_of(extent, search.radius);
+#if COMPENSATED
+  if (ANY(counts)) take_occluder(s, p, thickness, counts, &s->closed_by_depth);
+#endif
+  const mask asked = in_frame & asks_further(rises, e < 0, p.square >= search.radius_square);
+  mask is_there = in_frame;
+  // A surface is taken once the next one is known, at which it ends.
+  FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {
+    const real next = choose(behind.counts, relative_depth(r.point, r.depth, behind.next), (real)(FARTHEST));
+    const mask is_another = next > e + SAME_SURFACE * (1 + fabs(e));
+    take_surface(frame, search, s, e, choose(is_another, smaller(thickness, next - e), thickness), is_there,
+                 &s->closed);
+    e = next;
+    is_there = behind.counts;
+    thickness = HIDDEN_THICKNESS * search.radius;
   }
-  return closed;
+  take_surface(frame, search, s, e, thickness, is_there, &s->closed);
 #endif
 }
 
-static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, DepthLayers layers, Search search,
-                                                             int within) {
+// Searches both sides of a slice.
+static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params, DepthLayers layers,
+                                                               Search search, Slice slice, int within, Side* right,
+                                                               Side* left) {
   const Receiver r = search.receiver;
-  real closed = (real)(0);
-  for (int d = 0; d < DIRECTIONS; ++d) {
-    real cosine, sine;
-    const real inverse_density = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
-    const Slice slice = slice_at(r.point, search.surface, cosine, sine);
-    const Evidence evidence = evidence_of(frame, params, layers, search, slice, within);
-    closed += inverse_density * slice.weight * closed_share(evidence, search.surface.facing);
+  for (int k = 0; k < STEPS; ++k) {
+    samples_of_step(frame, params.bias, r, slice, within, k, &right->sample, &left->sample);
+    look(frame, params, layers, search, r.here, right->sample.place, right->sample.in_frame, (mask)(0), right);
+    look(frame, params, layers, search, r.here, left->sample.place, left->sample.in_frame, (mask)(0), left);
   }
-  return 1 - closed * (scalar)(1.0f / DIRECTIONS);
 }
 
-kernel void evidence_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                              WANTED_ARGUMENT PLANE_OUT ao_raw) {
-  SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
+// a, b, u and r of a slice.
+typedef struct {
+  real below_horizon, within_thickness, unknown, others;
+} Evidence;
+
+static inline Evidence no_evidence(void) {
+  Evidence e;
+  e.below_horizon = e.within_thickness = e.unknown = e.others = (real)(0);
+  return e;
+}
+
+static inline real share_below_lowest(Slice slice, const Side* s, real lowest) {
+  return share_below_cosine((scalar)0.5 * lowest, s->cosine, s->sine, slice.mass);
+}
+
+static inline real share_covered(const Side* s, natural covered) {
+  return count_of(covered) * (1 / SECTORS) * s->share;
+}
+
+static inline __attribute__((always_inline)) void add_side(Slice slice, const Side* s, Closed closed,
+                                                           Evidence* evidence) {
+  const scalar per_sample = (scalar)(0.5f / STEPS);
+  if (ANY(closed.lowest < 2)) {
+    evidence->below_horizon += share_below_lowest(slice, s, closed.lowest);
+    evidence->within_thickness += share_covered(s, closed.covered);
+  }
+  evidence->unknown += s->unknown * per_sample;
+  evidence->others += s->others * per_sample;
+}
+
+#define TERMS 12
+#define FITTED_TERMS (2 * TERMS + 2)
+#if TERMS_ONLY
+// A plane each: t, r t, and the roots of a and u.
+#define FOR_TERMS(DO)                                                                                            \
+  DO(0)                                                                                                          \
+  DO(1)                                                                                                          \
+  DO(2) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) \
+      DO(19) DO(20) DO(21) DO(22) DO(23) DO(24) DO(25)
+#define TERM_ARGUMENT(k) , PLANE_OUT term_##k
+#define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
+#define RESULTS PLANE_OUT ao_raw FOR_TERMS(TERM_ARGUMENT)
+#define STORE_OPEN
+#else
+#define RESULTS PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS AO_ERROR_ARGUMENT
+#define STORE_OPEN                \
+  store((real)(1), ao_raw, here); \
+  STORE_NO_ERROR STORE_NO_DIRECTIONS
+#endif
+
+static inline void terms_of(Evidence e, real facing, real* t) {
+  const real a = e.below_horizon, b = e.within_thickness, u = e.unknown;
+  t[0] = a;
+  t[1] = b;
+  t[2] = u;
+  t[3] = a * a;
+  t[4] = a * b;
+  t[5] = b * b;
+  t[6] = a * u;
+  t[7] = b * u;
+  t[8] = u * u;
+  t[9] = a * facing;
+  t[10] = b * facing;
+  t[11] = u * facing;
+}
+
+// Of w, v and e.
+#define NUMBERS (3 * TERMS + 2)
+
+static inline real sum_of_terms(const real* t, constant float* weights) {
+  real sum = (real)(0);
+#pragma unroll
+  for (int k = 0; k < TERMS; ++k) sum = multiply_add(t[k], (real)(weights[k]), sum);
+  return sum;
+}
+
+// Expected closed share of a slice. Most rows of pixels lie on open surfaces, and show nothing of all this.
+static inline __attribute__((always_inline)) real closed_share(Evidence e, real facing, COEFFICIENTS) {
+  real closed = (real)(0);
+  if (ANY((e.below_horizon > 0) | (e.unknown > 0))) {
+    real t[TERMS];
+    terms_of(e, facing, t);
+    closed = sum_of_terms(t, coefficients);
+    if (ANY(e.others > 0)) closed = multiply_add(e.others, sum_of_terms(t, coefficients + TERMS), closed);
+  }
+  return closed;
+}
+
+static inline real expected_error(Evidence e, real facing, COEFFICIENTS) {
+  constant float* weights = coefficients + 2 * TERMS;
+  real t[TERMS];
+  terms_of(e, facing, t);
+  const real roots = sqrt(larger(e.below_horizon, (real)(0))) * weights[TERMS] + sqrt(e.unknown) * weights[TERMS + 1];
+  return roots + sum_of_terms(t, weights);
+}
+
+#if WITH_OPEN_DIRECTIONS
+static inline Degrees degrees_of(Evidence e, real closed) {
+  const real a = smaller(e.below_horizon, (real)(1)), b = smaller(e.within_thickness, a);
+  const real all = smaller(larger(closed, (real)(0)), (real)(1)), least = (real)(1e-6f);
+  Degrees d;
+  d.within_thickness = smaller(all / larger(b, least), (real)(1));
+  d.below_horizon = smaller(larger(all - b, (real)(0)) / larger(a - b, least), (real)(1));
+  d.elsewhere = larger(all - a, (real)(0)) / larger(1 - a, least);
+  return d;
+}
+
+static inline real closed_towards(const Side* s, real along, real up) {
+  const real sectors = larger(quick_sectors_below(2 * along, s->scale), (real)(0));
+  const natural sector = to_natural(to_integer(smaller(sectors, (real)(MOST_SECTORS))));
+  const mask is_within = to_mask(((s->closed.covered >> sector) & 1u) != 0u);
+  return choose(is_within, s->degrees.within_thickness,
+                choose(2 * along > s->closed.lowest, s->degrees.below_horizon, s->degrees.elsewhere));
+}
+#include "shared/sampling/slice_directions.h"
+#endif
+
+// What the slices of a row of pixels sum up to.
+typedef struct {
+  real closed, error;
+#if TERMS_ONLY
+  real terms[FITTED_TERMS];
+#endif
+#if COMPENSATED
+  real closed_by_depth;
+#endif
+} Sum;
+
+static inline Sum no_sum(void) {
+  Sum sum;
+  sum.closed = sum.error = (real)(0);
+#if TERMS_ONLY
+  for (int k = 0; k < FITTED_TERMS; ++k) sum.terms[k] = (real)(0);
+#endif
+#if COMPENSATED
+  sum.closed_by_depth = (real)(0);
+#endif
+  return sum;
+}
+
+// One slice. `weight`: of its share in the mean.
+static inline __attribute__((always_inline)) void add_slice(Frame frame, Params params, DepthLayers layers,
+                                                            Search search, COEFFICIENTS, real turn, int within,
+                                                            real weight, Sum* sum, OpenDirections* directions) {
+  real cosine, sine;
+  const real density = weight * draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
+  const Slice slice = slice_at(search.receiver.point, search.surface, cosine, sine);
+  Side right = side_of(slice, search, (scalar)1), left = side_of(slice, search, (scalar)-1);
+  search_slice(frame, params, layers, search, slice, within, &right, &left);
+  Evidence evidence = no_evidence();
+  add_side(slice, &right, right.closed, &evidence);
+  add_side(slice, &left, left.closed, &evidence);
+  const real importance = density * slice.weight, facing = search.surface.facing;
+  const real closed = closed_share(evidence, facing, coefficients);
+  sum->closed += importance * closed;
+#if TERMS_ONLY
+  real t[TERMS];
+  terms_of(evidence, facing, t);
+  for (int k = 0; k < TERMS; ++k) {
+    sum->terms[k] += importance * t[k];
+    sum->terms[TERMS + k] += importance * evidence.others * t[k];
+  }
+  sum->terms[2 * TERMS] += importance * sqrt(larger(evidence.below_horizon, (real)(0)));
+  sum->terms[2 * TERMS + 1] += importance * sqrt(evidence.unknown);
+#endif
+#if COMPENSATED
+  Evidence by_depth = no_evidence();
+  add_side(slice, &right, right.closed_by_depth, &by_depth);
+  add_side(slice, &left, left.closed_by_depth, &by_depth);
+  sum->closed_by_depth += importance * closed_share(by_depth, facing, coefficients);
+#endif
+#if WITH_AO_ERROR
+  sum->error += importance * expected_error(evidence, facing, coefficients);
+#endif
+#if WITH_OPEN_DIRECTIONS
+  right.degrees = left.degrees = degrees_of(evidence, closed);
+  take_closed_side(directions, search.surface, slice, density * DIRECTIONS, &right, (scalar)1);
+  take_closed_side(directions, search.surface, slice, density * DIRECTIONS, &left, (scalar)-1);
+#endif
+}
+
+// The mean over DIRECTIONS slices, and where `is_isolated` over EDGE_FACTOR times as many. Returns the closed share.
+static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Params params, DepthLayers layers,
+                                                                 Search search, COEFFICIENTS, mask is_isolated,
+                                                                 int within, Sum* sum, OpenDirections* directions) {
+  const Noise noise = search.receiver.noise;
+  const real share =
+      choose(is_isolated, (real)((scalar)1 / (EDGE_FACTOR * DIRECTIONS)), (real)((scalar)1 / DIRECTIONS));
+  const int rounds = EDGE_FACTOR > 1 && ANY(is_isolated) ? EDGE_FACTOR : 1;
+  for (int k = 0; k < rounds; ++k) {
+    // Slices of further rounds lie between those of the first, and so do their samples.
+    const scalar between = (scalar)k * (scalar)(1.0f / EDGE_FACTOR);
+    const real shift = noise.shift + between, turn = noise.turn + between;
+    search.receiver.noise.shift = choose(shift >= 1, shift - 1, shift);
+    const real first = choose(turn >= 1, turn - 1, turn);
+    const real weight = k == 0 ? share : choose(is_isolated, share, (real)(0));
+    for (int d = 0; d < DIRECTIONS; ++d)
+      add_slice(frame, params, layers, search, coefficients, (scalar)d + first, within, weight, sum, directions);
+  }
+  return sum->closed;
+}
+
+kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE depth, PLANE normal_x, PLANE normal_y,
+                              PLANE normal_z, OCCLUDERS_ARGUMENT BACK_ARGUMENT WANTED_ARGUMENT RESULTS) {
+  SKIP_UNWANTED(frame, STORE_OPEN)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   leave_out(&r, is_wanted);
-  real open = 1;
+  OpenDirections directions = whole_hemisphere(r.normal);
+  Sum mean = no_sum();
   if (ANY(!r.point.background)) {
-    const Search search = search_of(params, r);
+    Search search = search_of(params, r);
+#if WITH_BACK_DEPTH
+    search.back = back_depth;
+#endif
+#if EDGE_FACTOR > 1
+    const mask isolated =
+        (!r.point.background) & is_isolated(frame, FIRST_X, ROW_Y, choose(r.point.background, (real)(1), r.depth),
+                                            r.normal, params.radius, depth, normal_x, normal_y, normal_z);
+#else
+    const mask isolated = (mask)(0);
+#endif
     // A slice that is not parallel to the image plane reaches further on the screen than the radius at the pixel's depth.
     const Reach widest = longer(r.reach, search.surface.length);
-    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, layers, search, within))
+    LOOK_AROUND(mean.closed, frame, r, widest,
+                mean_of_slices(frame, params, layers, search, coefficients + WITH_BACK_DEPTH * NUMBERS, isolated,
+                               within, &mean, &directions))
   }
-  store_open(open, r, ao_raw);
+#if TERMS_ONLY
+  FOR_TERMS(STORE_TERM)
+  return;
+#else
+  store_open(1 - COMPENSATE(params, mean.closed, mean.closed_by_depth), r, ao_raw);
+#if WITH_AO_ERROR
+  store(choose(r.point.background, (real)(0), larger(mean.error, (real)(0))), ao_error, r.here);
+#endif
+  STORE_OPEN_DIRECTIONS(directions, r)
+#endif
 }
+
+#if STEREO
+#include "shared/stereo/slice_view.h"
+
+// The mean of both eyes; what the own eye finds where the other does not see the point.
+static inline real of_both(real own, real other, mask is_seen) {
+  return choose(is_seen, (scalar)0.5 * (own + other), own);
+}
+
+// A surface that both eyes see counts by the mean of what each eye's slice holds; one that one eye alone sees counts for both, as in
+// the eye that it closes more of.
+static inline void add_side_of_both(const View* own, const View* other, const Side* s, const Side* o, mask is_seen,
+                                    Evidence* evidence) {
+  const real alone = larger(share_below_lowest(own->slice, s, s->closed.lowest),
+                            choose(is_seen, share_below_lowest(other->slice, o, o->closed.lowest), (real)(0)));
+  evidence->below_horizon +=
+      of_both(larger(share_below_lowest(own->slice, s, s->closed_for_both.lowest), alone),
+              larger(share_below_lowest(other->slice, o, o->closed_for_both.lowest), alone), is_seen);
+  const natural covered = s->closed.covered | (o->closed.covered & bits_of(is_seen));
+  evidence->within_thickness += of_both(share_covered(s, covered | s->closed_for_both.covered),
+                                        share_covered(o, covered | o->closed_for_both.covered), is_seen);
+  const scalar per_sample = (scalar)(0.5f / STEPS);
+  evidence->unknown += of_both(s->unknown, o->unknown, is_seen) * per_sample;
+  evidence->others += of_both(s->others, o->others, is_seen) * per_sample;
+}
+
+static inline real closed_to_both(TABLES_ARGUMENT Search here, Search there, const View* own, const View* other,
+                                  mask is_seen) {
+  Evidence evidence = no_evidence();
+  add_side_of_both(own, other, &own->right, &other->right, is_seen, &evidence);
+  add_side_of_both(own, other, &own->left, &other->left, is_seen, &evidence);
+  const real facing = of_both(here.surface.facing, there.surface.facing, is_seen);
+  return of_both(own->importance, other->importance, is_seen) * closed_share(evidence, facing, coefficients);
+}
+
+#include "shared/stereo/slices.h"
+#endif

@@ -1,13 +1,32 @@
 #include "shared/sampling/ambient_occlusion.h"
+#include "shared/stereo/params.h"
 
-// Of the polynomial in evidence.cl.
-#define EVIDENCE_TERMS 12
-
-#define EVIDENCE_PARAMS(P)                                                                          \
+#define EVIDENCE_SLICE_PARAMS(P)                                                                    \
   REACH_PARAMS(P)                                                                                   \
   P(int, directions, 1, 1, 64, "", "slices searched per pixel")                                     \
   P(float, bias, 0.01f, 0, 1, "", "slope above the tangent below which an occluder does not count") \
   P(int, steps, 9, 1, 64, "", "samples on each side of a slice")                                    \
-  P(int, term, 0, 0, 12, "", "0: all terms with their coefficients; else this one alone, which `bench_fit` fits")
+  P(file, coefficients,                                                                             \
+    "coefficients fitted to scenes of your own, as `bench_fit` writes them; none: the built-in "    \
+    "ones")
+
+#define EVIDENCE_EDGE_PARAMS(P)                                                                                   \
+  P(int, edge_factor, 4, 1, 16, "",                                                                               \
+    "how many times as many slices are searched at pixels that no filter averages, as their four neighbours are " \
+    "other surfaces")
+
+#define EVIDENCE_PARAMS(P) \
+  EVIDENCE_SLICE_PARAMS(P) \
+  EVIDENCE_EDGE_PARAMS(P)
+
+#define SD_EVIDENCE_PARAMS(P) \
+  EVIDENCE_PARAMS(P)          \
+  STOCHASTIC_PARAMS(P)
+
+#define STEREO_EVIDENCE_PARAMS(P) \
+  EVIDENCE_SLICE_PARAMS(P)        \
+  STEREO_PARAMS(P)
 
 PARAMS(EvidenceParams, EVIDENCE_PARAMS)
+PARAMS(SdEvidenceParams, SD_EVIDENCE_PARAMS)
+PARAMS(StereoEvidenceParams, STEREO_EVIDENCE_PARAMS)

@@ -1,52 +1,142 @@
-#include <cmath>
-#include <iterator>
-
+#include "base/files.h"
 #include "evidence/coefficients.h"
 #include "evidence/params.h"
+#include "gloam/error.h"
 #include "technique/ambient_occlusion.h"
+#include "technique/stereo.h"
 
 namespace gloam::techniques {
 namespace {
 
-/// What a row of the coefficients was fitted with.
-struct Set {
-  int directions, steps;
-};
-
-#define DIRECTIONS_AND_STEPS(directions, steps, ...) {directions, steps},
-constexpr Set sets[] = {EVIDENCE_COEFFICIENTS(DIRECTIONS_AND_STEPS)};
-#undef DIRECTIONS_AND_STEPS
-
-/// How unlike two samplings are: what is missed between samples goes with 1 / steps, noise with 1 / directions.
-double distance(const Set& a, const Set& b) {
-  return std::hypot(1.0 / a.directions - 1.0 / b.directions, 1.0 / a.steps - 1.0 / b.steps);
+/// The sets that a file holds; the built-in ones without a file.
+std::vector<EvidenceSet> sets_of(const std::string& file) {
+  return file.empty() ? fitted_evidence_sets() : evidence_sets(read_text(file), file);
 }
 
-/// The row that was fitted with the most similar sampling.
-int nearest_set(const Set& wanted) {
-  int nearest = 0;
-  for (int i = 1; i < int(std::size(sets)); ++i)
-    if (distance(sets[i], wanted) < distance(sets[nearest], wanted)) nearest = i;
-  return nearest;
+/// w, v and e of evidence.cl, one after another.
+void append(std::vector<float>& table, const EvidenceSet& set) {
+  table.insert(table.end(), set.closed.begin(), set.closed.end());
+  table.insert(table.end(), set.error.begin(), set.error.end());
 }
 
-std::vector<Pass> passes(const EvidenceParams& p) {
-  return {ambient_occlusion_estimate(p, "evidence_estimate",
-                                     {{"DIRECTIONS", p.directions},
-                                      {"STEPS", p.steps},
-                                      {"COEFFICIENTS", nearest_set({p.directions, p.steps})},
-                                      {"TERM", p.term}})};
+/// The estimate from what `occluders` names, a kind of EvidenceSet.
+template <typename Params>
+Pass estimate_of(const Params& p, const std::string& occluders, int edge_factor) {
+  Pass estimate = ambient_occlusion_estimate(
+      p, "evidence_estimate",
+      {{"DIRECTIONS", p.directions}, {"STEPS", p.steps}, {"EDGE_FACTOR", edge_factor}, {"SURE_BIAS", p.bias >= 0.01f}});
+  const std::string file = file_name(p.coefficients);
+  const std::vector<EvidenceSet> sets = sets_of(file);
+  const EvidenceSet* set = nearest_set(sets, occluders, p.directions, p.steps);
+  if (!set)
+    throw UsageError("coefficients = '{}' is not allowed; it has none for occluders by {} (bench_fit --occluders {})",
+                     file, occluders, occluders);
+  std::vector<float> table;
+  append(table, *set);
+  // A thickness that is known has coefficients of its own behind these.
+  const EvidenceSet* known = nearest_set(sets, "back_depth", p.directions, p.steps);
+  if (occluders == "depth" && known) {
+    append(table, *known);
+    estimate.may_read = {"back_depth"};
+  }
+  estimate.tables = {{"coefficients", std::move(table)}};
+  estimate.extras = {"bent_normal", "cone", {"ao_error", "ao_error_raw"}};
+  return estimate;
+}
+
+/// Filters the expected error as AO is filtered by default.
+Pass error_filter() {
+  constexpr int taps = 3;
+  Pass pass{
+      .name = "filter error",
+      .kernel = "bilateral",
+      .reads = {{"source", "ao_error_raw"}, "depth", "normal"},
+      .defines =
+          {{"DIRECTIONS", 1}, {"STEPS", 1}, {"EDGE_FACTOR", 1}, {"SURE_BIAS", 1}, {"COLUMNS", taps}, {"ROWS", taps}},
+      .extras = {{"result", "ao_error"}},
+      .footprint = {.columns = taps, .rows = taps},
+      .can_skip = true};
+  return pass;
+}
+
+template <typename Params>
+Pass mono_pass(const Params& p, const std::string& occluders) {
+  return estimate_of(p, occluders, p.edge_factor);
+}
+
+std::vector<Pass> over_depth(const EvidenceParams& p) { return {mono_pass(p, "depth"), error_filter()}; }
+
+std::vector<Pass> over_layers(const EvidenceParams& p) { return {mono_pass(p, "peel"), error_filter()}; }
+
+std::vector<Pass> sd_passes(const SdEvidenceParams& p) {
+  std::vector<Pass> passes = behind_depth(mono_pass(p, "stochastic"), p);
+  passes.push_back(error_filter());
+  return passes;
+}
+
+std::vector<Pass> stereo_evidence_passes(const StereoEvidenceParams& p) {
+  return stereo_passes({estimate_of(p, "depth", 1)}, "stereo_slices", stereo_choices(p));
+}
+
+/// The technique that `ao` stands for, and that `gloam auto` runs: the nearest to the truth on nearly every frame (docs/accuracy.md).
+Technique evidence_over_depth() {
+  Technique t = over_slices(ambient_occlusion(
+      "evidence", "ambient occlusion expected from what slices show: thickness is judged by extent",
+      "coefficients fitted to ray-traced truth; slices after Jimenez, Wu, Pesce, Jarabo 2016", "evidence/evidence.cl"));
+  t.then_with = {{"half_width", "3"}};
+  t.extras = {"bent_normal", "cone", "ao_error"};
+  t.may_read = {"back_depth"};
+  t.parameters = EvidenceParams::table();
+  t.passes = passes_of(over_depth);
+  t.default_for = {"ao_raw", "bent_normal", "cone"};
+  t.effect = {.name = "ambient occlusion",
+              .mask = "corner-mask",
+              .probe = {{"cell", "8"}, {"search_steps", "2"}},
+              .most_share = 0.8,
+              .somewhere = "something rises over the surface within the radius",
+              .nowhere = "nothing rises over any surface within the radius"};
+  return t;
+}
+
+Technique evidence_over_layers() {
+  Technique t = evidence_over_depth();
+  t.passes = passes_of(over_layers);
+  t.may_read.clear();
+  return over_peeled_layers(std::move(t));
+}
+
+Technique evidence_over_stochastic_depth() {
+  Technique t = over_stochastic_depth(evidence_over_depth(), SdEvidenceParams::table(), passes_of(sd_passes));
+  t.may_read.clear();
+  t.effect = {.name = "hidden layers",
+              .refines = "evidence",
+              .mask = "hidden-mask",
+              .probe = {{"cell", "16"}, {"search_steps", "2"}},
+              .most_share = 0.5,
+              .somewhere = "a hidden surface rises over a visible one",
+              .nowhere = "no hidden surface rises over a visible one"};
+  return t;
+}
+
+/// The second eye reuses what the first finds wherever both see the same surface: only the rest is computed for it.
+Technique evidence_over_two_eyes() {
+  Technique t = over_two_eyes(evidence_over_depth(), StereoEvidenceParams::table(), passes_of(stereo_evidence_passes));
+  t.may_read.clear();
+  t.effect = {.name = "two views alike",
+              .refines = "evidence",
+              .mask = "stereo-visibility",
+              .probe_resolution = 4,
+              .least_share = 0.5,
+              .settings = {{"estimate", "mono"}, {"filter", "mono"}},
+              .somewhere = "the second view reuses the result of the first, and both see the same",
+              .nowhere = "the two views have too little in common"};
+  return t;
 }
 
 }  // namespace
 
 std::vector<Technique> evidence() {
-  Technique t = over_slices(ambient_occlusion(
-      "evidence", "ambient occlusion expected from what slices show: thickness is judged by extent",
-      "coefficients fitted to ray-traced truth; slices after Jimenez, Wu, Pesce, Jarabo 2016", "evidence/evidence.cl"));
-  t.parameters = EvidenceParams::table();
-  t.passes = passes_of(passes);
-  return {t};
+  return {evidence_over_depth(), evidence_over_layers(), evidence_over_stochastic_depth(), evidence_over_two_eyes()};
 }
 
 }  // namespace gloam::techniques

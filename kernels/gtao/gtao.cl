@@ -63,7 +63,7 @@ typedef struct {
 #endif
 } Side;
 
-static inline Side side_of(Slice slice, Search search, real sign) {
+static inline Side side_of(Slice slice, Search search, scalar sign) {
   Side s;
   s.slope = sign * slice.slope;
   s.above_e = slice.above_e;
@@ -207,7 +207,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     real cosine, sine;
     const real inverse_density = draw_slice(r.point, search.surface, (scalar)d + r.noise.turn, &cosine, &sine);
     const Slice slice = slice_at(r.point, search.surface, cosine, sine);
-    Side right = side_of(slice, search, (real)(1)), left = side_of(slice, search, (real)(-1));
+    Side right = side_of(slice, search, (scalar)1), left = side_of(slice, search, (scalar)-1);
     search_slice(frame, params, layers, search, slice, within, &right, &left);
     const real importance = inverse_density * slice.weight;
     const real closed_right = importance * closed_side(params, slice, slice.sine, &right);
@@ -264,13 +264,13 @@ static inline real closed_by_both(View* own, View* other, real sine, real other_
   const real more_by_own = share_of(taken_by_either(by_own, alone)) - by_one;
   const real more_by_other = share_of(taken_by_either(by_other, alone)) - by_one;
   const real mean = (scalar)0.5 * (own->importance + other->importance);
-  const real of_larger = choose(own_alone > other_alone, own->importance,
-                                choose(own_alone < other_alone, other->importance, mean));
+  const real of_larger =
+      choose(own_alone > other_alone, own->importance, choose(own_alone < other_alone, other->importance, mean));
   return of_larger * by_one + (scalar)0.5 * (own->importance * more_by_own + other->importance * more_by_other);
 }
 
 // Both sides of a slice, times its importance.
-static inline real closed_to_both(Search search, View* own, View* other, mask is_seen) {
+static inline real closed_to_both(Search here, Search there, View* own, View* other, mask is_seen) {
   return closed_by_both(own, other, own->slice.sine, other->slice.sine, &own->right, &other->right) +
          closed_by_both(own, other, -own->slice.sine, -other->slice.sine, &own->left, &other->left);
 }

@@ -53,46 +53,11 @@ Technique gtao_over_depth() {
   return t;
 }
 
-/// The technique that `ao` stands for, and that `gloam auto` runs: of those over one layer without fitted coefficients
-/// the nearest to the truth on most frames (docs/accuracy.md).
 Technique bitmask_over_depth() {
   Technique t = row("bitmask", "ambient occlusion from sectors in slices: occluders have a thickness",
                     "Therrien, Levesque, Gilet 2023");
-  t.default_for = {"ao_raw", "bent_normal", "cone"};
   t.parameters = BitmaskParams::table();
   t.passes = passes_of(bitmask_passes);
-  t.effect = {.name = "ambient occlusion",
-              .mask = "corner-mask",
-              .probe = {{"cell", "8"}, {"search_steps", "2"}},
-              .most_share = 0.8,
-              .somewhere = "something rises over the surface within the radius",
-              .nowhere = "nothing rises over any surface within the radius"};
-  return t;
-}
-
-Technique bitmask_over_stochastic_depth() {
-  Technique t = over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes));
-  t.effect = {.name = "hidden layers",
-              .refines = "bitmask",
-              .mask = "hidden-mask",
-              .probe = {{"cell", "16"}, {"search_steps", "2"}},
-              .most_share = 0.5,
-              .somewhere = "a hidden surface rises over a visible one",
-              .nowhere = "no hidden surface rises over a visible one"};
-  return t;
-}
-
-/// The second eye reuses what the first finds wherever both see the same surface: only the rest is computed for it.
-Technique bitmask_over_two_eyes() {
-  Technique t = over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes));
-  t.effect = {.name = "two views alike",
-              .refines = "bitmask",
-              .mask = "stereo-visibility",
-              .probe_resolution = 4,
-              .least_share = 0.5,
-              .settings = {{"estimate", "mono"}, {"filter", "mono"}},
-              .somewhere = "the second view reuses the result of the first, and both see the same",
-              .nowhere = "the two views have too little in common"};
   return t;
 }
 
@@ -104,9 +69,9 @@ std::vector<Technique> gtao() {
           over_peeled_layers(gtao_over_depth()),
           over_peeled_layers(bitmask_over_depth()),
           over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
-          bitmask_over_stochastic_depth(),
+          over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
           over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
-          bitmask_over_two_eyes()};
+          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes))};
 }
 
 }  // namespace gloam::techniques

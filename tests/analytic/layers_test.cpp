@@ -15,11 +15,12 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// X of each dp-X.
+/// X of each dp-X that estimates the same from layers as from a depth: not those that are fitted to each.
 std::vector<std::string> techniques_with_layers() {
   std::vector<std::string> names;
   for (const std::string& name : technique_names()) {
-    if (name.rfind("dp-", 0) == 0) names.push_back(name.substr(3));
+    if (name.rfind("dp-", 0) != 0) continue;
+    if (!ParameterValues(find_technique(name).parameters).has("coefficients")) names.push_back(name.substr(3));
   }
   return names;
 }

@@ -23,7 +23,7 @@ class OpenDirections : public testing::TestWithParam<PlaneCase> {};
 // Points in a ball are even only to about 1 / samples; slices and fans have pairs that cancel.
 INSTANTIATE_TEST_SUITE_P(All, OpenDirections,
                          testing::Values(PlaneCase{"bitmask", {}, 1e-6, 1e-6}, PlaneCase{"gtao", {}, 1e-6, 1e-6},
-                                         PlaneCase{"hbao", {}, 1e-6, 1e-6},
+                                         PlaneCase{"evidence", {}, 1e-6, 1e-6}, PlaneCase{"hbao", {}, 1e-6, 1e-6},
                                          PlaneCase{"ssao", {{"samples", "512"}}, 5e-3, 1e-4}),
                          [](const auto& info) { return identifier(info.param.technique); });
 

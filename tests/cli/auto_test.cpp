@@ -28,7 +28,7 @@ class CliAuto : public Cli {
   Json effect_of(const Result& result) const { return result.json()["effects"][0]; }
   /// Expects the planes that gloam run makes with these arguments.
   void expect_same_as_run(const Arguments& more) const {
-    Arguments arguments = {"run", "bitmask", path("frame.exr"), "-o", path("run.exr")};
+    Arguments arguments = {"run", "evidence", path("frame.exr"), "-o", path("run.exr")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     ASSERT_EQ(gloam(arguments).status, 0);
     const Frame out = read("out.exr"), expected = read("run.exr");
@@ -93,7 +93,7 @@ TEST_F(CliAuto, AMaskThatIsNotWantedIsNotMade) {
 
 TEST_F(CliAuto, TheHeaderSaysWhatMadeThePlanesAsRunDoes) {
   ASSERT_EQ(automatic(room(), {"--radius", "0.2", "--seed", "3"}).status, 0);
-  ASSERT_EQ(gloam({"run", "bitmask", path("frame.exr"), "-o", path("run.exr"), "--radius", "0.2", "--seed", "3",
+  ASSERT_EQ(gloam({"run", "evidence", path("frame.exr"), "-o", path("run.exr"), "--radius", "0.2", "--seed", "3",
                    "--only", "corner-mask"})
                 .status,
             0);
@@ -143,10 +143,10 @@ Json refinement(const Json& effect, const std::string& technique) {
 
 TEST_F(CliAuto, WhatAFrameDoesNotHoldIsNotRefined) {
   const Json effect = effect_of(automatic(room(), {"--radius", "0.2"}));
-  EXPECT_EQ(effect["runs"], "bitmask");
-  EXPECT_EQ(refinement(effect, "sd-bitmask")["wanted"], false);
-  EXPECT_EQ(refinement(effect, "sd-bitmask")["why"], "the frame has no 'stochastic'");
-  EXPECT_EQ(refinement(effect, "stereo-bitmask")["why"], "the frame has one view");
+  EXPECT_EQ(effect["runs"], "evidence");
+  EXPECT_EQ(refinement(effect, "sd-evidence")["wanted"], false);
+  EXPECT_EQ(refinement(effect, "sd-evidence")["why"], "the frame has no 'stochastic'");
+  EXPECT_EQ(refinement(effect, "stereo-evidence")["why"], "the frame has one view");
 }
 
 TEST_F(CliAuto, HiddenLayersAreLookedAtWhereTheyMatter) {
@@ -154,23 +154,23 @@ TEST_F(CliAuto, HiddenLayersAreLookedAtWhereTheyMatter) {
   ASSERT_EQ(gloam({"capture", "corridor", "-o", path("frame.exr"), "--size", "960x540", "--stochastic", "4"}).status,
             0);
   const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--measure", "--mask",
-                               "always", "--set", "bitmask.bias=0.02", "--explain", path("why.png")});
+                               "always", "--set", "evidence.bias=0.02", "--explain", path("why.png")});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json effect = effect_of(result);
-  EXPECT_EQ(effect["runs"], "sd-bitmask");
-  EXPECT_EQ(refinement(effect, "sd-bitmask")["wanted"], true);
-  EXPECT_GT(refinement(effect, "sd-bitmask")["share_of_tiles"], 0.2);
+  EXPECT_EQ(effect["runs"], "sd-evidence");
+  EXPECT_EQ(refinement(effect, "sd-evidence")["wanted"], true);
+  EXPECT_GT(refinement(effect, "sd-evidence")["share_of_tiles"], 0.2);
   EXPECT_GT(effect["ms_everywhere"], 0);
-  const Arguments run = {"run", "sd-bitmask", path("frame.exr"), "-o", path("run.exr")};
+  const Arguments run = {"run", "sd-evidence", path("frame.exr"), "-o", path("run.exr")};
   Arguments same = run, everywhere = run;
-  same.insert(same.end(), {"--only", "hidden-mask", "--elsewhere", "bitmask", "--set", "bias=0.02"});
+  same.insert(same.end(), {"--only", "hidden-mask", "--elsewhere", "evidence", "--set", "bias=0.02"});
   everywhere.insert(everywhere.end(), {"--set", "bias=0.02"});
   ASSERT_EQ(gloam(same).status, 0);
   EXPECT_EQ(difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).max, 0);
   // The pixels left out have hardly any occlusion by hidden layers.
   ASSERT_EQ(gloam(everywhere).status, 0);
   const double missed = difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).mean;
-  ASSERT_EQ(gloam({"run", "bitmask", path("frame.exr"), "-o", path("run.exr"), "--set", "bias=0.02"}).status, 0);
+  ASSERT_EQ(gloam({"run", "evidence", path("frame.exr"), "-o", path("run.exr"), "--set", "bias=0.02"}).status, 0);
   const double all = difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).mean;
   EXPECT_LT(missed, 0.05 * all);
 }
@@ -183,9 +183,9 @@ TEST_F(CliAuto, WhatOnlyHiddenLayersTellIsNotOverlooked) {
   const Json effect = effect_of(result);
   EXPECT_EQ(effect["share_of_tiles"], 0);
   EXPECT_EQ(effect["wanted"], true);
-  EXPECT_EQ(effect["runs"], "sd-bitmask");
-  ASSERT_EQ(gloam({"run", "sd-bitmask", path("frame.exr"), "-o", path("run.exr"), "--only", "hidden-mask",
-                   "--elsewhere", "bitmask"})
+  EXPECT_EQ(effect["runs"], "sd-evidence");
+  ASSERT_EQ(gloam({"run", "sd-evidence", path("frame.exr"), "-o", path("run.exr"), "--only", "hidden-mask",
+                   "--elsewhere", "evidence"})
                 .status,
             0);
   EXPECT_EQ(difference(*read("out.exr").views[0].find("ao"), *read("run.exr").views[0].find("ao")).max, 0);
@@ -198,10 +198,10 @@ TEST_F(CliAuto, LayersThatHideNothingAreNotLookedAt) {
     std::copy_n(frame.views[0].find("depth")->channels[0].row(y), frame.width(), hidden.row(y));
   write_frame(path("frame.exr"), frame);
   const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--radius", "0.2",
-                               "--mask", "always", "--set", "sd-bitmask.samples=1"});
+                               "--mask", "always", "--set", "sd-evidence.samples=1"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(effect_of(result)["runs"], "bitmask");
-  EXPECT_EQ(refinement(effect_of(result), "sd-bitmask")["why"], "no hidden surface rises over a visible one");
+  EXPECT_EQ(effect_of(result)["runs"], "evidence");
+  EXPECT_EQ(refinement(effect_of(result), "sd-evidence")["why"], "no hidden surface rises over a visible one");
   expect_same_as_run({"--radius", "0.2", "--only", "corner-mask"});
 }
 
@@ -209,10 +209,10 @@ TEST_F(CliAuto, ASecondEyeTakesOverWhatTheFirstFinds) {
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("frame.exr"), "--size", "320x180", "--stereo", "0.065"}).status, 0);
   const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(effect_of(result)["runs"], "stereo-bitmask");
-  EXPECT_GT(refinement(effect_of(result), "stereo-bitmask")["share_of_tiles"], 0.8);
-  ASSERT_EQ(gloam({"run", "stereo-bitmask", path("frame.exr"), "-o", path("run.exr"), "--set", "estimate=mono", "--set",
-                   "filter=mono"})
+  EXPECT_EQ(effect_of(result)["runs"], "stereo-evidence");
+  EXPECT_GT(refinement(effect_of(result), "stereo-evidence")["share_of_tiles"], 0.8);
+  ASSERT_EQ(gloam({"run", "stereo-evidence", path("frame.exr"), "-o", path("run.exr"), "--set", "estimate=mono",
+                   "--set", "filter=mono"})
                 .status,
             0);
   const Frame out = read("out.exr"), expected = read("run.exr");
@@ -246,8 +246,8 @@ TEST_F(CliAuto, TwoViewsThatShareNothingAreEstimatedByThemselves) {
   write_frame(path("frame.exr"), frame);
   const Result result = gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(effect_of(result)["runs"], "bitmask");
-  EXPECT_EQ(refinement(effect_of(result), "stereo-bitmask")["why"], "the two views have too little in common");
+  EXPECT_EQ(effect_of(result)["runs"], "evidence");
+  EXPECT_EQ(refinement(effect_of(result), "stereo-evidence")["why"], "the two views have too little in common");
 }
 
 TEST_F(CliAuto, WhatIsAskedForMayKeepARefinementAway) {
@@ -255,8 +255,8 @@ TEST_F(CliAuto, WhatIsAskedForMayKeepARefinementAway) {
   const Result result =
       gloam({"auto", path("frame.exr"), "-o", path("out.exr"), "--json", "-", "--filter", "gaussian"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(effect_of(result)["runs"], "bitmask");
-  EXPECT_NE(refinement(effect_of(result), "stereo-bitmask")["why"].get<std::string>().find("--filter gaussian"),
+  EXPECT_EQ(effect_of(result)["runs"], "evidence");
+  EXPECT_NE(refinement(effect_of(result), "stereo-evidence")["why"].get<std::string>().find("--filter gaussian"),
             std::string::npos);
 }
 
@@ -283,9 +283,9 @@ TEST_F(CliAuto, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(message({"--explain", path("out.exr")}).find("PNG"), std::string::npos);
   EXPECT_NE(message({"--set", "radios=1"}).find("did you mean 'radius'"), std::string::npos);
   EXPECT_NE(
-      message({"--set", "sd-bitmask.sample=1"}).find("sd-bitmask: no parameter 'sample' (did you mean 'samples'?)"),
+      message({"--set", "sd-evidence.sample=1"}).find("sd-evidence: no parameter 'sample' (did you mean 'samples'?)"),
       std::string::npos);
-  EXPECT_NE(message({"--set", "stereo-bitmask.filter=box"}).find("filter = 'box' is not allowed"), std::string::npos);
+  EXPECT_NE(message({"--set", "stereo-evidence.filter=box"}).find("filter = 'box' is not allowed"), std::string::npos);
   EXPECT_NE(message({"--preset", "best"}).find("no preset 'best'"), std::string::npos);
   const Result missing = gloam({"auto", path("nothing.exr"), "-o", path("out.exr")});
   EXPECT_EQ(missing.lines_of_error(), 1) << missing.err;

@@ -222,7 +222,7 @@ TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {
   const Json plan = result.json();
   EXPECT_EQ(plan["outputs"], Json({"ao"}));
   EXPECT_EQ(plan["decoded"], Json({"Z"}));
-  EXPECT_EQ(passes_of(plan), (std::vector<std::string>{"normals/differences", "bitmask/estimate",
+  EXPECT_EQ(passes_of(plan), (std::vector<std::string>{"normals/differences", "evidence/estimate",
                                                        "bilateral/horizontal", "bilateral/vertical"}));
   const bool color_skipped =
       std::any_of(plan["skipped"].begin(), plan["skipped"].end(), [](const Json& s) { return s["what"] == "color"; });
@@ -239,9 +239,9 @@ TEST_F(Cli, APlaneCanBePlannedAsTheTechniqueThatMakesIt) {
   const Result cone = plan({"--with", "cone"});
   ASSERT_EQ(cone.status, 0) << cone.err;
   EXPECT_EQ(cone.json()["outputs"], Json({"ao", "cone"}));
-  EXPECT_EQ(passes_of(cone.json())[0], "bitmask/estimate");
+  EXPECT_EQ(passes_of(cone.json())[0], "evidence/estimate");
   EXPECT_EQ(cone.json()["passes"][0]["writes"], Json({"ao_raw", "cone"}));
-  EXPECT_EQ(plan({"--with", "hit"}).err, "gloam: --with hit: bitmask does not make it; it has bent_normal and cone\n");
+  EXPECT_EQ(plan({"--with", "hit"}).err, "gloam: --with hit: evidence does not make it; it has bent_normal, cone and ao_error\n");
   EXPECT_EQ(passes_of(plan({"--filter", "gaussian"}).json())[1].rfind("gaussian/", 0), 0u);
   const Json half = plan({"--resolution", "half"}).json();
   EXPECT_EQ(half["passes"][2]["writes"], Json({"ao_raw@2"})) << "the estimate runs reduced as well";

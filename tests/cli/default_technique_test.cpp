@@ -18,7 +18,7 @@ std::string first_run_in(const std::string& text) {
 TEST_F(DefaultTechnique, IsTheSameEverywhere) {
   ASSERT_EQ(gloam({"run", "ao", loggia, "-o", path("ao.exr")}).status, 0);
   const std::string name = FrameFile(path("ao.exr"), {}).text_attribute("gloamTechnique");
-  EXPECT_EQ(name, "bitmask");
+  EXPECT_EQ(name, "evidence");
   EXPECT_EQ(gloam({"plan", "ao", loggia, "--json", "-"}).json().at("passes").at(0).at("name"), name + "/estimate");
   const Json automatic = gloam({"auto", loggia, "-o", path("auto.exr"), "--json", "-"}).json();
   EXPECT_EQ(automatic.at("effects").at(0).at("technique"), name);
@@ -39,8 +39,8 @@ TEST_F(DefaultTechnique, IsTheSameEverywhere) {
 }
 
 TEST_F(DefaultTechnique, TakesTheFlagsOfTheTechnique) {
-  ASSERT_EQ(gloam({"run", "ao", loggia, "-o", path("a.exr"), "--thickness", "0.2", "--preset", "low"}).status, 0);
-  ASSERT_EQ(gloam({"run", "bitmask", loggia, "-o", path("b.exr"), "--thickness", "0.2", "--preset", "low"}).status, 0);
+  ASSERT_EQ(gloam({"run", "ao", loggia, "-o", path("a.exr"), "--edge-factor", "2", "--preset", "low"}).status, 0);
+  ASSERT_EQ(gloam({"run", "evidence", loggia, "-o", path("b.exr"), "--edge-factor", "2", "--preset", "low"}).status, 0);
   EXPECT_EQ(slurp(path("a.exr")), slurp(path("b.exr")));
 }
 

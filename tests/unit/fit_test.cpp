@@ -3,25 +3,54 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "gloam/technique.h"
+#include "unit/message_of.h"
 
 namespace gloam::bench {
 namespace {
 
 TEST(Fit, FindsTheCoefficientsThatMadeTheTruth) {
   Random random(7);
-  Coefficients wanted;
-  for (double& c : wanted) c = random.uniform(-1, 1);
+  Fit wanted;
+  for (double& c : wanted.closed) c = random.uniform(-1, 1) / closed_terms;
+  wanted.closed[0] += 0.5;  // AO stays within 0 to 1, where it is not clamped
   std::vector<FitSample> samples(5000);
   for (FitSample& s : samples) {
-    double closed = 0;
-    for (size_t i = 0; i < wanted.size(); ++i) {
-      s.terms[i] = float(random.uniform(0, 1));
-      closed += wanted[i] * double(s.terms[i]);
-    }
-    s.truth = float(1 - closed);
+    for (float& term : s.terms) term = float(random.uniform(0, 1));
+    s.truth = float(wanted.ao(s));
   }
-  const Coefficients found = fitted({&samples});
-  for (size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 2e-3) << i;
+  const Fit found = fitted({{&samples, 1}});
+  for (size_t i = 0; i < wanted.closed.size(); ++i) EXPECT_NEAR(found.closed[i], wanted.closed[i], 2e-3) << i;
+}
+
+/// The error is that of the fit to the same pixels: here of a truth that is off by half of one term, to either side.
+TEST(Fit, ExpectsTheErrorThatIsLeft) {
+  Random random(8);
+  std::vector<FitSample> samples(40000);
+  for (FitSample& s : samples) {
+    s.terms.fill(0);
+    s.terms[0] = float(random.uniform(0.2, 0.6));
+    s.terms[1] = float(random.uniform(0, 0.4));
+    s.truth = 1 - s.terms[0] + (random.one_in(2) ? 0.5f : -0.5f) * s.terms[1];
+  }
+  const Fit found = fitted({{&samples, 1}});
+  EXPECT_NEAR(found.closed[0], 1, 0.02);
+  EXPECT_NEAR(found.closed[1], 0, 0.02);
+  EXPECT_NEAR(found.error[0], 0, 0.02);
+  EXPECT_NEAR(found.error[1], 0.5, 0.02);
+}
+
+TEST(Fit, PixelsCountByTheirWeight) {
+  std::vector<FitSample> dark(500), bright(500);
+  for (std::vector<FitSample>* list : {&dark, &bright}) {
+    for (FitSample& s : *list) {
+      s.terms.fill(0);
+      s.terms[0] = 0.5f;
+      s.truth = list == &dark ? 0.5f : 1.0f;
+    }
+  }
+  const Fit fit = fitted({{&dark, 0.25}, {&bright, 0.75}});
+  EXPECT_NEAR(fit.ao(dark.front()), 0.875, 1e-3);
 }
 
 TEST(Fit, ErrorIsThatOfClampedAmbientOcclusion) {
@@ -31,10 +60,57 @@ TEST(Fit, ErrorIsThatOfClampedAmbientOcclusion) {
   closed.terms.fill(1);
   closed.truth = 0.6f;
   closed.gtao = 0.2f;
-  Coefficients coefficients;
-  coefficients.fill(1);
-  EXPECT_NEAR(rmse({open, closed}, coefficients), 0.6 / std::sqrt(2.0), 1e-6);
+  Fit fit;
+  fit.closed.fill(1);
+  EXPECT_NEAR(rmse({open, closed}, fit), 0.6 / std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(rmse({closed}, &FitSample::gtao), 0.4, 1e-6);
+}
+
+TEST(Fit, DecilesAreByExpectedError) {
+  std::vector<std::pair<double, double>> pixels;
+  for (int i = 99; i >= 0; --i) pixels.emplace_back(i, 2 * i);
+  const std::vector<Decile> found = deciles(pixels);
+  ASSERT_EQ(found.size(), 10u);
+  EXPECT_DOUBLE_EQ(found[0].expected, 4.5);
+  EXPECT_DOUBLE_EQ(found[0].actual, 9);
+  EXPECT_DOUBLE_EQ(found[9].expected, 94.5);
+}
+
+TEST(EvidenceSets, TellWhatAFileLacks) {
+  const auto message = [](const std::string& text) {
+    return test::message_of([&] { evidence_sets(text, "my.json"); });
+  };
+  EXPECT_EQ(message("no JSON"), "my.json: holds no coefficients; bench_fit writes such files");
+  EXPECT_EQ(message("{\"sets\": []}"), "my.json: holds no coefficients; bench_fit writes such files");
+  EXPECT_EQ(message("{\"sets\": [1]}"), "my.json: 'sets' has to be a list of sets; bench_fit writes such files");
+  EXPECT_EQ(message("{\"sets\": [{\"occluders\": 3}]}"),
+            "my.json: 'occluders' of a set has to be depth, back_depth, peel or stochastic");
+  EXPECT_EQ(message("{\"sets\": [{\"occluders\": \"depth\", \"directions\": 0}]}"),
+            "my.json: 'directions' of a set has to be a whole number from 1 to 1024");
+  EXPECT_EQ(message("{\"sets\": [{\"occluders\": \"depth\", \"directions\": 1, \"steps\": 9, \"closed\": [1]}]}"),
+            "my.json: 'closed' of a set has to be a list of 24 numbers; bench_fit writes such files");
+}
+
+TEST(EvidenceSets, TheBuiltInOnesAreForEveryPresetAndKindOfOccluders) {
+  const Technique& technique = find_technique("evidence");
+  for (const char* occluders : {"depth", "back_depth", "peel", "stochastic"}) {
+    for (const Preset& preset : technique.presets) {
+      ParameterValues values(technique.parameters);
+      for (const auto& [name, value] : preset.settings) values.set(name, value, technique.name);
+      const int directions = int(values.number("directions")), steps = int(values.number("steps"));
+      const EvidenceSet* set = nearest_set(fitted_evidence_sets(), occluders, directions, steps);
+      ASSERT_NE(set, nullptr) << occluders;
+      EXPECT_EQ(set->directions, directions) << occluders << ", " << preset.name;
+      EXPECT_EQ(set->steps, steps) << occluders << ", " << preset.name;
+    }
+  }
+}
+
+TEST(EvidenceSets, OtherSettingsTakeTheMostSimilarSet) {
+  const std::vector<EvidenceSet>& sets = fitted_evidence_sets();
+  EXPECT_EQ(nearest_set(sets, "depth", 32, 64)->directions, 4);
+  EXPECT_EQ(nearest_set(sets, "depth", 1, 8)->steps, 9);
+  EXPECT_EQ(nearest_set(sets, "colour", 1, 8), nullptr);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(Stacks, OnePlaneAmongTheSkipped) {
 
 TEST(Stacks, PeeledLayersDoNotChangeWhatMakesAoByDefault) {
   const Plan plan = plan_of("ao_raw", {"depth", "normal", "peel.00"});
-  EXPECT_EQ(plan.technique, "bitmask");
+  EXPECT_EQ(plan.technique, "evidence");
 }
 
 TEST(Stacks, WhatIsMissingIsNamed) {

@@ -39,7 +39,8 @@ static inline __attribute__((always_inline)) void point_in_slice(Frame frame, Sl
   const real q = multiply_add((real)(frame.perspective), e, (real)(1));
   p->above = multiply_add(e, above_e, q * sample.above);
   p->along = multiply_add(-slope, p->above, q * sample.along);
-  p->square = multiply_add(p->along, p->along, p->above * p->above);
+  // Above 0, so that its root can be divided by.
+  p->square = multiply_add(p->along, p->along, multiply_add(p->above, p->above, (real)(1e-30f)));
 }
 
 // Sample k on both sides.

@@ -2,7 +2,8 @@
 // Search (with a receiver and its surface) and Side (with a sample), and the functions
 //   search_of(params, receiver), side_of(slice, search, sign),
 //   look(frame, params, layers, search, here, place, in_frame, is_shared, side)   takes a sample; `here`: what `place` starts from
-//   closed_to_both(search, own, other, is_seen)                                   closed share of a slice, times its importance
+//   closed_to_both(TABLES here, there, own, other, is_seen)                       closed share of a slice, times its importance
+// A technique with tables defines TABLES_ARGUMENT and TABLES: the tables as parameters and as arguments, each with a comma.
 //
 // in : depth, other_depth  view-space z of either eye, scene units, +inf = background; with the sign of visibility.h
 //      normal              unit, view space
@@ -16,13 +17,18 @@
 #include "shared/stereo/passes.h"
 #include "shared/stereo/slice_view.h"
 
+#ifndef TABLES_ARGUMENT
+#define TABLES_ARGUMENT
+#define TABLES
+#endif
+
 static inline void start_view(View* view, Search search, real turn) {
   real cosine, sine;
   const real inverse_density = draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
   view->slice = slice_at(search.receiver.point, search.surface, cosine, sine);
   view->importance = inverse_density * view->slice.weight;
-  view->right = side_of(view->slice, search, (real)(1));
-  view->left = side_of(view->slice, search, (real)(-1));
+  view->right = side_of(view->slice, search, (scalar)1);
+  view->left = side_of(view->slice, search, (scalar)-1);
 }
 
 // The sample of a side nearest to (x, y) pixels from a centre. Samples nearer than `least_along` along the tangent are left out.
@@ -68,10 +74,10 @@ static inline __attribute__((always_inline)) void search_view(Frame frame, Param
 }
 
 // `there`: the point as the other eye shows it, valid where `is_seen`.
-static inline __attribute__((always_inline)) real share_open_to_both(Frame frame, Frame other, Params params,
-                                                                     DepthLayers layers, DepthLayers other_layers,
-                                                                     Search here, Search there, mask is_seen,
-                                                                     int within) {
+static inline __attribute__((always_inline)) real share_open_to_both(TABLES_ARGUMENT Frame frame, Frame other,
+                                                                     Params params, DepthLayers layers,
+                                                                     DepthLayers other_layers, Search here,
+                                                                     Search there, mask is_seen, int within) {
   real all_closed = 0;
   for (int d = 0; d < DIRECTIONS; ++d) {
     const real turn = (scalar)d + here.receiver.noise.turn;
@@ -80,13 +86,13 @@ static inline __attribute__((always_inline)) real share_open_to_both(Frame frame
     start_view(&others, there, turn);
     search_view(frame, params, layers, here, EVERY_LANE, is_seen, within, &own);
     if (ANY(is_seen)) search_view(other, params, other_layers, there, is_seen, is_seen, within, &others);
-    all_closed += closed_to_both(here, &own, &others, is_seen);
+    all_closed += closed_to_both(TABLES here, there, &own, &others, is_seen);
   }
   return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
 }
 
 // AO of one point per lane. `may_differ`: lanes that use the other eye.
-static inline real open_to_both(Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
+static inline real open_to_both(TABLES_ARGUMENT Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
                                 DepthLayers other_layers, Receiver receiver, mask may_differ) {
   const Frame other = neighbour.frame;
   mask is_seen;
@@ -98,32 +104,32 @@ static inline real open_to_both(Frame frame, Neighbour neighbour, Params params,
   if (frame.pitch < SHORT_PITCH &&
       reaches_only_inside(frame, receiver.point, longer(receiver.reach, here.surface.length)) &&
       reaches_only_inside(other, receiver_of_other.point, longer(receiver_of_other.reach, there.surface.length)))
-    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
+    open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
   else
-    open = share_open_to_both(frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
+    open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
   return choose(receiver.point.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1)));
 }
 
-kernel void stereo_slices(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                        PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
+kernel void stereo_slices(Frame frame, Neighbour neighbour, Params params, TABLES_ARGUMENT PLANE depth, PLANE normal_x,
+                          PLANE normal_y, PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real open = (real)(1);
   if (ANY(!r.point.background))
-    open = open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+    open = open_to_both(TABLES frame, neighbour, params, LAYERS_FROM(frame, depth),
                         OTHER_LAYERS_FROM(neighbour.frame, other_depth), r,
                         MAY_DIFFER(frame, neighbour, params.radius, r));
   store(open, ao_raw, r.here);
 }
 
 // stereo_slices for the pixels of a list.
-kernel void stereo_slices_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                             PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible, PLANE other_depth,
-                             PLANE_OUT ao_raw) {
+kernel void stereo_slices_list(Frame frame, Neighbour neighbour, Params params, TABLES_ARGUMENT PLANE depth,
+                               PLANE normal_x, PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible,
+                               PLANE other_depth, PLANE_OUT ao_raw) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
   const Receiver r =
       receiver_at_index(frame, params.radius, params.max_reach, index, depth, normal_x, normal_y, normal_z);
-  scatter(open_to_both(frame, neighbour, params, LAYERS_FROM(frame, depth),
+  scatter(open_to_both(TABLES frame, neighbour, params, LAYERS_FROM(frame, depth),
                        OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE),
           ao_raw, index);
 }
