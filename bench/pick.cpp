@@ -11,7 +11,7 @@
 namespace gloam::bench {
 namespace {
 
-/// The technique nearest to ray-traced truth on the built-in scenes, with a single layer (docs/accuracy.md).
+/// The technique nearest to ray-traced truth on the built-in scenes, with a single layer (kernels/evidence/README.md).
 const std::string stand_in = "evidence";
 /// Number of settings timed in turn at the end.
 constexpr size_t most_finalists = 12;

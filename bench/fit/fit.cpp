@@ -151,7 +151,7 @@ double Fit::ao(const FitSample& sample) const {
 double Fit::expected_error(const FitSample& sample) const {
   double sum = 0;
   for (int i = 0; i < error_terms; ++i) sum += error[size_t(i)] * double(error_term(sample, i));
-  return std::max(sum, 0.0);
+  return std::clamp(sum, 0.0, 1.0);
 }
 
 Fit fitted(const std::vector<FitGroup>& groups) {

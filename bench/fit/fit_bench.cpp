@@ -121,7 +121,9 @@ nlohmann::ordered_json rounded(const List& numbers) {
 
 /// A set a line.
 std::string document_of(const std::vector<nlohmann::ordered_json>& sets, const std::string& provenance) {
-  std::string text = fmt::format("{{\n\"fitted\": {},\n\"sets\": [", nlohmann::ordered_json(provenance).dump());
+  std::string text = fmt::format(
+      "{{\n\"fitted\": {},\n\"sets\": [",
+      nlohmann::ordered_json(provenance).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   for (size_t i = 0; i < sets.size(); ++i) text += (i == 0 ? "\n" : ",\n") + sets[i].dump();
   return text + "\n]\n}\n";
 }

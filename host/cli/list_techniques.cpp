@@ -62,7 +62,7 @@ Json techniques_document(const std::vector<const Technique*>& techniques) {
                         {"summary", t.summary},
                         {"paper", t.paper},
                         {"reads", t.reads},
-                        {"optional", Json::array()},
+                        {"optional", t.may_read},
                         {"writes", t.writes},
                         {"then", t.then},
                         {"extras", t.extras},
@@ -75,6 +75,12 @@ Json techniques_document(const std::vector<const Technique*>& techniques) {
 }
 
 namespace {
+
+/// "depth, normal; where at hand: back_depth"
+std::string all_reads(const Technique& t) {
+  const std::string own = fmt::format("{}", fmt::join(t.reads, ", "));
+  return t.may_read.empty() ? own : fmt::format("{}; where at hand: {}", own, fmt::join(t.may_read, ", "));
+}
 
 /// A group of techniques: by the planes that `gloam run` writes with them, and the number of views.
 struct Group {
@@ -134,7 +140,7 @@ void print_techniques() {
 void print_technique(const Technique& t, const std::set<std::string>& settable) {
   fmt::print("{}: {}\n", t.name, t.summary);
   if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
-  fmt::print("  reads   {}\n  writes  {}\n", fmt::join(t.reads, ", "), fmt::join(t.writes, ", "));
+  fmt::print("  reads   {}\n  writes  {}\n", all_reads(t), fmt::join(t.writes, ", "));
   if (t.views > 1) fmt::print("  views   a frame of two\n");
   if (!t.then.empty()) fmt::print("  then    {} (--filter chooses another, or none)\n", t.then);
   for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
@@ -219,8 +225,7 @@ void print_techniques_markdown() {
   const std::vector<std::string> names = technique_names(), anchors = anchors_of(names);
   for (size_t i = 0; i < names.size(); ++i) {
     const Technique& t = registry()[i];
-    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchors[i], t.summary, fmt::join(t.reads, ", "),
-               all_writes(t));
+    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchors[i], t.summary, all_reads(t), all_writes(t));
   }
   for (const Technique& t : registry()) print_section(t);
 }

@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "gloam/planes.h"
+#include "plan/adaptive.h"
 #include "plan/layouts.h"
 #include "plan/resample.h"
 
@@ -33,7 +34,9 @@ class Restriction {
       : plan_(plan), elsewhere_(elsewhere), source_(plan.mask) {
     for (const PlannedPass& planned : plan.passes) {
       const bool is_asked_for = std::find(techniques.begin(), techniques.end(), planned.technique) != techniques.end();
-      is_restricted_.push_back(planned.pass.can_skip && (is_asked_for || planned.technique == &resampling()));
+      // Of two estimates, the second writes beside the first: no filter may ask either for more pixels.
+      const bool may_be = planned.pass.can_skip && (!elsewhere || is_estimate(planned.pass));
+      is_restricted_.push_back(may_be && (is_asked_for || planned.technique == &resampling()));
       if (planned.pass.repeats_cells && planned.pass.writes.front().plane == plan.mask &&
           !contains(plan.outputs, plan.mask)) {
         // The cells serve as the mask.
@@ -118,7 +121,7 @@ class Restriction {
     }
   }
 
-  /// Grown by the footprint of all filters together: every pass before the last filter uses the same bits.
+  /// Grown by what the longest chain of filters reads: every pass that a filter follows uses the same bits.
   void need_grown(int scale) {
     if (!grown_.insert(scale).second) return;
     add_grown(wanted(scale), grown(scale), widest_footprint(scale), scale);

@@ -1,6 +1,7 @@
 #include "gloam/plan.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "base/lists.h"
@@ -32,6 +33,19 @@ void add_optional_reads(Pass& pass, const std::vector<std::string>& inputs) {
     pass.reads.push_back(plane);
     pass.defines.emplace_back("WITH_" + upper_case(plane.argument), 1);
   }
+}
+
+/// Leaves out the inputs that techniques may read and, with these settings, do not.
+void leave_out_unread(Plan& plan, const Techniques& techniques) {
+  std::erase_if(plan.inputs, [&](const std::string& input) {
+    const bool is_optional = std::any_of(techniques.begin(), techniques.end(),
+                                         [&](const Technique* t) { return contains(t->may_read, input); });
+    const bool is_read = std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {
+      const std::vector<Binding>& reads = planned.pass.reads;
+      return std::any_of(reads.begin(), reads.end(), [&](const Binding& read) { return read.plane == input; });
+    });
+    return is_optional && !is_read;
+  });
 }
 
 /// Notes which planes of the frame are not read, and why. The layers of a stack are one entry.
@@ -98,7 +112,11 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   const std::string mask = want_mask(wanted, request.mask, available);
   const bool is_reduced = request.resolution > 1;
   std::vector<std::string> also = is_reduced ? resampling().reads : std::vector<std::string>();
-  if (elsewhere) also.insert(also.end(), elsewhere->reads.begin(), elsewhere->reads.end());
+  if (elsewhere) {
+    also.insert(also.end(), elsewhere->reads.begin(), elsewhere->reads.end());
+    std::copy_if(elsewhere->may_read.begin(), elsewhere->may_read.end(), std::back_inserter(also),
+                 [&](const std::string& plane) { return contains(available, plane); });
+  }
   Walk walk(wanted, with_stacks(available), also, mask);
   check_full_resolution(request, walk.order);
   Plan plan;
@@ -112,6 +130,8 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   const std::vector<ParameterValues> values = values_of(request, walk.order, plan.technique, restricted, mask);
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
+      // What completes an extra of two estimates runs once, after both.
+      if (pass.writes.empty() && walk.order[i] == elsewhere) continue;
       add_extras(pass, wanted.outputs);
       if (pass.writes.empty()) continue;
       add_optional_reads(pass, plan.inputs);
@@ -120,6 +140,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
     }
   }
   trim_stacks(plan);
+  leave_out_unread(plan, walk.order);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;
   if (is_reduced) reduce(plan, without_maker(asked_for, mask), values.back(), !request.as_cells);

@@ -52,7 +52,8 @@ static inline QuickScale quick_scale_of(Scale s) {
   return q;
 }
 
-// A side with a smaller share of the slice would have so many sectors of its own that the error reached one.
+// A side with a smaller share of the slice would have so many sectors of its own that the error could take a count below -1, which
+// is no shift.
 #define LEAST_QUICK_SHARE ((scalar)0.05f)
 
 // Number of sectors up to an elevation, plus the shift; at least -.9, which as a whole number is 0.

@@ -15,7 +15,8 @@ using Json = nlohmann::json;
 std::vector<float> numbers(const Json& set, const char* key, size_t count, const std::string& name) {
   const auto found = set.find(key);
   const bool is_list = found != set.end() && found->is_array() && found->size() == count &&
-                       std::all_of(found->begin(), found->end(), [](const Json& n) { return n.is_number(); });
+                       std::all_of(found->begin(), found->end(),
+                                   [](const Json& n) { return n.is_number() && std::isfinite(n.get<float>()); });
   if (!is_list)
     throw UsageError("{}: '{}' of a set has to be a list of {} numbers; bench_fit writes such files", name, key, count);
   return found->get<std::vector<float>>();

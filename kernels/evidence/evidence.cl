@@ -272,11 +272,12 @@ static inline __attribute__((always_inline)) void add_side(Slice slice, const Si
 #define FITTED_TERMS (2 * TERMS + 2)
 #if TERMS_ONLY
 // A plane each: t, r t, and the roots of a and u.
-#define FOR_TERMS(DO)                                                                                            \
-  DO(0)                                                                                                          \
-  DO(1)                                                                                                          \
-  DO(2) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) \
-      DO(19) DO(20) DO(21) DO(22) DO(23) DO(24) DO(25)
+#define FOR_TERMS(DO)                                                                                             \
+  DO(0)                                                                                                           \
+  DO(1)                                                                                                           \
+  DO(2)                                                                                                           \
+  DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) \
+      DO(20) DO(21) DO(22) DO(23) DO(24) DO(25)
 #define TERM_ARGUMENT(k) , PLANE_OUT term_##k
 #define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
 #define RESULTS PLANE_OUT ao_raw FOR_TERMS(TERM_ARGUMENT)
@@ -472,7 +473,7 @@ kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE de
 #else
   store_open(1 - COMPENSATE(params, mean.closed, mean.closed_by_depth), r, ao_raw);
 #if WITH_AO_ERROR
-  store(choose(r.point.background, (real)(0), larger(mean.error, (real)(0))), ao_error, r.here);
+  store(choose(r.point.background, (real)(0), smaller(larger(mean.error, (real)(0)), (real)(1))), ao_error, r.here);
 #endif
   STORE_OPEN_DIRECTIONS(directions, r)
 #endif

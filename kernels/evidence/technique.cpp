@@ -78,7 +78,7 @@ std::vector<Pass> stereo_evidence_passes(const StereoEvidenceParams& p) {
   return stereo_passes({estimate_of(p, "depth", 1)}, "stereo_slices", stereo_choices(p));
 }
 
-/// The technique that `ao` stands for, and that `gloam auto` runs: the nearest to the truth on nearly every frame (docs/accuracy.md).
+/// The technique that `ao` stands for, and that `gloam auto` runs: the nearest to the truth on nearly every frame (README.md).
 Technique evidence_over_depth() {
   Technique t = over_slices(ambient_occlusion(
       "evidence", "ambient occlusion expected from what slices show: thickness is judged by extent",

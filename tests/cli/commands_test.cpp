@@ -102,6 +102,9 @@ TEST_F(Cli, ListTechniquesTellsAllThatAProgramNeeds) {
   for (const Json& technique : result.json()) {
     for (const char* key : {"name", "summary", "paper", "reads", "optional", "writes", "parameters"})
       EXPECT_TRUE(technique.contains(key)) << key;
+    if (technique["name"] == "evidence") {
+      EXPECT_EQ(technique["optional"], Json::array({"back_depth"}));
+    }
     if (technique["name"] != "hbao+") continue;
     found = true;
     EXPECT_EQ(technique["reads"], Json({"depth", "normal"}));

@@ -232,6 +232,26 @@ TEST(Elsewhere, TheFilterCoversTheImage) {
   EXPECT_TRUE(same_bits(frame_of("bitmask", "nothing", "gtao"), frame_of("gtao", "", "")));
 }
 
+TEST(Elsewhere, AnExtraThatIsFilteredChangesNoBitOfTheEstimates) {
+  Frame frame = shoot(perspective(163, 47), room());
+  add_mask(frame);
+  invent_plane(frame, "stochastic");
+  invent_plane(frame, "back_depth");
+  const auto frame_of = [&](const std::string& technique, const std::string& elsewhere, const Names& with) {
+    PlanRequest request{.outputs = {technique}, .with = with, .then = "none", .elsewhere = elsewhere};
+    if (!elsewhere.empty()) request.mask = "mask";
+    if (technique == "sd-evidence") request.settings = {{"samples", "3"}};  // as many as are invented
+    return std::move(result_of(frame, request).frame);
+  };
+  const Frame mixed = frame_of("sd-evidence", "evidence", {});
+  Frame with_error = frame_of("sd-evidence", "evidence", {"ao_error"});
+  EXPECT_EQ(with_error.views[0].planes.erase("ao_error"), 1u);
+  EXPECT_TRUE(same_bits(with_error, mixed));
+  const Shares found = shares(mixed, frame_of("sd-evidence", "", {}), frame_of("evidence", "", {}), 1);
+  EXPECT_GT(found.of_one, 20);
+  EXPECT_GT(found.of_other, 100) << "with back_depth, as by itself";
+}
+
 TEST(Elsewhere, BothMaySortLayersOfTheirOwn) {
   Frame frame = shoot(perspective(163, 47), room());
   add_mask(frame);

@@ -1,8 +1,8 @@
 // Cross-bilateral filter (Petschnigg et al. 2004, Eisemann and Durand 2004): bilateral.h.
 //
 // in : source  to be filtered      depth  view-space z, scene units, +inf = background      normal  unit, view space
-// out: result  filtered; 1 on background and where it is not wanted
-// -D COLUMNS, ROWS, MASKED (wanted.h)
+// out: result  filtered; FILTER_OUTSIDE on background and where it is not wanted
+// -D COLUMNS, ROWS, MASKED (wanted.h). A file that defines FILTER_DISTANCE, FILTER_ANGLE and FILTER_OUTSIDE sets them for itself.
 #ifndef GLOAM_BILATERAL_FILTER_H
 #define GLOAM_BILATERAL_FILTER_H
 

@@ -1,0 +1,83 @@
+// Planes that a technique reads where the frame has them, extras that a second pass completes, and parameters that are files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gloam/plan.h"
+#include "unit/message_of.h"
+
+namespace gloam::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Plan plan_of(const PlanRequest& request, const Names& available) {
+  return make_plan(request, available, "frame.exr has only Z");
+}
+
+Names labels_of(const Plan& plan) {
+  Names labels;
+  for (const PlannedPass& planned : plan.passes) labels.push_back(planned.label());
+  return labels;
+}
+
+bool has_define(const Plan& plan, const std::string& name) {
+  const Defines& defines = plan.passes.front().pass.defines;
+  return std::any_of(defines.begin(), defines.end(), [&](const auto& define) { return define.first == name; });
+}
+
+TEST(OptionalPlanes, AreReadWhereTheFrameHasThem) {
+  const Plan with = plan_of({.outputs = {"evidence"}}, {"depth", "normal", "back_depth"});
+  EXPECT_EQ(with.inputs, (Names{"depth", "normal", "back_depth"}));
+  EXPECT_TRUE(has_define(with, "WITH_BACK_DEPTH"));
+  const Plan without = plan_of({.outputs = {"evidence"}}, {"depth", "normal"});
+  EXPECT_EQ(without.inputs, (Names{"depth", "normal"}));
+  EXPECT_FALSE(has_define(without, "WITH_BACK_DEPTH"));
+}
+
+TEST(OptionalPlanes, AreSubsampledLikeOthers) {
+  const Plan plan = plan_of({.outputs = {"evidence"}, .resolution = 2}, {"depth", "normal", "back_depth"});
+  const Names labels = labels_of(plan);
+  EXPECT_NE(std::find(labels.begin(), labels.end(), "resample/subsample back_depth"), labels.end());
+}
+
+TEST(OptionalPlanes, AreReadByTheTechniqueElsewhereToo) {
+  const Plan plan = plan_of({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "evidence"},
+                            {"depth", "normal", "mask", "back_depth"});
+  EXPECT_NE(std::find(plan.inputs.begin(), plan.inputs.end(), "back_depth"), plan.inputs.end());
+}
+
+TEST(OptionalPlanes, AreNotReadByRowsThatKnowTheLayers) {
+  const Plan plan = plan_of({.outputs = {"dp-evidence"}}, {"depth", "normal", "back_depth", "peel.00", "peel.01"});
+  EXPECT_EQ(plan.inputs, (Names{"depth", "normal", "peel.00", "peel.01"}));
+}
+
+TEST(ExtrasInTwoSteps, AreCompletedOnlyWhereTheyAreAskedFor) {
+  EXPECT_EQ(labels_of(plan_of({.outputs = {"evidence"}, .then = "none"}, {"depth", "normal"})),
+            (Names{"evidence/estimate"}));
+  const Plan plan = plan_of({.outputs = {"evidence"}, .with = {"ao_error"}, .then = "none"}, {"depth", "normal"});
+  EXPECT_EQ(labels_of(plan), (Names{"evidence/estimate", "evidence/filter error"}));
+  EXPECT_EQ(plan.outputs, (Names{"ao_raw", "ao_error"}));
+}
+
+TEST(FileParameter, IsNoneUntilItIsSet) {
+  ParameterValues values(find_technique("evidence").parameters);
+  EXPECT_EQ(values.text("coefficients"), "none");
+  values.set("coefficients", "my.json", "evidence");
+  EXPECT_EQ(values.text("coefficients"), "my.json");
+  EXPECT_EQ(file_name(int(values.number("coefficients"))), "my.json");
+  values.set("coefficients", "none", "evidence");
+  EXPECT_EQ(values.text("coefficients"), "none");
+  EXPECT_EQ(message_of([&] { values.set("coefficients", "", "evidence"); }),
+            "evidence: coefficients = '' is not allowed; a file, or none is");
+}
+
+TEST(FileParameter, ThatCannotBeReadIsNamed) {
+  EXPECT_EQ(message_of([] {
+              plan_of({.outputs = {"evidence"}, .settings = {{"coefficients", "/nowhere.json"}}}, {"depth", "normal"});
+            }),
+            "/nowhere.json: cannot read: No such file or directory");
+}
+
+}  // namespace
+}  // namespace gloam::test
