@@ -90,34 +90,95 @@ std::vector<glm::ivec2> pixels_of_surfaces(const Channel& depth, int count) {
   return pixels;
 }
 
-/// Which of a sample's terms the error is fitted to.
-float error_term(const FitSample& s, int i) { return s.terms[size_t(i < evidence_terms ? i : evidence_terms + i)]; }
+/// The terms that the error is fitted to.
+float error_term(const FitSample& s, int i) {
+  if (i < evidence_terms) return s.terms[size_t(i)];
+  return i < error_terms - 1 ? s.terms[size_t(evidence_terms + i)] : 1.0f;
+}
 
-/// Least squares of `wanted(sample)` over `count` terms, `term(sample, i)`.
-template <typename Term, typename Value>
-cv::Mat regression(const std::vector<FitGroup>& groups, int count, const Term& term, const Value& wanted) {
-  // Small beside the sums over thousands of pixels: it only keeps terms that are nearly alike from growing against each other.
-  constexpr double ridge = 0.2;
-  cv::Mat square = ridge * cv::Mat::eye(count, count, CV_64F), right = cv::Mat::zeros(count, 1, CV_64F);
-  size_t pixels = 0;
-  std::vector<double> terms{};
-  terms.resize(size_t(count));
-  for (const FitGroup& group : groups) {
-    for (const FitSample& s : *group.samples) {
-      for (int i = 0; i < count; ++i) terms[size_t(i)] = double(term(s, i));
-      const double value = wanted(s);
-      for (int i = 0; i < count; ++i) {
-        const double weighted = group.weight * terms[size_t(i)];
-        right.at<double>(i) += weighted * value;
-        for (int j = 0; j < count; ++j) square.at<double>(i, j) += weighted * terms[size_t(j)];
+/// Whether one of AO's terms has `u`: of t, and of r t.
+bool has_unknown(int term) {
+  const int i = term % evidence_terms;
+  return i == 2 || i == 6 || i == 7 || i == 8 || i == 11;
+}
+
+/// Least squares with a little ridge, small beside the sums over thousands of pixels: it only keeps terms that are nearly alike from
+/// growing against each other.
+class Regression {
+ public:
+  explicit Regression(int columns)
+      : square_(0.2 * cv::Mat::eye(columns, columns, CV_64F)), right_(cv::Mat::zeros(columns, 1, CV_64F)) {}
+
+  /// A row: `terms[i]` stands in column `columns[i]`.
+  void add(const std::vector<int>& columns, const std::vector<double>& terms, double value, double weight) {
+    for (size_t i = 0; i < terms.size(); ++i) {
+      double* row = square_.ptr<double>(columns[i]);
+      const double weighted = weight * terms[i];
+      *right_.ptr<double>(columns[i]) += weighted * value;
+      for (size_t j = 0; j < terms.size(); ++j) row[columns[j]] += weighted * terms[j];
+    }
+    ++rows_;
+  }
+
+  cv::Mat solution() const {
+    if (rows_ < square_.rows) throw Error("{} pixels are too few to fit {} terms", rows_, square_.rows);
+    cv::Mat solution;
+    cv::solve(square_, right_, solution, cv::DECOMP_CHOLESKY);
+    return solution;
+  }
+
+ private:
+  cv::Mat square_, right_;
+  long long rows_ = 0;
+};
+
+/// Columns of AO's terms for one of several samplings: the common ones first.
+std::vector<int> columns_of(size_t sampling) {
+  int common = 0, own = 0, all_common = 0;
+  for (int i = 0; i < closed_terms; ++i) all_common += has_unknown(i);
+  std::vector<int> columns;
+  for (int i = 0; i < closed_terms; ++i)
+    columns.push_back(has_unknown(i) ? common++ : all_common + int(sampling) * (closed_terms - all_common) + own++);
+  return columns;
+}
+
+/// The fit to AO of each sampling.
+void fit_closed(const std::vector<std::vector<FitGroup>>& samplings, std::vector<Fit>& fits) {
+  const std::vector<int> last = columns_of(samplings.size() - 1);
+  Regression regression(*std::max_element(last.begin(), last.end()) + 1);
+  for (size_t k = 0; k < samplings.size(); ++k) {
+    const std::vector<int> columns = columns_of(k);
+    for (const FitGroup& group : samplings[k]) {
+      for (const FitSample& s : *group.samples)
+        regression.add(columns, {s.terms.begin(), s.terms.begin() + closed_terms}, 1 - double(s.truth), group.weight);
+    }
+  }
+  const cv::Mat solution = regression.solution();
+  for (size_t k = 0; k < samplings.size(); ++k) {
+    const std::vector<int> columns = columns_of(k);
+    for (size_t i = 0; i < closed_terms; ++i) fits[k].closed[i] = solution.at<double>(columns[i]);
+  }
+}
+
+/// The fit to the error of a sampling, twice: the second time pixels count by the inverse of what the first expects, so that small
+/// errors are met as well as large ones.
+void fit_error(const std::vector<FitGroup>& groups, Fit& fit) {
+  constexpr double least = 0.01;
+  std::vector<int> columns;
+  for (int i = 0; i < error_terms; ++i) columns.push_back(i);
+  for (int round = 0; round < 2; ++round) {
+    Regression regression(error_terms);
+    for (const FitGroup& group : groups) {
+      for (const FitSample& s : *group.samples) {
+        std::vector<double> terms;
+        for (int i = 0; i < error_terms; ++i) terms.push_back(double(error_term(s, i)));
+        const double weight = round == 0 ? group.weight : group.weight / (fit.expected_error(s) + least);
+        regression.add(columns, terms, std::abs(fit.ao(s) - double(s.truth)), weight);
       }
     }
-    pixels += group.samples->size();
+    const cv::Mat solution = regression.solution();
+    for (int i = 0; i < error_terms; ++i) fit.error[size_t(i)] = solution.at<double>(i);
   }
-  if (pixels < size_t(count)) throw Error("{} pixels are too few to fit {} terms", pixels, count);
-  cv::Mat solution;
-  cv::solve(square, right, solution, cv::DECOMP_CHOLESKY);
-  return solution;
 }
 
 }  // namespace
@@ -154,16 +215,11 @@ double Fit::expected_error(const FitSample& sample) const {
   return std::clamp(sum, 0.0, 1.0);
 }
 
-Fit fitted(const std::vector<FitGroup>& groups) {
-  Fit fit;
-  const cv::Mat closed = regression(
-      groups, closed_terms, [](const FitSample& s, int i) { return s.terms[size_t(i)]; },
-      [](const FitSample& s) { return 1 - double(s.truth); });
-  for (int i = 0; i < closed_terms; ++i) fit.closed[size_t(i)] = closed.at<double>(i);
-  const cv::Mat error = regression(groups, error_terms, error_term,
-                                   [&](const FitSample& s) { return std::abs(fit.ao(s) - double(s.truth)); });
-  for (int i = 0; i < error_terms; ++i) fit.error[size_t(i)] = error.at<double>(i);
-  return fit;
+std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings) {
+  std::vector<Fit> fits{samplings.size()};
+  fit_closed(samplings, fits);
+  for (size_t k = 0; k < samplings.size(); ++k) fit_error(samplings[k], fits[k]);
+  return fits;
 }
 
 double rmse(const std::vector<FitSample>& samples, const Fit& fit) {

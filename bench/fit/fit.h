@@ -12,8 +12,8 @@
 
 namespace gloam::bench {
 
-/// All terms that the kernel makes: those of AO, and the two more of the error.
-constexpr int fitted_terms = closed_terms + error_terms - evidence_terms;
+/// All terms that the kernel makes: those of AO, and the roots that the error is fitted to.
+constexpr int fitted_terms = closed_terms + 2;
 
 /// One pixel: its filtered terms, the truth, and what other techniques read there.
 struct FitSample {
@@ -46,8 +46,10 @@ struct Fit {
   double expected_error(const FitSample& sample) const;
 };
 
-/// Ridge regression. Throws Error for fewer pixels than terms.
-Fit fitted(const std::vector<FitGroup>& groups);
+/// Ridge regression for samplings that know occluders by the same means, a list of groups for each. What is unknown does not depend on
+/// the number of samples: coefficients of terms with `u` are common to all samplings, so that more samples never make an estimate
+/// surer of what no sample sees. Throws Error for fewer pixels than terms.
+std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings);
 
 /// Root mean square error to the truth, of AO clamped to 0 to 1 after the filter. (The technique clamps before the filter.)
 double rmse(const std::vector<FitSample>& samples, const Fit& fit);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -74,24 +75,32 @@ std::vector<Sampling> samplings_for(const std::vector<std::string>& occluders,
   return samplings;
 }
 
-/// Fitted to all scenes but one; to all for none.
-Fit fitted_without(const std::vector<SceneSamples>& scenes, const SceneSamples* left_out) {
-  std::vector<FitGroup> groups;
-  for (const SceneSamples& scene : scenes) {
-    if (&scene != left_out) groups.push_back({&scene.samples, scene.weight});
+/// The scenes of each sampling, of those that know occluders by the same means.
+using Samplings = std::vector<std::vector<SceneSamples>>;
+
+/// Fitted to all scenes but one, by its number; to all for -1.
+std::vector<Fit> fitted_without(const Samplings& samplings, int left_out) {
+  std::vector<std::vector<FitGroup>> groups;
+  for (const std::vector<SceneSamples>& scenes : samplings) {
+    std::vector<FitGroup>& of_sampling = groups.emplace_back();
+    for (size_t k = 0; k < scenes.size(); ++k) {
+      if (int(k) != left_out) of_sampling.push_back({&scenes[k].samples, scenes[k].weight});
+    }
   }
   return fitted(groups);
 }
 
-/// Leave-one-scene-out, as tables in Markdown.
-void print_cross_validation(const std::vector<SceneSamples>& scenes, const Sampling& sampling) {
+/// Leave-one-scene-out, as tables in Markdown. `fits`: for each scene, without it.
+void print_cross_validation(const std::vector<SceneSamples>& scenes, const std::vector<Fit>& fits,
+                            const Sampling& sampling) {
   fmt::print(
       "\nOccluders by {}, {} x {} x 2 samples\n\n| scene | kind | gtao | bitmask | evidence |\n|---|---|---|---|---|\n",
       sampling.occluders, sampling.directions, sampling.steps);
   std::map<std::string, std::vector<std::pair<double, double>>> errors;
   std::map<std::string, std::array<double, 4>> sums;
-  for (const SceneSamples& scene : scenes) {
-    const Fit fit = fitted_without(scenes, &scene);
+  for (size_t k = 0; k < scenes.size(); ++k) {
+    const SceneSamples& scene = scenes[k];
+    const Fit& fit = fits[k];
     const double gtao = rmse(scene.samples, &FitSample::gtao), bitmask = rmse(scene.samples, &FitSample::bitmask),
                  evidence = rmse(scene.samples, fit);
     fmt::print("| {} | {} | {:.4f} | {:.4f} | {:.4f} |\n", scene.scene.name, scene.scene.kind, gtao, bitmask, evidence);
@@ -117,6 +126,26 @@ nlohmann::ordered_json rounded(const List& numbers) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const double n : numbers) list.push_back(std::round(n * 1e4) / 1e4);
   return list;
+}
+
+/// Prints cross-validations of samplings that are fitted together. Returns their sets, fitted to all scenes.
+std::vector<nlohmann::ordered_json> sets_of(const Samplings& together, const std::vector<Sampling>& samplings) {
+  std::vector<std::vector<Fit>> without(samplings.size());
+  for (size_t k = 0; k < together.front().size(); ++k) {
+    const std::vector<Fit> fits = fitted_without(together, int(k));
+    for (size_t i = 0; i < samplings.size(); ++i) without[i].push_back(fits[i]);
+  }
+  const std::vector<Fit> fits = fitted_without(together, -1);
+  std::vector<nlohmann::ordered_json> sets;
+  for (size_t i = 0; i < samplings.size(); ++i) {
+    print_cross_validation(together[i], without[i], samplings[i]);
+    sets.push_back({{"occluders", samplings[i].occluders},
+                    {"directions", samplings[i].directions},
+                    {"steps", samplings[i].steps},
+                    {"closed", rounded(fits[i].closed)},
+                    {"error", rounded(fits[i].error)}});
+  }
+  return sets;
 }
 
 /// A set a line.
@@ -177,14 +206,16 @@ int bench_main(int argc, char** argv) {
   }
 
   std::vector<nlohmann::ordered_json> sets;
-  for (size_t i = 0; i < samplings.size(); ++i) {
-    print_cross_validation(by_sampling[i], samplings[i]);
-    const Fit fit = fitted_without(by_sampling[i], nullptr);
-    sets.push_back({{"occluders", samplings[i].occluders},
-                    {"directions", samplings[i].directions},
-                    {"steps", samplings[i].steps},
-                    {"closed", rounded(fit.closed)},
-                    {"error", rounded(fit.error)}});
+  // The samplings of each kind of occluders are fitted together.
+  for (size_t first = 0; first < samplings.size();) {
+    size_t last = first;
+    while (last < samplings.size() && samplings[last].occluders == samplings[first].occluders) ++last;
+    const Samplings together(std::move_iterator(by_sampling.begin() + std::ptrdiff_t(first)),
+                             std::move_iterator(by_sampling.begin() + std::ptrdiff_t(last)));
+    const std::vector<nlohmann::ordered_json> fitted =
+        sets_of(together, {samplings.begin() + std::ptrdiff_t(first), samplings.begin() + std::ptrdiff_t(last)});
+    sets.insert(sets.end(), fitted.begin(), fitted.end());
+    first = last;
   }
   std::vector<std::string> scenes;
   for (const TrainingScene& scene : named)

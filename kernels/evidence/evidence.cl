@@ -11,7 +11,7 @@
 //   t = (a, b, u, aa, ab, bb, au, bu, uu, af, bf, uf)
 //   AO = 1 - mean over slices of (w + r v) . t
 // w holds where one surface fills the surroundings, w + v among leaves and hair. There is no constant term: a plane is open to the
-// last bit. The expected absolute error of AO is e . (t, sqrt(a), sqrt(u)).
+// last bit. The expected absolute error of AO is e . (t, sqrt(a), sqrt(u), 1).
 //
 // in : depth         view-space z, scene units, +inf = background
 //      normal        unit, view space
@@ -306,7 +306,7 @@ static inline void terms_of(Evidence e, real facing, real* t) {
 }
 
 // Of w, v and e.
-#define NUMBERS (3 * TERMS + 2)
+#define NUMBERS (3 * TERMS + 3)
 
 static inline real sum_of_terms(const real* t, constant float* weights) {
   real sum = (real)(0);
@@ -327,6 +327,7 @@ static inline __attribute__((always_inline)) real closed_share(Evidence e, real 
   return closed;
 }
 
+// Without the constant.
 static inline real expected_error(Evidence e, real facing, COEFFICIENTS) {
   constant float* weights = coefficients + 2 * TERMS;
   real t[TERMS];
@@ -449,6 +450,7 @@ kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE de
   leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
   Sum mean = no_sum();
+  coefficients += WITH_BACK_DEPTH * NUMBERS;
   if (ANY(!r.point.background)) {
     Search search = search_of(params, r);
 #if WITH_BACK_DEPTH
@@ -464,8 +466,7 @@ kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE de
     // A slice that is not parallel to the image plane reaches further on the screen than the radius at the pixel's depth.
     const Reach widest = longer(r.reach, search.surface.length);
     LOOK_AROUND(mean.closed, frame, r, widest,
-                mean_of_slices(frame, params, layers, search, coefficients + WITH_BACK_DEPTH * NUMBERS, isolated,
-                               within, &mean, &directions))
+                mean_of_slices(frame, params, layers, search, coefficients, isolated, within, &mean, &directions))
   }
 #if TERMS_ONLY
   FOR_TERMS(STORE_TERM)
@@ -473,7 +474,9 @@ kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE de
 #else
   store_open(1 - COMPENSATE(params, mean.closed, mean.closed_by_depth), r, ao_raw);
 #if WITH_AO_ERROR
-  store(choose(r.point.background, (real)(0), smaller(larger(mean.error, (real)(0)), (real)(1))), ao_error, r.here);
+  // Of what no slice shows, the same everywhere.
+  const real error = mean.error + coefficients[NUMBERS - 1];
+  store(choose(r.point.background, (real)(0), smaller(larger(error, (real)(0)), (real)(1))), ao_error, r.here);
 #endif
   STORE_OPEN_DIRECTIONS(directions, r)
 #endif

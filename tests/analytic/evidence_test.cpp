@@ -85,6 +85,21 @@ TEST(Evidence, PresetsNeverGetWorse) {
   }
 }
 
+/// The own cameras of these scenes show next to none of what occludes. More samples see no more of it, and must not be surer.
+TEST(Evidence, MoreSamplesAreNoSurerOfWhatIsHidden) {
+  for (const char* name : {"pillar", "slab"}) {
+    const gloam::Scene scene = load_scene(name, {});
+    const Frame frame = seen_in(scene);
+    const Frame truth = ao_reference(Tracer(scene), frame, {.radius = scene.ao_radius, .samples = 64}).frame;
+    const double low = rmse_of("evidence", "low", frame, truth, scene.ao_radius);
+    for (const char* preset : {"medium", "high", "ultra"}) {
+      const double error = rmse_of("evidence", preset, frame, truth, scene.ao_radius);
+      std::printf("%s: low %.5f, %s %.5f\n", name, low, preset, error);
+      EXPECT_LT(error, low + 2e-4) << name << ", " << preset;
+    }
+  }
+}
+
 TEST(Evidence, LayersAreNearerToTheTruth) {
   double sum_of_one = 0, sum_of_known = 0, sum_of_all = 0;
   for (const char* name : {"courtyard", "gallery", "temple"}) {
@@ -135,18 +150,27 @@ TEST(Evidence, ExpectedErrorIsTheErrorToBeExpected) {
       }
       std::printf("%s, fifth %zu: expected %.4f, actual %.4f\n", name, fifth, expected, actual);
       EXPECT_GT(actual, 0.6 * expected) << name << ", fifth " << fifth;
-      EXPECT_LT(actual, 1.7 * expected + 0.012) << name << ", fifth " << fifth;
+      EXPECT_LT(actual, 1.6 * expected + 0.005) << name << ", fifth " << fifth;
       EXPECT_GT(actual, last) << name << ", fifth " << fifth;
       last = actual;
     }
   }
 }
 
-TEST(Evidence, ExpectsNoErrorOfAPlane) {
+/// Only what no slice shows: the same everywhere.
+TEST(Evidence, ExpectsLittleErrorOfAPlane) {
   const Frame frame = shoot(perspective(160, 120), tilted_plane(3, 1.2, 0.4));
   const Frame out = made({.outputs = {"evidence"}, .with = {"ao_error"}, .radius = 0.5}, {"depth", "normal"}, frame);
   for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 160; ++x) EXPECT_EQ(value_at(out, "ao_error", x, y), 0);
+    for (int x = 0; x < 160; ++x) {
+      const float error = value_at(out, "ao_error", x, y);
+      if (std::isfinite(value_at(frame, "depth", x, y))) {
+        EXPECT_GT(error, 0) << x << ", " << y;
+        EXPECT_LT(error, 0.008f) << x << ", " << y;
+      } else {
+        EXPECT_EQ(error, 0) << x << ", " << y;
+      }
+    }
   }
 }
 

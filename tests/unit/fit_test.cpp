@@ -9,6 +9,11 @@
 namespace gloam::bench {
 namespace {
 
+/// To one sampling.
+Fit fitted_alone(const std::vector<FitGroup>& groups) {
+  return fitted(std::vector<std::vector<FitGroup>>{groups}).front();
+}
+
 TEST(Fit, FindsTheCoefficientsThatMadeTheTruth) {
   Random random(7);
   Fit wanted;
@@ -19,7 +24,7 @@ TEST(Fit, FindsTheCoefficientsThatMadeTheTruth) {
     for (float& term : s.terms) term = float(random.uniform(0, 1));
     s.truth = float(wanted.ao(s));
   }
-  const Fit found = fitted({{&samples, 1}});
+  const Fit found = fitted_alone({{&samples, 1}});
   for (size_t i = 0; i < wanted.closed.size(); ++i) EXPECT_NEAR(found.closed[i], wanted.closed[i], 2e-3) << i;
 }
 
@@ -33,11 +38,38 @@ TEST(Fit, ExpectsTheErrorThatIsLeft) {
     s.terms[1] = float(random.uniform(0, 0.4));
     s.truth = 1 - s.terms[0] + (random.one_in(2) ? 0.5f : -0.5f) * s.terms[1];
   }
-  const Fit found = fitted({{&samples, 1}});
+  const Fit found = fitted_alone({{&samples, 1}});
   EXPECT_NEAR(found.closed[0], 1, 0.02);
   EXPECT_NEAR(found.closed[1], 0, 0.02);
   EXPECT_NEAR(found.error[0], 0, 0.02);
   EXPECT_NEAR(found.error[1], 0.5, 0.02);
+}
+
+TEST(Fit, ExpectsTheErrorOfPixelsThatShowNothing) {
+  std::vector<FitSample> samples(1000);
+  for (FitSample& s : samples) {
+    s.terms.fill(0);
+    s.truth = 0.75f;
+  }
+  EXPECT_NEAR(fitted_alone({{&samples, 1}}).expected_error(samples.front()), 0.25, 1e-3);
+}
+
+/// Two samplings whose truths differ by what a and u count: a keeps its own coefficients, u gets the mean.
+TEST(Fit, WhatIsUnknownCountsAlikeForAllSamplings) {
+  Random random(9);
+  std::vector<FitSample> few(4000), many(4000);
+  for (std::vector<FitSample>* list : {&few, &many}) {
+    for (FitSample& s : *list) {
+      s.terms.fill(0);
+      s.terms[0] = float(random.uniform(0, 0.5));
+      s.terms[2] = float(random.uniform(0, 0.5));
+      s.truth = 1 - (list == &few ? 0.5f : 0.9f) * s.terms[0] - (list == &few ? 0.6f : 0.2f) * s.terms[2];
+    }
+  }
+  const std::vector<Fit> fits = fitted({{{&few, 1}}, {{&many, 1}}});
+  EXPECT_EQ(fits[0].closed[2], fits[1].closed[2]);
+  EXPECT_NEAR(fits[0].closed[2], 0.4, 0.02);
+  EXPECT_GT(fits[1].closed[0], fits[0].closed[0]);
 }
 
 TEST(Fit, PixelsCountByTheirWeight) {
@@ -49,7 +81,7 @@ TEST(Fit, PixelsCountByTheirWeight) {
       s.truth = list == &dark ? 0.5f : 1.0f;
     }
   }
-  const Fit fit = fitted({{&dark, 0.25}, {&bright, 0.75}});
+  const Fit fit = fitted_alone({{&dark, 0.25}, {&bright, 0.75}});
   EXPECT_NEAR(fit.ao(dark.front()), 0.875, 1e-3);
 }
 
