@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -50,13 +51,29 @@ class SignalsLater {
   sigset_t before_;
 };
 
+constexpr std::string_view temporary_prefix = ".gloam-";
+constexpr size_t random_bytes = 12;
+
 std::string random_name() {
-  std::array<unsigned char, 12> bytes{};
+  std::array<unsigned char, random_bytes> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
     throw Error("no random name for a new file: {}", std::strerror(errno));
-  std::string name = ".gloam-";
+  std::string name(temporary_prefix);
   for (const unsigned char byte : bytes) name += fmt::format("{:02x}", byte);
   return name;
+}
+
+bool is_temporary_name(const std::string& name) {
+  return name.size() == temporary_prefix.size() + 2 * random_bytes && name.starts_with(temporary_prefix) &&
+         name.find_first_not_of("0123456789abcdef", temporary_prefix.size()) == std::string::npos;
+}
+
+/// Locks a file against `remove_leftovers`, which ends with the process. False if that was faster and has removed the file. File systems
+/// without locks have no leftovers removed.
+bool is_safe_from_removal(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+  struct stat about {};
+  return ::fstat(descriptor, &about) != 0 || about.st_nlink > 0;
 }
 
 /// A new file that no other process has. It is removed unless it is renamed; a signal handler knows it while it exists.
@@ -71,10 +88,12 @@ class Temporary {
       if (path_.size() >= PATH_MAX) throw Error("the path is too long");
       const SignalsLater later;
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-      if (descriptor_ >= 0)
+      if (descriptor_ < 0 && errno != EEXIST) break;
+      if (descriptor_ < 0) continue;
+      if (is_safe_from_removal(descriptor_))
         enter();
-      else if (errno != EEXIST)
-        break;
+      else
+        ::close(std::exchange(descriptor_, -1));
     }
     if (descriptor_ < 0) throw Error("{}", std::strerror(errno));
   }
@@ -195,6 +214,25 @@ std::string why_unwritable(const fs::path& path) {
   if (fs::is_directory(status)) return "it is a folder; name a file in it";
   if (fs::exists(status) && !fs::is_regular_file(status)) return "it is a device or a pipe; name a regular file";
   return "";
+}
+
+int remove_leftovers(const fs::path& folder) {
+  int removed = 0;
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+    if (!is_temporary_name(entry->path().filename().string())) continue;
+    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) removed += ::unlink(entry->path().c_str()) == 0;
+    ::close(descriptor);
+  }
+  return removed;
+}
+
+bool is_lack_of_space(const Error& error) {
+  const std::string text = error.what();
+  const auto names = [&](int code) { return text.find(std::strerror(code)) != std::string::npos; };
+  return names(ENOSPC) || names(EDQUOT) || names(EFBIG);
 }
 
 void NewFile::append(std::string_view bytes) {
