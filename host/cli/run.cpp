@@ -3,6 +3,8 @@
 #include <set>
 #include <string>
 
+#include "base/files.h"
+#include "base/hash.h"
 #include "cli/list_techniques.h"
 #include "cli/run_frame.h"
 #include "cli/run_shot.h"
@@ -17,6 +19,15 @@ const std::set<std::string> not_of_contents = {"frame",    "other_eye", "--camer
                                                "--json",   "--frames",  "--missing",      "--resume", "--memory",
                                                "--repeat", "--quiet",   "--limit-memory", "--help",   "technique"};
 
+/// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
+std::string value_in_words(const std::string& value) {
+  const size_t equals = value.find('=');
+  const std::string file = equals == std::string::npos ? "" : value.substr(equals + 1);
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown)) return value;
+  return fmt::format("{} ({:016x})", value, hash_of(read_text(file)));
+}
+
 /// The other flags given, in the order of `--help`: "--set radius=0.5 --preset medium".
 std::string contents_in_words(const CLI::App& command) {
   std::string words;
@@ -25,7 +36,7 @@ std::string contents_in_words(const CLI::App& command) {
     const std::string flag = option->nonpositional() ? "--" + name : name;
     if (option->count() == 0 || not_of_contents.count(flag) > 0) continue;
     words += " " + flag;
-    for (const std::string& value : option->results()) words += " " + value;
+    for (const std::string& value : option->results()) words += " " + value_in_words(value);
   }
   return words;
 }

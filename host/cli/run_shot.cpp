@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/memory.h"
+#include "base/page_pool.h"
 #include "cli/memory.h"
 #include "cli/shot_work.h"
 #include "gloam/error.h"
@@ -140,6 +141,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
   settings.display = first.files.files().front().display();
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;
+  const PageReuse reuse(memory.all - process_bytes_with_device);
   const FrameLocks locks(output, shot.numbers());
   remove_leftovers(output.folder());
   say_on_interruption("frames that were written are whole; the same command with --resume goes on");

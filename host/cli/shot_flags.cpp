@@ -11,19 +11,19 @@ constexpr const char* group = "Shots";
 
 }  // namespace
 
-void add_frame_choice(CLI::App& app, FrameChoice& choice) {
+void add_frames(CLI::App& app, FrameChoice& choice) {
   add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
              "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all that are there")
       ->type_name("A-B")
       ->group(group);
+}
+
+void ShotFlags::add_to(CLI::App& app) {
+  add_frames(app, choice);
   add_choice(app, "--missing", choice.missing,
              {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}},
              "frames that are not there: refuse (the default), leave out, or take the nearest one before")
       ->group(group);
-}
-
-void ShotFlags::add_to(CLI::App& app) {
-  add_frame_choice(app, choice);
   app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(group);
   app.add_option("--memory", memory, "most memory for a shot: it decides how many frames are worked on at once")
       ->check(accepted_by(parse_memory, "--memory"))

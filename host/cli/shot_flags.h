@@ -19,7 +19,7 @@ struct ShotFlags {
   std::string any() const;
 };
 
-/// Adds --frames and --missing.
-void add_frame_choice(CLI::App& app, FrameChoice& choice);
+/// Adds --frames.
+void add_frames(CLI::App& app, FrameChoice& choice);
 
 }  // namespace gloam::cli
