@@ -38,14 +38,6 @@ void check_flags(const RunCommand& flags) {
     throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
 }
 
-/// By default the first output alone, with the extras asked for.
-PlanRequest request_for_shot(const RunCommand& flags, PlanRequest request) {
-  if (!flags.outputs.empty()) return request;
-  request.only = {outputs_of(find_technique(flags.technique)).front()};
-  request.only.insert(request.only.end(), request.with.begin(), request.with.end());
-  return request;
-}
-
 /// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no frame can be
 /// planned.
 PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth) {
@@ -61,6 +53,13 @@ PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bo
   }
   if (shot.frames().size() == 1) throw Error("{}", first_error);
   throw Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
+}
+
+/// By default the first output alone, with the extras asked for.
+void ask_for_first_output(PlanRequest& request, const Plan& plan) {
+  if (!request.only.empty()) return;
+  request.only = {plan.outputs.front()};
+  add_new(request.only, request.with);
 }
 
 void check_needs_no_history(const Plan& plan) {
@@ -128,7 +127,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
   const FramePattern output(flags.out, "-o");
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(output, shot, {{"--json", flags.json.file()}});
-  ShotSettings settings{.request = request_for_shot(flags, given),
+  ShotSettings settings{.request = given,
                         .options = flags.run_flags.run_options(),
                         .writing = {!flags.shot.as_float, flags.compression},
                         .carried = {.depth = flags.shot.keep_depth && !flags.bare, .cameras = !flags.bare},
@@ -136,6 +135,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
                         .resume = flags.shot.resume,
                         .version = version_with_kernels(GLOAM_VERSION),
                         .contents = flags.technique + flags.given};
+  ask_for_first_output(settings.request, first_planned(shot, settings.request, settings.carried.depth).plan);
   const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
   check_needs_no_history(first.plan);
   settings.display = first.files.files().front().display();

@@ -104,7 +104,9 @@ TEST_F(Shot, AFrameThatFailsLeavesTheOthers) {
   EXPECT_EQ(lines[6]["done"], 3);
   EXPECT_EQ(lines[6]["failed"], 3);
   for (const nlohmann::json& line : lines) {
-    if (line.contains("status")) EXPECT_EQ(line["status"] == "failed", line["error"].is_string()) << line;
+    if (line.contains("status")) {
+      EXPECT_EQ(line["status"] == "failed", line["error"].is_string()) << line;
+    }
   }
 }
 
@@ -181,8 +183,10 @@ TEST_F(Shot, TechniquesWithAHistoryAreRefused) {
 
 // --- Cameras and eyes
 
+constexpr const char* pose = R"("camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
+
 std::string camera_json(double fx) {
-  return fmt::format(R"({{"width": 64, "height": 48, "fx": {}, "fy": {}, "cx": 32, "cy": 24}})", fx, fx);
+  return fmt::format(R"({{"width": 64, "height": 48, "fx": {}, "fy": {}, "cx": 32, "cy": 24, {}}})", fx, fx, pose);
 }
 
 TEST_F(Shot, CamerasOfEachFrame) {
@@ -203,8 +207,9 @@ TEST_F(Shot, CamerasOfEachFrame) {
   std::ofstream(path("list.json")) << fmt::format(R"({{"frames": {{"1": {}, "2": {}, "3": {}, "4": {}}}}})",
                                                   camera_json(51), camera_json(52), camera_json(53), camera_json(54));
   expect_focal_lengths({"--camera", file("list.json")}, {51, 52, 53});
-  std::ofstream(path("order.json")) << R"({"width": 64, "height": 48, "cx": 32, "cy": 24, "fy": 50,
-                                           "frames": [{"fx": 61}, {"fx": 62}, {"fx": 63}]})";
+  std::ofstream(path("order.json")) << fmt::format(
+      R"({{"width": 64, "height": 48, "cx": 32, "cy": 24, "fy": 50, {}, "frames": [{{"fx": 61}}, {{"fx": 62}}, {{"fx": 63}}]}})",
+      pose);
   expect_focal_lengths({"--camera", file("order.json")}, {61, 62, 63});
   expect_focal_lengths({"--camera", file("cam.0002.json")}, {42, 42, 42});
   for (const int number : {1, 2, 3})
