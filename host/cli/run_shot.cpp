@@ -18,8 +18,13 @@ namespace {
 
 using Bytes = unsigned long long;
 
-/// Throws UsageError for flags and names that do not go with a shot.
+/// Throws UsageError for a technique, flags and names that do not go with a shot.
 void check_flags(const RunCommand& flags) {
+  if (contains(find_technique(flags.technique).reads, "history"))
+    throw UsageError(
+        "{}: takes over the frame before, and a shot's frames are computed by themselves; run frame after frame, "
+        "each with --history",
+        flags.technique);
   const FrameArguments& frame = flags.frame;
   for (const std::string& file : {frame.frame, frame.other_eye}) {
     if (!file.empty() && !FramePattern::is_pattern(file))
@@ -60,18 +65,6 @@ void ask_for_first_output(PlanRequest& request, const Plan& plan) {
   if (!request.only.empty()) return;
   request.only = {plan.outputs.front()};
   add_new(request.only, request.with);
-}
-
-void check_needs_no_history(const Plan& plan) {
-  for (const PlannedPass& planned : plan.passes) {
-    for (const Binding& read : planned.pass.reads) {
-      if (contains(History::planes(), read.plane))
-        throw UsageError(
-            "{}: takes over the frame before, and a shot's frames are computed by themselves; run frame after "
-            "frame with --history",
-            plan.technique);
-    }
-  }
 }
 
 /// One frame in each thread's hands, and one that waits before each step.
@@ -137,7 +130,6 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
                         .contents = flags.technique + flags.given};
   ask_for_first_output(settings.request, first_planned(shot, settings.request, settings.carried.depth).plan);
   const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
-  check_needs_no_history(first.plan);
   settings.display = first.files.files().front().display();
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;

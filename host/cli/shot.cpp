@@ -79,18 +79,21 @@ void check_outputs(const FramePattern& output, const ShotFiles& shot, const std:
   for (const SequenceFrame& frame : shot.frames()) {
     for (const std::string& path : shot.paths_of(frame)) inputs.emplace(canonical_name(path), frame.number);
   }
-  for (const SequenceFrame& frame : shot.frames()) {
-    const fs::path path = output.path_of(frame.number);
-    if (const auto input = inputs.find(canonical_name(path)); input != inputs.end())
-      throw UsageError("-o {}: {} is also what frame {} is read from; name other files", output.text(), path.string(),
-                       input->second);
+  const auto check_no_input = [&](const std::string& flag, const fs::path& path) {
+    const auto input = inputs.find(canonical_name(path));
+    if (input == inputs.end()) return;
+    throw UsageError("{}: {} is also what frame {} is read from; name another file", flag, path.string(),
+                     input->second);
+  };
+  for (const SequenceFrame& frame : shot.frames()) check_no_input("-o " + output.text(), output.path_of(frame.number));
+  for (const auto& [flag, path] : other_outputs) {
+    if (!path.empty()) check_no_input(flag + " " + path, path);
   }
   // The folder is that of every frame.
   const SequenceFrame& first = shot.frames().front();
-  std::vector<NamedPath> named = {{"--camera", shot.camera_of(first)}};
   std::vector<NamedPath> outputs = {{"-o", output.path_of(first.number).string()}};
   outputs.insert(outputs.end(), other_outputs.begin(), other_outputs.end());
-  check_paths(named, outputs);
+  check_paths({{"--camera", shot.camera_of(first)}}, outputs);
 }
 
 }  // namespace gloam::cli

@@ -14,6 +14,9 @@ namespace {
 /// So many frames in a row without space: the disk is full.
 constexpr size_t most_without_space = 3;
 
+/// Seconds.
+constexpr double least_between_drawings = 0.1;
+
 /// One line of a document in JSON lines.
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
@@ -86,8 +89,9 @@ void ShotReport::tell(const Failure& failure) {
   std::fputs(printable(fmt::format("gloam: frame {}: {}", failure.frame, failure.why)).append("\n").c_str(), stderr);
 }
 
-void ShotReport::draw() const {
-  if (!shows_progress()) return;
+void ShotReport::draw() {
+  if (!shows_progress() || seconds() < drawn_ + least_between_drawings) return;
+  drawn_ = seconds();
   const size_t ended = done_ + skipped_ + failed_.size(), worked = done_ + failed_.size();
   const double per_second = double(worked) / seconds();
   const int width = 40, filled = int(double(width) * double(ended) / double(frames_));

@@ -43,7 +43,7 @@ class ShotReport {
   };
   void end_frame(Json line);
   void tell(const Failure& failure);
-  void draw() const;
+  void draw();
   double seconds() const;
   Json summary() const;
   void print(const std::string& output, const std::string& contents) const;
@@ -52,6 +52,7 @@ class ShotReport {
   const size_t frames_;
   const JsonFlag json_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double drawn_ = 0;  ///< when the progress was drawn last, seconds
   size_t done_ = 0, skipped_ = 0;
   StepTimes sums_;
   std::vector<int> failed_;

@@ -18,6 +18,14 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
     text.replace(at, what.size(), with);
 }
 
+/// Of the first frame: what holds for one frame of a shot mostly holds for all.
+void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const Frame& frame) {
+  report_on(radius, frame, plan);
+  if (radius && radius->from == RadiusSource::frame)
+    note({"radius: each frame has its own, made from its depths; --radius gives one to all"});
+  if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) note({warning});
+}
+
 }  // namespace
 
 unsigned long long bytes_in_flight(const PlannedFrame& planned) {
@@ -102,10 +110,9 @@ bool ShotWork::decode(size_t i) {
     flight.frame = planned.files.read(planned.planes);
     add_notes(i, flight.frame.assumed);
     const std::optional<Radius> radius = settle(planned, flight.frame);
-    if (i > 0) return true;
-    // What holds for one frame of a shot mostly holds for all; one is enough.
-    report_on(radius, flight.frame, planned.plan);
-    if (const std::string warning = warning_about_views(planned.plan, flight.frame); !warning.empty()) note({warning});
+    if (i == 0) add_warnings(radius, planned.plan, flight.frame);
+    flight.plan = std::move(planned.plan);
+    flight.planned.reset();  // closes the files
     return true;
   });
 }
@@ -120,7 +127,7 @@ bool ShotWork::compute(size_t i) {
 }
 
 void ShotWork::compute_planes(InFlight& flight) {
-  const Plan& plan = flight.planned->plan;
+  const Plan& plan = flight.plan;
   flight.result = run(plan, flight.frame, *device_, settings_.options).frame;
   carry_over(flight.frame, flight.result, settings_.carried);
   flight.result.attributes = provenance({{&plan}}, settings_.options);

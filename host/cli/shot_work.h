@@ -46,7 +46,8 @@ class ShotWork {
  private:
   /// A frame between its steps.
   struct InFlight {
-    std::optional<PlannedFrame> planned;
+    std::optional<PlannedFrame> planned;  ///< while it is decoded
+    Plan plan;
     Frame frame, result;  ///< as decoded; what is written
     FrameMaking making;
     StepTimes times;

@@ -122,8 +122,8 @@ TEST_F(Shot, AFirstFrameThatFailsLeavesTheOthers) {
 
 TEST_F(Shot, MissingFrames) {
   make_shot({1, 2, 5});
-  expect_refused(run_of({"--frames", "1-5"}), 1, {"3-4: are missing", "shot.0003.exr", "--missing"});
-  expect_refused(run_of({"--frames", "8-9"}), 1, {"8-9: are missing"});
+  expect_refused(run_of({"--frames", "1-5"}), 1, {"frames 3-4 are missing", "shot.0003.exr", "--missing"});
+  expect_refused(run_of({"--frames", "8-9"}), 1, {"frames 8-9 are missing"});
   const Result skipped = run({"--frames", "1-5", "--missing", "skip"});
   EXPECT_EQ(skipped.status, 0) << skipped.err;
   EXPECT_NE(skipped.err.find("3-4 missing: left out"), std::string::npos) << skipped.err;
@@ -163,22 +163,11 @@ TEST_F(Shot, RefusesInOneLine) {
     arguments.insert(arguments.end(), flag.begin(), flag.end());
     expect_refused(arguments, 2, {flag[0], "is one frame"});
   }
+  expect_refused({"run", "temporal-sssr", shot, "-o", out}, 2,
+                 {"temporal-sssr: takes over the frame before", "--history"});
+  expect_refused(run_on({shot, "-o", out, "--json", one}), 2, {"--json", "is also"});
   expect_refused({"compare", shot, one}, 1, {"only run and info take the files of a shot"});
   expect_refused({"auto", shot, "-o", file("a.exr")}, 1, {"only run and info take the files of a shot"});
-}
-
-TEST_F(Shot, TechniquesWithAHistoryAreRefused) {
-  for (const int number : {1, 2}) {
-    Frame frame = frame_of(number);
-    for (const auto& [name, count] : {std::pair("normal", 3), std::pair("roughness", 1), std::pair("reflectance", 3)}) {
-      Plane& plane = frame.views[0].planes[name];
-      plane.name = name;
-      for (int i = 0; i < count; ++i)
-        plane.channels.emplace_back(Layout(64, 48), name == std::string("normal") ? float(i == 2) : 0.5f);
-    }
-    write_frame(path(numbered("shot", number)), frame);
-  }
-  expect_refused(run_of({}, "temporal-sssr"), 1, {"history"});
 }
 
 // --- Cameras and eyes
@@ -239,7 +228,7 @@ TEST_F(Shot, TwoEyesInTwoFiles) {
   write_frame(path(numbered("L", 3)), frame_of(3));
   const Arguments both = {"run",      "hbao+", file("L.####.exr"), file("R.####.exr"), "-o", file("ao.####.exr"),
                           "--radius", "0.5"};
-  expect_refused(both, 1, {"3: is missing", "R.0003.exr"});
+  expect_refused(both, 1, {"frame 3 is missing", "R.0003.exr"});
   Arguments skipping = both;
   skipping.insert(skipping.end(), {"--missing", "skip"});
   const Result result = gloam(skipping);

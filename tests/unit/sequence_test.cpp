@@ -136,7 +136,7 @@ TEST_F(Sequence, WhichFramesAreComputed) {
   const auto refused = [&](const FrameChoice& choice, const std::vector<std::string>& names = {"s.####.exr"}) {
     return message_of([&] { listed(choice, names); });
   };
-  EXPECT_NE(refused({Numbers{2, 4, 5, 7}, {}}).find("4-5, 7: are missing"), std::string::npos);
+  EXPECT_NE(refused({Numbers{2, 4, 5, 7}, {}}).find("frames 4-5, 7 are missing"), std::string::npos);
   EXPECT_NE(refused({{}, MissingFrames::error}).find("4-5"), std::string::npos);
   EXPECT_NE(refused({{}, {}}, {"s.####.exr", "r.####.exr"}).find("r.0003.exr"), std::string::npos)
       << "one eye lacks it";
