@@ -1,5 +1,5 @@
-// bench_sequence_floor: reads the channels that a run on a shot decodes, and writes the channels that it writes, by OpenEXR with its own
-// threads and nothing else. What `gloam run` takes for a frame beyond that is gloam's.
+// bench_sequence_floor: reads the channels that a run on a shot decodes, and writes the channels that it writes, by OpenEXR
+// with its own threads and nothing else. What `gloam run` takes for a frame beyond that is gloam's.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>

@@ -9,12 +9,13 @@
 
 namespace gloam {
 
-/// The JSON {"frames": {"1001": CAMERA, ...}}, or {"frames": [CAMERA, ...]} in the order of the frames. CAMERA is a camera JSON; a field
-/// that it lacks is that of the top.
+/// The JSON {"frames": {"1001": CAMERA, ...}}, or {"frames": [CAMERA, ...]} in the order of the frames. CAMERA is a camera
+/// JSON; a field that it lacks is that of the top.
 class CameraList {
  public:
-  /// The list of a file; none if the file is a JSON without "frames". Throws Error naming the file if it cannot be read, for "frames"
-  /// of another form, for a list in order that has another number of cameras than there are `frames`, and for frames without a camera.
+  /// The list of a file; none if the file is a JSON without "frames". Throws Error naming the file if it cannot be read, for
+  /// "frames" of another form, for a list in order that has another number of cameras than there are `frames`, and for frames
+  /// without a camera.
   static std::optional<CameraList> of_file(const std::filesystem::path& file, const std::vector<int>& frames);
 
   /// The text of a frame's camera JSON.

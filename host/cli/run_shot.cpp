@@ -43,8 +43,8 @@ void check_flags(const RunCommand& flags) {
     throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
 }
 
-/// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no frame can be
-/// planned.
+/// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no
+/// frame can be planned.
 PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth) {
   std::string first_error;
   for (const SequenceFrame& frame : shot.frames()) {

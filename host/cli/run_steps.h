@@ -21,8 +21,8 @@ struct PlannedFrame {
 /// Plans. The file's depth is decoded too if it is carried over to the output.
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth);
 
-/// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the depth.
-/// Returns the radius, if the plan has one.
+/// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
+/// depth. Returns the radius, if the plan has one.
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);
 
 /// A note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras. Else empty.

@@ -26,14 +26,14 @@ class ShotReport {
   void skipped(int frame);
   /// Tells why on standard error, in a line.
   void failed(int frame, const std::string& why);
-  /// As `failed`, for lack of space on the disk. It is told once it is known whether later frames have found some. Returns whether so many
-  /// frames in a row have failed for it that the others would too.
+  /// As `failed`, for lack of space on the disk. It is told once it is known whether later frames have found some. Returns
+  /// whether so many frames in a row have failed for it that the others would too.
   bool found_no_space(int frame, const std::string& why);
   /// Remembers why a frame that was there is written again.
   void written_again(int frame, const std::string& why);
 
-  /// Tells what is still to be told, prints figures and notes, and writes the document. Throws Error if a frame failed: with the numbers of
-  /// the failed frames, or if space was lacking with what to do.
+  /// Tells what is still to be told, prints figures and notes, and writes the document. Throws Error if a frame failed: with
+  /// the numbers of the failed frames, or if space was lacking with what to do.
   void finish(const std::string& output, const std::string& contents);
 
  private:

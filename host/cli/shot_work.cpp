@@ -30,8 +30,8 @@ void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const F
 
 unsigned long long bytes_in_flight(const PlannedFrame& planned) {
   const Layout layout(planned.files.window().width(), planned.files.window().height());
-  // On a device with memory of its own, a run takes the host's memory for its results only: those that wait to be written. As half, they
-  // are copied.
+  // On a device with memory of its own, a run takes the host's memory for its results only: those that wait to be written. As
+  // half, they are copied.
   const unsigned long long results = bytes_beside_frame(planned.plan, layout, planned.files.views().size(), false);
   return bytes_to_read(planned.files, planned.planes) + results + results / 2;
 }

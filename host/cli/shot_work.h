@@ -31,8 +31,8 @@ struct ShotSettings {
 /// Memory that a frame takes from the start of its decoding to the end of its writing, besides what computing takes.
 unsigned long long bytes_in_flight(const PlannedFrame& planned);
 
-/// The steps of a frame, for a `Pipeline`: each tells the report of frames that end with it. An error of one frame ends this frame alone;
-/// what all frames would fail for (no device, no memory on it) is thrown.
+/// The steps of a frame, for a `Pipeline`: each tells the report of frames that end with it. An error of one frame ends this
+/// frame alone; what all frames would fail for (no device, no memory on it) is thrown.
 class ShotWork {
  public:
   /// `device`: opened while the first frames are decoded. `stop`: called if no further frame shall begin.

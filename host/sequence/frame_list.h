@@ -23,8 +23,8 @@ struct FrameChoice {
   std::optional<MissingFrames> missing;  ///< none: error
 };
 
-/// `files`: one pattern, or one for each eye; a frame is there if all its files are. Appends a sentence to `notes` for frames that are
-/// left out or held. Throws Error, in one line, if no frame is there, and for frames that are missing.
+/// `files`: one pattern, or one for each eye; a frame is there if all its files are. Appends a sentence to `notes` for frames
+/// that are left out or held. Throws Error, in one line, if no frame is there, and for frames that are missing.
 std::vector<SequenceFrame> list_frames(const std::vector<FramePattern>& files, const FrameChoice& choice,
                                        std::vector<std::string>& notes);
 

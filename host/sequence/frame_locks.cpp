@@ -13,8 +13,8 @@
 namespace gloam {
 namespace {
 
-/// A write lock on bytes of an open file; `length` 0: to its end. It belongs to the descriptor, not to the process, and ends when that
-/// is closed.
+/// A write lock on bytes of an open file; `length` 0: to its end. It belongs to the descriptor, not to the process, and ends
+/// when that is closed.
 bool lock_bytes(int descriptor, off_t first, off_t length) {
   struct flock region {};
   region.l_type = F_WRLCK;

@@ -7,8 +7,8 @@
 
 namespace gloam {
 
-/// The work on one frame, by its place in the list of frames. Each step returns whether the next one is wanted; a frame ends with the
-/// step that returns false, and else with `write`. Whoever calls keeps what the steps hand on.
+/// The work on one frame, by its place in the list of frames. Each step returns whether the next one is wanted; a frame ends
+/// with the step that returns false, and else with `write`. Whoever calls keeps what the steps hand on.
 struct PipelineSteps {
   std::function<bool(size_t)> decode;   ///< several frames at once, begun in order
   std::function<bool(size_t)> compute;  ///< one frame after another, in order
@@ -26,7 +26,8 @@ class Pipeline {
   Pipeline(size_t frames, const PipelineSize& size, PipelineSteps steps);
   ~Pipeline();
 
-  /// Returns when every frame has ended, or after `stop` when those begun have. Throws what a step throws; the frames begun end first.
+  /// Returns when every frame has ended, or after `stop` when those begun have. Throws what a step throws; the frames begun end
+  /// first.
   void run();
   /// From a step: begins no further frame.
   void stop();

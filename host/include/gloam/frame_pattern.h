@@ -8,8 +8,8 @@
 
 namespace gloam {
 
-/// Each # stands for a digit; %d and %04d are as in C. Shorter numbers are filled up with zeros, longer ones keep their digits. The
-/// number has its place in the file's name, not in a folder's.
+/// Each # stands for a digit; %d and %04d are as in C. Shorter numbers are filled up with zeros, longer ones keep their digits.
+/// The number has its place in the file's name, not in a folder's.
 class FramePattern {
  public:
   /// Whether a path has a place for a number. A file that exists under the very name has none.
