@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -33,6 +34,27 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<unsigned>::is_always_lock_free);
 std::array<TemporaryName, 16> temporaries;
 std::atomic<unsigned> files_written{0};
+std::atomic<bool> leaving{false};  ///< a signal handler removes the temporaries and ends the process
+std::atomic<int> being_made{0};    ///< temporaries that exist and are not yet among `temporaries`
+
+/// Does not return: for threads that go on while a signal handler ends the process.
+[[noreturn]] void wait_for_the_end() {
+  for (;;) ::pause();
+}
+
+/// While a temporary is made. The signal handler waits until it is known; afterwards none is made.
+class Making {
+ public:
+  Making() {
+    being_made.fetch_add(1);
+    if (!leaving.load()) return;
+    being_made.fetch_sub(1);
+    wait_for_the_end();
+  }
+  ~Making() { being_made.fetch_sub(1); }
+  Making(const Making&) = delete;
+  Making& operator=(const Making&) = delete;
+};
 
 /// Delays signals, so that none arrives between two steps that belong together.
 class SignalsLater {
@@ -50,13 +72,29 @@ class SignalsLater {
   sigset_t before_;
 };
 
+constexpr std::string_view temporary_prefix = ".gloam-";
+constexpr size_t random_bytes = 12;
+
 std::string random_name() {
-  std::array<unsigned char, 12> bytes{};
+  std::array<unsigned char, random_bytes> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
     throw Error("no random name for a new file: {}", std::strerror(errno));
-  std::string name = ".gloam-";
+  std::string name(temporary_prefix);
   for (const unsigned char byte : bytes) name += fmt::format("{:02x}", byte);
   return name;
+}
+
+bool is_temporary_name(const std::string& name) {
+  return name.size() == temporary_prefix.size() + 2 * random_bytes && name.starts_with(temporary_prefix) &&
+         name.find_first_not_of("0123456789abcdef", temporary_prefix.size()) == std::string::npos;
+}
+
+/// Locks a file against `remove_leftovers`; the lock ends with the process. False if that was faster and has removed the file. On
+/// file systems without locks nothing is removed.
+bool is_safe_from_removal(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+  struct stat about {};
+  return ::fstat(descriptor, &about) != 0 || about.st_nlink > 0;
 }
 
 /// A new file that no other process has. It is removed unless it is renamed; a signal handler knows it while it exists.
@@ -70,11 +108,14 @@ class Temporary {
       path_ = (target.parent_path() / random_name()).string();
       if (path_.size() >= PATH_MAX) throw Error("the path is too long");
       const SignalsLater later;
+      const Making making;
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-      if (descriptor_ >= 0)
+      if (descriptor_ < 0 && errno != EEXIST) break;
+      if (descriptor_ < 0) continue;
+      if (is_safe_from_removal(descriptor_))
         enter();
-      else if (errno != EEXIST)
-        break;
+      else
+        ::close(std::exchange(descriptor_, -1));
     }
     if (descriptor_ < 0) throw Error("{}", std::strerror(errno));
   }
@@ -99,6 +140,7 @@ class Temporary {
     if (::close(std::exchange(descriptor_, -1)) != 0) throw Error("{}", std::strerror(errno));
     if (slot_) slot_->moving.store(true);
     renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
+    if (!renamed_ && leaving.load()) wait_for_the_end();
     if (!renamed_) throw Error("{}", std::strerror(errno));
     files_written.fetch_add(1);
     sync_folder(target.parent_path());
@@ -129,12 +171,11 @@ class Temporary {
 };
 
 std::atomic<const char*> interruption_text{nullptr};
-std::atomic<bool> leaving{false};
-
 void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 extern "C" void remove_and_leave(int signal) {
-  if (leaving.exchange(true)) return;  // a second signal, on another thread: one report is enough
+  if (leaving.exchange(true)) return;      // a second signal, on another thread: one report is enough
+  while (being_made.load() > 0) continue;  // other threads do: this one delays signals while it makes one
   unsigned written = files_written.load();
   for (TemporaryName& slot : temporaries)
     if (slot.exists.load() && ::unlink(slot.path) != 0 && slot.moving.load()) ++written;
@@ -195,6 +236,25 @@ std::string why_unwritable(const fs::path& path) {
   if (fs::is_directory(status)) return "it is a folder; name a file in it";
   if (fs::exists(status) && !fs::is_regular_file(status)) return "it is a device or a pipe; name a regular file";
   return "";
+}
+
+int remove_leftovers(const fs::path& folder) {
+  int removed = 0;
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+    if (!is_temporary_name(entry->path().filename().string())) continue;
+    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) removed += ::unlink(entry->path().c_str()) == 0;
+    ::close(descriptor);
+  }
+  return removed;
+}
+
+bool is_lack_of_space(const Error& error) {
+  const std::string text = error.what();
+  const auto names = [&](int code) { return text.find(std::strerror(code)) != std::string::npos; };
+  return names(ENOSPC) || names(EDQUOT) || names(EFBIG);
 }
 
 void NewFile::append(std::string_view bytes) {

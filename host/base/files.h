@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "gloam/error.h"
+
 namespace gloam {
 
 /// A file that is being written, under a temporary name.
@@ -26,6 +28,13 @@ class NewFile {
 /// the file that it replaces. A symbolic link is written through, even if its target is missing. On any error, and on SIGHUP,
 /// SIGINT or SIGTERM, the new file is removed and `path` is left as it was. Throws Error naming `path`.
 void write_atomically(const std::filesystem::path& path, const std::function<void(NewFile&)>& write);
+
+/// Removes files that `write_atomically` left in a folder when its process was killed, and returns their number. Those of running
+/// processes are locked and stay; on a network file system also those of other machines.
+int remove_leftovers(const std::filesystem::path& folder);
+
+/// Whether `write_atomically` failed because the disk is full, a quota is used up, or a file would be larger than files may be.
+bool is_lack_of_space(const Error& error);
 
 /// The reason why no file can be written under a name: it is a folder, a device or a pipe; else empty. For a check before anything
 /// is computed.

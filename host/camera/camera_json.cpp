@@ -22,12 +22,13 @@ using nlohmann::json;
 /// A camera takes a few kilobytes; a larger JSON is no camera.
 constexpr std::uintmax_t largest_camera_file = 16 << 20;
 
-json parse_camera_file(const fs::path& file) {
-  json document = parse_camera_json(file);
+json checked_object(json document, const fs::path& file) {
   if (!document.is_object())
     throw Error("{}: holds {}, expected an object with \"views\"", file.string(), document.type_name());
   return document;
 }
+
+json parse_camera_file(const fs::path& file) { return checked_object(parse_camera_json(file), file); }
 
 /// Interpolates between two cameras; t: 0 to 1.
 Camera between(const Camera& a, const Camera& b, double t) {
@@ -61,11 +62,19 @@ json parse_camera_json(const fs::path& file) {
 
 std::map<std::string, Camera> read_camera_file(const fs::path& file, const Window& display,
                                                std::vector<std::string>& assumed) {
-  const json document = parse_camera_file(file);
+  return cameras_of(parse_camera_file(file), file, display, assumed);
+}
+
+std::map<std::string, Camera> cameras_of(const json& camera_json, const fs::path& file, const Window& display,
+                                         std::vector<std::string>& assumed) {
+  const json document = checked_object(camera_json, file);
   std::map<std::string, Camera> cameras;
   const auto views = document.find("views");
   if (views == document.end() && document.contains("path"))
     throw Error("{}: holds a path of cameras; give it as --camera-path of gloam capture", file.string());
+  if (views == document.end() && document.contains("frames") && document["frames"].is_structured())
+    throw Error("{}: holds a camera for each frame of a sequence; give the frames as a pattern, such as shot.####.exr",
+                file.string());
   if (document.contains("modules") && !holds_camera(document))
     throw Error("{}: describes a light-field display and no camera; give it as --display of gloam capture",
                 file.string());

@@ -21,6 +21,10 @@ namespace gloam {
 std::map<std::string, Camera> read_camera_file(const std::filesystem::path& file, const Window& display,
                                                std::vector<std::string>& assumed);
 
+/// As above, of a JSON at hand; `file` names it in messages.
+std::map<std::string, Camera> cameras_of(const nlohmann::json& camera_json, const std::filesystem::path& file,
+                                         const Window& display, std::vector<std::string>& assumed);
+
 /// The cameras of a path: the list "path" of a camera JSON, one view per camera; fields are looked up in the entry, then at the
 /// top. "frames" (2 to 100000) asks for this many cameras instead, evenly along the list: positions and intrinsics are
 /// interpolated linearly, rotations by the shortest turn. Throws Error as `read_camera_file` does.

@@ -4,13 +4,16 @@
 #include <map>
 #include <memory>
 
+#include "cli/info_shot.h"
 #include "cli/info_views.h"
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/plane_facts.h"
 #include "cli/radius.h"
+#include "cli/shot_flags.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
+#include "gloam/frame_pattern.h"
 #include "gloam/light_field.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
@@ -248,6 +251,7 @@ struct InfoFlags {
   std::string frame, picture;
   bool lacks = false;
   ViewPictureFlags views;
+  FrameChoice choice;
   FrameFlags frame_flags;
   JsonFlag json;
 
@@ -326,7 +330,19 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   print_written(pictures);
 }
 
+/// A shot has no pictures.
+void info_on_shot(const InfoFlags& flags) {
+  if (!flags.picture.empty() || flags.views.any())
+    throw UsageError("{}: is a shot, and pictures show one frame; name the file of a frame", flags.frame);
+  if (flags.lacks) throw UsageError("--lacks: is told of one frame; name the file of a frame of {}", flags.frame);
+  check_paths({}, {{"--json", flags.json.file()}});
+  describe_shot(flags.frame, flags.choice, flags.frame_flags, flags.json);
+}
+
 void info_command(const InfoFlags& flags) {
+  if (FramePattern::is_pattern(flags.frame)) return info_on_shot(flags);
+  if (flags.choice.frames)
+    throw UsageError("--frames: is for a shot, and {} is one frame; write its number as in shot.####.exr", flags.frame);
   check_outputs(flags);
   const std::vector<std::string> pictures = write_view_pictures(flags.frame, flags.views, flags.frame_flags);
   if (flags.is_pictures_only())
@@ -340,10 +356,13 @@ void info_command(const InfoFlags& flags) {
 void add_info(CLI::App& app) {
   auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand("info", "what a frame holds, what is assumed, what can run on it");
-  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  command->add_option("frame", flags->frame, "EXR file, or those of a shot: 'shot.####.exr'")
+      ->required()
+      ->type_name("FRAME.exr");
   command->add_option("--picture", flags->picture, "also all planes as a contact sheet")->type_name("PLANES.png");
   command->add_flag("--lacks", flags->lacks, "what each technique lacks, one a line");
   flags->views.add_to(*command);
+  add_frames(*command, flags->choice);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
@@ -351,6 +370,7 @@ void add_info(CLI::App& app) {
       "  gloam info display.exr --sheet views.png\n"
       "  gloam info display.exr --scan-line line.png --row 400 --what depth\n"
       "  gloam info frame.exr --depth ray --json -\n"
+      "  gloam info 'shot.####.exr' --frames 1001-1100\n"
       "  gloam info frame.exr --plane depth=Layer.Z");
   command->callback([flags] { info_command(*flags); });
 }

@@ -14,22 +14,8 @@ using Bytes = unsigned long long;
 /// A need below this gets no note.
 constexpr Bytes worth_telling = 1ull << 30;
 
-struct Limit {
-  Bytes bytes;
-  std::string words;  ///< "--limit-memory 4G allows 4.0 GiB"
-};
-
-Limit limit_of(const FrameFlags& flags) {
-  if (flags.limit_memory.empty()) {
-    const Bytes available = available_memory();
-    return {available, fmt::format("{} are available", memory_in_words(available))};
-  }
-  const Bytes bytes = parse_memory(flags.limit_memory, "--limit-memory");
-  return {bytes, fmt::format("--limit-memory {} allows {}", flags.limit_memory, memory_in_words(bytes))};
-}
-
 /// Notes the need, or throws Error if it is over the limit.
-Bytes checked(Bytes need, const Limit& limit, const std::string& name, const std::string& ways_out) {
+Bytes checked(Bytes need, const MemoryLimit& limit, const std::string& name, const std::string& ways_out) {
   if (need > limit.bytes)
     throw Error("{}: would take about {} of memory, and {}; {}, or allow more by --limit-memory", name,
                 memory_in_words(need), limit.words, ways_out);
@@ -38,6 +24,21 @@ Bytes checked(Bytes need, const Limit& limit, const std::string& name, const std
 }
 
 }  // namespace
+
+MemoryLimit limit_of(const FrameFlags& flags, const std::string& memory) {
+  MemoryLimit limit;
+  if (flags.limit_memory.empty()) {
+    limit.bytes = available_memory();
+    limit.words = fmt::format("{} are available", memory_in_words(limit.bytes));
+  } else {
+    limit.bytes = parse_memory(flags.limit_memory, "--limit-memory");
+    limit.words = fmt::format("--limit-memory {} allows {}", flags.limit_memory, memory_in_words(limit.bytes));
+  }
+  if (memory.empty()) return limit;
+  const Bytes bytes = parse_memory(memory, "--memory");
+  if (bytes >= limit.bytes) return limit;
+  return {bytes, fmt::format("--memory {} allows {}", memory, memory_in_words(bytes))};
+}
 
 unsigned long long parse_memory(const std::string& text, const std::string& flag) {
   constexpr Bytes least = 1ull << 20, most = 1ull << 50;
@@ -54,7 +55,7 @@ unsigned long long parse_memory(const std::string& text, const std::string& flag
 
 unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, const std::string& device,
                                   const MemoryNeed& need, const std::string& ways_out) {
-  const Limit limit = limit_of(flags);
+  const MemoryLimit limit = limit_of(flags);
   Bytes bytes = need(true);
   if (bytes > limit.bytes && !Device(device).info().shares_memory) bytes = need(false);
   return checked(bytes, limit, name, ways_out);

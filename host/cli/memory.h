@@ -21,6 +21,14 @@ unsigned long long planned_memory(const FrameFlags& flags, const std::string& na
 unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, unsigned long long need,
                                   const std::string& ways_out);
 
+/// How much memory a command may take, and why: "--limit-memory 4G allows 4.0 GiB".
+struct MemoryLimit {
+  unsigned long long bytes = 0;
+  std::string words;
+};
+/// By --limit-memory, else what is available. `memory`: --memory of a shot, where that is less.
+MemoryLimit limit_of(const FrameFlags& flags, const std::string& memory = "");
+
 /// Memory of a process for code and libraries: without a device, and with a device that has compiled kernels.
 inline constexpr unsigned long long process_bytes = 48ull << 20, process_bytes_with_device = 160ull << 20;
 

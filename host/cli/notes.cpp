@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <mutex>
 
 #include "base/lists.h"
 #include "gloam/error.h"
@@ -12,6 +13,7 @@ namespace gloam::cli {
 namespace {
 
 std::vector<std::string> kept_notes;
+std::mutex kept_notes_mutex;
 bool quiet = false;
 
 }  // namespace
@@ -23,12 +25,14 @@ void add_quiet_flag(CLI::App& command) {
 
 bool is_quiet() { return quiet; }
 
-void note(const std::vector<std::string>& notes) { kept_notes.insert(kept_notes.end(), notes.begin(), notes.end()); }
+void note(const std::vector<std::string>& notes) {
+  const std::lock_guard lock(kept_notes_mutex);
+  add_new(kept_notes, notes);
+}
 
 std::vector<std::string> notes_so_far() {
-  std::vector<std::string> notes;
-  add_new(notes, kept_notes);
-  return notes;
+  const std::lock_guard lock(kept_notes_mutex);
+  return kept_notes;
 }
 
 void print_notes() {

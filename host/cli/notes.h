@@ -12,7 +12,7 @@ namespace gloam::cli {
 void add_quiet_flag(CLI::App& command);
 bool is_quiet();
 
-/// Keeps notes (assumptions) for the end of the command. A command that fails prints its error only.
+/// Keeps notes (assumptions) for the end of the command, from any thread. A command that fails prints its error only.
 void note(const std::vector<std::string>& notes);
 /// The notes, without repetitions.
 std::vector<std::string> notes_so_far();

@@ -27,7 +27,8 @@ std::optional<RadiusReport> radius_of_depth(PlanRequest& request, Plan& plan, Fr
   const std::vector<std::string> available = files.common_planes();
   if (!radius_of(plan, request, RadiusSource::frame) || !contains(available, "depth")) return {};
   const Frame frame = files.read({"depth"});
-  return settle_radius(request, plan, frame, stated_radius(files), available, holdings(files));
+  const auto radius = settle_radius(request, plan, frame, stated_radius(files), available, holdings(files));
+  return report_on(radius, frame, plan);
 }
 
 }  // namespace

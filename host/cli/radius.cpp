@@ -35,14 +35,17 @@ void RadiusReport::add_to(Json& document) const {
   document["radius_pixels"] = pixels_ ? number_or_inf(*pixels_) : Json();
 }
 
-std::optional<RadiusReport> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame,
-                                          std::optional<double> stated, const std::vector<std::string>& available,
-                                          const std::string& holds) {
+std::optional<Radius> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame, std::optional<double> stated,
+                                    const std::vector<std::string>& available, const std::string& holds) {
   const Radius made = default_radius(frame, stated);
   if (!radius_of(plan, request, made.from)) return {};
   request.radius = made.value;
   plan = make_plan(request, available, holds);
-  return RadiusReport(*radius_of(plan, request, made.from), frame, cap_of(plan));
+  return radius_of(plan, request, made.from);
+}
+
+std::optional<RadiusReport> report_on(const std::optional<Radius>& radius, const Frame& frame, const Plan& plan) {
+  return radius ? std::optional(RadiusReport(*radius, frame, cap_of(plan))) : std::nullopt;
 }
 
 }  // namespace gloam::cli

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "exr/zip_rows.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -96,8 +97,10 @@ void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding
     decode_tiles(input, decoding, data, window, rows);
   } else if (rows.first < rows.last) {
     Imf::InputPart input(file, part);
-    input.setFrameBuffer(frame_buffer(decoding, window));
-    input.readPixels(int(rows.first), int(rows.last - 1));
+    if (!decode_zip_rows(input, decoding, window, rows.first, rows.last)) {
+      input.setFrameBuffer(frame_buffer(decoding, window));
+      input.readPixels(int(rows.first), int(rows.last - 1));
+    }
   }
   for (auto& [name, target] : decoding) {
     fill_outside(*target.targets.front(), data, window, target.outside);

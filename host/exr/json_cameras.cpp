@@ -1,6 +1,7 @@
 #include "exr/json_cameras.h"
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "camera/camera_json.h"
 #include "camera/camera_search.h"
 #include "exr/errors.h"
@@ -45,6 +46,11 @@ JsonCameras read_json_cameras(const JsonRequest& request, std::vector<std::strin
   const bool is_asked_for = !request.json.empty();
   const std::optional<fs::path> json = is_asked_for ? request.json : find_camera_file(request.frame, &notes);
   if (!json) return {};
+  if (!request.text.empty()) {
+    const std::string name = json->filename().string();
+    return {name, cameras_of(json_of_text(request.text, json->string()), *json, request.display, notes),
+            request.eye.has_value()};
+  }
   JsonCameras found{json->filename().string(), {}, is_shared_by_eyes(request, *json)};
   found.cameras = is_asked_for && is_display_text(read_text(*json)) ? cameras_of_display(*json, request.display)
                                                                     : read_camera_file(*json, request.display, notes);

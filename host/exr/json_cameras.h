@@ -22,6 +22,7 @@ struct EyeOfPair {
 struct JsonRequest {
   std::filesystem::path frame;  ///< the EXR file
   std::filesystem::path json;   ///< --camera; empty: the one beside the EXR file
+  std::string text;             ///< of the JSON if it is at hand; else empty
   Window display;               ///< cameras are in pixels of it
   std::optional<EyeOfPair> eye;
 };

@@ -1,27 +1,17 @@
 #include "gloam/frame.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <utility>
 
+#include "base/page_pool.h"
 #include "frame/check.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 
 namespace gloam {
 namespace {
-
-constexpr size_t page = 4096;
-
-float* allocate(const Layout& layout) {
-  const size_t bytes = (layout.bytes() + page - 1) / page * page;
-  void* memory = std::aligned_alloc(page, bytes);
-  if (!memory) throw std::bad_alloc();
-  return static_cast<float*>(memory);
-}
 
 std::vector<std::string> view_names(const Frame& frame) {
   std::vector<std::string> names;
@@ -31,13 +21,14 @@ std::vector<std::string> view_names(const Frame& frame) {
 
 }  // namespace
 
-void Channel::Free::operator()(float* p) const { std::free(p); }
+void Channel::Free::operator()(float* p) const { give_back_pages(p, bytes); }
 
 Layout reduced(const Layout& layout, int scale) {
   return Layout((layout.width + scale - 1) / scale, (layout.height + scale - 1) / scale);
 }
 
-Channel::Channel(const Layout& layout) : layout_(layout), data_(allocate(layout)) {}
+Channel::Channel(const Layout& layout)
+    : layout_(layout), data_(static_cast<float*>(take_pages(layout.bytes())), Free{layout.bytes()}) {}
 
 Channel::Channel(const Layout& layout, float value) : Channel(layout) {
   std::fill_n(data_.get(), layout_.count(), value);

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "base/files.h"
+#include "base/page_pool.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 
@@ -294,6 +295,44 @@ TEST(WriteAtomically, FilesThatOthersLeftAreNotTouched) {
   EXPECT_EQ(read_text(folder.path / "out.txt"), "new");
   for (const fs::path& other : others) EXPECT_EQ(read_text(other), "another's") << other;
   EXPECT_EQ(folder.count(), others.size() + 1);
+}
+
+/// A process that is killed leaves its temporary; it is removed once nobody writes to it.
+TEST(WriteAtomically, LeftoversOfKilledProcessesAreRemoved) {
+  Folder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    write_atomically(folder.path / "out.txt", [](NewFile& file) {
+      file.append("half");
+      ::kill(::getpid(), SIGKILL);
+    });
+    ::_exit(0);
+  }
+  ::waitpid(child, nullptr, 0);
+  put(folder.path / ".gloam-notes", "the user's");
+  EXPECT_EQ(folder.count(), 2u);
+  write_atomically(folder.path / "out.txt", [&](NewFile& file) {
+    file.append("whole");
+    EXPECT_EQ(remove_leftovers(folder.path), 1) << "the one being written stays";
+  });
+  EXPECT_EQ(read_text(folder.path / "out.txt"), "whole");
+  EXPECT_EQ(remove_leftovers(folder.path), 0);
+  EXPECT_EQ(folder.count(), 2u);
+  EXPECT_EQ(remove_leftovers(folder.path / "none"), 0);
+}
+
+TEST(PageReuse, GivesThePagesOfFreedImagesAgain) {
+  const Layout layout(640, 480);
+  const float* first = nullptr;
+  {
+    const PageReuse reuse(4 * layout.bytes());
+    first = Channel(layout).data();
+    EXPECT_EQ(Channel(layout).data(), first);
+    const Channel one(layout), two(layout);
+    EXPECT_NE(one.data(), two.data());
+    EXPECT_EQ(Channel(Layout(64, 48)).layout().width, 64) << "another size";
+  }
+  EXPECT_TRUE(Channel(layout, 1.0f).at(5, 5) == 1.0f) << "and without reuse";
 }
 
 TEST(WriteAtomically, TheCauseOfAFailedWriteIsNamed) {

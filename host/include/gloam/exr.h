@@ -20,6 +20,8 @@ enum class NormalSpace { automatic, view, world };
 /// What the user states about a file; it overrides what would be found or assumed. Every field may stay empty.
 struct ReadOptions {
   std::filesystem::path camera_file;  ///< --camera
+  /// The text of a camera JSON at hand, such as one of a list of cameras; `camera_file` then only names it. Empty: the file is read.
+  std::string camera_text;
   std::optional<double> fov_degrees;  ///< --fov: horizontal, 1 to 179
   /// A camera that cannot be used becomes a note instead of an error: for commands that only show a frame.
   bool only_looks = false;

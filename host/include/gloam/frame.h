@@ -61,6 +61,9 @@ class Channel {
 
  private:
   struct Free {
+    size_t bytes;
+    Free() : bytes(0) {}
+    explicit Free(size_t bytes) : bytes(bytes) {}
     void operator()(float* p) const;
   };
   Layout layout_;

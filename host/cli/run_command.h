@@ -1,0 +1,23 @@
+// The flags of gloam run.
+#pragma once
+
+#include <string>
+
+#include "cli/options.h"
+#include "cli/shot_flags.h"
+
+namespace gloam::cli {
+
+struct RunCommand {
+  std::string technique, out, outputs, picture, compression = "zip";
+  bool bare = false, half = false;
+  std::string given;  ///< flags that decide what is written, as text
+  FrameArguments frame;
+  FrameFlags frame_flags;
+  TechniqueFlags technique_flags;
+  RunFlags run_flags;
+  ShotFlags shot;
+  JsonFlag json;
+};
+
+}  // namespace gloam::cli

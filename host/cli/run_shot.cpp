@@ -1,0 +1,151 @@
+#include "cli/run_shot.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "base/files.h"
+#include "base/memory.h"
+#include "base/page_pool.h"
+#include "cli/memory.h"
+#include "cli/shot_work.h"
+#include "gloam/error.h"
+#include "gloam/frame_numbers.h"
+#include "sequence/frame_locks.h"
+#include "sequence/pipeline.h"
+
+namespace gloam::cli {
+namespace {
+
+using Bytes = unsigned long long;
+
+/// Throws UsageError for a technique, flags and names that do not go with a shot.
+void check_flags(const RunCommand& flags) {
+  if (contains(find_technique(flags.technique).reads, "history"))
+    throw UsageError(
+        "{}: takes over the frame before, and a shot's frames are computed by themselves; run frame after frame, "
+        "each with --history",
+        flags.technique);
+  const FrameArguments& frame = flags.frame;
+  for (const std::string& file : {frame.frame, frame.other_eye}) {
+    if (!file.empty() && !FramePattern::is_pattern(file))
+      throw UsageError("{}: is one frame, and the other eye a shot; write both as patterns, such as L.####.exr", file);
+  }
+  check_frame_name(flags.out, "-o");
+  if (!FramePattern::is_pattern(flags.out))
+    throw UsageError("-o {}: is one file, and {} a shot; write both as patterns, such as ao.####.exr", flags.out,
+                     frame.frame);
+  if (!flags.picture.empty())
+    throw UsageError("--picture {}: is made of one frame; leave it out, or run that frame alone", flags.picture);
+  if (!frame.history.empty())
+    throw UsageError("--history {}: is of one frame; run frame after frame, each with the file of the one before",
+                     frame.history);
+  if (flags.run_flags.repeat > 1)
+    throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
+}
+
+/// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no
+/// frame can be planned.
+PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth) {
+  std::string first_error;
+  for (const SequenceFrame& frame : shot.frames()) {
+    try {
+      return planned_frame(shot.open(frame), request, carries_depth);
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& error) {
+      if (first_error.empty()) first_error = error.what();
+    }
+  }
+  if (shot.frames().size() == 1) throw Error("{}", first_error);
+  throw Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
+}
+
+/// By default the first output alone, with the extras asked for.
+void ask_for_first_output(PlanRequest& request, const Plan& plan) {
+  if (!request.only.empty()) return;
+  request.only = {plan.outputs.front()};
+  add_new(request.only, request.with);
+}
+
+/// One frame in each thread's hands, and one that waits before each step.
+PipelineSize wanted_size() {
+  PipelineSize size;
+  size.decoders = size.writers = std::clamp(std::thread::hardware_concurrency(), 1u, 2u);
+  size.in_flight = size.decoders + size.writers + 3;
+  return size;
+}
+
+/// The largest pipeline within the limit.
+struct ShotMemory {
+  PipelineSize size;
+  Bytes frame, all;  ///< most that a frame in flight may take; the whole process
+};
+
+ShotMemory memory_for(const RunCommand& flags, const PlannedFrame& first) {
+  const Layout layout(first.files.window().width(), first.files.window().height());
+  const Bytes own = bytes_in_flight(first);
+  const Bytes beside =
+      process_bytes_with_device + bytes_beside_frame(first.plan, layout, first.files.views().size(), true);
+  const MemoryLimit limit = limit_of(flags.frame_flags, flags.shot.memory);
+  if (limit.bytes < beside + own)
+    throw Error(
+        "{}: one frame of the shot would take about {} of memory, and {}; ask for less (--outputs, --resolution "
+        "half), for one view (--view), or allow more",
+        first.files.name(), memory_in_words(beside + own), limit.words);
+  ShotMemory memory{wanted_size(), 0, 0};
+  memory.size.in_flight = size_t(std::min<Bytes>(memory.size.in_flight, (limit.bytes - beside) / own));
+  memory.size.decoders = std::min(memory.size.decoders, memory.size.in_flight);
+  memory.size.writers = std::min(memory.size.writers, memory.size.in_flight);
+  memory.frame = (limit.bytes - beside) / memory.size.in_flight;
+  memory.all = beside + memory.size.in_flight * own;
+  return memory;
+}
+
+/// Opens the device and compiles while the first frames are decoded.
+std::future<Device> start_device(const RunCommand& flags, const PlannedFrame& first, const RunOptions& options) {
+  const Layout layout(first.files.window().width(), first.files.window().height());
+  return std::async(std::launch::async, [name = flags.run_flags.device, plan = first.plan, options, layout,
+                                         views = first.files.views().size()] {
+    Device device(name);
+    check(plan, layout, views, device, options);
+    prepare(plan, device, options);
+    return device;
+  });
+}
+
+}  // namespace
+
+void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
+  check_flags(flags);
+  const FramePattern output(flags.out, "-o");
+  const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
+  check_outputs(output, shot, {{"--json", flags.json.file()}});
+  ShotSettings settings{.request = given,
+                        .options = flags.run_flags.run_options(),
+                        .writing = {!flags.shot.as_float, flags.compression},
+                        .carried = {.depth = flags.shot.keep_depth && !flags.bare, .cameras = !flags.bare},
+                        .output = output,
+                        .resume = flags.shot.resume,
+                        .version = version_with_kernels(GLOAM_VERSION),
+                        .contents = flags.technique + flags.given};
+  ask_for_first_output(settings.request, first_planned(shot, settings.request, settings.carried.depth).plan);
+  const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
+  settings.display = first.files.files().front().display();
+  const ShotMemory memory = memory_for(flags, first);
+  settings.frame_bytes = memory.frame;
+  const PageReuse reuse(memory.all - process_bytes_with_device);
+  const FrameLocks locks(output, shot.numbers());
+  remove_leftovers(output.folder());
+  say_on_interruption("frames that were written are whole; the same command with --resume goes on");
+  ShotReport report(shot.frames().size(), flags.json);
+  Pipeline* running = nullptr;
+  ShotWork work(shot, settings, start_device(flags, first, settings.options), report, [&] { running->stop(); });
+  Pipeline pipeline(shot.frames().size(), memory.size,
+                    {[&](size_t i) { return work.decode(i); }, [&](size_t i) { return work.compute(i); },
+                     [&](size_t i) { return work.write(i); }});
+  running = &pipeline;
+  pipeline.run();
+  report.finish(flags.out, fmt::format("{}", fmt::join(first.plan.outputs, ", ")));
+}
+
+}  // namespace gloam::cli

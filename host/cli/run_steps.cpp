@@ -1,0 +1,69 @@
+#include "cli/run_steps.h"
+
+#include <algorithm>
+
+#include "cli/radius.h"
+#include "gloam/error.h"
+#include "gloam/stereo_consistency.h"
+
+namespace gloam::cli {
+namespace {
+
+/// Planes of the list that every view of the frame still has.
+std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::string>& planes) {
+  std::vector<std::string> left;
+  for (const std::string& plane : planes) {
+    const bool everywhere =
+        std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
+    if (everywhere) left.push_back(plane);
+  }
+  return left;
+}
+
+}  // namespace
+
+PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth) {
+  PlannedFrame planned{std::move(files), request, {}, {}};
+  planned.plan = plan_for(planned.files, request);
+  planned.planes = planned.plan.inputs;
+  if (carries_depth && contains(planned.files.common_planes(), "depth")) add_new(planned.planes, "depth");
+  return planned;
+}
+
+std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {
+  const std::vector<std::string> left = planes_left(frame, planned.plan.inputs);
+  const std::string holds = holdings(planned.files);
+  // If a plane turned out to be unusable (normals in the space of an unknown camera), make it instead.
+  const bool is_all_left = left.size() == planned.plan.inputs.size();
+  if (!is_all_left) planned.plan = make_plan(planned.request, left, holds);
+  return settle_radius(planned.request, planned.plan, frame, stated_radius(planned.files),
+                       is_all_left ? planned.files.common_planes() : left, holds);
+}
+
+std::string warning_about_views(const Plan& plan, const Frame& frame) {
+  const auto is_of_two = [](const PlannedPass& planned) { return planned.technique->views == 2; };
+  if (!std::any_of(plan.passes.begin(), plan.passes.end(), is_of_two) || frame.views.size() != 2) return "";
+  for (const View& view : frame.views) {
+    if (!view.find("depth") || !view.camera || !view.camera->pose) return "";  // another message says so
+  }
+  if (have_surface_in_common(frame)) return "";
+  return fmt::format(
+      "the views '{}' and '{}' have no surface in common, and each gets a result of its own; do both show "
+      "one scene, each with its own camera?",
+      frame.views[0].name, frame.views[1].name);
+}
+
+void carry_over(Frame& from, Frame& to, const Carried& carried) {
+  std::vector<std::string> planes;
+  if (carried.depth) planes.push_back("depth");
+  if (carried.depth && from.views.size() == 2) planes.push_back("normal");
+  for (View& view : to.views) {
+    if (!carried.cameras) view.camera.reset();
+    std::map<std::string, Plane>& given = from.view(view.name).planes;
+    for (const std::string& plane : planes) {
+      if (!view.find(plane) && given.count(plane)) view.planes[plane] = std::move(given[plane]);
+    }
+  }
+}
+
+}  // namespace gloam::cli

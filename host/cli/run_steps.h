@@ -1,0 +1,41 @@
+// The steps of gloam run on one frame, alone or in a shot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "gloam/radius.h"
+
+namespace gloam::cli {
+
+/// A frame that is open, with the plan for it.
+struct PlannedFrame {
+  FrameFiles files;
+  PlanRequest request;
+  Plan plan;
+  std::vector<std::string> planes;  ///< to decode: what the plan reads, and depth if it is carried over
+};
+
+/// Plans. The file's depth is decoded too if it is carried over to the output.
+PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth);
+
+/// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
+/// depth. Returns the radius, if the plan has one.
+std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);
+
+/// A note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras. Else empty.
+std::string warning_about_views(const Plan& plan, const Frame& frame);
+
+/// What an output has besides the planes computed.
+struct Carried {
+  /// `compare` knows the background by the depth, and `compare --stereo` the edges by the normals of two views.
+  bool depth = true;
+  bool cameras = true;
+};
+
+/// Moves planes, and leaves out cameras that are not wanted.
+void carry_over(Frame& from, Frame& to, const Carried& carried);
+
+}  // namespace gloam::cli

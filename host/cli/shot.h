@@ -1,0 +1,47 @@
+// A shot: frames whose files are named by patterns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/camera_list.h"
+#include "cli/run_command.h"
+#include "gloam/frame_files.h"
+#include "gloam/frame_pattern.h"
+#include "sequence/frame_list.h"
+
+namespace gloam::cli {
+
+/// The files of a shot's frames, and how each is read.
+class ShotFiles {
+ public:
+  /// Throws UsageError and Error as `list_frames` and `CameraList` do, and UsageError for one input of two that is no pattern.
+  ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice);
+
+  const std::vector<FramePattern>& inputs() const { return inputs_; }
+  const std::vector<SequenceFrame>& frames() const { return frames_; }
+  std::vector<int> numbers() const;
+  /// "shot.####.exr", or both names.
+  std::string name() const;
+
+  /// The EXR files of a frame.
+  std::vector<std::string> paths_of(const SequenceFrame& frame) const;
+  /// The camera file of a frame; empty if none is named, or one holds the cameras of all frames.
+  std::string camera_of(const SequenceFrame& frame) const;
+  /// How a frame is read.
+  ReadOptions options_for(const SequenceFrame& frame) const;
+  FrameFiles open(const SequenceFrame& frame) const { return FrameFiles(paths_of(frame), options_for(frame)); }
+
+ private:
+  std::vector<FramePattern> inputs_;
+  std::vector<SequenceFrame> frames_;
+  ReadOptions options_;
+  std::optional<FramePattern> cameras_;
+  std::optional<CameraList> camera_list_;
+};
+
+/// Throws UsageError if a frame's output is also an input of a frame, and Error if it cannot be written.
+void check_outputs(const FramePattern& output, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
+
+}  // namespace gloam::cli

@@ -1,0 +1,45 @@
+#include "cli/shot_flags.h"
+
+#include "cli/memory.h"
+#include "cli/typed.h"
+#include "gloam/frame_numbers.h"
+
+namespace gloam::cli {
+namespace {
+
+constexpr const char* group = "Shots";
+
+}  // namespace
+
+void add_frames(CLI::App& app, FrameChoice& choice) {
+  add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
+             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all that are there")
+      ->type_name("A-B")
+      ->group(group);
+}
+
+void ShotFlags::add_to(CLI::App& app) {
+  add_frames(app, choice);
+  add_choice(app, "--missing", choice.missing,
+             {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}},
+             "frames that are not there: refuse (the default), leave out, or take the nearest one before")
+      ->group(group);
+  app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(group);
+  app.add_option("--memory", memory, "most memory for a shot: it decides how many frames are worked on at once")
+      ->check(accepted_by(parse_memory, "--memory"))
+      ->type_name("4G|512M")
+      ->group(group);
+  app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
+  app.add_flag("--float", as_float, "write a shot's AO as float instead of half")->group(group);
+}
+
+std::string ShotFlags::any() const {
+  if (choice.frames) return "--frames";
+  if (choice.missing) return "--missing";
+  if (resume) return "--resume";
+  if (!memory.empty()) return "--memory";
+  if (keep_depth) return "--keep-depth";
+  return as_float ? "--float" : "";
+}
+
+}  // namespace gloam::cli

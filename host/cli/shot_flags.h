@@ -1,0 +1,25 @@
+// Flags for frames in many files, whose names are patterns: shot.####.exr.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sequence/frame_list.h"
+
+namespace gloam::cli {
+
+struct ShotFlags {
+  FrameChoice choice;
+  std::string memory;
+  bool resume = false, keep_depth = false, as_float = false;
+  void add_to(CLI::App& app);
+  /// The first flag given that only a shot has; empty if there is none.
+  std::string any() const;
+};
+
+/// Adds --frames.
+void add_frames(CLI::App& app, FrameChoice& choice);
+
+}  // namespace gloam::cli

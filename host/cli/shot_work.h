@@ -1,0 +1,73 @@
+// The work on the frames of a shot.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run_steps.h"
+#include "cli/shot.h"
+#include "cli/shot_report.h"
+#include "sequence/frame_making.h"
+
+namespace gloam::cli {
+
+/// What every frame of a shot has in common.
+struct ShotSettings {
+  PlanRequest request;
+  RunOptions options;
+  WriteOptions writing;
+  Carried carried;
+  FramePattern output;
+  bool resume = false;
+  std::string version, contents;       ///< as in FrameMaking
+  Window display;                      ///< the image, of one size for all frames
+  unsigned long long frame_bytes = 0;  ///< most memory that one frame may take
+};
+
+/// Memory that a frame takes from the start of its decoding to the end of its writing, besides what computing takes.
+unsigned long long bytes_in_flight(const PlannedFrame& planned);
+
+/// The steps of a frame, for a `Pipeline`: each tells the report of frames that end with it. An error of one frame ends this
+/// frame alone; what all frames would fail for (no device, no memory on it) is thrown.
+class ShotWork {
+ public:
+  /// `device`: opened while the first frames are decoded. `stop`: called if no further frame shall begin.
+  ShotWork(const ShotFiles& files, const ShotSettings& settings, std::future<Device> device, ShotReport& report,
+           std::function<void()> stop);
+
+  bool decode(size_t i);
+  bool compute(size_t i);
+  bool write(size_t i);
+
+ private:
+  /// A frame between its steps.
+  struct InFlight {
+    std::optional<PlannedFrame> planned;  ///< while it is decoded
+    Plan plan;
+    Frame frame, result;  ///< as decoded; what is written
+    FrameMaking making;
+    StepTimes times;
+  };
+  const SequenceFrame& frame_at(size_t i) const { return files_.frames()[i]; }
+  std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(frame_at(i).number); }
+  bool open(size_t i, InFlight& flight);
+  void compute_planes(InFlight& flight);
+  /// Adds notes; of many frames each once, whichever file they name.
+  void add_notes(size_t i, const std::vector<std::string>& notes);
+  /// Runs a step and its clock. False if it failed, or returned false.
+  bool guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step);
+
+  const ShotFiles& files_;
+  const ShotSettings& settings_;
+  std::future<Device> starting_;
+  std::optional<Device> device_;
+  ShotReport& report_;
+  std::function<void()> stop_;
+  std::vector<std::unique_ptr<InFlight>> flights_;
+};
+
+}  // namespace gloam::cli

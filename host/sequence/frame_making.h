@@ -1,0 +1,34 @@
+// What a written frame was made of, and by what: header attributes by which `--resume` knows it again.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gloam/frame_files.h"
+
+namespace gloam {
+
+/// All that decides the contents of a frame's file.
+struct FrameMaking {
+  std::string version;   ///< of the program, and a hash of its kernels
+  std::string settings;  ///< technique and flags
+  std::string input;     ///< the files read
+};
+
+/// "0.1.0 kernels 5d0f...", for the program's own version.
+std::string version_with_kernels(const std::string& version);
+
+/// "shot.1001.exr, 20511234 bytes, 1764036000.123456789; cameras 1f0c...": name, size and time of the last change of each file,
+/// and a hash of the cameras, wherever these come from. Throws Error for a file that is gone.
+std::string identity_of(const FrameFiles& files);
+
+/// `gloamVersion`, `gloamSettings` and `gloamInput`.
+std::map<std::string, std::string> attributes_of(const FrameMaking& making);
+
+/// Why a frame has to be written again: "it is damaged", "it was made with other settings", ...; empty if the file is whole
+/// (every channel decodes) and was made in the same way. "it is not there" for a missing file.
+std::string why_again(const std::filesystem::path& file, const FrameMaking& making);
+
+}  // namespace gloam

@@ -1,0 +1,76 @@
+#include "gloam/frame_numbers.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include "gloam/error.h"
+
+namespace gloam {
+namespace {
+
+/// A whole number of digits alone.
+std::optional<int> number_in(std::string_view text) {
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (text.empty() || text.front() == '-' || error != std::errc() || stop != end || value > last_frame_number)
+    return {};
+  return value;
+}
+
+struct FrameRange {
+  int first, last, step;
+  size_t count() const { return size_t((last - first) / step) + 1; }
+};
+
+/// "7", "1-9" or "1-9x2".
+std::optional<FrameRange> range_in(std::string_view text) {
+  const size_t dash = text.find('-');
+  if (dash == std::string_view::npos) {
+    const std::optional<int> only = number_in(text);
+    return only ? std::optional(FrameRange{*only, *only, 1}) : std::nullopt;
+  }
+  const size_t cross = text.find('x', dash);
+  const bool has_step = cross != std::string_view::npos;
+  const std::optional<int> first = number_in(text.substr(0, dash)),
+                           last = number_in(text.substr(dash + 1, has_step ? cross - dash - 1 : cross)),
+                           step = has_step ? number_in(text.substr(cross + 1)) : 1;
+  if (!first || !last || !step || *first > *last || *step < 1) return {};
+  return FrameRange{*first, *last, *step};
+}
+
+}  // namespace
+
+std::vector<int> parse_frame_numbers(const std::string& text, const std::string& flag) {
+  std::vector<int> frames;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::optional<FrameRange> range = range_in(std::string_view(text).substr(begin, end - begin));
+    if (!range) throw UsageError("{} {} is not allowed; frames are, such as 1001-1100, 1-99x2 or 1,5,9-12", flag, text);
+    if (frames.size() + range->count() > most_frames)
+      throw UsageError("{} {} names more than {} frames; name fewer", flag, text, most_frames);
+    for (size_t i = 0; i < range->count(); ++i) frames.push_back(range->first + int(i) * range->step);
+    begin = end + 1;
+  }
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  return frames;
+}
+
+std::string frames_in_words(const std::vector<int>& frames, size_t most_ranges) {
+  std::string words;
+  size_t ranges = 0;
+  for (size_t i = 0; i < frames.size();) {
+    if (ranges++ == most_ranges) return words + fmt::format(" and {} more", frames.size() - i);
+    size_t last = i;
+    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+    if (!words.empty()) words += ", ";
+    words += last == i ? std::to_string(frames[i]) : fmt::format("{}-{}", frames[i], frames[last]);
+    i = last + 1;
+  }
+  return words;
+}
+
+}  // namespace gloam
