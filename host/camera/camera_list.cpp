@@ -44,6 +44,7 @@ std::optional<CameraList> CameraList::of_file(const fs::path& file, const std::v
         "{{\"frames\": {{\"1001\": ...}}}}",
         file.string(), list.size(), frames.size(), frames_in_words(frames));
   CameraList cameras;
+  cameras.is_in_order_ = list.is_array();
   std::vector<int> missing;
   for (size_t i = 0; i < frames.size(); ++i) {
     const std::string number = std::to_string(frames[i]);

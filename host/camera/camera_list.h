@@ -21,7 +21,11 @@ class CameraList {
   /// The text of a frame's camera JSON.
   const std::string& text_of(int frame) const { return texts_.at(frame); }
 
+  /// Whether it is in the order of the frames, without their numbers.
+  bool is_in_order() const { return is_in_order_; }
+
  private:
+  bool is_in_order_ = false;
   std::map<int, std::string> texts_;
 };
 

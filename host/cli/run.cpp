@@ -17,7 +17,8 @@ namespace {
 /// Flags that do not change what the file of a frame holds, or of which its header says more (the files read).
 const std::set<std::string> not_of_contents = {"frame",    "other_eye", "--camera",       "--output", "--picture",
                                                "--json",   "--frames",  "--missing",      "--resume", "--memory",
-                                               "--repeat", "--quiet",   "--limit-memory", "--help",   "technique"};
+                                               "--repeat", "--quiet",   "--limit-memory", "--help",   "technique",
+                                               "--chunks", "--print"};
 
 /// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
 std::string value_in_words(const std::string& value) {
@@ -37,6 +38,26 @@ std::string contents_in_words(const CLI::App& command) {
     if (option->count() == 0 || not_of_contents.count(flag) > 0) continue;
     words += " " + flag;
     for (const std::string& value : option->results()) words += " " + value_in_words(value);
+  }
+  return words;
+}
+
+/// Flags that each command of a chunk has in its own form, or not at all.
+const std::set<std::string> not_of_chunks = {"--frames", "--chunks", "--print", "--resume", "--help"};
+
+/// The words of a command that do the same as this one, but for the frames.
+std::vector<std::string> repeated_words(const CLI::App& command) {
+  std::vector<std::string> words = {command.get_name()};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_single_name();
+    const std::string flag = option->nonpositional() ? "--" + name : name;
+    if (option->count() == 0 || not_of_chunks.count(flag) > 0) continue;
+    const bool takes_value = option->get_items_expected_max() > 0;
+    if (option->nonpositional() && !takes_value) words.push_back(flag);
+    for (const std::string& value : takes_value ? option->results() : std::vector<std::string>()) {
+      if (option->nonpositional()) words.push_back(flag);
+      words.push_back(value);
+    }
   }
   return words;
 }
@@ -95,10 +116,12 @@ void add_run(CLI::App& app) {
       "  gloam run gtao frame.exr -o ao.exr --only corner-mask\n"
       "  gloam run temporal-sssr frame.0002.exr --history reflection.0001.exr -o reflection.0002.exr\n"
       "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1001-1100 --resume\n"
+      "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1-1000 --chunks 25 --print | parallel\n"
       "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
       "Every parameter of the technique is a flag: gloam run TECHNIQUE --help shows them.");
   command->callback([flags, command] {
     flags->given = contents_in_words(*command);
+    flags->repeated = repeated_words(*command);
     run_command(*flags);
   });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/options.h"
 #include "cli/shot_flags.h"
@@ -12,6 +13,8 @@ struct RunCommand {
   std::string technique, out, outputs, picture, compression = "zip";
   bool bare = false, half = false;
   std::string given;  ///< flags that decide what is written, as text
+  std::vector<std::string>
+      repeated;  ///< the words of the command, for a chunk of a shot: all but those that chunks replace
   FrameArguments frame;
   FrameFlags frame_flags;
   TechniqueFlags technique_flags;

@@ -10,6 +10,7 @@
 #include "cli/shot_work.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
+#include "sequence/chunks.h"
 #include "sequence/frame_locks.h"
 #include "sequence/pipeline.h"
 
@@ -41,6 +42,30 @@ void check_flags(const RunCommand& flags) {
                      frame.history);
   if (flags.run_flags.repeat > 1)
     throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
+}
+
+/// The path of this program.
+std::string program_path() {
+  std::error_code unknown;
+  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  return unknown ? "gloam" : path.string();
+}
+
+/// Prints a command a line, each for some of the frames. Any of them may be run again, anywhere where the files are.
+void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
+  if (!flags.json.path.empty()) throw UsageError("--json {}: each chunk would write it; leave it out", flags.json.path);
+  if (shot.cameras_are_in_order())
+    throw UsageError(
+        "--camera {}: lists cameras in the order of all frames, and a chunk has some of them; list them by number, as "
+        "in {{\"frames\": {{\"1001\": ...}}}}",
+        flags.frame_flags.camera);
+  std::string words;
+  for (const std::string& word : flags.repeated) words += " " + quoted_for_shell(word);
+  const std::string folder = quoted_for_shell(std::filesystem::current_path().string());
+  for (const std::vector<int>& chunk : chunks_of(shot.numbers(), flags.shot.chunks))
+    fmt::print("cd {} && {}{} --frames {} --resume\n", folder, quoted_for_shell(program_path()), words,
+               frames_as_flag(chunk));
+  if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
 }
 
 /// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no
@@ -130,6 +155,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
                         .contents = flags.technique + flags.given};
   ask_for_first_output(settings.request, first_planned(shot, settings.request, settings.carried.depth).plan);
   const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
+  if (flags.shot.chunks > 0) return print_chunks(flags, shot);
   settings.display = first.files.files().front().display();
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;

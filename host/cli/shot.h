@@ -29,6 +29,8 @@ class ShotFiles {
   std::vector<std::string> paths_of(const SequenceFrame& frame) const;
   /// The camera file of a frame; empty if none is named, or one holds the cameras of all frames.
   std::string camera_of(const SequenceFrame& frame) const;
+  /// Whether one file lists the cameras in the order of the frames, without their numbers.
+  bool cameras_are_in_order() const { return camera_list_ && camera_list_->is_in_order(); }
   /// How a frame is read.
   ReadOptions options_for(const SequenceFrame& frame) const;
   FrameFiles open(const SequenceFrame& frame) const { return FrameFiles(paths_of(frame), options_for(frame)); }

@@ -29,6 +29,15 @@ void ShotFlags::add_to(CLI::App& app) {
       ->check(accepted_by(parse_memory, "--memory"))
       ->type_name("4G|512M")
       ->group(group);
+  CLI::Option* printing =
+      app.add_flag("--print", print, "with --chunks: print the commands, one a line, and compute nothing")
+          ->group(group);
+  add_number(app, "--chunks", chunks, {1, 1000000},
+             "divide a shot into so many commands, for several processes or machines")
+      ->type_name("N")
+      ->group(group)
+      ->needs(printing);
+  printing->needs(app.get_option("--chunks"));
   app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
   app.add_flag("--float", as_float, "write a shot's AO as float instead of half")->group(group);
 }
@@ -38,6 +47,7 @@ std::string ShotFlags::any() const {
   if (choice.missing) return "--missing";
   if (resume) return "--resume";
   if (!memory.empty()) return "--memory";
+  if (chunks > 0) return "--chunks";
   if (keep_depth) return "--keep-depth";
   return as_float ? "--float" : "";
 }

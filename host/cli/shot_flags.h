@@ -13,7 +13,8 @@ namespace gloam::cli {
 struct ShotFlags {
   FrameChoice choice;
   std::string memory;
-  bool resume = false, keep_depth = false, as_float = false;
+  bool resume = false, keep_depth = false, as_float = false, print = false;
+  int chunks = 0;  ///< 0: the shot is not divided
   void add_to(CLI::App& app);
   /// The first flag given that only a shot has; empty if there is none.
   std::string any() const;

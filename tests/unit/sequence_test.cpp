@@ -13,6 +13,7 @@
 #include "camera/camera_list.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"
+#include "sequence/chunks.h"
 #include "sequence/frame_list.h"
 #include "sequence/frame_locks.h"
 #include "sequence/pipeline.h"
@@ -327,6 +328,29 @@ TEST_F(Sequence, LocksEndWithTheirProcess) {
   EXPECT_FALSE(fs::is_empty(folder));
   EXPECT_NO_THROW(FrameLocks(output, {1}));
   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Chunks, AreEvenAndHoldEachFrameOnce) {
+  const Numbers frames = parse_frame_numbers("1-7,9,20-21", "--frames");
+  EXPECT_EQ(chunks_of(frames, 3), (std::vector<Numbers>{{1, 2, 3}, {4, 5, 6}, {7, 9, 20, 21}}));
+  EXPECT_EQ(chunks_of(frames, 1), std::vector<Numbers>{frames});
+  EXPECT_EQ(chunks_of({5, 6}, 9), (std::vector<Numbers>{{5}, {6}})) << "no chunk is empty";
+  for (const int count : {2, 4, 7, 10}) {
+    Numbers all;
+    for (const Numbers& chunk : chunks_of(frames, count)) {
+      EXPECT_EQ(parse_frame_numbers(frames_as_flag(chunk), "--frames"), chunk);
+      all.insert(all.end(), chunk.begin(), chunk.end());
+    }
+    EXPECT_EQ(all, frames) << count;
+  }
+  EXPECT_EQ(frames_as_flag({7, 9, 20, 21}), "7,9,20-21");
+}
+
+TEST(Chunks, WordsAreReadBackByAShell) {
+  EXPECT_EQ(quoted_for_shell("radius=0.5"), "radius=0.5");
+  EXPECT_EQ(quoted_for_shell("shot.####.exr"), "'shot.####.exr'");
+  EXPECT_EQ(quoted_for_shell("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(quoted_for_shell(""), "''");
 }
 
 }  // namespace
