@@ -172,10 +172,10 @@ TEST_F(Shot, RefusesInOneLine) {
 
 // --- Cameras and eyes
 
-constexpr const char* pose = R"("camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
+constexpr const char* own_pose = R"("camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
 
 std::string camera_json(double fx) {
-  return fmt::format(R"({{"width": 64, "height": 48, "fx": {}, "fy": {}, "cx": 32, "cy": 24, {}}})", fx, fx, pose);
+  return fmt::format(R"({{"width": 64, "height": 48, "fx": {}, "fy": {}, "cx": 32, "cy": 24, {}}})", fx, fx, own_pose);
 }
 
 TEST_F(Shot, CamerasOfEachFrame) {
@@ -198,7 +198,7 @@ TEST_F(Shot, CamerasOfEachFrame) {
   expect_focal_lengths({"--camera", file("list.json")}, {51, 52, 53});
   std::ofstream(path("order.json")) << fmt::format(
       R"({{"width": 64, "height": 48, "cx": 32, "cy": 24, "fy": 50, {}, "frames": [{{"fx": 61}}, {{"fx": 62}}, {{"fx": 63}}]}})",
-      pose);
+      own_pose);
   expect_focal_lengths({"--camera", file("order.json")}, {61, 62, 63});
   expect_focal_lengths({"--camera", file("cam.0002.json")}, {42, 42, 42});
   for (const int number : {1, 2, 3})
