@@ -49,8 +49,9 @@ TEST_F(Chunks, KeepTheirWordsInQuotes) {
 
 TEST_F(Chunks, AreRefusedWhereTheyCannotBeRunByThemselves) {
   make_shot({1, 2});
-  std::ofstream(path("cameras.json"))
-      << R"({"width": 64, "height": 48, "cx": 32, "cy": 24, "frames": [{"fx": 50, "fy": 50}, {"fx": 51, "fy": 51}]})";
+  std::ofstream(path("cameras.json")) << R"({"width": 64, "height": 48, "cx": 32, "cy": 24, )"
+                                      << R"("camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], )"
+                                      << R"("frames": [{"fx": 50, "fy": 50}, {"fx": 51, "fy": 51}]})";
   const Arguments chunks = {"--chunks", "2", "--print"};
   const auto with = [&](Arguments more) {
     more.insert(more.end(), chunks.begin(), chunks.end());
