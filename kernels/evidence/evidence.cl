@@ -226,17 +226,7 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
 #endif
 }
 
-// Searches both sides of a slice.
-static inline __attribute__((always_inline)) void search_slice(Frame frame, Params params, DepthLayers layers,
-                                                               Search search, Slice slice, int within, Side* right,
-                                                               Side* left) {
-  const Receiver r = search.receiver;
-  for (int k = 0; k < STEPS; ++k) {
-    samples_of_step(frame, params.bias, r, slice, within, k, &right->sample, &left->sample);
-    look(frame, params, layers, search, r.here, right->sample.place, right->sample.in_frame, (mask)(0), right);
-    look(frame, params, layers, search, r.here, left->sample.place, left->sample.in_frame, (mask)(0), left);
-  }
-}
+#include "shared/sampling/slice_search.h"
 
 // a, b, u and r of a slice.
 typedef struct {
