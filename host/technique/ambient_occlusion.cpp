@@ -61,6 +61,7 @@ Technique over_peeled_layers(Technique technique) {
   technique.name.insert(0, peeled_prefix);
   technique.paper += "; over layers Vermeer, Scandolo, Eisemann 2021";
   technique.default_for.clear();
+  technique.may_read.clear();
   technique.effect = {};
   technique.reads.push_back("peel");
   technique.passes = [over_depth = technique.passes](const ParameterValues& values) {
@@ -103,6 +104,7 @@ Technique over_stochastic_depth(Technique technique, ParameterList parameters,
   technique.name.insert(0, stochastic_prefix);
   technique.paper += "; over stochastic depth Vermeer, Scandolo, Eisemann 2021";
   technique.default_for.clear();
+  technique.may_read.clear();
   technique.effect = {};
   technique.reads.push_back("stochastic");
   technique.parameters = std::move(parameters);

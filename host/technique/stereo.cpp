@@ -107,6 +107,7 @@ Technique over_two_eyes(Technique mono, ParameterList parameters,
   t.views = 2;
   t.writes = t.outputs = {"ao", "ao_raw"};
   t.default_for.clear();
+  t.may_read.clear();
   t.effect = {};
   t.extras.clear();
   t.parameters = std::move(parameters);

@@ -101,13 +101,11 @@ Technique evidence_over_depth() {
 Technique evidence_over_layers() {
   Technique t = evidence_over_depth();
   t.passes = passes_of(over_layers);
-  t.may_read.clear();
   return over_peeled_layers(std::move(t));
 }
 
 Technique evidence_over_stochastic_depth() {
   Technique t = over_stochastic_depth(evidence_over_depth(), SdEvidenceParams::table(), passes_of(sd_passes));
-  t.may_read.clear();
   t.effect = {.name = "hidden layers",
               .refines = "evidence",
               .mask = "hidden-mask",
@@ -121,7 +119,6 @@ Technique evidence_over_stochastic_depth() {
 /// The second eye reuses what the first finds wherever both see the same surface: only the rest is computed for it.
 Technique evidence_over_two_eyes() {
   Technique t = over_two_eyes(evidence_over_depth(), StereoEvidenceParams::table(), passes_of(stereo_evidence_passes));
-  t.may_read.clear();
   t.effect = {.name = "two views alike",
               .refines = "evidence",
               .mask = "stereo-visibility",
