@@ -222,16 +222,24 @@ std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings) {
   return fits;
 }
 
-double rmse(const std::vector<FitSample>& samples, const Fit& fit) {
+namespace {
+
+/// `ao(sample)`: what is compared with the truth.
+template <typename Estimate>
+double rmse_of(const std::vector<FitSample>& samples, const Estimate& ao) {
   double sum = 0;
-  for (const FitSample& s : samples) sum += std::pow(fit.ao(s) - double(s.truth), 2);
+  for (const FitSample& s : samples) sum += std::pow(double(ao(s)) - double(s.truth), 2);
   return std::sqrt(sum / double(samples.size()));
 }
 
+}  // namespace
+
+double rmse(const std::vector<FitSample>& samples, const Fit& fit) {
+  return rmse_of(samples, [&](const FitSample& s) { return fit.ao(s); });
+}
+
 double rmse(const std::vector<FitSample>& samples, float FitSample::*ao) {
-  double sum = 0;
-  for (const FitSample& s : samples) sum += std::pow(double(s.*ao) - double(s.truth), 2);
-  return std::sqrt(sum / double(samples.size()));
+  return rmse_of(samples, [&](const FitSample& s) { return s.*ao; });
 }
 
 std::vector<Decile> deciles(std::vector<std::pair<double, double>> pixels) {

@@ -17,8 +17,7 @@ namespace {
 /// Flags that do not change what the file of a frame holds, or of which its header says more (the files read).
 const std::set<std::string> not_of_contents = {"frame",    "other_eye", "--camera",       "--output", "--picture",
                                                "--json",   "--frames",  "--missing",      "--resume", "--memory",
-                                               "--repeat", "--quiet",   "--limit-memory", "--help",   "technique",
-                                               "--chunks", "--print"};
+                                               "--repeat", "--quiet",   "--limit-memory", "--help",   "technique"};
 
 /// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
 std::string value_in_words(const std::string& value) {
@@ -29,14 +28,22 @@ std::string value_in_words(const std::string& value) {
   return fmt::format("{} ({:016x})", value, hash_of(read_text(file)));
 }
 
-/// The other flags given, in the order of `--help`: "--set radius=0.5 --preset medium".
+/// The name of a flag, with dashes, or of a positional argument.
+std::string flag_of(const CLI::Option& option) {
+  return (option.nonpositional() ? "--" : "") + option.get_single_name();
+}
+
+/// Those given, in the order of `--help`.
+std::vector<const CLI::Option*> options_given(const CLI::App& command, const std::set<std::string>& left_out) {
+  return command.get_options(
+      [&](const CLI::Option* option) { return option->count() > 0 && left_out.count(flag_of(*option)) == 0; });
+}
+
+/// The other flags given: "--set radius=0.5 --preset medium".
 std::string contents_in_words(const CLI::App& command) {
   std::string words;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_single_name();
-    const std::string flag = option->nonpositional() ? "--" + name : name;
-    if (option->count() == 0 || not_of_contents.count(flag) > 0) continue;
-    words += " " + flag;
+  for (const CLI::Option* option : options_given(command, not_of_contents)) {
+    words += " " + flag_of(*option);
     for (const std::string& value : option->results()) words += " " + value_in_words(value);
   }
   return words;
@@ -48,14 +55,11 @@ const std::set<std::string> not_of_chunks = {"--frames", "--chunks", "--print", 
 /// The words of a command that do the same as this one, but for the frames.
 std::vector<std::string> repeated_words(const CLI::App& command) {
   std::vector<std::string> words = {command.get_name()};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_single_name();
-    const std::string flag = option->nonpositional() ? "--" + name : name;
-    if (option->count() == 0 || not_of_chunks.count(flag) > 0) continue;
+  for (const CLI::Option* option : options_given(command, not_of_chunks)) {
     const bool takes_value = option->get_items_expected_max() > 0;
-    if (option->nonpositional() && !takes_value) words.push_back(flag);
+    if (!takes_value) words.push_back(flag_of(*option));
     for (const std::string& value : takes_value ? option->results() : std::vector<std::string>()) {
-      if (option->nonpositional()) words.push_back(flag);
+      if (option->nonpositional()) words.push_back(flag_of(*option));
       words.push_back(value);
     }
   }
@@ -67,13 +71,17 @@ bool has_pattern(const FrameArguments& frame) {
          (!frame.other_eye.empty() && FramePattern::is_pattern(frame.other_eye));
 }
 
-void run_command(const RunCommand& given) {
+void run_command(const RunCommand& given, const CLI::App& command) {
   RunCommand flags = given;
   flags.technique = technique_for(given.technique);
   find_technique(flags.technique);
   PlanRequest request = flags.technique_flags.request({flags.technique});
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
-  if (has_pattern(flags.frame)) return run_on_shot(flags, request);
+  if (has_pattern(flags.frame)) {
+    flags.given = contents_in_words(command);
+    flags.repeated = repeated_words(command);
+    return run_on_shot(flags, request);
+  }
   if (FramePattern::is_pattern(flags.out))
     throw UsageError("-o {}: is a pattern, and {} is one frame; write both as patterns, such as shot.####.exr",
                      flags.out, flags.frame.frame);
@@ -119,11 +127,7 @@ void add_run(CLI::App& app) {
       "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1-1000 --chunks 25 --print | parallel\n"
       "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
       "Every parameter of the technique is a flag: gloam run TECHNIQUE --help shows them.");
-  command->callback([flags, command] {
-    flags->given = contents_in_words(*command);
-    flags->repeated = repeated_words(*command);
-    run_command(*flags);
-  });
+  command->callback([flags, command] { run_command(*flags, *command); });
 }
 
 }  // namespace gloam::cli

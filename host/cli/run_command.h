@@ -12,9 +12,8 @@ namespace gloam::cli {
 struct RunCommand {
   std::string technique, out, outputs, picture, compression = "zip";
   bool bare = false, half = false;
-  std::string given;  ///< flags that decide what is written, as text
-  std::vector<std::string>
-      repeated;  ///< the words of the command, for a chunk of a shot: all but those that chunks replace
+  std::string given;                  ///< flags that decide what is written, as text
+  std::vector<std::string> repeated;  ///< words for a chunk of a shot
   FrameArguments frame;
   FrameFlags frame_flags;
   TechniqueFlags technique_flags;

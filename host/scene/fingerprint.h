@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/hash.h"
 #include "gloam/frame.h"
 #include "gloam/scene/scene.h"
 
@@ -14,10 +15,7 @@ namespace gloam {
 
 class Fingerprint {
  public:
-  void add_bytes(const void* data, size_t count) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (size_t i = 0; i < count; ++i) state_ = (state_ ^ bytes[i]) * 0x100000001b3ULL;
-  }
+  void add_bytes(const void* data, size_t count) { state_ = hash_of({static_cast<const char*>(data), count}, state_); }
   template <typename Value>
   void add(const Value& value) {
     static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
@@ -46,7 +44,7 @@ class Fingerprint {
   std::string text() const;
 
  private:
-  uint64_t state_ = 0xcbf29ce484222325ULL;
+  uint64_t state_ = hash_of({});
 };
 
 }  // namespace gloam

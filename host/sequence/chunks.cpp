@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "gloam/error.h"
+#include "gloam/frame_numbers.h"
 
 namespace gloam {
 
@@ -19,11 +20,9 @@ std::vector<std::vector<int>> chunks_of(const std::vector<int>& frames, int coun
 
 std::string frames_as_flag(const std::vector<int>& frames) {
   std::string text;
-  for (size_t first = 0, last = 0; first < frames.size(); first = last + 1) {
-    last = first;
-    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+  for (const auto& [first, last] : ranges_of(frames)) {
     if (!text.empty()) text += ",";
-    text += last == first ? fmt::format("{}", frames[first]) : fmt::format("{}-{}", frames[first], frames[last]);
+    text += first == last ? std::to_string(first) : fmt::format("{}-{}", first, last);
   }
   return text;
 }

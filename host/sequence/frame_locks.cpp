@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "gloam/error.h"
+#include "gloam/frame_numbers.h"
 
 namespace gloam {
 namespace {
@@ -32,13 +33,6 @@ bool has_name(int descriptor) {
   return ::fstat(descriptor, &about) == 0 && about.st_nlink > 0;
 }
 
-/// The end of the range of frames without a gap that begins at `first`.
-size_t end_of_range(const std::vector<int>& frames, size_t first) {
-  size_t end = first + 1;
-  while (end < frames.size() && frames[end] == frames[end - 1] + 1) ++end;
-  return end;
-}
-
 }  // namespace
 
 FrameLocks::FrameLocks(const FramePattern& output, const std::vector<int>& frames) {
@@ -48,9 +42,8 @@ FrameLocks::FrameLocks(const FramePattern& output, const std::vector<int>& frame
   for (int i = 0; i < tries; ++i) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) throw Error("{}: cannot be written: {}", output.text(), std::strerror(errno));
-    for (size_t first = 0, end = 0; first < frames.size(); first = end) {
-      end = end_of_range(frames, first);
-      if (lock_bytes(descriptor_, frames[first], off_t(end - first))) continue;
+    for (const auto& [first, last] : ranges_of(frames)) {
+      if (lock_bytes(descriptor_, first, off_t(last - first) + 1)) continue;
       if (!is_held_by_another(errno)) return;
       ::close(descriptor_);
       throw Error(

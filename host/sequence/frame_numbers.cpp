@@ -59,16 +59,25 @@ std::vector<int> parse_frame_numbers(const std::string& text, const std::string&
   return frames;
 }
 
+std::vector<std::pair<int, int>> ranges_of(const std::vector<int>& frames) {
+  std::vector<std::pair<int, int>> ranges;
+  for (const int frame : frames) {
+    if (!ranges.empty() && frame == ranges.back().second + 1)
+      ranges.back().second = frame;
+    else
+      ranges.emplace_back(frame, frame);
+  }
+  return ranges;
+}
+
 std::string frames_in_words(const std::vector<int>& frames, size_t most_ranges) {
   std::string words;
-  size_t ranges = 0;
-  for (size_t i = 0; i < frames.size();) {
-    if (ranges++ == most_ranges) return words + fmt::format(" and {} more", frames.size() - i);
-    size_t last = i;
-    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+  size_t ranges = 0, told = 0;
+  for (const auto& [first, last] : ranges_of(frames)) {
+    if (ranges++ == most_ranges) return words + fmt::format(" and {} more", frames.size() - told);
+    told += size_t(last - first) + 1;
     if (!words.empty()) words += ", ";
-    words += last == i ? std::to_string(frames[i]) : fmt::format("{}-{}", frames[i], frames[last]);
-    i = last + 1;
+    words += first == last ? std::to_string(first) : fmt::format("{}-{}", first, last);
   }
   return words;
 }

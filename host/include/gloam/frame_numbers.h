@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gloam {
@@ -14,6 +15,9 @@ inline constexpr size_t most_frames = 1'000'000;
 /// Numbers, ranges, and ranges with a step (1-9x2: 1, 3, 5, 7, 9), separated by commas; returned in ascending order, each once.
 /// Throws UsageError, naming the flag, for text of another form.
 std::vector<int> parse_frame_numbers(const std::string& text, const std::string& flag);
+
+/// First and last frames of the ranges without a gap, of frames in ascending order.
+std::vector<std::pair<int, int>> ranges_of(const std::vector<int>& frames);
 
 /// "1-3, 7, 9-12": ranges of frames in ascending order; after `most_ranges` of them "and 12 more".
 std::string frames_in_words(const std::vector<int>& frames, size_t most_ranges = 8);
