@@ -5,47 +5,81 @@
 
 #include "shared/sampling/sample.h"
 
-// The four pixels of the frame before around a position. Only pixels count that show a surface at about the same depth and for
-// which something was kept; their weights add up to 1.
+// The four pixels of the frame before around a position. Only pixels count that show the same surface and for which something was
+// kept; their weights add up to 1.
 typedef struct {
   integer pixel[4];  // from the plane's start
+  int is_row;        // all lanes together lie in two rows of pixels, as they do where neighbours move alike
   real weight[4];
   mask is_known;  // at least one counts
 } Past;
 
-// `x`, `y`: the position, in pixels from the centre of the first pixel. `depth`: the surface's, where `counts`. `same_depth`: share
-// by which the depth may have changed.
-static inline Past past_at(Frame frame, PLANE history_depth, PLANE history_frames, real x, real y, real depth,
-                           scalar same_depth, mask counts) {
+// The four pixels, and which of them lie inside the image. Their weights are those of bilinear interpolation.
+typedef struct {
   Past past;
+  integer column[4], row[4];
+  mask is_inside[4];
+} Corners;
+
+// `x`, `y`: the position, in pixels from the centre of the first pixel.
+static inline Corners corners_at(Frame frame, real x, real y) {
+  Corners c;
   const real inside_x = clamp(x, (real)(-2), (real)((scalar)frame.width + 1));
   const real inside_y = clamp(y, (real)(-2), (real)((scalar)frame.height + 1));
   const real left = floor(inside_x), top = floor(inside_y), right_share = inside_x - left, lower_share = inside_y - top;
-  real sum = 0;
+#pragma unroll
   for (int k = 0; k < 4; ++k) {
     const integer column = to_integer(left) + (k & 1), row = to_integer(top) + (k >> 1);
-    const mask is_inside = to_mask((column >= 0) & (column < frame.width) & (row >= 0) & (row < frame.height));
-    const integer safe_column = clamp(column, (integer)(0), (integer)(frame.width - 1));
-    const integer safe_row = clamp(row, (integer)(0), (integer)(frame.height - 1));
-    past.pixel[k] = FRAME_GUARD + safe_row * frame.pitch + safe_column;
-    const real z = gather(history_depth, past.pixel[k]);
-    const mask is_same = counts & is_inside & !is_background(z) & (fabs(z - depth) <= same_depth * depth) &
-                         (gather(history_frames, past.pixel[k]) >= (scalar)0.5f);
-    const real share = (k & 1 ? right_share : 1 - right_share) * (k >> 1 ? lower_share : 1 - lower_share);
-    past.weight[k] = choose(is_same, share, (real)(0));
+    c.is_inside[k] = to_mask((column >= 0) & (column < frame.width) & (row >= 0) & (row < frame.height));
+    c.column[k] = clamp(column, (integer)(0), (integer)(frame.width - 1));
+    c.row[k] = clamp(row, (integer)(0), (integer)(frame.height - 1));
+    c.past.pixel[k] = FRAME_GUARD + c.row[k] * frame.pitch + c.column[k];
+    c.past.weight[k] = (k & 1 ? right_share : 1 - right_share) * (k >> 1 ? lower_share : 1 - lower_share);
+    c.past.is_row = (k == 0 || c.past.is_row) && is_row_of(c.past.pixel[k]);
+  }
+  return c;
+}
+
+static inline real past_value(Past past, PLANE plane, int k) { return gather_row(plane, past.pixel[k], past.is_row); }
+
+// Leaves the corners that are the same surface, and for which something was kept. `share`: their weight before it is made 1.
+static inline Past past_of_same(Corners corners, PLANE history_frames, const mask* is_same, real* share) {
+  Past past = corners.past;
+  real sum = 0;
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const mask counts = is_same[k] & corners.is_inside[k] & (past_value(past, history_frames, k) >= (scalar)0.5f);
+    past.weight[k] = choose(counts, past.weight[k], (real)(0));
     sum += past.weight[k];
   }
+  *share = sum;
   past.is_known = sum > (scalar)0.01f;
   const real scale = (scalar)1 / choose(past.is_known, sum, (real)(1));
+#pragma unroll
   for (int k = 0; k < 4; ++k) past.weight[k] = choose(past.is_known, past.weight[k] * scale, (real)(0));
   return past;
+}
+
+// `depth`: the surface's, where `counts`. `same_depth`: share by which the depth may have changed.
+static inline Past past_at(Frame frame, PLANE history_depth, PLANE history_frames, real x, real y, real depth,
+                           scalar same_depth, mask counts) {
+  const Corners corners = corners_at(frame, x, y);
+  mask is_same[4];
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const real z = past_value(corners.past, history_depth, k);
+    is_same[k] = counts & !is_background(z) & (fabs(z - depth) <= same_depth * depth);
+  }
+  real share;
+  return past_of_same(corners, history_frames, is_same, &share);
 }
 
 // Weighted mean of a plane; 0 where nothing is known.
 static inline real value_of(Past past, PLANE plane) {
   real value = 0;
+#pragma unroll
   for (int k = 0; k < 4; ++k)
-    value += choose(past.weight[k] > 0, past.weight[k] * gather(plane, past.pixel[k]), (real)(0));
+    value += choose(past.weight[k] > 0, past.weight[k] * past_value(past, plane, k), (real)(0));
   return value;
 }
 

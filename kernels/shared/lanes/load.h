@@ -52,6 +52,25 @@ static inline real gather(PLANE plane, integer i) {
 #endif
 }
 
+// Whether each lane's index follows that of the lane before.
+static inline int is_row_of(integer i) {
+#if LANES == 1
+  return 1;
+#else
+  return !ANY(to_mask(i != i.s0 + IOTA));
+#endif
+}
+
+// As gather, in one load where `is_row`, which is_row_of tells.
+static inline real gather_row(PLANE plane, integer i, int is_row) {
+#if LANES == 1
+  return gather(plane, i);
+#else
+  if (is_row) return load(plane, i.s0);
+  return gather(plane, i);
+#endif
+}
+
 static inline real3 gather3(PLANE x, PLANE y, PLANE z, integer i) {
   return make3(gather(x, i), gather(y, i), gather(z, i));
 }
