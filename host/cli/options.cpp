@@ -129,10 +129,11 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
       for (const ChannelSource& channel : source.channels) names.push_back(prefix + channel.name);
     }
   }
-  if (!files.history() || !contains(planes, "history")) return names;
+  const auto is_of_history = [](const std::string& plane) { return contains(history_planes(), plane); };
+  if (!files.history() || std::none_of(planes.begin(), planes.end(), is_of_history)) return names;
   const FrameFile& before = files.history()->file();
   for (const PlaneSource& source : before.planes()) {
-    if (!contains(History::planes_of_file(), source.plane)) continue;
+    if (!contains(files.history()->planes_of_file(), source.plane)) continue;
     for (const ChannelSource& channel : source.channels)
       names.push_back(before.path().filename().string() + ": " + channel.name);
   }
@@ -163,17 +164,22 @@ namespace {
 /// Adds a note for a history that no pass reads: most likely it was meant for another technique.
 void check_history(const Plan& plan, const FrameFiles& files) {
   if (!files.history() || reads_history(plan)) return;
-  std::vector<std::string> takers;
-  for (const Technique& technique : registry()) {
-    if (contains(technique.reads, "history")) takers.push_back(technique.name);
-  }
-  note({fmt::format("--history: '{}' takes nothing over from the frame before, as {} would", plan.technique,
-                    fmt::join(takers, " or "))});
+  note({fmt::format("--history: '{}' takes nothing over from the frame before; ambient occlusion and reflections do",
+                    plan.technique)});
 }
 
 }  // namespace
 
-bool reads_history(const Plan& plan) { return contains(plan.inputs, "history"); }
+PlanRequest going_on(PlanRequest request, const FrameFiles& files, bool temporal) {
+  const bool can = request.outputs.size() == 1 && contains(technique_names(), request.outputs.front()) &&
+                   can_accumulate(find_technique(request.outputs.front()));
+  request.temporal = temporal || (files.history() && can);
+  if (temporal && !files.history())
+    note({fmt::format("--temporal: without --history, a sequence begins with {}", files.name())});
+  return request;
+}
+
+bool reads_history(const Plan& plan) { return contains(plan.inputs, "history_depth"); }
 
 Plan plan_for(const FrameFiles& files, const PlanRequest& request) {
   try {

@@ -63,6 +63,9 @@ bool reads_history(const Plan& plan);
 /// A plan for a frame. The message of `MissingPlanes` also lists the frame's channels.
 Plan plan_for(const FrameFiles& files, const PlanRequest& request);
 
+/// A request that goes on over time if the frame has a history, or with --temporal. Adds a note where the latter begins a sequence.
+PlanRequest going_on(PlanRequest request, const FrameFiles& files, bool temporal);
+
 /// Throws UsageError for a frame that does not end in .exr.
 void check_frame_name(const std::string& path, const std::string& flag);
 /// Throws UsageError for a picture that does not end in .png; an empty name is allowed.

@@ -60,6 +60,8 @@ void add_plan(CLI::App& app) {
     options.only_looks = true;
     FrameFiles files = flags->frame.open(options);
     for (const FrameFile& file : files.files()) note(file.camera_notes());
+    request = going_on(std::move(request), files, flags->technique.temporal);
+    if (request.temporal && !files.history()) files.expect_history();
     Plan plan = plan_for(files, request);
     planned_memory(flags->frame_flags, files.name(), process_bytes + bytes_to_read(files, {"depth"}),
                    "crop or shrink the frame");

@@ -183,9 +183,12 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
-  PlannedFrame planned = planned_frame(flags.frame.open(flags.frame_flags.read_options()), request, !flags.bare);
+  FrameFiles opened = flags.frame.open(flags.frame_flags.read_options());
+  const PlanRequest over_time = going_on(request, opened, flags.technique_flags.temporal);
+  PlannedFrame planned = planned_frame(std::move(opened), over_time, !flags.bare);
   FrameFiles& files = planned.files;
-  if (reads_history(planned.plan) && !flags.run_flags.seed) options.seed = seed_after(*files.history());
+  if (files.history() && reads_history(planned.plan) && !flags.run_flags.seed)
+    options.seed = seed_after(*files.history());
   const unsigned long long memory = planned_memory(
       flags.frame_flags, files.name(), flags.run_flags.device,
       [&](bool shares_memory) { return bytes_of_run(files, planned.planes, planned.plan, shares_memory); },
@@ -203,11 +206,19 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   const Plan& plan = planned.plan;
   const std::optional<RadiusReport> radius = report_on(settled, frame, plan);
   if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) note({warning});
+  if (reads_history(plan) && !files.history()) add_no_history(frame, plan.inputs);
   Device device = starting.get();
   watch.lap("device");
   options.progress = progress_bar();
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
+  if (files.history() && reads_history(plan)) {
+    if (!knows_where_surfaces_were(frame))
+      note({no_way_back});
+    else if (!goes_on_from_before(result.frame))
+      note({fmt::format("--history {}: shows next to nothing that {} shows; accumulation begins anew",
+                        files.history()->file().path().string(), files.name())});
+  }
   carry_over(frame, result.frame, {.depth = !flags.bare, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
   write_frame(flags.out, result.frame, writing);

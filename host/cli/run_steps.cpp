@@ -9,21 +9,27 @@
 namespace gloam::cli {
 namespace {
 
-/// Planes of the list that every view of the frame still has.
-std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::string>& planes) {
+/// Planes of the list that every view of the frame still has, or will have.
+std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::string>& planes, bool expects_history) {
   std::vector<std::string> left;
   for (const std::string& plane : planes) {
     const bool everywhere =
         std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
-    if (everywhere) left.push_back(plane);
+    if (everywhere || (expects_history && contains(history_planes(), plane))) left.push_back(plane);
   }
   return left;
 }
 
 }  // namespace
 
+const std::string no_way_back =
+    "--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; each "
+    "frame is computed "
+    "by itself; give the camera of each frame (--camera)";
+
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth) {
   PlannedFrame planned{std::move(files), request, {}, {}};
+  if (request.temporal && !planned.files.history()) planned.files.expect_history();
   planned.plan = plan_for(planned.files, request);
   planned.planes = planned.plan.inputs;
   if (carries_depth && contains(planned.files.common_planes(), "depth")) add_new(planned.planes, "depth");
@@ -31,7 +37,7 @@ PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool ca
 }
 
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {
-  const std::vector<std::string> left = planes_left(frame, planned.plan.inputs);
+  const std::vector<std::string> left = planes_left(frame, planned.plan.inputs, planned.request.temporal);
   const std::string holds = holdings(planned.files);
   // If a plane turned out to be unusable (normals in the space of an unknown camera), make it instead.
   const bool is_all_left = left.size() == planned.plan.inputs.size();

@@ -18,7 +18,7 @@ struct PlannedFrame {
   std::vector<std::string> planes;  ///< to decode: what the plan reads, and depth if it is carried over
 };
 
-/// Plans. The file's depth is decoded too if it is carried over to the output.
+/// Plans. Of a request that goes on over time and a frame without a history, the caller adds the planes of one. The file's depth is decoded too if it is carried over to the output.
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth);
 
 /// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
@@ -27,6 +27,9 @@ std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);
 
 /// A note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras. Else empty.
 std::string warning_about_views(const Plan& plan, const Frame& frame);
+
+/// Note for a frame that cannot tell where its surfaces were in the frame before.
+extern const std::string no_way_back;
 
 /// What an output has besides the planes computed.
 struct Carried {

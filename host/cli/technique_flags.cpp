@@ -55,6 +55,11 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
                  "technique that makes a mask, such as corner-mask")
       ->type_name("MASK")
       ->group("Technique");
+  app.add_flag("--temporal", temporal,
+               "AO and reflections become means over the frames of a sequence that showed each surface; a frame by "
+               "itself goes on "
+               "from --history")
+      ->group("Technique");
   app.add_option("--elsewhere", elsewhere,
                  "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao")
       ->type_name("TECHNIQUE")

@@ -17,7 +17,8 @@ struct TechniqueFlags {
   std::vector<std::string> settings;
   std::string preset, then, with, adaptive, only, elsewhere;
   int resolution = 1;
-  /// `with_mask`: adds --only and --elsewhere as well.
+  bool temporal = false;
+  /// `with_mask`: adds --only, --elsewhere and --temporal as well.
   void add_to(CLI::App& app, bool with_mask = true);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };

@@ -157,6 +157,7 @@ const std::vector<Spelling>& spellings() {
       {"reflection_raw", "reflectionraw", "r,g,b,a", own},
       {"frames", "", "frames", own},
       {"history", "history", "r,g,b,a", own},
+      {"history_ao", "history", "visibility", own},
       {"history_depth", "history", "z", own},
       {"history_frames", "history", "frames", own},
       {"reflection_noise", "*", "reflection_noise", own},

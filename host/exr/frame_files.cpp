@@ -134,9 +134,8 @@ std::vector<PlaneSource> FrameFiles::sources() const {
 
 std::vector<std::string> FrameFiles::common_planes() const {
   std::vector<std::string> planes = gloam::common_planes(sources(), views_);
-  if (history_) {
-    for (const std::string& plane : History::planes()) add_new(planes, plane);
-  }
+  if (history_) add_new(planes, history_->planes());
+  if (expects_history_) add_new(planes, history_planes());
   return planes;
 }
 
@@ -145,12 +144,11 @@ std::string FrameFiles::why_missing(const std::string& plane) const {
 }
 
 Frame FrameFiles::read(const std::vector<std::string>& planes) {
-  if (!history_) return read_files(planes);
-  const auto is_of_history = [](const std::string& plane) { return contains(History::planes(), plane); };
+  const auto is_of_history = [](const std::string& plane) { return contains(history_planes(), plane); };
   std::vector<std::string> own = planes;
   std::erase_if(own, is_of_history);
   Frame frame = read_files(own);
-  if (std::any_of(planes.begin(), planes.end(), is_of_history)) history_->add_to(frame, planes);
+  if (history_ && std::any_of(planes.begin(), planes.end(), is_of_history)) history_->add_to(frame, planes);
   return frame;
 }
 

@@ -12,70 +12,138 @@
 namespace gloam {
 namespace {
 
-/// A history of one frame for every surface with a reflection: pixels that a mask left out have none.
-Plane one_frame(const Plane& depth, const Plane& reflection) {
+/// The planes of a history, and those of a result that they are.
+const std::vector<std::pair<std::string, std::string>> sources_of_history = {
+    {"history", "reflection"}, {"history_ao", "ao_raw"}, {"history_depth", "depth"}, {"history_frames", "frames"}};
+
+bool is_all_zero(const Plane& plane, int x, int y) {
+  return std::all_of(plane.channels.begin(), plane.channels.end(),
+                     [&](const Channel& channel) { return channel.at(x, y) == 0; });
+}
+
+/// A history of one frame for every surface; where a mask left pixels without a reflection, these have none.
+Plane one_frame(const Plane& depth, const Plane* reflection) {
   Plane frames{"frames", {}};
   const Layout& layout = depth.channels.front().layout();
   Channel& counts = frames.channels.emplace_back(layout, 0.0f);
   for (int y = 0; y < layout.height; ++y) {
     for (int x = 0; x < layout.width; ++x) {
-      const bool has_any = std::any_of(reflection.channels.begin(), reflection.channels.end(),
-                                       [&](const Channel& channel) { return channel.at(x, y) != 0; });
-      if (has_any && !is_background(depth.channels.front().at(x, y))) counts.at(x, y) = 1;
+      if (is_background(depth.channels.front().at(x, y))) continue;
+      if (!reflection || !is_all_zero(*reflection, x, y)) counts.at(x, y) = 1;
     }
   }
   return frames;
 }
 
-}  // namespace
-
-History::History(const std::filesystem::path& path) : file_(path, {}) {
-  for (const char* plane : {"reflection", "depth"}) {
-    if (contains(file_.common_planes(), plane)) continue;
-    throw Error("--history {}: has no '{}'; give the file that gloam run wrote for the frame before, without --bare",
-                path.string(), plane);
-  }
+/// Without an entry for any pixel.
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  Plane plane{name, {}};
+  const PlaneKind& kind = plane_kind(name);
+  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
+  return plane;
 }
 
-const std::vector<std::string>& History::planes() {
-  static const std::vector<std::string> names = {"history", "history_depth", "history_frames"};
+/// The view of the frame before that a view goes on from.
+View& view_before(Frame& before, const Frame& frame, const View& view, const std::string& name) {
+  const auto same = std::find_if(before.views.begin(), before.views.end(),
+                                 [&](const View& other) { return other.name == view.name; });
+  if (same != before.views.end()) return *same;
+  // A file that names no view is for the only view of the frame.
+  const bool is_unnamed =
+      before.views.size() == 1 && frame.views.size() == 1 && (view.name.empty() || before.views.front().name.empty());
+  if (!is_unnamed)
+    throw Error("{}: has no view '{}', which the frame has; give what gloam run wrote for that view", name, view.name);
+  return before.views.front();
+}
+
+}  // namespace
+
+const std::vector<std::string>& history_planes() {
+  static const std::vector<std::string> names = {"history", "history_ao", "history_depth", "history_frames"};
   return names;
 }
 
-const std::vector<std::string>& History::planes_of_file() {
-  static const std::vector<std::string> names = {"reflection", "depth", "frames"};
+bool knows_where_surfaces_were(const Frame& frame) {
+  return std::any_of(frame.views.begin(), frame.views.end(), [](const View& view) {
+    const bool has_poses = view.camera && view.camera->pose && view.camera_before && view.camera_before->pose;
+    return has_poses || view.find("motion");
+  });
+}
+
+bool goes_on_from_before(const Frame& result) {
+  constexpr double least_share = 0.05;
+  size_t surfaces = 0, known = 0;
+  for (const View& view : result.views) {
+    const Plane* frames = view.find("frames");
+    if (!frames) continue;
+    const Channel& counts = frames->channels.front();
+    for (int y = 0; y < counts.layout().height; ++y) {
+      for (int x = 0; x < counts.layout().width; ++x) {
+        surfaces += counts.at(x, y) > 0;
+        known += counts.at(x, y) > 1;
+      }
+    }
+  }
+  return double(known) >= least_share * double(surfaces);
+}
+
+const std::vector<std::string>& planes_for_history() {
+  static const std::vector<std::string> names = {"reflection", "ao_raw", "depth", "frames"};
+  return names;
+}
+
+void add_no_history(Frame& frame, const std::vector<std::string>& planes) {
+  for (const std::string& plane : history_planes()) {
+    if (!contains(planes, plane)) continue;
+    for (View& view : frame.views) view.planes[plane] = empty_plane(plane, Layout(frame.width(), frame.height()));
+  }
+}
+
+void add_history(Frame& frame, Frame before, const std::vector<std::string>& planes, const std::string& name) {
+  if (before.window != frame.window || before.display != frame.display)
+    throw Error("{}: shows {}, and the frame {}; frames of a sequence are of one size and place", name,
+                in_words(before.window), in_words(frame.window));
+  for (View& view : frame.views) {
+    View& from = view_before(before, frame, view, name);
+    view.camera_before = from.camera;
+    if (!from.find("frames")) from.planes["frames"] = one_frame(from.planes.at("depth"), from.find("reflection"));
+    for (const auto& [added, source] : sources_of_history) {
+      if (!contains(planes, added) || !from.find(source)) continue;
+      Plane& plane = view.planes[added] = std::move(from.planes.at(source));
+      plane.name = added;
+    }
+  }
+}
+
+History::History(const std::filesystem::path& path) : file_(path, {}) {
+  const std::vector<std::string> there = file_.common_planes();
+  const auto refuse = [&](const std::string& lacks) {
+    throw Error("--history {}: has no {}; give the file that gloam run wrote for the frame before, without --bare",
+                path.string(), lacks);
+  };
+  if (!contains(there, "reflection") && !contains(there, "ao_raw")) refuse("'reflection' and no 'ao_raw'");
+  if (!contains(there, "depth")) refuse("'depth'");
+}
+
+std::vector<std::string> History::planes() const {
+  std::vector<std::string> names = history_planes();
+  const std::vector<std::string> there = file_.common_planes();
+  std::erase_if(names, [&](const std::string& name) {
+    return (name == "history" && !contains(there, "reflection")) ||
+           (name == "history_ao" && !contains(there, "ao_raw"));
+  });
+  return names;
+}
+
+std::vector<std::string> History::planes_of_file() const {
+  std::vector<std::string> names = planes_for_history();
+  const std::vector<std::string> there = file_.common_planes();
+  std::erase_if(names, [&](const std::string& name) { return !contains(there, name); });
   return names;
 }
 
 void History::add_to(Frame& frame, const std::vector<std::string>& planes) {
-  std::vector<std::string> there = planes_of_file();
-  std::erase_if(there, [&](const std::string& plane) { return !contains(file_.common_planes(), plane); });
-  Frame before = file_.read(there);
-  if (before.window != frame.window || before.display != frame.display)
-    throw Error("--history {}: shows {}, and the frame {}; frames of a sequence are of one size and place",
-                file_.path().string(), in_words(before.window), in_words(frame.window));
-  for (View& view : frame.views) {
-    const auto same = std::find_if(before.views.begin(), before.views.end(),
-                                   [&](const View& other) { return other.name == view.name; });
-    // A file that names no view is for the only view of the frame.
-    const bool is_unnamed =
-        before.views.size() == 1 && frame.views.size() == 1 && (view.name.empty() || before.views.front().name.empty());
-    if (same == before.views.end() && !is_unnamed)
-      throw Error("--history {}: has no view '{}', which the frame has; give what gloam run wrote for that view",
-                  file_.path().string(), view.name);
-    View& from = same == before.views.end() ? before.views.front() : *same;
-    const auto add = [&](const std::string& name, Plane plane) {
-      if (!contains(planes, name)) return;
-      plane.name = name;
-      view.planes[name] = std::move(plane);
-    };
-    view.camera_before = from.camera;
-    const Plane& depth = from.planes.at("depth");
-    add("history_frames",
-        from.find("frames") ? from.find("frames")->clone() : one_frame(depth, from.planes.at("reflection")));
-    add("history_depth", depth.clone());
-    add("history", std::move(from.planes.at("reflection")));
-  }
+  add_history(frame, file_.read(planes_of_file()), planes, "--history " + file_.path().string());
 }
 
 std::optional<int> History::seed() const {

@@ -61,6 +61,8 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("frames", {""}, {"frames"}, 0, K::value, "how many frames a result is made of"),
       kind("history", {"r", "g", "b", "a"}, {"history.R", "history.G", "history.B", "history.A"}, 0, K::value,
            "reflected radiance of the frame before", "gloam run --history PREVIOUS.exr"),
+      kind("history_ao", {""}, {"history.visibility"}, 1, K::value, "raw ambient occlusion of the frame before",
+           "gloam run --history PREVIOUS.exr"),
       kind("history_depth", {""}, {"history.Z"}, inf, K::view_depth, "depth of the frame before",
            "gloam run --history PREVIOUS.exr"),
       kind("history_frames", {""}, {"history.frames"}, 0, K::value, "how many frames the frame before was made of",

@@ -11,6 +11,7 @@
 #include "plan/resample.h"
 #include "plan/settings.h"
 #include "plan/stacks.h"
+#include "plan/temporal.h"
 #include "plan/walk.h"
 #include "plan/wanted.h"
 
@@ -82,6 +83,16 @@ void check_full_resolution(const PlanRequest& request, const Techniques& techniq
   }
 }
 
+/// Adds what accumulation over time reads.
+void want_history(const PlanRequest& request, const Wanted& wanted, const std::vector<std::string>& available,
+                  std::vector<std::string>& also) {
+  check_temporal(request);
+  if (contains(wanted.makers.front()->reads, "history")) return;
+  std::copy_if(accumulating().reads.begin(), accumulating().reads.end(), std::back_inserter(also),
+               [](const std::string& plane) { return plane != "ao_raw"; });
+  if (contains(available, "motion")) also.push_back("motion");
+}
+
 /// Removes the passes that only repeat cells, so that the cells themselves are the output.
 void put_out_cells(Plan& plan) {
   for (std::string& output : plan.outputs) {
@@ -105,7 +116,9 @@ bool reads_from(const Technique& reader, const Technique& writer) {
                      [&](const std::string& plane) { return contains(writer.writes, plane); });
 }
 
-Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds) {
+Plan make_plan(const PlanRequest& given, const std::vector<std::string>& available, const std::string& holds) {
+  PlanRequest request = given;
+  if (request.temporal) request.outputs = over_time(request.outputs);
   Wanted wanted = wanted_by(request, available);
   const Techniques asked_for = wanted.makers;
   const Technique* elsewhere = want_elsewhere(request, wanted);
@@ -117,6 +130,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
     std::copy_if(elsewhere->may_read.begin(), elsewhere->may_read.end(), std::back_inserter(also),
                  [&](const std::string& plane) { return contains(available, plane); });
   }
+  if (request.temporal) want_history(request, wanted, available, also);
   Walk walk(wanted, with_stacks(available), also, mask);
   check_full_resolution(request, walk.order);
   Plan plan;
@@ -125,6 +139,7 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   if (!walk.missing.empty()) throw_missing(plan.technique, wanted, walk, holds);
   if (elsewhere) walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
   if (is_adaptive(request)) walk.order.push_back(&adapting());
+  if (request.temporal) walk.order.push_back(&accumulating());
   if (is_reduced) walk.order.push_back(&resampling());
   const Technique* restricted = mask.empty() || asked_for.empty() ? nullptr : asked_for.front();
   const std::vector<ParameterValues> values = values_of(request, walk.order, plan.technique, restricted, mask);
@@ -140,7 +155,6 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
     }
   }
   trim_stacks(plan);
-  leave_out_unread(plan, walk.order);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;
   if (is_reduced) reduce(plan, without_maker(asked_for, mask), values.back(), !request.as_cells);
@@ -148,7 +162,9 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
   if (!mask.empty())
     restrict_to_mask(plan, elsewhere ? Techniques{asked_for.front(), elsewhere} : asked_for, elsewhere);
   if (is_adaptive(request)) adapt(plan, without_maker(asked_for, mask), request.adaptive, values.back());
+  if (request.temporal) accumulate(plan, *asked_for.front(), values.back());
   if (request.as_cells) put_out_cells(plan);
+  leave_out_unread(plan, walk.order);
   plan.skipped = walk.skipped;
   skip_the_rest(plan, available);
   if (contains(plan.inputs, "depth"))

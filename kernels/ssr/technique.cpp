@@ -246,6 +246,7 @@ Technique plain() {
   t.reads = {"depth", "normal", "color", "roughness", "reflectance"};
   t.writes = t.outputs = {"reflection", "hit"};
   t.default_for = {"reflection", "hit"};
+  t.over_time = "temporal-sssr";
   t.parameters = SssrParams::table();
   t.presets = {{"low", {{"rays", "1"}, {"neighbours", "9"}}},
                {"medium", {{"rays", "1"}, {"neighbours", "21"}}},
@@ -269,6 +270,7 @@ Technique for_two_eyes() {
   t.paper = "Wu, Xu, Wang 2024";
   t.reads.insert(t.reads.end(), {"back_depth", "instance"});
   t.default_for.clear();
+  t.over_time.clear();
   t.views = 2;
   t.parameters = StereoSsrParams::table();
   // The same number of pixels in the other eye.
@@ -298,6 +300,7 @@ Technique over_frames() {
   t.outputs = {"reflection", "hit", "frames"};
   t.writes = {"reflection", "hit", "frames", "reflection_raw"};
   t.default_for.clear();
+  t.over_time.clear();
   t.parameters = TemporalSssrParams::table();
   t.passes = passes_of(temporal_passes);
   t.effect = {};

@@ -81,15 +81,15 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
     more.insert(more.begin(), run.begin(), run.end());
     return more;
   };
-  refused(with({"--history", frame(1)}), 1, "has no 'reflection'");
+  refused(with({"--history", frame(1)}), 1, "has no 'reflection' and no 'ao_raw'");
   refused(with({"--history", path("none.exr")}), 1, "none.exr");
   ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1)}).status, 0);
   refused(with({"--history", result(1), "--resolution", "half"}), 2, "--resolution");
   refused(with({"--history", result(2)}), 2, "is also --history");
   EXPECT_EQ(files(), (std::vector<std::string>{"f.0001.exr", "f.0002.exr", "path.json", "r.0001.exr"}));
-  const Result unused = gloam({"run", "sssr", frame(2), "--history", result(1), "-o", path("unused.exr")});
+  const Result unused = gloam({"run", "normals", frame(2), "--history", result(1), "-o", path("unused.exr")});
   EXPECT_EQ(unused.status, 0);
-  EXPECT_NE(unused.err.find("'sssr' takes nothing over"), std::string::npos) << unused.err;
+  EXPECT_NE(unused.err.find("'normals' takes nothing over"), std::string::npos) << unused.err;
   const Json plan = gloam({"plan", "temporal-sssr", frame(2), "--history", result(1), "--json", "-"}).json();
   EXPECT_EQ(plan["passes"].back()["name"], "temporal-sssr/accumulate");
   EXPECT_NE(plan.dump().find("r.0001.exr: reflection.R"), std::string::npos) << plan;

@@ -167,6 +167,22 @@ int run_second_estimates() {
   return passes;
 }
 
+/// Runs what accumulates over time, with motion and without; the passes are the same for all techniques.
+int run_over_time() {
+  int passes = 0;
+  for (const bool with_motion : {true, false}) {
+    Frame frame = shoot(perspective(width, height), room());
+    for (const char* plane : {"history_ao", "history_depth", "history_frames"}) plane_of(frame, plane);
+    if (with_motion) plane_of(frame, "motion");
+    frame.views[0].camera->pose = Pose();
+    frame.views[0].camera_before = frame.views[0].camera;
+    const Plan plan = make_plan({.outputs = {"ssao"}, .temporal = true}, plane_names(frame), "the frame has not");
+    run(plan, frame, device(), {.math = Math::precise, .lanes = 1});
+    passes += int(plan.passes.size());
+  }
+  return passes;
+}
+
 /// Runs everything that a technique does on any frame.
 int run_all_of(const Technique& technique) {
   int passes = run_defaults(technique, perspective(width, height), true);
@@ -177,7 +193,7 @@ int run_all_of(const Technique& technique) {
 
 /// Every `parts`-th technique, from `part` on; `bits_only`: only the printing of bits.
 int run_all(size_t part, size_t parts, bool bits_only) {
-  int passes = part == 0 && !bits_only ? run_second_estimates() : 0;
+  int passes = part == 0 && !bits_only ? run_second_estimates() + run_over_time() : 0;
   for (size_t i = part; i < registry().size(); i += parts) {
     passes += tell_bits(registry()[i]);
     if (!bits_only) passes += run_all_of(registry()[i]);

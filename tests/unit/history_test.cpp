@@ -57,7 +57,7 @@ class HistoryTest : public testing::Test {
     return path;
   }
 
-  void take(const Frame& before, Frame& frame) const { History(written(before)).add_to(frame, History::planes()); }
+  void take(const Frame& before, Frame& frame) const { History(written(before)).add_to(frame, history_planes()); }
 
   fs::path folder;
 };
@@ -78,7 +78,8 @@ TEST_F(HistoryTest, EachViewHasItsOwn) {
     EXPECT_EQ(at("history_frames", 7), 0);
     ASSERT_TRUE(view.camera_before && view.camera_before->pose);
     EXPECT_NEAR(view.camera_before->pose->position.x, view.name == "left" ? 0 : 0.1, 1e-6);
-    for (const std::string& plane : History::planes()) EXPECT_EQ(view.find(plane)->name, plane);
+    for (const char* plane : {"history", "history_depth", "history_frames"}) EXPECT_EQ(view.find(plane)->name, plane);
+    EXPECT_EQ(view.find("history_ao"), nullptr);
   }
 }
 
@@ -97,7 +98,8 @@ TEST_F(HistoryTest, AnotherEyeOrWindowIsRefused) {
   Frame without = frame_of({"left"});
   without.views[0].planes.erase("reflection");
   const std::string missing = message_of([&] { take(without, frame); });
-  EXPECT_NE(missing.find("has no 'reflection'; give the file that gloam run wrote"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("has no 'reflection' and no 'ao_raw'; give the file that gloam run wrote"), std::string::npos)
+      << missing;
 }
 
 }  // namespace

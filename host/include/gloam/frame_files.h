@@ -32,6 +32,8 @@ class FrameFiles {
   /// Adds the planes of a history to the frame from now on. Throws as `History` does.
   void take_history(const std::filesystem::path& path) { history_.emplace(path); }
   const std::optional<History>& history() const { return history_; }
+  /// From now on the planes of a history count as the frame's: the caller adds them to what `read` returns.
+  void expect_history() { expects_history_ = true; }
 
   const std::vector<FrameFile>& files() const { return files_; }
   /// "pair_L.exr and pair_R.exr", without folders.
@@ -52,6 +54,7 @@ class FrameFiles {
   std::vector<FrameFile> files_;
   std::vector<std::string> views_;
   std::optional<History> history_;
+  bool expects_history_ = false;
   std::string assumed_;  ///< how the eyes got their names; empty if the files name them
 };
 

@@ -41,6 +41,9 @@ struct PlanRequest {
   /// Preset of the first technique asked for in tiles where AO hardly varies, found by a base pass with a fourth of the columns and
   /// rows and the preset low (kernels/adaptive). Empty or "none": the whole image is computed alike.
   std::string adaptive = {};
+  /// Goes on from the frame before: raw AO is accumulated over time (kernels/temporal) before it is filtered, and a technique with a
+  /// form of its own for sequences (`Technique::over_time`) is run in that form. Needs the planes of a history (history.h).
+  bool temporal = false;
 };
 
 struct PlannedPass {
@@ -88,6 +91,12 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
 
 /// Planes that a technique returns, including those that it leaves to its filter.
 const std::vector<std::string>& outputs_of(const Technique& technique);
+
+/// Whether results of a technique can be accumulated over time (`PlanRequest::temporal`).
+bool can_accumulate(const Technique& technique);
+
+/// Throws UsageError for a technique that cannot, and for what cannot be asked for together with `PlanRequest::temporal`.
+void check_temporal(const PlanRequest& request);
 
 /// Whether a technique reads a plane that another writes.
 bool reads_from(const Technique& reader, const Technique& writer);

@@ -152,6 +152,7 @@ struct Technique {
   bool any_projection = false;
   /// For given parameters, the distance between key views, which other views may reuse; 1: there are none.
   std::function<int(const ParameterValues&)> key_views;
+  std::string over_time;            ///< technique that does the same for sequences, where there is one
   std::vector<std::string> extras;  ///< planes that it makes besides `writes` if they are asked for by name
   ParameterList parameters;
   std::vector<Preset> presets;

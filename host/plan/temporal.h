@@ -1,0 +1,22 @@
+// Accumulation over time: turns a plan for one frame into one that goes on from the frame before.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gloam/plan.h"
+
+namespace gloam {
+
+/// The technique of the pass that the plan itself adds: "temporal/accumulate". It is not in the registry; its parameters are set as
+/// temporal.NAME.
+const Technique& accumulating();
+
+/// The techniques that accumulate by themselves instead of those named: temporal-sssr for sssr (`Technique::over_time`).
+std::vector<std::string> over_time(std::vector<std::string> outputs);
+
+/// Puts the mean of a technique's raw AO and that of the frame before between the technique and its filter. `values`: of
+/// `accumulating`. Does nothing for techniques that accumulate by themselves.
+void accumulate(Plan& plan, const Technique& technique, const ParameterValues& values);
+
+}  // namespace gloam

@@ -1,0 +1,63 @@
+// Raw ambient occlusion as the mean over the frames of a sequence that showed each surface (Yang, Liu, Salvi 2020, sections 3 and 4).
+// What follows filters the mean. In a scene at rest the AO of a surface does not change, so the history counts as it is. Near something
+// that moves it is compared with this frame: where their means over neighbours differ by more than the noise of these means, the history
+// counts for as many frames as have that error.
+//
+// in : now            raw AO of this frame, 1 = open .. 0 = closed
+//      depth          view-space z, scene units, +inf = background
+//      before, before_frames  of reproject.cl
+//      tiles_away     of moving.cl, in tiles
+// out: ao_raw         mean over the frames; 1 on background
+//      frames         how many frames that is the mean of; 0 on background
+// -D TILE (pixels)
+#include "shared/frame/camera.h"
+#include "shared/lanes/load.h"
+#include "shared/sampling/sample.h"
+#include "temporal/params.h"
+
+// The frames that the history counts for, 1 / (1 / count + excess): the excess of the squared difference of two means over what noise
+// explains, in variances of a single frame. Neighbours: every second pixel of 5 x 5, since samples of neighbours that touch differ most.
+static inline real frames_alike(Frame frame, Params params, real z, real count, PLANE now, PLANE depth, PLANE before,
+                                PLANE before_frames) {
+  real pixels = 0, sum = 0, squares = 0, sum_before = 0;
+  for (int k = 0; k < 9; ++k) {
+    const int dx = 2 * (k % 3) - 2, dy = 2 * (k / 3) - 2;
+    if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;
+    const int there = index_of(frame, FIRST_X + dx, ROW_Y + dy);
+    const real depth_there = load(depth, there), value = load(now, there), value_before = load(before, there);
+    const mask counts = to_mask(to_natural(FIRST_X + dx + IOTA) < (natural)((uint)frame.width)) &
+                        (load(before_frames, there) > 0) & !is_background(depth_there) &
+                        (fabs(depth_there - z) <= params.depth_tolerance * z);
+    pixels += choose(counts, (real)(1), (real)(0));
+    sum += choose(counts, value, (real)(0));
+    squares += choose(counts, value * value, (real)(0));
+    sum_before += choose(counts, value_before, (real)(0));
+  }
+  const real share = (scalar)1 / larger(pixels, (real)(1));
+  const real mean = sum * share, difference = mean - sum_before * share;
+  // Never 0, so that equal pixels divide too: a step of 8 bits is no change.
+  const real variance = larger(squares * share - mean * mean, (real)(0)) + (scalar)1e-4f;
+  const real excess = difference * difference / variance - params.change_tolerance * share;
+  return (scalar)1 / ((scalar)1 / count + larger(excess, (real)(0)));
+}
+
+kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANE now, PLANE depth, PLANE before,
+                                PLANE before_frames, PLANE tiles_away, PLANE_OUT ao_raw, PLANE_OUT frames) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const real z = load(depth, here), own = load(now, here);
+  const mask is_surface = !is_background(z);
+  real count = load(before_frames, here);
+  const scalar tiles = tiles_away[index_of(other, FIRST_X / TILE, ROW_Y / TILE)];
+  // From pixel to pixel at least; a tile beside that of the pixel may begin at the next pixel.
+  const scalar pixels = (tiles - 1) * TILE;
+  const real reach = (scalar)params.radius / ((scalar)frame.scale_x * (frame.perspective * z + frame.parallel));
+  const mask may_change = is_surface & (count > 0) & (reach >= pixels);
+  if (ANY(may_change)) {
+    const real alike =
+        frames_alike(frame, params, z, choose(may_change, count, (real)(1)), now, depth, before, before_frames);
+    count = choose(may_change, alike, count);
+  }
+  const real mean = (load(before, here) * count + own) / (count + 1);
+  store(choose(is_surface, mean, (real)(1)), ao_raw, here);
+  store(choose(is_surface, count + 1, (real)(0)), frames, here);
+}

@@ -1,0 +1,49 @@
+// How far tiles of the image are from something that moves by itself.
+//
+// moving_tiles     `frame`: the tiles; `other`: the image
+//   in : moved     1 where something moves by itself, else 0 (reproject.cl)
+//   out: moving    0 for tiles with a square of 2 x 2 such pixels, else infinity. Less is noise: what is thinner than a pixel
+//                  comes and goes.
+// distance_across  in : moving; out: tiles_away, in tiles along the row, to the nearest moving tile; infinity beyond REACH
+// distance_down    in : moving of distance_across; out: tiles_away, in tiles along the longer of the two axes
+// -D TILE (pixels), REACH (tiles)
+#include "shared/lanes/load.h"
+#include "temporal/params.h"
+
+kernel void moving_tiles(Frame frame, Frame other, Params params, PLANE moved, PLANE_OUT moving) {
+  const integer first = (FIRST_X + IOTA) * TILE;
+  mask found = (mask)(0), above[TILE];
+  for (int dy = 0; dy < TILE; ++dy) {
+    const int row = index_of(other, 0, min(ROW_Y * TILE + dy, other.height - 1));
+    mask left = (mask)(0);
+    for (int dx = 0; dx < TILE; ++dx) {
+      const mask here = gather(moved, row + min(first + dx, (integer)(other.width - 1))) > (scalar)0.5f;
+      if (dx > 0 && dy > 0) found |= here & left & above[dx] & above[dx - 1];
+      if (dx > 0) above[dx - 1] = left;
+      left = here;
+    }
+    above[TILE - 1] = left;
+  }
+  store(choose(found, (real)(0), REAL_INFINITY), moving, index_of(frame, FIRST_X, ROW_Y));
+}
+
+kernel void distance_across(Frame frame, Params params, PLANE moving, PLANE_OUT tiles_away) {
+  real least = REAL_INFINITY;
+  for (int dx = -REACH; dx <= REACH; ++dx) {
+    const integer column = FIRST_X + dx + IOTA;
+    const mask is_inside = to_mask(to_natural(column) < (natural)((uint)frame.width));
+    const real there = load(moving, index_of(frame, FIRST_X + dx, ROW_Y));
+    least = choose(is_inside & (there == 0), smaller(least, (real)((scalar)abs(dx))), least);
+  }
+  store(least, tiles_away, index_of(frame, FIRST_X, ROW_Y));
+}
+
+kernel void distance_down(Frame frame, Params params, PLANE across, PLANE_OUT tiles_away) {
+  real least = REAL_INFINITY;
+  for (int dy = -REACH; dy <= REACH; ++dy) {
+    if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;
+    const real there = load(across, index_of(frame, FIRST_X, ROW_Y + dy));
+    least = smaller(least, larger(there, (real)((scalar)abs(dy))));
+  }
+  store(least, tiles_away, index_of(frame, FIRST_X, ROW_Y));
+}
