@@ -15,9 +15,9 @@ namespace gloam::cli {
 namespace {
 
 /// Flags that do not change what the file of a frame holds, or of which its header says more (the files read).
-const std::set<std::string> not_of_contents = {"frame",    "other_eye", "--camera",       "--output", "--picture",
-                                               "--json",   "--frames",  "--missing",      "--resume", "--memory",
-                                               "--repeat", "--quiet",   "--limit-memory", "--help",   "technique"};
+const std::set<std::string> not_of_contents = {
+    "frame",    "other_eye", "--camera", "--output",  "--picture", "--json",         "--frames", "--missing",
+    "--resume", "--memory",  "--repeat", "--warm-up", "--quiet",   "--limit-memory", "--help",   "technique"};
 
 /// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
 std::string value_in_words(const std::string& value) {
@@ -50,7 +50,7 @@ std::string contents_in_words(const CLI::App& command) {
 }
 
 /// Flags that each command of a chunk has in its own form, or not at all.
-const std::set<std::string> not_of_chunks = {"--frames", "--chunks", "--print", "--resume", "--help"};
+const std::set<std::string> not_of_chunks = {"--frames", "--warm-up", "--chunks", "--print", "--resume", "--help"};
 
 /// The words of a command that do the same as this one, but for the frames.
 std::vector<std::string> repeated_words(const CLI::App& command) {

@@ -10,6 +10,8 @@
 #include "cli/shot_work.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
+#include "gloam/history.h"
+#include "gloam/planes.h"
 #include "sequence/chunks.h"
 #include "sequence/frame_locks.h"
 #include "sequence/pipeline.h"
@@ -19,13 +21,13 @@ namespace {
 
 using Bytes = unsigned long long;
 
+/// Whether each frame goes on from the one before.
+bool is_temporal(const RunCommand& flags) {
+  return flags.technique_flags.temporal || contains(find_technique(flags.technique).reads, "history");
+}
+
 /// Throws UsageError for a technique, flags and names that do not go with a shot.
 void check_flags(const RunCommand& flags) {
-  if (contains(find_technique(flags.technique).reads, "history"))
-    throw UsageError(
-        "{}: takes over the frame before, and a shot's frames are computed by themselves; run frame after frame, "
-        "each with --history",
-        flags.technique);
   const FrameArguments& frame = flags.frame;
   for (const std::string& file : {frame.frame, frame.other_eye}) {
     if (!file.empty() && !FramePattern::is_pattern(file))
@@ -40,6 +42,13 @@ void check_flags(const RunCommand& flags) {
   if (!frame.history.empty())
     throw UsageError("--history {}: is of one frame; run frame after frame, each with the file of the one before",
                      frame.history);
+  if (is_temporal(flags) && flags.shot.choice.missing == MissingFrames::hold)
+    throw UsageError(
+        "--missing hold: a frame that is held does not go on from the one before; skip missing frames, or "
+        "leave out --temporal");
+  if (flags.shot.warm_up > 0 && !is_temporal(flags))
+    throw UsageError("--warm-up {}: no frame goes on from another; leave it out, or add --temporal",
+                     flags.shot.warm_up);
   if (flags.run_flags.repeat > 1)
     throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
 }
@@ -62,9 +71,16 @@ void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
   std::string words;
   for (const std::string& word : flags.repeated) words += " " + quoted_for_shell(word);
   const std::string folder = quoted_for_shell(std::filesystem::current_path().string());
-  for (const std::vector<int>& chunk : chunks_of(shot.numbers(), flags.shot.chunks))
-    fmt::print("cd {} && {}{} --frames {} --resume\n", folder, quoted_for_shell(program_path()), words,
-               frames_as_flag(chunk));
+  const auto print = [&](const std::vector<int>& chunk, const std::string& more) {
+    fmt::print("cd {} && {}{} --frames {}{} --resume\n", folder, quoted_for_shell(program_path()), words,
+               frames_as_flag(chunk), more);
+  };
+  if (is_temporal(flags)) {
+    for (const auto& [chunk, warm_up] : chunks_of_blocks(shot.numbers(), flags.shot.chunks))
+      print(chunk, warm_up == 0 ? "" : fmt::format(" --warm-up {}", warm_up));
+  } else {
+    for (const std::vector<int>& chunk : chunks_of(shot.numbers(), flags.shot.chunks)) print(chunk, "");
+  }
   if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
 }
 
@@ -106,11 +122,22 @@ struct ShotMemory {
   Bytes frame, all;  ///< most that a frame in flight may take; the whole process
 };
 
+/// What a frame leaves for the next, while that takes it over.
+Bytes bytes_of_history(const PlannedFrame& planned) {
+  if (!planned.request.temporal) return 0;
+  Bytes bytes = 0;
+  for (const std::string& plane : planned.plan.inputs) {
+    if (contains(history_planes(), plane)) bytes += plane_kind(plane).components.size() * sizeof(float);
+  }
+  const Window window = planned.files.window();
+  return 2 * bytes * Bytes(window.width()) * Bytes(window.height()) * planned.files.views().size();
+}
+
 ShotMemory memory_for(const RunCommand& flags, const PlannedFrame& first) {
   const Layout layout(first.files.window().width(), first.files.window().height());
   const Bytes own = bytes_in_flight(first);
-  const Bytes beside =
-      process_bytes_with_device + bytes_beside_frame(first.plan, layout, first.files.views().size(), true);
+  const Bytes beside = process_bytes_with_device + bytes_of_history(first) +
+                       bytes_beside_frame(first.plan, layout, first.files.views().size(), true);
   const MemoryLimit limit = limit_of(flags.frame_flags, flags.shot.memory);
   if (limit.bytes < beside + own)
     throw Error(
@@ -138,6 +165,50 @@ std::future<Device> start_device(const RunCommand& flags, const PlannedFrame& fi
   });
 }
 
+/// The frames to compute, in order. Tells of those that are left alone.
+std::vector<Turn> turns_for(const ShotFiles& shot, const ShotSettings& settings, size_t warm_up, ShotReport& report) {
+  const std::vector<int> numbers = shot.numbers();
+  std::vector<Turn> turns;
+  if (!settings.request.temporal) {
+    for (size_t i = 0; i < numbers.size(); ++i) turns.push_back({.frame = i, .begins = true});
+    return turns;
+  }
+  if (warm_up >= numbers.size())
+    throw UsageError("--warm-up {}: there are {} frames, and none would be written; give more frames", warm_up,
+                     numbers.size());
+  std::vector<bool> is_whole(numbers.size(), false);
+  turns = turns_of(numbers, warm_up, is_whole);
+  if (!settings.resume) return turns;
+  for (const Turn& turn : turns) {
+    if (!turn.is_written) continue;
+    const SequenceFrame& frame = shot.frames()[turn.frame];
+    const std::filesystem::path output = settings.output.path_of(frame.number);
+    try {
+      const std::string why = why_again(output, making_of(settings, shot.open(frame), turn));
+      is_whole[turn.frame] = why.empty();
+      if (!why.empty() && std::filesystem::exists(output)) report.written_again(frame.number, why);
+    } catch (const Error&) {
+      // Told when the frame's turn comes.
+    }
+  }
+  turns = turns_of(numbers, warm_up, is_whole);
+  std::vector<bool> is_left(numbers.size(), true);
+  for (const Turn& turn : turns) {
+    if (turn.is_written) is_left[turn.frame] = false;
+  }
+  for (size_t i = warm_up; i < numbers.size(); ++i) {
+    if (is_left[i]) report.skipped(numbers[i]);
+  }
+  return turns;
+}
+
+/// Asks for the planes from which the next frame's history is made, too.
+void ask_for_history(PlanRequest& request, const Plan& plan) {
+  for (const std::string& name : planes_for_history()) {
+    if (contains(outputs_of(find_technique(plan.technique)), name)) add_new(request.only, name);
+  }
+}
+
 }  // namespace
 
 void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
@@ -153,25 +224,33 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
                         .resume = flags.shot.resume,
                         .version = version_with_kernels(GLOAM_VERSION),
                         .contents = flags.technique + flags.given};
-  ask_for_first_output(settings.request, first_planned(shot, settings.request, settings.carried.depth).plan);
+  settings.request.temporal = is_temporal(flags);
+  const Plan plan = first_planned(shot, settings.request, settings.carried.depth).plan;
+  ask_for_first_output(settings.request, plan);
+  settings.written = settings.request.only;
+  if (settings.request.temporal) ask_for_history(settings.request, plan);
   const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
   if (flags.shot.chunks > 0) return print_chunks(flags, shot);
   settings.display = first.files.files().front().display();
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;
   const PageReuse reuse(memory.all - process_bytes_with_device);
-  const FrameLocks locks(output, shot.numbers());
+  std::vector<int> numbers = shot.numbers();
+  numbers.erase(numbers.begin(), numbers.begin() + std::min(flags.shot.warm_up, int(numbers.size())));
+  const FrameLocks locks(output, numbers);
   remove_leftovers(output.folder());
   say_on_interruption("frames that were written are whole; the same command with --resume goes on");
-  ShotReport report(shot.frames().size(), flags.json);
+  const size_t warm_up = size_t(flags.shot.warm_up);
+  ShotReport report(shot.frames().size() - std::min(warm_up, shot.frames().size()), flags.json);
+  const std::vector<Turn> turns = turns_for(shot, settings, warm_up, report);
   Pipeline* running = nullptr;
-  ShotWork work(shot, settings, start_device(flags, first, settings.options), report, [&] { running->stop(); });
-  Pipeline pipeline(shot.frames().size(), memory.size,
+  ShotWork work(shot, settings, turns, start_device(flags, first, settings.options), report, [&] { running->stop(); });
+  Pipeline pipeline(turns.size(), memory.size,
                     {[&](size_t i) { return work.decode(i); }, [&](size_t i) { return work.compute(i); },
                      [&](size_t i) { return work.write(i); }});
   running = &pipeline;
   pipeline.run();
-  report.finish(flags.out, fmt::format("{}", fmt::join(first.plan.outputs, ", ")));
+  report.finish(flags.out, fmt::format("{}", fmt::join(settings.written, ", ")));
 }
 
 }  // namespace gloam::cli

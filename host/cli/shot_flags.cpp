@@ -38,6 +38,10 @@ void ShotFlags::add_to(CLI::App& app) {
       ->group(group)
       ->needs(printing);
   printing->needs(app.get_option("--chunks"));
+  add_number(app, "--warm-up", warm_up, {0, 1000000},
+             "with --temporal: this many of the first frames are computed for those that follow, and not written")
+      ->type_name("N")
+      ->group(group);
   app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
   app.add_flag("--float", as_float, "write a shot's AO as float instead of half")->group(group);
 }
@@ -48,6 +52,7 @@ std::string ShotFlags::any() const {
   if (resume) return "--resume";
   if (!memory.empty()) return "--memory";
   if (chunks > 0) return "--chunks";
+  if (warm_up > 0) return "--warm-up";
   if (keep_depth) return "--keep-depth";
   return as_float ? "--float" : "";
 }

@@ -14,7 +14,8 @@ struct ShotFlags {
   FrameChoice choice;
   std::string memory;
   bool resume = false, keep_depth = false, as_float = false, print = false;
-  int chunks = 0;  ///< 0: the shot is not divided
+  int chunks = 0;   ///< 0: the shot is not divided
+  int warm_up = 0;  ///< frames that are not written
   void add_to(CLI::App& app);
   /// The first flag given that only a shot has; empty if there is none.
   std::string any() const;

@@ -36,14 +36,21 @@ unsigned long long bytes_in_flight(const PlannedFrame& planned) {
   return bytes_to_read(planned.files, planned.planes) + results + results / 2;
 }
 
-ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, std::future<Device> device, ShotReport& report,
-                   std::function<void()> stop)
+FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files, const Turn& turn) {
+  std::string contents = settings.contents;
+  if (settings.request.temporal) contents += fmt::format(" history from {}", turn.history_begins);
+  return {settings.version, contents, identity_of(files)};
+}
+
+ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, const std::vector<Turn>& turns,
+                   std::future<Device> device, ShotReport& report, std::function<void()> stop)
     : files_(files),
       settings_(settings),
+      turns_(turns),
       starting_(std::move(device)),
       report_(report),
       stop_(std::move(stop)),
-      flights_(files.frames().size()) {}
+      flights_(turns.size()) {}
 
 bool ShotWork::guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step) {
   const int number = frame_at(i).number;
@@ -67,7 +74,7 @@ bool ShotWork::guarded(size_t i, double StepTimes::*time, const std::function<bo
     why = error.what();
   }
   flights_[i].reset();
-  report_.failed(number, why);
+  if (turns_[i].is_written) report_.failed(number, why);
   return false;
 }
 
@@ -81,8 +88,9 @@ void ShotWork::add_notes(size_t i, const std::vector<std::string>& notes) {
 
 bool ShotWork::open(size_t i, InFlight& flight) {
   FrameFiles files = files_.open(frame_at(i));
-  flight.making = {settings_.version, settings_.contents, identity_of(files)};
-  if (settings_.resume) {
+  flight.making = making_of(settings_, files, turns_[i]);
+  // Of frames that go on over time, those to leave alone have been left out.
+  if (settings_.resume && !settings_.request.temporal) {
     const std::string why = why_again(output_of(i), flight.making);
     if (why.empty()) {
       report_.skipped(frame_at(i).number);
@@ -121,16 +129,63 @@ bool ShotWork::decode(size_t i) {
 bool ShotWork::compute(size_t i) {
   if (!device_) device_.emplace(starting_.get());
   return guarded(i, &StepTimes::compute, [&](InFlight& flight) {
-    compute_planes(flight);
-    return true;
+    compute_planes(i, flight);
+    return turns_[i].is_written;
   });
 }
 
-void ShotWork::compute_planes(InFlight& flight) {
+bool ShotWork::take_over(size_t i, InFlight& flight) {
+  const int number = frame_at(i).number;
+  bool goes_on = !turns_[i].begins && before_ && turn_before_ + 1 == i;
+  if (goes_on && contains(flight.plan.inputs, "motion") && frame_at(i - 1).number + 1 != number) {
+    note({fmt::format("frame {}: its motion leads to frame {}, which is not there; accumulation begins anew", number,
+                      number - 1)});
+    goes_on = false;
+  }
+  if (goes_on)
+    add_history(flight.frame, std::move(*before_), flight.plan.inputs, fmt::format("frame {}", frame_at(i - 1).number));
+  else
+    add_no_history(flight.frame, flight.plan.inputs);
+  before_.reset();
+  return goes_on;
+}
+
+void ShotWork::leave_for_next(size_t i, InFlight& flight) {
+  before_.emplace();
+  before_->window = flight.result.window;
+  before_->display = flight.result.display;
+  for (View& view : flight.result.views) {
+    View& kept = before_->views.emplace_back();
+    kept.name = view.name;
+    kept.camera = view.camera;
+    for (const std::string& name : planes_for_history()) {
+      const bool is_written = contains(settings_.written, name);
+      if (view.find(name)) kept.planes[name] = is_written ? view.find(name)->clone() : std::move(view.planes.at(name));
+    }
+    if (!kept.find("depth")) kept.planes["depth"] = flight.frame.view(view.name).find("depth")->clone();
+    std::erase_if(view.planes, [&](const auto& plane) { return !contains(settings_.written, plane.first); });
+  }
+  turn_before_ = i;
+}
+
+void ShotWork::compute_planes(size_t i, InFlight& flight) {
   const Plan& plan = flight.plan;
-  flight.result = run(plan, flight.frame, *device_, settings_.options).frame;
+  RunOptions options = settings_.options;
+  bool goes_on = false;
+  if (settings_.request.temporal) {
+    goes_on = take_over(i, flight);
+    // Other samples in each frame, the same whichever process computes it.
+    options.seed = int((unsigned(options.seed) + unsigned(frame_at(i).number)) & 0x7fffffffu);
+  }
+  flight.result = run(plan, flight.frame, *device_, options).frame;
+  if (goes_on && !knows_where_surfaces_were(flight.frame))
+    note({no_way_back});
+  else if (goes_on && !goes_on_from_before(flight.result))
+    note({fmt::format("frame {}: shows next to nothing that the frame before showed; accumulation begins anew",
+                      frame_at(i).number)});
+  if (settings_.request.temporal) leave_for_next(i, flight);
   carry_over(flight.frame, flight.result, settings_.carried);
-  flight.result.attributes = provenance({{&plan}}, settings_.options);
+  flight.result.attributes = provenance({{&plan}}, options);
   flight.result.attributes.merge(attributes_of(flight.making));
   flight.frame = {};
 }

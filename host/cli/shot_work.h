@@ -12,12 +12,14 @@
 #include "cli/shot.h"
 #include "cli/shot_report.h"
 #include "sequence/frame_making.h"
+#include "sequence/turns.h"
 
 namespace gloam::cli {
 
 /// What every frame of a shot has in common.
 struct ShotSettings {
-  PlanRequest request;
+  PlanRequest request;               ///< of one that goes on over time, with the planes from which a history is made
+  std::vector<std::string> written;  ///< planes, besides those carried
   RunOptions options;
   WriteOptions writing;
   Carried carried;
@@ -31,13 +33,16 @@ struct ShotSettings {
 /// Memory that a frame takes from the start of its decoding to the end of its writing, besides what computing takes.
 unsigned long long bytes_in_flight(const PlannedFrame& planned);
 
+/// What decides the contents of a frame's file.
+FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files, const Turn& turn);
+
 /// The steps of a frame, for a `Pipeline`: each tells the report of frames that end with it. An error of one frame ends this
 /// frame alone; what all frames would fail for (no device, no memory on it) is thrown.
 class ShotWork {
  public:
   /// `device`: opened while the first frames are decoded. `stop`: called if no further frame shall begin.
-  ShotWork(const ShotFiles& files, const ShotSettings& settings, std::future<Device> device, ShotReport& report,
-           std::function<void()> stop);
+  ShotWork(const ShotFiles& files, const ShotSettings& settings, const std::vector<Turn>& turns,
+           std::future<Device> device, ShotReport& report, std::function<void()> stop);
 
   bool decode(size_t i);
   bool compute(size_t i);
@@ -52,10 +57,13 @@ class ShotWork {
     FrameMaking making;
     StepTimes times;
   };
-  const SequenceFrame& frame_at(size_t i) const { return files_.frames()[i]; }
+  const SequenceFrame& frame_at(size_t i) const { return files_.frames()[turns_[i].frame]; }
   std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(frame_at(i).number); }
   bool open(size_t i, InFlight& flight);
-  void compute_planes(InFlight& flight);
+  void compute_planes(size_t i, InFlight& flight);
+  /// Adds what the frame before knew, or nothing where a sequence begins. Returns whether it goes on.
+  bool take_over(size_t i, InFlight& flight);
+  void leave_for_next(size_t i, InFlight& flight);
   /// Adds notes; of many frames each once, whichever file they name.
   void add_notes(size_t i, const std::vector<std::string>& notes);
   /// Runs a step and its clock. False if it failed, or returned false.
@@ -63,11 +71,14 @@ class ShotWork {
 
   const ShotFiles& files_;
   const ShotSettings& settings_;
+  const std::vector<Turn>& turns_;
   std::future<Device> starting_;
   std::optional<Device> device_;
   ShotReport& report_;
   std::function<void()> stop_;
   std::vector<std::unique_ptr<InFlight>> flights_;
+  std::optional<Frame> before_;  ///< what the frame computed last leaves for the next
+  size_t turn_before_ = 0;
 };
 
 }  // namespace gloam::cli

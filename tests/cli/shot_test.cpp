@@ -163,8 +163,12 @@ TEST_F(Shot, RefusesInOneLine) {
     arguments.insert(arguments.end(), flag.begin(), flag.end());
     expect_refused(arguments, 2, {flag[0], "is one frame"});
   }
-  expect_refused({"run", "temporal-sssr", shot, "-o", out}, 2,
-                 {"temporal-sssr: takes over the frame before", "--history"});
+  expect_refused(run_on({shot, "-o", out, "--warm-up", "1"}), 2, {"--warm-up 1", "--temporal"});
+  expect_refused(run_on({shot, "-o", out, "--temporal", "--warm-up", "2"}), 2,
+                 {"--warm-up 2", "none would be written"});
+  expect_refused(run_on({shot, "-o", out, "--temporal", "--missing", "hold"}), 2, {"--missing hold", "--temporal"});
+  expect_refused(run_on({shot, "-o", out, "--temporal", "--resolution", "half"}), 2, {"--temporal", "--resolution"});
+  expect_refused({"run", "normals", shot, "-o", out, "--temporal"}, 2, {"--temporal: normals makes neither"});
   expect_refused(run_on({shot, "-o", out, "--json", one}), 2, {"--json", "is also"});
   expect_refused({"compare", shot, one}, 1, {"only run and info take the files of a shot"});
   expect_refused({"auto", shot, "-o", file("a.exr")}, 1, {"only run and info take the files of a shot"});
