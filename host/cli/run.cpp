@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "cli/list_techniques.h"
 #include "cli/run_frame.h"
+#include "cli/run_outputs.h"
 #include "cli/run_shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
@@ -15,9 +16,9 @@ namespace gloam::cli {
 namespace {
 
 /// Flags that do not change what the file of a frame holds, or of which its header says more (the files read).
-const std::set<std::string> not_of_contents = {"frame",    "other_eye", "--camera",       "--output", "--picture",
-                                               "--json",   "--frames",  "--missing",      "--resume", "--memory",
-                                               "--repeat", "--quiet",   "--limit-memory", "--help",   "technique"};
+const std::set<std::string> not_of_contents = {
+    "frame",     "other_eye", "--camera", "--output", "--into",  "--picture",      "--json", "--frames",
+    "--missing", "--resume",  "--memory", "--repeat", "--quiet", "--limit-memory", "--help", "technique"};
 
 /// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
 std::string value_in_words(const std::string& value) {
@@ -82,10 +83,12 @@ void run_command(const RunCommand& given, const CLI::App& command) {
     flags.repeated = repeated_words(command);
     return run_on_shot(flags, request);
   }
-  if (FramePattern::is_pattern(flags.out))
-    throw UsageError("-o {}: is a pattern, and {} is one frame; write both as patterns, such as shot.####.exr",
-                     flags.out, flags.frame.frame);
-  if (const std::string flag = flags.shot.any(); !flag.empty())
+  for (const auto& [flag, path] : outputs_of(flags).named()) {
+    if (FramePattern::is_pattern(path))
+      throw UsageError("{} {}: is a pattern, and {} is one frame; write both as patterns, such as shot.####.exr", flag,
+                       path, flags.frame.frame);
+  }
+  if (const std::string flag = flags.shot.any(flags.into.empty()); !flag.empty())
     throw UsageError("{}: is for a shot, and {} is one frame; write its number as in shot.####.exr", flag,
                      flags.frame.frame);
   run_on_frame(flags, request);
@@ -102,7 +105,10 @@ void add_run(CLI::App& app) {
       ->required()
       ->type_name("TECHNIQUE");
   flags->frame.add_to(*command);
-  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
+  command->add_option("-o,--output", flags->out, "EXR file to write")->type_name("OUT.exr");
+  command
+      ->add_option("--into", flags->into, "a copy of the frame's file with all that it holds, and the result as a part")
+      ->type_name("COPY.exr");
   command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
       ->type_name("A,B");
   command->add_option("--picture", flags->picture, "the first output as a picture for people")->type_name("OUT.png");
@@ -118,6 +124,7 @@ void add_run(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  gloam run ao frame.exr -o ao.exr --picture ao.png\n"
+      "  gloam run ao frame.exr --into with_ao.exr\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"

@@ -10,7 +10,7 @@
 namespace gloam::cli {
 
 struct RunCommand {
-  std::string technique, out, outputs, picture, compression = "zip";
+  std::string technique, out, into, outputs, picture, compression = "zip";
   bool bare = false, half = false;
   std::string given;                  ///< flags that decide what is written, as text
   std::vector<std::string> repeated;  ///< words for a chunk of a shot

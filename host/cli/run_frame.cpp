@@ -9,6 +9,7 @@
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
+#include "cli/run_outputs.h"
 #include "cli/run_steps.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -165,11 +166,15 @@ std::future<Device> start_device(const RunFlags& flags, const PlannedFrame& plan
                     });
 }
 
-void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result) {
+void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result,
+                  const std::vector<std::string>& copied) {
   if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
   if (!plan.rest.empty())
     fmt::print("{} computed {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
-  fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
+  if (!flags.out.empty()) fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
+  if (!flags.into.empty())
+    fmt::print("wrote {} (all of {}, and {})\n", printable(flags.into), printable(flags.frame.frame),
+               fmt::join(copied, ", "));
 }
 
 }  // namespace
@@ -177,13 +182,17 @@ void print_result(const RunCommand& flags, const Plan& plan, const RunResult& re
 void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   Stopwatch watch;
   RunOptions options = flags.run_flags.run_options();
-  const WriteOptions writing{flags.half, flags.compression};
-  check_frame_name(flags.out, "-o");
+  const FrameOutputs outputs = outputs_of(flags);
+  check(outputs, flags.frame);
   check_picture_name(flags.picture, "--picture");
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
-  check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
-  PlannedFrame planned = planned_frame(flags.frame.open(flags.frame_flags.read_options()), request, !flags.bare);
+  std::vector<NamedPath> files_written = outputs.named();
+  files_written.insert(files_written.end(), {{"--picture", flags.picture}, {"--json", flags.json.file()}});
+  check_paths(inputs, files_written);
+  const bool carries_depth = !flags.bare && !flags.out.empty();
+  PlannedFrame planned = planned_frame(flags.frame.open(flags.frame_flags.read_options()), request, carries_depth);
+  if (flags.out.empty()) keep_first_output(planned, carries_depth);
   FrameFiles& files = planned.files;
   if (reads_history(planned.plan) && !flags.run_flags.seed) options.seed = seed_after(*files.history());
   const unsigned long long memory = planned_memory(
@@ -208,12 +217,13 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   options.progress = progress_bar();
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
-  carry_over(frame, result.frame, {.depth = !flags.bare, .cameras = !flags.bare});
+  carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
-  write_frame(flags.out, result.frame, writing);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
+  const OutputSettings writing = output_settings(flags, flags.half, planned.request, plan);
+  note(write_outputs(outputs, flags.frame.frame, result.frame, writing));
   watch.lap("write");
-  std::vector<std::string> written = {flags.out};
+  std::vector<std::string> written = outputs.paths();
   written.insert(written.end(), pictures.begin(), pictures.end());
   Json figures = document(flags, plan, result, device.info(), decoded_channels(planned.planes, files), watch);
   figures["memory_bytes"] = memory;
@@ -222,7 +232,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   if (flags.json.only_json()) return;
   if (radius) radius->print();
   print_times(result, device.info(), watch);
-  print_result(flags, plan, result);
+  print_result(flags, plan, result, writing.copied);
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 

@@ -1,6 +1,7 @@
 #include "cli/run_shot.h"
 
 #include <algorithm>
+#include <list>
 #include <thread>
 
 #include "base/files.h"
@@ -31,10 +32,6 @@ void check_flags(const RunCommand& flags) {
     if (!file.empty() && !FramePattern::is_pattern(file))
       throw UsageError("{}: is one frame, and the other eye a shot; write both as patterns, such as L.####.exr", file);
   }
-  check_frame_name(flags.out, "-o");
-  if (!FramePattern::is_pattern(flags.out))
-    throw UsageError("-o {}: is one file, and {} a shot; write both as patterns, such as ao.####.exr", flags.out,
-                     frame.frame);
   if (!flags.picture.empty())
     throw UsageError("--picture {}: is made of one frame; leave it out, or run that frame alone", flags.picture);
   if (!frame.history.empty())
@@ -83,13 +80,6 @@ PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bo
   }
   if (shot.frames().size() == 1) throw Error("{}", first_error);
   throw Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
-}
-
-/// By default the first output alone, with the extras asked for.
-void ask_for_first_output(PlanRequest& request, const Plan& plan) {
-  if (!request.only.empty()) return;
-  request.only = {plan.outputs.front()};
-  add_new(request.only, request.with);
 }
 
 /// One frame in each thread's hands, and one that waits before each step.
@@ -142,26 +132,32 @@ std::future<Device> start_device(const RunCommand& flags, const PlannedFrame& fi
 
 void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
   check_flags(flags);
-  const FramePattern output(flags.out, "-o");
+  const FrameOutputs named = outputs_of(flags);
+  check(named, flags.frame);
+  const ShotOutputs outputs(named, flags.frame.frame);
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
-  check_outputs(output, shot, {{"--json", flags.json.file()}});
-  ShotSettings settings{.request = given,
+  check_outputs(outputs.patterns(), shot, {{"--json", flags.json.file()}});
+  const Carried carried{.depth = flags.shot.keep_depth && !flags.bare && !flags.out.empty(), .cameras = !flags.bare};
+  PlannedFrame first = first_planned(shot, given, carried.depth);
+  keep_first_output(first, carried.depth);
+  ShotSettings settings{.request = first.request,
                         .options = flags.run_flags.run_options(),
-                        .writing = {!flags.shot.as_float, flags.compression},
-                        .carried = {.depth = flags.shot.keep_depth && !flags.bare, .cameras = !flags.bare},
-                        .output = output,
+                        .writing = output_settings(flags, !flags.shot.as_float, first.request, first.plan),
+                        .carried = carried,
+                        .outputs = outputs,
                         .resume = flags.shot.resume,
                         .version = version_with_kernels(GLOAM_VERSION),
                         .contents = flags.technique + flags.given};
-  ask_for_first_output(settings.request, first_planned(shot, settings.request, settings.carried.depth).plan);
-  const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
   if (flags.shot.chunks > 0) return print_chunks(flags, shot);
   settings.display = first.files.files().front().display();
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;
   const PageReuse reuse(memory.all - process_bytes_with_device);
-  const FrameLocks locks(output, shot.numbers());
-  remove_leftovers(output.folder());
+  std::list<FrameLocks> locks;
+  for (const auto& [flag, pattern] : outputs.patterns()) {
+    locks.emplace_back(pattern, shot.numbers());
+    remove_leftovers(pattern.folder());
+  }
   say_on_interruption("frames that were written are whole; the same command with --resume goes on");
   ShotReport report(shot.frames().size(), flags.json);
   Pipeline* running = nullptr;
@@ -171,7 +167,8 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
                      [&](size_t i) { return work.write(i); }});
   running = &pipeline;
   pipeline.run();
-  report.finish(flags.out, fmt::format("{}", fmt::join(first.plan.outputs, ", ")));
+  report.finish(fmt::format("{}", fmt::join(named.paths(), ", ")),
+                fmt::format("{}", fmt::join(first.plan.outputs, ", ")));
 }
 
 }  // namespace gloam::cli

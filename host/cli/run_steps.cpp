@@ -20,14 +20,26 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
   return left;
 }
 
+void plan_again(PlannedFrame& planned, bool carries_depth) {
+  planned.plan = plan_for(planned.files, planned.request);
+  planned.planes = planned.plan.inputs;
+  if (carries_depth && contains(planned.files.common_planes(), "depth")) add_new(planned.planes, "depth");
+}
+
 }  // namespace
 
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth) {
   PlannedFrame planned{std::move(files), request, {}, {}};
-  planned.plan = plan_for(planned.files, request);
-  planned.planes = planned.plan.inputs;
-  if (carries_depth && contains(planned.files.common_planes(), "depth")) add_new(planned.planes, "depth");
+  plan_again(planned, carries_depth);
   return planned;
+}
+
+void keep_first_output(PlannedFrame& planned, bool carries_depth) {
+  PlanRequest& request = planned.request;
+  if (!request.only.empty()) return;
+  request.only = {planned.plan.outputs.front()};
+  add_new(request.only, request.with);
+  plan_again(planned, carries_depth);
 }
 
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {

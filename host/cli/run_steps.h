@@ -21,6 +21,9 @@ struct PlannedFrame {
 /// Plans. The file's depth is decoded too if it is carried over to the output.
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth);
 
+/// Plans the first output alone, with the extras asked for, unless outputs are chosen.
+void keep_first_output(PlannedFrame& planned, bool carries_depth);
+
 /// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
 /// depth. Returns the radius, if the plan has one.
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);

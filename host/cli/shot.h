@@ -43,7 +43,10 @@ class ShotFiles {
   std::optional<CameraList> camera_list_;
 };
 
-/// Throws UsageError if a frame's output is also an input of a frame, and Error if it cannot be written.
-void check_outputs(const FramePattern& output, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
+/// Names of outputs with their flags.
+using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
+
+/// Throws UsageError if a frame's output is also an input of a frame or another output, and Error if it cannot be written.
+void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
 
 }  // namespace gloam::cli

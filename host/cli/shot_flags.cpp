@@ -39,17 +39,17 @@ void ShotFlags::add_to(CLI::App& app) {
       ->needs(printing);
   printing->needs(app.get_option("--chunks"));
   app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
-  app.add_flag("--float", as_float, "write a shot's AO as float instead of half")->group(group);
+  app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half")->group(group);
 }
 
-std::string ShotFlags::any() const {
+std::string ShotFlags::any(bool with_float) const {
   if (choice.frames) return "--frames";
   if (choice.missing) return "--missing";
   if (resume) return "--resume";
   if (!memory.empty()) return "--memory";
   if (chunks > 0) return "--chunks";
   if (keep_depth) return "--keep-depth";
-  return as_float ? "--float" : "";
+  return as_float && with_float ? "--float" : "";
 }
 
 }  // namespace gloam::cli

@@ -26,6 +26,16 @@ void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const F
   if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) note({warning});
 }
 
+/// The first file of a frame that has to be written again, and why; no reason if all may stay.
+std::pair<std::string, std::string> first_to_write_again(const FrameOutputs& outputs, const OutputSettings& settings,
+                                                         const FrameMaking& making) {
+  for (const std::string& path : outputs.paths()) {
+    const std::string added = path == outputs.into ? settings.copied.front() : "";
+    if (const std::string why = why_again(path, making, added); !why.empty()) return {path, why};
+  }
+  return {};
+}
+
 }  // namespace
 
 unsigned long long bytes_in_flight(const PlannedFrame& planned) {
@@ -83,12 +93,12 @@ bool ShotWork::open(size_t i, InFlight& flight) {
   FrameFiles files = files_.open(frame_at(i));
   flight.making = {settings_.version, settings_.contents, identity_of(files)};
   if (settings_.resume) {
-    const std::string why = why_again(output_of(i), flight.making);
+    const auto [path, why] = first_to_write_again(outputs_of(i), settings_.writing, flight.making);
     if (why.empty()) {
       report_.skipped(frame_at(i).number);
       return false;
     }
-    if (std::filesystem::exists(output_of(i))) report_.written_again(frame_at(i).number, why);
+    if (std::filesystem::exists(path)) report_.written_again(frame_at(i).number, why);
   }
   const Window display = files.files().front().display();
   if (display.width() != settings_.display.width() || display.height() != settings_.display.height())
@@ -137,7 +147,7 @@ void ShotWork::compute_planes(InFlight& flight) {
 
 bool ShotWork::write(size_t i) {
   const bool is_written = guarded(i, &StepTimes::write, [&](InFlight& flight) {
-    write_frame(output_of(i), flight.result, settings_.writing);
+    add_notes(i, write_outputs(outputs_of(i), files_.paths_of(frame_at(i)).front(), flight.result, settings_.writing));
     return true;
   });
   if (!is_written) return false;

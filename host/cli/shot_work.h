@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/run_outputs.h"
 #include "cli/run_steps.h"
 #include "cli/shot.h"
 #include "cli/shot_report.h"
@@ -19,9 +20,9 @@ namespace gloam::cli {
 struct ShotSettings {
   PlanRequest request;
   RunOptions options;
-  WriteOptions writing;
+  OutputSettings writing;
   Carried carried;
-  FramePattern output;
+  ShotOutputs outputs;
   bool resume = false;
   std::string version, contents;       ///< as in FrameMaking
   Window display;                      ///< the image, of one size for all frames
@@ -53,7 +54,7 @@ class ShotWork {
     StepTimes times;
   };
   const SequenceFrame& frame_at(size_t i) const { return files_.frames()[i]; }
-  std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(frame_at(i).number); }
+  FrameOutputs outputs_of(size_t i) const { return settings_.outputs.of(frame_at(i).number); }
   bool open(size_t i, InFlight& flight);
   void compute_planes(InFlight& flight);
   /// Adds notes; of many frames each once, whichever file they name.

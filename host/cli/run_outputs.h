@@ -1,0 +1,55 @@
+// The files that gloam run writes of a frame.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run_command.h"
+#include "cli/shot.h"
+
+namespace gloam::cli {
+
+/// Paths for one frame; empty where one is not asked for.
+struct FrameOutputs {
+  std::string out, into;
+  /// With their flags, for `check_paths`.
+  std::vector<NamedPath> named() const { return {{"-o", out}, {"--into", into}}; }
+  /// Those asked for.
+  std::vector<std::string> paths() const;
+};
+
+FrameOutputs outputs_of(const RunCommand& flags);
+
+/// Throws UsageError if nothing is asked for, for names that are not of EXR files, and for a copy of two files.
+void check(const FrameOutputs& outputs, const FrameArguments& frame);
+
+/// How a frame's files are written.
+struct OutputSettings {
+  WriteOptions out, copy;
+  std::vector<std::string> copied;  ///< planes that a copy gets
+};
+
+/// `half`: AO of OUT.exr as half. `plan`: of the frame.
+OutputSettings output_settings(const RunCommand& flags, bool half, const PlanRequest& request, const Plan& plan);
+
+/// Writes the files. `input`: the file that the frame was read from. Afterwards the result has only the planes of the copy, if one
+/// is asked for. Returns notes.
+std::vector<std::string> write_outputs(const FrameOutputs& outputs, const std::string& input, Frame& result,
+                                       const OutputSettings& settings);
+
+/// The files of a shot's frames.
+class ShotOutputs {
+ public:
+  /// Throws UsageError for names that are not patterns.
+  ShotOutputs(const FrameOutputs& named, const std::string& shot);
+
+  FrameOutputs of(int frame) const;
+  /// Those asked for, with their flags.
+  const NamedPatterns& patterns() const { return patterns_; }
+
+ private:
+  NamedPatterns patterns_;
+};
+
+}  // namespace gloam::cli
