@@ -28,10 +28,14 @@ void FrameArguments::add_to(CLI::App& app) {
       ->group("Reading the frame");
 }
 
-FrameFiles FrameArguments::open(const ReadOptions& options) const {
+std::vector<std::string> FrameArguments::files() const {
   std::vector<std::string> paths = {frame};
   if (!other_eye.empty()) paths.push_back(other_eye);
-  FrameFiles files(paths, options);
+  return paths;
+}
+
+FrameFiles FrameArguments::open(const ReadOptions& options) const {
+  FrameFiles files(this->files(), options);
   if (!history.empty()) files.take_history(history);
   return files;
 }

@@ -118,6 +118,7 @@ void add_run(CLI::App& app) {
   flags->technique_flags.add_to(*command);
   flags->run_flags.add_to(*command);
   flags->frame_flags.add_to(*command);
+  flags->composite.add_to(*command);
   flags->shot.add_to(*command);
   command->get_option("--float")->excludes(half);
   flags->json.add_to(*command);
@@ -125,6 +126,7 @@ void add_run(CLI::App& app) {
       "Examples:\n"
       "  gloam run ao frame.exr -o ao.exr --picture ao.png\n"
       "  gloam run ao frame.exr --into with_ao.exr\n"
+      "  gloam run ao frame.exr --composite graded.exr --strength 0.8 --tint 0.1,0.05,0\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"

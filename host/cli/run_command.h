@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/composite_flags.h"
 #include "cli/options.h"
 #include "cli/shot_flags.h"
 
@@ -19,6 +20,7 @@ struct RunCommand {
   TechniqueFlags technique_flags;
   RunFlags run_flags;
   ShotFlags shot;
+  CompositeFlags composite;
   JsonFlag json;
 };
 

@@ -175,6 +175,8 @@ void print_result(const RunCommand& flags, const Plan& plan, const RunResult& re
   if (!flags.into.empty())
     fmt::print("wrote {} (all of {}, and {})\n", printable(flags.into), printable(flags.frame.frame),
                fmt::join(copied, ", "));
+  if (!flags.composite.path.empty())
+    fmt::print("wrote {} (colour with {})\n", printable(flags.composite.path), composited_plane(plan.outputs));
 }
 
 }  // namespace
@@ -193,11 +195,16 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   const bool carries_depth = !flags.bare && !flags.out.empty();
   PlannedFrame planned = planned_frame(flags.frame.open(flags.frame_flags.read_options()), request, carries_depth);
   if (flags.out.empty()) keep_first_output(planned, carries_depth);
+  const OutputSettings writing = output_settings(flags, flags.half, planned.request, planned.plan);
+  if (outputs.has_composite())
+    planned.colour.emplace(open_colour(flags.frame.files(), flags.frame_flags.read_options()));
   FrameFiles& files = planned.files;
   if (reads_history(planned.plan) && !flags.run_flags.seed) options.seed = seed_after(*files.history());
   const unsigned long long memory = planned_memory(
       flags.frame_flags, files.name(), flags.run_flags.device,
-      [&](bool shares_memory) { return bytes_of_run(files, planned.planes, planned.plan, shares_memory); },
+      [&](bool shares_memory) {
+        return bytes_of_run(files, planned.planes, planned.plan, shares_memory) + bytes_of_colour(planned);
+      },
       "crop or shrink the frame, ask for less (--outputs, --resolution half), or for one view (--view)");
   watch.lap("open");
   std::promise<void> checked;
@@ -206,6 +213,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   const Layout layout(files.window().width(), files.window().height());
   if (device_bytes(planned.plan, layout, files.views().size()) > (1ull << 30)) checked.get_future().get();
   Frame frame = files.read(planned.planes);
+  OutputSources sources = read_sources(planned);
   watch.lap("decode");
   note(frame.assumed);
   const std::optional<Radius> settled = settle(planned, frame);
@@ -220,8 +228,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
-  const OutputSettings writing = output_settings(flags, flags.half, planned.request, plan);
-  note(write_outputs(outputs, flags.frame.frame, result.frame, writing));
+  note(write_outputs(outputs, sources, result.frame, writing));
   watch.lap("write");
   std::vector<std::string> written = outputs.paths();
   written.insert(written.end(), pictures.begin(), pictures.end());

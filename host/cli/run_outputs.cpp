@@ -14,6 +14,30 @@ std::vector<std::string> planes_for_copy(const PlanRequest& request, const Plan&
   return planes;
 }
 
+/// The plane that a composite is made with.
+std::string plane_to_composite(const CompositeFlags& flags, const Plan& plan) {
+  const std::string plane = composited_plane(plan.outputs);
+  if (plane.empty())
+    throw UsageError("--composite {}: is made with 'ao' or 'reflection', and {} makes only {}", flags.path,
+                     plan.technique, enumerate(plan.outputs));
+  if (plane == "reflection" && flags.tint)
+    throw UsageError("--tint: is of ambient occlusion, and '{}' makes a reflection, which is added; leave it out",
+                     plan.technique);
+  return plane;
+}
+
+/// Lays the result over the colour, and takes over how it was made.
+void make_composite(OutputSources& sources, const Frame& result, const OutputSettings& settings) {
+  const Compositing& how = settings.compositing;
+  composite(sources.colour, result, settings.composited, how);
+  sources.colour.attributes = result.attributes;
+  sources.colour.attributes["gloamComposite"] =
+      fmt::format("{} strength={} tint={}", settings.composited, how.strength, fmt::join(how.tint, ","));
+  for (View& view : sources.colour.views) {
+    if (!settings.has_cameras) view.camera.reset();
+  }
+}
+
 void keep_planes(Frame& frame, const std::vector<std::string>& planes) {
   for (View& view : frame.views)
     std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
@@ -29,10 +53,15 @@ std::vector<std::string> FrameOutputs::paths() const {
   return paths;
 }
 
-FrameOutputs outputs_of(const RunCommand& flags) { return {flags.out, flags.into}; }
+FrameOutputs outputs_of(const RunCommand& flags) {
+  const std::string& composite = flags.composite.path;
+  const bool in_copy = !composite.empty() && composite == flags.into;
+  return {flags.out, flags.into, in_copy ? "" : composite, in_copy};
+}
 
 void check(const FrameOutputs& outputs, const FrameArguments& frame) {
-  if (outputs.paths().empty()) throw UsageError("nothing is to be written; give -o OUT.exr, or --into COPY.exr");
+  if (outputs.paths().empty())
+    throw UsageError("nothing is to be written; give -o OUT.exr, --into COPY.exr or --composite OUT.exr");
   for (const auto& [flag, path] : outputs.named()) {
     if (!path.empty()) check_frame_name(path, flag);
   }
@@ -45,18 +74,38 @@ OutputSettings output_settings(const RunCommand& flags, bool half, const PlanReq
   OutputSettings settings{{half, flags.compression}, {!flags.shot.as_float, flags.compression}, {}};
   if (!flags.shot.as_float) settings.copy.half_planes = {"reflection"};
   settings.copied = planes_for_copy(request, plan);
+  if (!flags.composite.path.empty()) settings.composited = plane_to_composite(flags.composite, plan);
+  settings.compositing = flags.composite.how();
+  settings.has_cameras = !flags.bare;
   return settings;
 }
 
-std::vector<std::string> write_outputs(const FrameOutputs& outputs, const std::string& input, Frame& result,
+OutputSources read_sources(PlannedFrame& planned) {
+  OutputSources sources;
+  sources.file = planned.files.files().front().path().string();
+  if (!planned.colour) return sources;
+  sources.colour = planned.colour->files.read(planned.colour->planes);
+  sources.half_planes = planned.colour->half_planes;
+  sources.part = planned.colour->part;
+  return sources;
+}
+
+std::vector<std::string> write_outputs(const FrameOutputs& outputs, OutputSources& sources, Frame& result,
                                        const OutputSettings& settings) {
   if (!outputs.out.empty()) write_frame(outputs.out, result, settings.out);
+  const WriteOptions as_colour{false, settings.out.compression, sources.half_planes};
+  if (outputs.has_composite()) make_composite(sources, result, settings);
+  if (!outputs.composite.empty())
+    write_frame_like(outputs.composite, sources.file, sources.part, sources.colour, as_colour);
   if (outputs.into.empty()) return {};
   keep_planes(result, settings.copied);
-  return write_copy(outputs.into, input, {{settings.copied.front(), &result, settings.copy}});
+  std::vector<AddedPlanes> added = {{settings.copied.front(), &result, settings.copy}};
+  if (outputs.composite_in_copy) added.push_back({composite_content, &sources.colour, as_colour});
+  return write_copy(outputs.into, sources.file, added);
 }
 
 ShotOutputs::ShotOutputs(const FrameOutputs& named, const std::string& shot) {
+  composite_in_copy_ = named.composite_in_copy;
   for (const auto& [flag, path] : named.named()) {
     if (path.empty()) continue;
     if (!FramePattern::is_pattern(path))
@@ -69,7 +118,8 @@ ShotOutputs::ShotOutputs(const FrameOutputs& named, const std::string& shot) {
 FrameOutputs ShotOutputs::of(int frame) const {
   FrameOutputs paths;
   for (const auto& [flag, pattern] : patterns_)
-    (flag == "-o" ? paths.out : paths.into) = pattern.path_of(frame).string();
+    (flag == "-o" ? paths.out : flag == "--into" ? paths.into : paths.composite) = pattern.path_of(frame).string();
+  paths.composite_in_copy = composite_in_copy_;
   return paths;
 }
 

@@ -67,11 +67,13 @@ void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
 
 /// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no
 /// frame can be planned.
-PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth) {
+PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth, bool has_composite) {
   std::string first_error;
   for (const SequenceFrame& frame : shot.frames()) {
     try {
-      return planned_frame(shot.open(frame), request, carries_depth);
+      PlannedFrame planned = planned_frame(shot.open(frame), request, carries_depth);
+      if (has_composite) planned.colour.emplace(open_colour(shot.paths_of(frame), shot.options_for(frame)));
+      return planned;
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {
@@ -138,7 +140,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(outputs.patterns(), shot, {{"--json", flags.json.file()}});
   const Carried carried{.depth = flags.shot.keep_depth && !flags.bare && !flags.out.empty(), .cameras = !flags.bare};
-  PlannedFrame first = first_planned(shot, given, carried.depth);
+  PlannedFrame first = first_planned(shot, given, carried.depth, named.has_composite());
   keep_first_output(first, carried.depth);
   ShotSettings settings{.request = first.request,
                         .options = flags.run_flags.run_options(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/memory.h"
 #include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/stereo_consistency.h"
@@ -29,7 +30,7 @@ void plan_again(PlannedFrame& planned, bool carries_depth) {
 }  // namespace
 
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth) {
-  PlannedFrame planned{std::move(files), request, {}, {}};
+  PlannedFrame planned{std::move(files), request, {}, {}, {}};
   plan_again(planned, carries_depth);
   return planned;
 }
@@ -40,6 +41,10 @@ void keep_first_output(PlannedFrame& planned, bool carries_depth) {
   request.only = {planned.plan.outputs.front()};
   add_new(request.only, request.with);
   plan_again(planned, carries_depth);
+}
+
+unsigned long long bytes_of_colour(const PlannedFrame& planned) {
+  return planned.colour ? bytes_to_read(planned.colour->files, planned.colour->planes) : 0;
 }
 
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {

@@ -43,7 +43,7 @@ unsigned long long bytes_in_flight(const PlannedFrame& planned) {
   // On a device with memory of its own, a run takes the host's memory for its results only: those that wait to be written. As
   // half, they are copied.
   const unsigned long long results = bytes_beside_frame(planned.plan, layout, planned.files.views().size(), false);
-  return bytes_to_read(planned.files, planned.planes) + results + results / 2;
+  return bytes_to_read(planned.files, planned.planes) + bytes_of_colour(planned) + results + results / 2;
 }
 
 ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, std::future<Device> device, ShotReport& report,
@@ -105,6 +105,8 @@ bool ShotWork::open(size_t i, InFlight& flight) {
     throw Error("{}: is {}x{}, and the shot's first frame {}x{}; render all alike", files.name(), display.width(),
                 display.height(), settings_.display.width(), settings_.display.height());
   flight.planned.emplace(planned_frame(std::move(files), settings_.request, settings_.carried.depth));
+  if (outputs_of(i).has_composite())
+    flight.planned->colour.emplace(open_colour(files_.paths_of(frame_at(i)), files_.options_for(frame_at(i))));
   const unsigned long long bytes = bytes_in_flight(*flight.planned);
   if (bytes > settings_.frame_bytes)
     throw Error("{}: takes {} of memory, and a frame of this shot has {}; --memory gives more",
@@ -118,6 +120,7 @@ bool ShotWork::decode(size_t i) {
     if (!open(i, flight)) return false;
     PlannedFrame& planned = *flight.planned;
     flight.frame = planned.files.read(planned.planes);
+    flight.sources = read_sources(planned);
     add_notes(i, flight.frame.assumed);
     const std::optional<Radius> radius = settle(planned, flight.frame);
     if (i == 0) add_warnings(radius, planned.plan, flight.frame);
@@ -147,7 +150,7 @@ void ShotWork::compute_planes(InFlight& flight) {
 
 bool ShotWork::write(size_t i) {
   const bool is_written = guarded(i, &StepTimes::write, [&](InFlight& flight) {
-    add_notes(i, write_outputs(outputs_of(i), files_.paths_of(frame_at(i)).front(), flight.result, settings_.writing));
+    add_notes(i, write_outputs(outputs_of(i), flight.sources, flight.result, settings_.writing));
     return true;
   });
   if (!is_written) return false;

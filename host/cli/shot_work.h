@@ -50,6 +50,7 @@ class ShotWork {
     std::optional<PlannedFrame> planned;  ///< while it is decoded
     Plan plan;
     Frame frame, result;  ///< as decoded; what is written
+    OutputSources sources;
     FrameMaking making;
     StepTimes times;
   };

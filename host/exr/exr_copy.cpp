@@ -25,6 +25,7 @@
 #include "exr/headers.h"
 #include "exr/stream.h"
 #include "exr/validation.h"
+#include "exr/write.h"
 #include "exr/written_channels.h"
 #include "exr/written_header.h"
 #include "gloam/error.h"
@@ -202,6 +203,14 @@ std::vector<std::string> write_copy(const std::filesystem::path& path, const std
   std::vector<std::string> notes;
   write_atomically(path, [&](NewFile& file) { notes = write(file, path.string(), original, added); });
   return notes;
+}
+
+void write_frame_like(const std::filesystem::path& path, const std::filesystem::path& original, int part,
+                      const Frame& frame, const WriteOptions& options) {
+  check(options);
+  const Original from = open_original(original);
+  const Imf::Header& like = from.file->header(part);
+  write_atomically(path, [&](NewFile& file) { write_exr(file, path.string(), frame, options, &like); });
 }
 
 }  // namespace gloam
