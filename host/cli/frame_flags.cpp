@@ -5,6 +5,7 @@
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "gloam/error.h"
+#include "gloam/frame_pattern.h"
 
 namespace gloam::cli {
 namespace {
@@ -32,6 +33,10 @@ std::vector<std::string> FrameArguments::files() const {
   std::vector<std::string> paths = {frame};
   if (!other_eye.empty()) paths.push_back(other_eye);
   return paths;
+}
+
+bool FrameArguments::has_pattern() const {
+  return FramePattern::is_pattern(frame) || (!other_eye.empty() && FramePattern::is_pattern(other_eye));
 }
 
 FrameFiles FrameArguments::open(const ReadOptions& options) const {

@@ -1,24 +1,20 @@
 #include "cli/run_shot.h"
 
 #include <algorithm>
-#include <list>
-#include <thread>
 
-#include "base/files.h"
 #include "base/memory.h"
 #include "base/page_pool.h"
 #include "cli/memory.h"
+#include "cli/shot_memory.h"
+#include "cli/shot_start.h"
 #include "cli/shot_work.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "sequence/chunks.h"
-#include "sequence/frame_locks.h"
 #include "sequence/pipeline.h"
 
 namespace gloam::cli {
 namespace {
-
-using Bytes = unsigned long long;
 
 /// Throws UsageError for a technique, flags and names that do not go with a shot.
 void check_flags(const RunCommand& flags) {
@@ -80,42 +76,15 @@ PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bo
       if (first_error.empty()) first_error = error.what();
     }
   }
-  if (shot.frames().size() == 1) throw Error("{}", first_error);
-  throw Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
+  throw none_of_shot(shot, first_error);
 }
-
-/// One frame in each thread's hands, and one that waits before each step.
-PipelineSize wanted_size() {
-  PipelineSize size;
-  size.decoders = size.writers = std::clamp(std::thread::hardware_concurrency(), 1u, 2u);
-  size.in_flight = size.decoders + size.writers + 3;
-  return size;
-}
-
-/// The largest pipeline within the limit.
-struct ShotMemory {
-  PipelineSize size;
-  Bytes frame, all;  ///< most that a frame in flight may take; the whole process
-};
 
 ShotMemory memory_for(const RunCommand& flags, const PlannedFrame& first) {
   const Layout layout(first.files.window().width(), first.files.window().height());
-  const Bytes own = bytes_in_flight(first);
-  const Bytes beside =
+  const unsigned long long beside =
       process_bytes_with_device + bytes_beside_frame(first.plan, layout, first.files.views().size(), true);
-  const MemoryLimit limit = limit_of(flags.frame_flags, flags.shot.memory);
-  if (limit.bytes < beside + own)
-    throw Error(
-        "{}: one frame of the shot would take about {} of memory, and {}; ask for less (--outputs, --resolution "
-        "half), for one view (--view), or allow more",
-        first.files.name(), memory_in_words(beside + own), limit.words);
-  ShotMemory memory{wanted_size(), 0, 0};
-  memory.size.in_flight = size_t(std::min<Bytes>(memory.size.in_flight, (limit.bytes - beside) / own));
-  memory.size.decoders = std::min(memory.size.decoders, memory.size.in_flight);
-  memory.size.writers = std::min(memory.size.writers, memory.size.in_flight);
-  memory.frame = (limit.bytes - beside) / memory.size.in_flight;
-  memory.all = beside + memory.size.in_flight * own;
-  return memory;
+  return shot_memory(first.files.name(), bytes_in_flight(first), beside, limit_of(flags.frame_flags, flags.shot.memory),
+                     "ask for less (--outputs, --resolution half), for one view (--view), or allow more");
 }
 
 /// Opens the device and compiles while the first frames are decoded.
@@ -155,12 +124,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;
   const PageReuse reuse(memory.all - process_bytes_with_device);
-  std::list<FrameLocks> locks;
-  for (const auto& [flag, pattern] : outputs.patterns()) {
-    locks.emplace_back(pattern, shot.numbers());
-    remove_leftovers(pattern.folder());
-  }
-  say_on_interruption("frames that were written are whole; the same command with --resume goes on");
+  const ShotStart start(outputs.patterns(), shot.numbers());
   ShotReport report(shot.frames().size(), flags.json);
   Pipeline* running = nullptr;
   ShotWork work(shot, settings, start_device(flags, first, settings.options), report, [&] { running->stop(); });

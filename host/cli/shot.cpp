@@ -74,6 +74,16 @@ ReadOptions ShotFiles::options_for(const SequenceFrame& frame) const {
   return options;
 }
 
+void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag) {
+  for (const auto& [output, path] : outputs) {
+    if (FramePattern::is_pattern(path))
+      throw UsageError("{} {}: is a pattern, and {} is one frame; write both as patterns, such as shot.####.exr",
+                       output, path, frame.frame);
+  }
+  if (!flag.empty())
+    throw UsageError("{}: is for a shot, and {} is one frame; write its number as in shot.####.exr", flag, frame.frame);
+}
+
 void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs) {
   std::map<std::string, int> inputs;  // the frame that reads a file
   for (const SequenceFrame& frame : shot.frames()) {

@@ -43,6 +43,9 @@ class ShotFiles {
   std::optional<CameraList> camera_list_;
 };
 
+/// Throws UsageError for outputs that are patterns, and for a flag of shots, with one frame. `flag`: empty if none is given.
+void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag);
+
 /// Names of outputs with their flags.
 using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
 

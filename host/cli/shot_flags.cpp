@@ -9,6 +9,19 @@ namespace {
 
 constexpr const char* group = "Shots";
 
+/// Adds --chunks and --print.
+void add_chunks(CLI::App& app, ShotFlags& flags) {
+  CLI::Option* printing =
+      app.add_flag("--print", flags.print, "with --chunks: print the commands, one a line, and compute nothing")
+          ->group(group);
+  add_number(app, "--chunks", flags.chunks, {1, 1000000},
+             "divide a shot into so many commands, for several processes or machines")
+      ->type_name("N")
+      ->group(group)
+      ->needs(printing);
+  printing->needs(app.get_option("--chunks"));
+}
+
 }  // namespace
 
 void add_frames(CLI::App& app, FrameChoice& choice) {
@@ -18,7 +31,7 @@ void add_frames(CLI::App& app, FrameChoice& choice) {
       ->group(group);
 }
 
-void ShotFlags::add_to(CLI::App& app) {
+void ShotFlags::add_to(CLI::App& app, bool divides) {
   add_frames(app, choice);
   add_choice(app, "--missing", choice.missing,
              {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}},
@@ -29,15 +42,7 @@ void ShotFlags::add_to(CLI::App& app) {
       ->check(accepted_by(parse_memory, "--memory"))
       ->type_name("4G|512M")
       ->group(group);
-  CLI::Option* printing =
-      app.add_flag("--print", print, "with --chunks: print the commands, one a line, and compute nothing")
-          ->group(group);
-  add_number(app, "--chunks", chunks, {1, 1000000},
-             "divide a shot into so many commands, for several processes or machines")
-      ->type_name("N")
-      ->group(group)
-      ->needs(printing);
-  printing->needs(app.get_option("--chunks"));
+  if (divides) add_chunks(app, *this);
   app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
   app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half")->group(group);
 }

@@ -15,7 +15,8 @@ struct ShotFlags {
   std::string memory;
   bool resume = false, keep_depth = false, as_float = false, print = false;
   int chunks = 0;  ///< 0: the shot is not divided
-  void add_to(CLI::App& app);
+  /// `divides`: with --chunks and --print.
+  void add_to(CLI::App& app, bool divides = true);
   /// The first flag given that only a shot has; empty if there is none. `with_float`: --float is one of them.
   std::string any(bool with_float = true) const;
 };

@@ -1,9 +1,5 @@
 #include "cli/shot_work.h"
 
-#include <new>
-
-#include "base/elapsed.h"
-#include "base/files.h"
 #include "base/memory.h"
 #include "cli/memory.h"
 #include "cli/radius.h"
@@ -12,11 +8,6 @@
 
 namespace gloam::cli {
 namespace {
-
-void replace_all(std::string& text, const std::string& what, const std::string& with) {
-  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-    text.replace(at, what.size(), with);
-}
 
 /// Of the first frame: what holds for one frame of a shot mostly holds for all.
 void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const Frame& frame) {
@@ -52,41 +43,13 @@ ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, std::fu
       settings_(settings),
       starting_(std::move(device)),
       report_(report),
-      stop_(std::move(stop)),
+      steps_(files, report, std::move(stop)),
       flights_(files.frames().size()) {}
 
-bool ShotWork::guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step) {
-  const int number = frame_at(i).number;
-  std::string why;
-  try {
-    const auto start = std::chrono::steady_clock::now();
-    const bool goes_on = step(*flights_[i]);
-    flights_[i]->times.*time = 1000 * seconds_since(start);
-    if (!goes_on) flights_[i].reset();
-    return goes_on;
-  } catch (const Error& error) {
-    flights_[i].reset();
-    if (is_lack_of_space(error)) {
-      if (report_.found_no_space(number, error.what())) stop_();
-      return false;
-    }
-    why = error.what();
-  } catch (const std::bad_alloc&) {
-    why = "out of memory; --memory sets how much is used";
-  } catch (const std::exception& error) {
-    why = error.what();
-  }
-  flights_[i].reset();
-  report_.failed(number, why);
-  return false;
-}
-
-void ShotWork::add_notes(size_t i, const std::vector<std::string>& notes) {
-  for (std::string text : notes) {
-    for (const FramePattern& pattern : files_.inputs())
-      replace_all(text, pattern.path_of(frame_at(i).source).filename().string(), pattern.name());
-    note({text});
-  }
+bool ShotWork::step(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& work) {
+  const bool goes_on = steps_.run(i, flights_[i]->times.*time, [&] { return work(*flights_[i]); });
+  if (!goes_on) flights_[i].reset();
+  return goes_on;
 }
 
 bool ShotWork::open(size_t i, InFlight& flight) {
@@ -100,28 +63,22 @@ bool ShotWork::open(size_t i, InFlight& flight) {
     }
     if (std::filesystem::exists(path)) report_.written_again(frame_at(i).number, why);
   }
-  const Window display = files.files().front().display();
-  if (display.width() != settings_.display.width() || display.height() != settings_.display.height())
-    throw Error("{}: is {}x{}, and the shot's first frame {}x{}; render all alike", files.name(), display.width(),
-                display.height(), settings_.display.width(), settings_.display.height());
+  check_size_in_shot(files, settings_.display);
   flight.planned.emplace(planned_frame(std::move(files), settings_.request, settings_.carried.depth));
   if (outputs_of(i).has_composite())
     flight.planned->colour.emplace(open_colour(files_.paths_of(frame_at(i)), files_.options_for(frame_at(i))));
-  const unsigned long long bytes = bytes_in_flight(*flight.planned);
-  if (bytes > settings_.frame_bytes)
-    throw Error("{}: takes {} of memory, and a frame of this shot has {}; --memory gives more",
-                flight.planned->files.name(), memory_in_words(bytes), memory_in_words(settings_.frame_bytes));
+  check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned), settings_.frame_bytes);
   return true;
 }
 
 bool ShotWork::decode(size_t i) {
   flights_[i] = std::make_unique<InFlight>();
-  return guarded(i, &StepTimes::decode, [&](InFlight& flight) {
+  return step(i, &StepTimes::decode, [&](InFlight& flight) {
     if (!open(i, flight)) return false;
     PlannedFrame& planned = *flight.planned;
     flight.frame = planned.files.read(planned.planes);
     flight.sources = read_sources(planned);
-    add_notes(i, flight.frame.assumed);
+    steps_.add_notes(i, flight.frame.assumed);
     const std::optional<Radius> radius = settle(planned, flight.frame);
     if (i == 0) add_warnings(radius, planned.plan, flight.frame);
     flight.plan = std::move(planned.plan);
@@ -133,7 +90,7 @@ bool ShotWork::decode(size_t i) {
 /// Frames come in order: what a frame takes over from the one before is at hand here.
 bool ShotWork::compute(size_t i) {
   if (!device_) device_.emplace(starting_.get());
-  return guarded(i, &StepTimes::compute, [&](InFlight& flight) {
+  return step(i, &StepTimes::compute, [&](InFlight& flight) {
     compute_planes(flight);
     return true;
   });
@@ -149,8 +106,8 @@ void ShotWork::compute_planes(InFlight& flight) {
 }
 
 bool ShotWork::write(size_t i) {
-  const bool is_written = guarded(i, &StepTimes::write, [&](InFlight& flight) {
-    add_notes(i, write_outputs(outputs_of(i), flight.sources, flight.result, settings_.writing));
+  const bool is_written = step(i, &StepTimes::write, [&](InFlight& flight) {
+    steps_.add_notes(i, write_outputs(outputs_of(i), flight.sources, flight.result, settings_.writing));
     return true;
   });
   if (!is_written) return false;

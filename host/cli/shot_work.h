@@ -12,6 +12,7 @@
 #include "cli/run_steps.h"
 #include "cli/shot.h"
 #include "cli/shot_report.h"
+#include "cli/shot_steps.h"
 #include "sequence/frame_making.h"
 
 namespace gloam::cli {
@@ -58,17 +59,14 @@ class ShotWork {
   FrameOutputs outputs_of(size_t i) const { return settings_.outputs.of(frame_at(i).number); }
   bool open(size_t i, InFlight& flight);
   void compute_planes(InFlight& flight);
-  /// Adds notes; of many frames each once, whichever file they name.
-  void add_notes(size_t i, const std::vector<std::string>& notes);
-  /// Runs a step and its clock. False if it failed, or returned false.
-  bool guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step);
+  bool step(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& work);
 
   const ShotFiles& files_;
   const ShotSettings& settings_;
   std::future<Device> starting_;
   std::optional<Device> device_;
   ShotReport& report_;
-  std::function<void()> stop_;
+  ShotSteps steps_;
   std::vector<std::unique_ptr<InFlight>> flights_;
 };
 
