@@ -185,7 +185,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   Stopwatch watch;
   RunOptions options = flags.run_flags.run_options();
   const FrameOutputs outputs = outputs_of(flags);
-  check(outputs, flags.frame);
+  check(outputs, flags);
   check_picture_name(flags.picture, "--picture");
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);

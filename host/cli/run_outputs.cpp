@@ -6,6 +6,18 @@
 namespace gloam::cli {
 namespace {
 
+/// Throws UsageError for a flag that has no effect on any of the files.
+void check_of_files_written(const FrameOutputs& outputs, const RunCommand& flags) {
+  const bool has_out = !outputs.out.empty();
+  const auto refuse = [](const char* flag, const char* of) {
+    throw UsageError("{}: is of {}, and none is written; leave it out", flag, of);
+  };
+  if (flags.half && !has_out) refuse("--half", "-o OUT.exr");
+  if (flags.shot.keep_depth && !has_out) refuse("--keep-depth", "-o OUT.exr");
+  if (flags.bare && !has_out && outputs.composite.empty()) refuse("--bare", "-o or --composite OUT.exr");
+  if (flags.shot.as_float && !has_out && outputs.into.empty()) refuse("--float", "-o OUT.exr or --into COPY.exr");
+}
+
 /// The planes asked for, else what a shot's file holds: the first output, with the extras.
 std::vector<std::string> planes_for_copy(const PlanRequest& request, const Plan& plan) {
   if (!request.only.empty()) return plan.outputs;
@@ -59,13 +71,14 @@ FrameOutputs outputs_of(const RunCommand& flags) {
   return {flags.out, flags.into, in_copy ? "" : composite, in_copy};
 }
 
-void check(const FrameOutputs& outputs, const FrameArguments& frame) {
+void check(const FrameOutputs& outputs, const RunCommand& flags) {
   if (outputs.paths().empty())
     throw UsageError("nothing is to be written; give -o OUT.exr, --into COPY.exr or --composite OUT.exr");
   for (const auto& [flag, path] : outputs.named()) {
     if (!path.empty()) check_frame_name(path, flag);
   }
-  if (!outputs.into.empty() && !frame.other_eye.empty())
+  check_of_files_written(outputs, flags);
+  if (!outputs.into.empty() && !flags.frame.other_eye.empty())
     throw UsageError("--into {}: copies one file, and the two eyes are in two; write the results with -o",
                      outputs.into);
 }

@@ -24,8 +24,9 @@ struct FrameOutputs {
 
 FrameOutputs outputs_of(const RunCommand& flags);
 
-/// Throws UsageError if nothing is asked for, for names that are not of EXR files, and for a copy of two files.
-void check(const FrameOutputs& outputs, const FrameArguments& frame);
+/// Throws UsageError if nothing is asked for, for names that are not of EXR files, for a copy of two files, and for flags of a file
+/// that is not written.
+void check(const FrameOutputs& outputs, const RunCommand& flags);
 
 /// How a frame's files are written.
 struct OutputSettings {

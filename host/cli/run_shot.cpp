@@ -104,7 +104,7 @@ std::future<Device> start_device(const RunCommand& flags, const PlannedFrame& fi
 void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
   check_flags(flags);
   const FrameOutputs named = outputs_of(flags);
-  check(named, flags.frame);
+  check(named, flags);
   const ShotOutputs outputs(named, flags.frame.frame);
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(outputs.patterns(), shot, {{"--json", flags.json.file()}});
