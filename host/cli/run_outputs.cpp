@@ -73,7 +73,7 @@ FrameOutputs outputs_of(const RunCommand& flags) {
 
 void check(const FrameOutputs& outputs, const RunCommand& flags) {
   if (outputs.paths().empty())
-    throw UsageError("nothing is to be written; give -o OUT.exr, --into COPY.exr or --composite OUT.exr");
+    throw UsageError("run: nothing is to be written; give --output OUT.exr, --into COPY.exr or --composite OUT.exr");
   for (const auto& [flag, path] : outputs.named()) {
     if (!path.empty()) check_frame_name(path, flag);
   }

@@ -381,7 +381,7 @@ TEST_F(Into, RefusesInOneLine) {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   };
-  expect_refused(run_on({one}), 2, {"-o OUT.exr", "--into COPY.exr"});
+  expect_refused(run_on({one}), 2, {"--output OUT.exr", "--into COPY.exr"});
   for (const char* flag : {"--half", "--bare"})
     expect_refused(run_on({one, "--into", file("copy.exr"), flag}), 2, {flag, "none is written"});
   expect_refused(run_on({shot, "--into", file("copy.####.exr"), "--keep-depth"}), 2, {"--keep-depth", "none is"});
