@@ -5,6 +5,7 @@
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "gloam/error.h"
+#include "gloam/frame_pattern.h"
 
 namespace gloam::cli {
 namespace {
@@ -28,10 +29,18 @@ void FrameArguments::add_to(CLI::App& app) {
       ->group("Reading the frame");
 }
 
-FrameFiles FrameArguments::open(const ReadOptions& options) const {
+std::vector<std::string> FrameArguments::files() const {
   std::vector<std::string> paths = {frame};
   if (!other_eye.empty()) paths.push_back(other_eye);
-  FrameFiles files(paths, options);
+  return paths;
+}
+
+bool FrameArguments::has_pattern() const {
+  return FramePattern::is_pattern(frame) || (!other_eye.empty() && FramePattern::is_pattern(other_eye));
+}
+
+FrameFiles FrameArguments::open(const ReadOptions& options) const {
+  FrameFiles files(this->files(), options);
   if (!history.empty()) files.take_history(history);
   return files;
 }

@@ -31,6 +31,10 @@ struct FrameFlags {
 struct FrameArguments {
   std::string frame, other_eye, history;
   void add_to(CLI::App& app);
+  /// The one or two files of the frame.
+  std::vector<std::string> files() const;
+  /// Whether one of them names the frames of a shot.
+  bool has_pattern() const;
   /// Opens the named files, history included.
   FrameFiles open(const ReadOptions& options) const;
   /// For `check_paths`.

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/composite_flags.h"
 #include "cli/options.h"
 #include "cli/shot_flags.h"
 
 namespace gloam::cli {
 
 struct RunCommand {
-  std::string technique, out, outputs, picture, compression = "zip";
+  std::string technique, out, into, outputs, picture, compression = "zip";
   bool bare = false, half = false;
   std::string given;                  ///< flags that decide what is written, as text
   std::vector<std::string> repeated;  ///< words for a chunk of a shot
@@ -19,6 +20,7 @@ struct RunCommand {
   TechniqueFlags technique_flags;
   RunFlags run_flags;
   ShotFlags shot;
+  CompositeFlags composite;
   JsonFlag json;
 };
 

@@ -9,6 +9,7 @@
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
+#include "cli/run_outputs.h"
 #include "cli/run_steps.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -165,11 +166,27 @@ std::future<Device> start_device(const RunFlags& flags, const PlannedFrame& plan
                     });
 }
 
-void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result) {
+/// Adds a note where a history tells nothing about the frame.
+void add_warning_about_history(const FrameFiles& files, const Plan& plan, const Frame& frame, const Frame& result) {
+  if (!files.history() || !reads_history(plan)) return;
+  if (!knows_where_surfaces_were(frame))
+    note({no_way_back});
+  else if (!goes_on_from_before(result))
+    note({fmt::format("--history {}: shows next to nothing that {} shows; accumulation begins anew",
+                      files.history()->file().path().string(), files.name())});
+}
+
+void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result,
+                  const std::vector<std::string>& copied) {
   if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
   if (!plan.rest.empty())
     fmt::print("{} computed {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
-  fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
+  if (!flags.out.empty()) fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
+  if (!flags.into.empty())
+    fmt::print("wrote {} (all of {}, and {})\n", printable(flags.into), printable(flags.frame.frame),
+               fmt::join(copied, ", "));
+  if (!flags.composite.path.empty())
+    fmt::print("wrote {} (colour with {})\n", printable(flags.composite.path), composited_plane(plan.outputs));
 }
 
 }  // namespace
@@ -177,21 +194,30 @@ void print_result(const RunCommand& flags, const Plan& plan, const RunResult& re
 void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   Stopwatch watch;
   RunOptions options = flags.run_flags.run_options();
-  const WriteOptions writing{flags.half, flags.compression};
-  check_frame_name(flags.out, "-o");
+  const FrameOutputs outputs = outputs_of(flags);
+  check(outputs, flags);
   check_picture_name(flags.picture, "--picture");
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
-  check_paths(inputs, {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+  std::vector<NamedPath> files_written = outputs.named();
+  files_written.insert(files_written.end(), {{"--picture", flags.picture}, {"--json", flags.json.file()}});
+  check_paths(inputs, files_written);
+  const bool carries_depth = !flags.bare && !flags.out.empty();
   FrameFiles opened = flags.frame.open(flags.frame_flags.read_options());
   const PlanRequest over_time = going_on(request, opened, flags.technique_flags.temporal);
-  PlannedFrame planned = planned_frame(std::move(opened), over_time, !flags.bare);
+  PlannedFrame planned = planned_frame(std::move(opened), over_time, carries_depth);
+  if (flags.out.empty()) keep_first_output(planned, carries_depth);
+  const OutputSettings writing = output_settings(flags, flags.half, planned.request, planned.plan);
+  if (outputs.has_composite())
+    planned.colour.emplace(open_colour(flags.frame.files(), flags.frame_flags.read_options()));
   FrameFiles& files = planned.files;
   if (files.history() && reads_history(planned.plan) && !flags.run_flags.seed)
     options.seed = seed_after(*files.history());
   const unsigned long long memory = planned_memory(
       flags.frame_flags, files.name(), flags.run_flags.device,
-      [&](bool shares_memory) { return bytes_of_run(files, planned.planes, planned.plan, shares_memory); },
+      [&](bool shares_memory) {
+        return bytes_of_run(files, planned.planes, planned.plan, shares_memory) + bytes_of_colour(planned);
+      },
       "crop or shrink the frame, ask for less (--outputs, --resolution half), or for one view (--view)");
   watch.lap("open");
   std::promise<void> checked;
@@ -200,6 +226,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   const Layout layout(files.window().width(), files.window().height());
   if (device_bytes(planned.plan, layout, files.views().size()) > (1ull << 30)) checked.get_future().get();
   Frame frame = files.read(planned.planes);
+  OutputSources sources = read_sources(planned);
   watch.lap("decode");
   note(frame.assumed);
   const std::optional<Radius> settled = settle(planned, frame);
@@ -212,19 +239,13 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   options.progress = progress_bar();
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
-  if (files.history() && reads_history(plan)) {
-    if (!knows_where_surfaces_were(frame))
-      note({no_way_back});
-    else if (!goes_on_from_before(result.frame))
-      note({fmt::format("--history {}: shows next to nothing that {} shows; accumulation begins anew",
-                        files.history()->file().path().string(), files.name())});
-  }
-  carry_over(frame, result.frame, {.depth = !flags.bare, .cameras = !flags.bare});
+  add_warning_about_history(files, plan, frame, result.frame);
+  carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
-  write_frame(flags.out, result.frame, writing);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
+  note(write_outputs(outputs, sources, result.frame, writing));
   watch.lap("write");
-  std::vector<std::string> written = {flags.out};
+  std::vector<std::string> written = outputs.paths();
   written.insert(written.end(), pictures.begin(), pictures.end());
   Json figures = document(flags, plan, result, device.info(), decoded_channels(planned.planes, files), watch);
   figures["memory_bytes"] = memory;
@@ -233,7 +254,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   if (flags.json.only_json()) return;
   if (radius) radius->print();
   print_times(result, device.info(), watch);
-  print_result(flags, plan, result);
+  print_result(flags, plan, result, writing.copied);
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 

@@ -1,25 +1,22 @@
 #include "cli/run_shot.h"
 
 #include <algorithm>
-#include <thread>
 
-#include "base/files.h"
 #include "base/memory.h"
 #include "base/page_pool.h"
 #include "cli/memory.h"
+#include "cli/shot_memory.h"
+#include "cli/shot_start.h"
 #include "cli/shot_work.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/history.h"
 #include "gloam/planes.h"
 #include "sequence/chunks.h"
-#include "sequence/frame_locks.h"
 #include "sequence/pipeline.h"
 
 namespace gloam::cli {
 namespace {
-
-using Bytes = unsigned long long;
 
 /// Whether each frame goes on from the one before.
 bool is_temporal(const RunCommand& flags) {
@@ -33,10 +30,6 @@ void check_flags(const RunCommand& flags) {
     if (!file.empty() && !FramePattern::is_pattern(file))
       throw UsageError("{}: is one frame, and the other eye a shot; write both as patterns, such as L.####.exr", file);
   }
-  check_frame_name(flags.out, "-o");
-  if (!FramePattern::is_pattern(flags.out))
-    throw UsageError("-o {}: is one file, and {} a shot; write both as patterns, such as ao.####.exr", flags.out,
-                     frame.frame);
   if (!flags.picture.empty())
     throw UsageError("--picture {}: is made of one frame; leave it out, or run that frame alone", flags.picture);
   if (!frame.history.empty())
@@ -86,71 +79,39 @@ void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
 
 /// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no
 /// frame can be planned.
-PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth) {
+PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth, bool has_composite) {
   std::string first_error;
   for (const SequenceFrame& frame : shot.frames()) {
     try {
-      return planned_frame(shot.open(frame), request, carries_depth);
+      PlannedFrame planned = planned_frame(shot.open(frame), request, carries_depth);
+      if (has_composite) planned.colour.emplace(open_colour(shot.paths_of(frame), shot.options_for(frame)));
+      return planned;
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {
       if (first_error.empty()) first_error = error.what();
     }
   }
-  if (shot.frames().size() == 1) throw Error("{}", first_error);
-  throw Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
+  throw none_of_shot(shot, first_error);
 }
-
-/// By default the first output alone, with the extras asked for.
-void ask_for_first_output(PlanRequest& request, const Plan& plan) {
-  if (!request.only.empty()) return;
-  request.only = {plan.outputs.front()};
-  add_new(request.only, request.with);
-}
-
-/// One frame in each thread's hands, and one that waits before each step.
-PipelineSize wanted_size() {
-  PipelineSize size;
-  size.decoders = size.writers = std::clamp(std::thread::hardware_concurrency(), 1u, 2u);
-  size.in_flight = size.decoders + size.writers + 3;
-  return size;
-}
-
-/// The largest pipeline within the limit.
-struct ShotMemory {
-  PipelineSize size;
-  Bytes frame, all;  ///< most that a frame in flight may take; the whole process
-};
 
 /// What a frame leaves for the next, while that takes it over.
-Bytes bytes_of_history(const PlannedFrame& planned) {
+unsigned long long bytes_of_history(const PlannedFrame& planned) {
   if (!planned.request.temporal) return 0;
-  Bytes bytes = 0;
+  unsigned long long bytes = 0;
   for (const std::string& plane : planned.plan.inputs) {
     if (contains(history_planes(), plane)) bytes += plane_kind(plane).components.size() * sizeof(float);
   }
   const Window window = planned.files.window();
-  return 2 * bytes * Bytes(window.width()) * Bytes(window.height()) * planned.files.views().size();
+  return 2 * bytes * size_t(window.width()) * size_t(window.height()) * planned.files.views().size();
 }
 
 ShotMemory memory_for(const RunCommand& flags, const PlannedFrame& first) {
   const Layout layout(first.files.window().width(), first.files.window().height());
-  const Bytes own = bytes_in_flight(first);
-  const Bytes beside = process_bytes_with_device + bytes_of_history(first) +
-                       bytes_beside_frame(first.plan, layout, first.files.views().size(), true);
-  const MemoryLimit limit = limit_of(flags.frame_flags, flags.shot.memory);
-  if (limit.bytes < beside + own)
-    throw Error(
-        "{}: one frame of the shot would take about {} of memory, and {}; ask for less (--outputs, --resolution "
-        "half), for one view (--view), or allow more",
-        first.files.name(), memory_in_words(beside + own), limit.words);
-  ShotMemory memory{wanted_size(), 0, 0};
-  memory.size.in_flight = size_t(std::min<Bytes>(memory.size.in_flight, (limit.bytes - beside) / own));
-  memory.size.decoders = std::min(memory.size.decoders, memory.size.in_flight);
-  memory.size.writers = std::min(memory.size.writers, memory.size.in_flight);
-  memory.frame = (limit.bytes - beside) / memory.size.in_flight;
-  memory.all = beside + memory.size.in_flight * own;
-  return memory;
+  const unsigned long long beside = process_bytes_with_device + bytes_of_history(first) +
+                                    bytes_beside_frame(first.plan, layout, first.files.views().size(), true);
+  return shot_memory(first.files.name(), bytes_in_flight(first), beside, limit_of(flags.frame_flags, flags.shot.memory),
+                     "ask for less (--outputs, --resolution half), for one view (--view), or allow more");
 }
 
 /// Opens the device and compiles while the first frames are decoded.
@@ -182,11 +143,11 @@ std::vector<Turn> turns_for(const ShotFiles& shot, const ShotSettings& settings,
   for (const Turn& turn : turns) {
     if (!turn.is_written) continue;
     const SequenceFrame& frame = shot.frames()[turn.frame];
-    const std::filesystem::path output = settings.output.path_of(frame.number);
     try {
-      const std::string why = why_again(output, making_of(settings, shot.open(frame), turn));
+      const FrameMaking making = making_of(settings, shot.open(frame), turn);
+      const auto [path, why] = first_to_write_again(settings.outputs.of(frame.number), settings.writing, making);
       is_whole[turn.frame] = why.empty();
-      if (!why.empty() && std::filesystem::exists(output)) report.written_again(frame.number, why);
+      if (!why.empty() && std::filesystem::exists(path)) report.written_again(frame.number, why);
     } catch (const Error&) {
       // Told when the frame's turn comes.
     }
@@ -211,37 +172,43 @@ void ask_for_history(PlanRequest& request, const Plan& plan) {
 
 }  // namespace
 
-void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
+void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
   check_flags(flags);
-  const FramePattern output(flags.out, "-o");
+  const FrameOutputs named = outputs_of(flags);
+  check(named, flags);
+  const ShotOutputs outputs(named, flags.frame.frame);
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
-  check_outputs(output, shot, {{"--json", flags.json.file()}});
-  ShotSettings settings{.request = given,
+  check_outputs(outputs.patterns(), shot, {{"--json", flags.json.file()}});
+  const Carried carried{.depth = flags.shot.keep_depth && !flags.bare && !flags.out.empty(), .cameras = !flags.bare};
+  PlanRequest given = alone;
+  given.temporal = is_temporal(flags);
+  PlannedFrame first = first_planned(shot, given, carried.depth, named.has_composite());
+  keep_first_output(first, carried.depth);
+  const OutputSettings writing = output_settings(flags, !flags.shot.as_float, first.request, first.plan);
+  const std::vector<std::string> written = first.request.only;
+  if (given.temporal) {
+    ask_for_history(first.request, first.plan);
+    plan_again(first, carried.depth);
+  }
+  ShotSettings settings{.request = first.request,
+                        .written = written,
                         .options = flags.run_flags.run_options(),
-                        .writing = {!flags.shot.as_float, flags.compression},
-                        .carried = {.depth = flags.shot.keep_depth && !flags.bare, .cameras = !flags.bare},
-                        .output = output,
+                        .writing = writing,
+                        .carried = carried,
+                        .outputs = outputs,
                         .resume = flags.shot.resume,
                         .version = version_with_kernels(GLOAM_VERSION),
                         .contents = flags.technique + flags.given};
-  settings.request.temporal = is_temporal(flags);
-  const Plan plan = first_planned(shot, settings.request, settings.carried.depth).plan;
-  ask_for_first_output(settings.request, plan);
-  settings.written = settings.request.only;
-  if (settings.request.temporal) ask_for_history(settings.request, plan);
-  const PlannedFrame first = first_planned(shot, settings.request, settings.carried.depth);
   if (flags.shot.chunks > 0) return print_chunks(flags, shot);
   settings.display = first.files.files().front().display();
   const ShotMemory memory = memory_for(flags, first);
   settings.frame_bytes = memory.frame;
   const PageReuse reuse(memory.all - process_bytes_with_device);
+  const size_t warm_up = std::min(size_t(flags.shot.warm_up), shot.frames().size());
   std::vector<int> numbers = shot.numbers();
-  numbers.erase(numbers.begin(), numbers.begin() + std::min(flags.shot.warm_up, int(numbers.size())));
-  const FrameLocks locks(output, numbers);
-  remove_leftovers(output.folder());
-  say_on_interruption("frames that were written are whole; the same command with --resume goes on");
-  const size_t warm_up = size_t(flags.shot.warm_up);
-  ShotReport report(shot.frames().size() - std::min(warm_up, shot.frames().size()), flags.json);
+  numbers.erase(numbers.begin(), numbers.begin() + std::ptrdiff_t(warm_up));
+  const ShotStart start(outputs.patterns(), numbers);
+  ShotReport report(numbers.size(), flags.json);
   const std::vector<Turn> turns = turns_for(shot, settings, warm_up, report);
   Pipeline* running = nullptr;
   ShotWork work(shot, settings, turns, start_device(flags, first, settings.options), report, [&] { running->stop(); });
@@ -250,7 +217,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& given) {
                      [&](size_t i) { return work.write(i); }});
   running = &pipeline;
   pipeline.run();
-  report.finish(flags.out, fmt::format("{}", fmt::join(settings.written, ", ")));
+  report.finish(fmt::format("{}", fmt::join(named.paths(), ", ")), fmt::format("{}", fmt::join(written, ", ")));
 }
 
 }  // namespace gloam::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/memory.h"
 #include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/stereo_consistency.h"
@@ -24,16 +25,31 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
 
 const std::string no_way_back =
     "--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; each "
-    "frame is computed "
-    "by itself; give the camera of each frame (--camera)";
+    "frame is computed by itself; give the camera of each frame (--camera)";
 
-PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth) {
-  PlannedFrame planned{std::move(files), request, {}, {}};
-  if (request.temporal && !planned.files.history()) planned.files.expect_history();
-  planned.plan = plan_for(planned.files, request);
+void plan_again(PlannedFrame& planned, bool carries_depth) {
+  planned.plan = plan_for(planned.files, planned.request);
   planned.planes = planned.plan.inputs;
   if (carries_depth && contains(planned.files.common_planes(), "depth")) add_new(planned.planes, "depth");
+}
+
+PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth) {
+  PlannedFrame planned{std::move(files), request, {}, {}, {}};
+  if (request.temporal && !planned.files.history()) planned.files.expect_history();
+  plan_again(planned, carries_depth);
   return planned;
+}
+
+void keep_first_output(PlannedFrame& planned, bool carries_depth) {
+  PlanRequest& request = planned.request;
+  if (!request.only.empty()) return;
+  request.only = {planned.plan.outputs.front()};
+  add_new(request.only, request.with);
+  plan_again(planned, carries_depth);
+}
+
+unsigned long long bytes_of_colour(const PlannedFrame& planned) {
+  return planned.colour ? bytes_to_read(planned.colour->files, planned.colour->planes) : 0;
 }
 
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {

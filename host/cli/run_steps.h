@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/colour_layer.h"
 #include "cli/options.h"
 #include "gloam/radius.h"
 
@@ -15,11 +16,22 @@ struct PlannedFrame {
   FrameFiles files;
   PlanRequest request;
   Plan plan;
-  std::vector<std::string> planes;  ///< to decode: what the plan reads, and depth if it is carried over
+  std::vector<std::string> planes;    ///< to decode: what the plan reads, and depth if it is carried over
+  std::optional<ColourLayer> colour;  ///< for a composite
 };
 
-/// Plans. Of a request that goes on over time and a frame without a history, the caller adds the planes of one. The file's depth is decoded too if it is carried over to the output.
+/// Plans. Of a request that goes on over time and a frame without a history, the caller adds the planes of one. The file's depth is
+/// decoded too if it is carried over to the output.
 PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool carries_depth);
+
+/// Plans anew after a change of the request.
+void plan_again(PlannedFrame& planned, bool carries_depth);
+
+/// Memory for the colour of a composite, if there is one.
+unsigned long long bytes_of_colour(const PlannedFrame& planned);
+
+/// Plans the first output alone, with the extras asked for, unless outputs are chosen.
+void keep_first_output(PlannedFrame& planned, bool carries_depth);
 
 /// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
 /// depth. Returns the radius, if the plan has one.

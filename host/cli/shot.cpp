@@ -74,7 +74,17 @@ ReadOptions ShotFiles::options_for(const SequenceFrame& frame) const {
   return options;
 }
 
-void check_outputs(const FramePattern& output, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs) {
+void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag) {
+  for (const auto& [output, path] : outputs) {
+    if (FramePattern::is_pattern(path))
+      throw UsageError("{} {}: is a pattern, and {} is one frame; write both as patterns, such as shot.####.exr",
+                       output, path, frame.frame);
+  }
+  if (!flag.empty())
+    throw UsageError("{}: is for a shot, and {} is one frame; write its number as in shot.####.exr", flag, frame.frame);
+}
+
+void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs) {
   std::map<std::string, int> inputs;  // the frame that reads a file
   for (const SequenceFrame& frame : shot.frames()) {
     for (const std::string& path : shot.paths_of(frame)) inputs.emplace(canonical_name(path), frame.number);
@@ -85,13 +95,17 @@ void check_outputs(const FramePattern& output, const ShotFiles& shot, const std:
     throw UsageError("{}: {} is also what frame {} is read from; name another file", flag, path.string(),
                      input->second);
   };
-  for (const SequenceFrame& frame : shot.frames()) check_no_input("-o " + output.text(), output.path_of(frame.number));
+  for (const auto& [flag, pattern] : patterns) {
+    for (const SequenceFrame& frame : shot.frames())
+      check_no_input(flag + " " + pattern.text(), pattern.path_of(frame.number));
+  }
   for (const auto& [flag, path] : other_outputs) {
     if (!path.empty()) check_no_input(flag + " " + path, path);
   }
   // The folder is that of every frame.
   const SequenceFrame& first = shot.frames().front();
-  std::vector<NamedPath> outputs = {{"-o", output.path_of(first.number).string()}};
+  std::vector<NamedPath> outputs;
+  for (const auto& [flag, pattern] : patterns) outputs.emplace_back(flag, pattern.path_of(first.number).string());
   outputs.insert(outputs.end(), other_outputs.begin(), other_outputs.end());
   check_paths({{"--camera", shot.camera_of(first)}}, outputs);
 }

@@ -43,7 +43,13 @@ class ShotFiles {
   std::optional<CameraList> camera_list_;
 };
 
-/// Throws UsageError if a frame's output is also an input of a frame, and Error if it cannot be written.
-void check_outputs(const FramePattern& output, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
+/// Throws UsageError for outputs that are patterns, and for a flag of shots, with one frame. `flag`: empty if none is given.
+void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag);
+
+/// Names of outputs with their flags.
+using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
+
+/// Throws UsageError if a frame's output is also an input of a frame or another output, and Error if it cannot be written.
+void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
 
 }  // namespace gloam::cli

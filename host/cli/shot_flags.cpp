@@ -9,6 +9,23 @@ namespace {
 
 constexpr const char* group = "Shots";
 
+/// Adds --chunks, --print and --warm-up.
+void add_chunks(CLI::App& app, ShotFlags& flags) {
+  CLI::Option* printing =
+      app.add_flag("--print", flags.print, "with --chunks: print the commands, one a line, and compute nothing")
+          ->group(group);
+  add_number(app, "--chunks", flags.chunks, {1, 1000000},
+             "divide a shot into so many commands, for several processes or machines")
+      ->type_name("N")
+      ->group(group)
+      ->needs(printing);
+  printing->needs(app.get_option("--chunks"));
+  add_number(app, "--warm-up", flags.warm_up, {0, 1000000},
+             "with --temporal: this many of the first frames are computed for those that follow, and not written")
+      ->type_name("N")
+      ->group(group);
+}
+
 }  // namespace
 
 void add_frames(CLI::App& app, FrameChoice& choice) {
@@ -18,7 +35,7 @@ void add_frames(CLI::App& app, FrameChoice& choice) {
       ->group(group);
 }
 
-void ShotFlags::add_to(CLI::App& app) {
+void ShotFlags::add_to(CLI::App& app, bool divides) {
   add_frames(app, choice);
   add_choice(app, "--missing", choice.missing,
              {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}},
@@ -29,24 +46,12 @@ void ShotFlags::add_to(CLI::App& app) {
       ->check(accepted_by(parse_memory, "--memory"))
       ->type_name("4G|512M")
       ->group(group);
-  CLI::Option* printing =
-      app.add_flag("--print", print, "with --chunks: print the commands, one a line, and compute nothing")
-          ->group(group);
-  add_number(app, "--chunks", chunks, {1, 1000000},
-             "divide a shot into so many commands, for several processes or machines")
-      ->type_name("N")
-      ->group(group)
-      ->needs(printing);
-  printing->needs(app.get_option("--chunks"));
-  add_number(app, "--warm-up", warm_up, {0, 1000000},
-             "with --temporal: this many of the first frames are computed for those that follow, and not written")
-      ->type_name("N")
-      ->group(group);
+  if (divides) add_chunks(app, *this);
   app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
-  app.add_flag("--float", as_float, "write a shot's AO as float instead of half")->group(group);
+  app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half")->group(group);
 }
 
-std::string ShotFlags::any() const {
+std::string ShotFlags::any(bool with_float) const {
   if (choice.frames) return "--frames";
   if (choice.missing) return "--missing";
   if (resume) return "--resume";
@@ -54,7 +59,7 @@ std::string ShotFlags::any() const {
   if (chunks > 0) return "--chunks";
   if (warm_up > 0) return "--warm-up";
   if (keep_depth) return "--keep-depth";
-  return as_float ? "--float" : "";
+  return as_float && with_float ? "--float" : "";
 }
 
 }  // namespace gloam::cli

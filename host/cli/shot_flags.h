@@ -16,9 +16,10 @@ struct ShotFlags {
   bool resume = false, keep_depth = false, as_float = false, print = false;
   int chunks = 0;   ///< 0: the shot is not divided
   int warm_up = 0;  ///< frames that are not written
-  void add_to(CLI::App& app);
-  /// The first flag given that only a shot has; empty if there is none.
-  std::string any() const;
+  /// `divides`: with --chunks, --print and --warm-up.
+  void add_to(CLI::App& app, bool divides = true);
+  /// The first flag given that only a shot has; empty if there is none. `with_float`: --float is one of them.
+  std::string any(bool with_float = true) const;
 };
 
 /// Adds --frames.

@@ -1,9 +1,5 @@
 #include "cli/shot_work.h"
 
-#include <new>
-
-#include "base/elapsed.h"
-#include "base/files.h"
 #include "base/memory.h"
 #include "cli/memory.h"
 #include "cli/radius.h"
@@ -12,11 +8,6 @@
 
 namespace gloam::cli {
 namespace {
-
-void replace_all(std::string& text, const std::string& what, const std::string& with) {
-  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-    text.replace(at, what.size(), with);
-}
 
 /// Of the first frame: what holds for one frame of a shot mostly holds for all.
 void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const Frame& frame) {
@@ -28,12 +19,21 @@ void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const F
 
 }  // namespace
 
+std::pair<std::string, std::string> first_to_write_again(const FrameOutputs& outputs, const OutputSettings& settings,
+                                                         const FrameMaking& making) {
+  for (const std::string& path : outputs.paths()) {
+    const std::string added = path == outputs.into ? settings.copied.front() : "";
+    if (const std::string why = why_again(path, making, added); !why.empty()) return {path, why};
+  }
+  return {};
+}
+
 unsigned long long bytes_in_flight(const PlannedFrame& planned) {
   const Layout layout(planned.files.window().width(), planned.files.window().height());
   // On a device with memory of its own, a run takes the host's memory for its results only: those that wait to be written. As
   // half, they are copied.
   const unsigned long long results = bytes_beside_frame(planned.plan, layout, planned.files.views().size(), false);
-  return bytes_to_read(planned.files, planned.planes) + results + results / 2;
+  return bytes_to_read(planned.files, planned.planes) + bytes_of_colour(planned) + results + results / 2;
 }
 
 FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files, const Turn& turn) {
@@ -49,41 +49,14 @@ ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, const s
       turns_(turns),
       starting_(std::move(device)),
       report_(report),
-      stop_(std::move(stop)),
+      steps_(files, report, std::move(stop)),
       flights_(turns.size()) {}
 
-bool ShotWork::guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step) {
-  const int number = frame_at(i).number;
-  std::string why;
-  try {
-    const auto start = std::chrono::steady_clock::now();
-    const bool goes_on = step(*flights_[i]);
-    flights_[i]->times.*time = 1000 * seconds_since(start);
-    if (!goes_on) flights_[i].reset();
-    return goes_on;
-  } catch (const Error& error) {
-    flights_[i].reset();
-    if (is_lack_of_space(error)) {
-      if (report_.found_no_space(number, error.what())) stop_();
-      return false;
-    }
-    why = error.what();
-  } catch (const std::bad_alloc&) {
-    why = "out of memory; --memory sets how much is used";
-  } catch (const std::exception& error) {
-    why = error.what();
-  }
-  flights_[i].reset();
-  if (turns_[i].is_written) report_.failed(number, why);
-  return false;
-}
-
-void ShotWork::add_notes(size_t i, const std::vector<std::string>& notes) {
-  for (std::string text : notes) {
-    for (const FramePattern& pattern : files_.inputs())
-      replace_all(text, pattern.path_of(frame_at(i).source).filename().string(), pattern.name());
-    note({text});
-  }
+bool ShotWork::step(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& work) {
+  const bool goes_on = steps_.run(
+      turns_[i].frame, flights_[i]->times.*time, [&] { return work(*flights_[i]); }, turns_[i].is_written);
+  if (!goes_on) flights_[i].reset();
+  return goes_on;
 }
 
 bool ShotWork::open(size_t i, InFlight& flight) {
@@ -91,32 +64,29 @@ bool ShotWork::open(size_t i, InFlight& flight) {
   flight.making = making_of(settings_, files, turns_[i]);
   // Of frames that go on over time, those to leave alone have been left out.
   if (settings_.resume && !settings_.request.temporal) {
-    const std::string why = why_again(output_of(i), flight.making);
+    const auto [path, why] = first_to_write_again(outputs_of(i), settings_.writing, flight.making);
     if (why.empty()) {
       report_.skipped(frame_at(i).number);
       return false;
     }
-    if (std::filesystem::exists(output_of(i))) report_.written_again(frame_at(i).number, why);
+    if (std::filesystem::exists(path)) report_.written_again(frame_at(i).number, why);
   }
-  const Window display = files.files().front().display();
-  if (display.width() != settings_.display.width() || display.height() != settings_.display.height())
-    throw Error("{}: is {}x{}, and the shot's first frame {}x{}; render all alike", files.name(), display.width(),
-                display.height(), settings_.display.width(), settings_.display.height());
+  check_size_in_shot(files, settings_.display);
   flight.planned.emplace(planned_frame(std::move(files), settings_.request, settings_.carried.depth));
-  const unsigned long long bytes = bytes_in_flight(*flight.planned);
-  if (bytes > settings_.frame_bytes)
-    throw Error("{}: takes {} of memory, and a frame of this shot has {}; --memory gives more",
-                flight.planned->files.name(), memory_in_words(bytes), memory_in_words(settings_.frame_bytes));
+  if (turns_[i].is_written && outputs_of(i).has_composite())
+    flight.planned->colour.emplace(open_colour(files_.paths_of(frame_at(i)), files_.options_for(frame_at(i))));
+  check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned), settings_.frame_bytes);
   return true;
 }
 
 bool ShotWork::decode(size_t i) {
   flights_[i] = std::make_unique<InFlight>();
-  return guarded(i, &StepTimes::decode, [&](InFlight& flight) {
+  return step(i, &StepTimes::decode, [&](InFlight& flight) {
     if (!open(i, flight)) return false;
     PlannedFrame& planned = *flight.planned;
     flight.frame = planned.files.read(planned.planes);
-    add_notes(i, flight.frame.assumed);
+    flight.sources = read_sources(planned);
+    steps_.add_notes(turns_[i].frame, flight.frame.assumed);
     const std::optional<Radius> radius = settle(planned, flight.frame);
     if (i == 0) add_warnings(radius, planned.plan, flight.frame);
     flight.plan = std::move(planned.plan);
@@ -128,7 +98,7 @@ bool ShotWork::decode(size_t i) {
 /// Frames come in order: what a frame takes over from the one before is at hand here.
 bool ShotWork::compute(size_t i) {
   if (!device_) device_.emplace(starting_.get());
-  return guarded(i, &StepTimes::compute, [&](InFlight& flight) {
+  return step(i, &StepTimes::compute, [&](InFlight& flight) {
     compute_planes(i, flight);
     return turns_[i].is_written;
   });
@@ -191,8 +161,8 @@ void ShotWork::compute_planes(size_t i, InFlight& flight) {
 }
 
 bool ShotWork::write(size_t i) {
-  const bool is_written = guarded(i, &StepTimes::write, [&](InFlight& flight) {
-    write_frame(output_of(i), flight.result, settings_.writing);
+  const bool is_written = step(i, &StepTimes::write, [&](InFlight& flight) {
+    steps_.add_notes(turns_[i].frame, write_outputs(outputs_of(i), flight.sources, flight.result, settings_.writing));
     return true;
   });
   if (!is_written) return false;

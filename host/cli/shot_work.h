@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "cli/run_outputs.h"
 #include "cli/run_steps.h"
 #include "cli/shot.h"
 #include "cli/shot_report.h"
+#include "cli/shot_steps.h"
 #include "sequence/frame_making.h"
 #include "sequence/turns.h"
 
@@ -21,9 +23,9 @@ struct ShotSettings {
   PlanRequest request;               ///< of one that goes on over time, with the planes from which a history is made
   std::vector<std::string> written;  ///< planes, besides those carried
   RunOptions options;
-  WriteOptions writing;
+  OutputSettings writing;
   Carried carried;
-  FramePattern output;
+  ShotOutputs outputs;
   bool resume = false;
   std::string version, contents;       ///< as in FrameMaking
   Window display;                      ///< the image, of one size for all frames
@@ -35,6 +37,10 @@ unsigned long long bytes_in_flight(const PlannedFrame& planned);
 
 /// What decides the contents of a frame's file.
 FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files, const Turn& turn);
+
+/// The first file of a frame that has to be written again, and why; no reason if all may stay.
+std::pair<std::string, std::string> first_to_write_again(const FrameOutputs& outputs, const OutputSettings& settings,
+                                                         const FrameMaking& making);
 
 /// The steps of a frame, for a `Pipeline`: each tells the report of frames that end with it. An error of one frame ends this
 /// frame alone; what all frames would fail for (no device, no memory on it) is thrown.
@@ -54,20 +60,18 @@ class ShotWork {
     std::optional<PlannedFrame> planned;  ///< while it is decoded
     Plan plan;
     Frame frame, result;  ///< as decoded; what is written
+    OutputSources sources;
     FrameMaking making;
     StepTimes times;
   };
   const SequenceFrame& frame_at(size_t i) const { return files_.frames()[turns_[i].frame]; }
-  std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(frame_at(i).number); }
+  FrameOutputs outputs_of(size_t i) const { return settings_.outputs.of(frame_at(i).number); }
   bool open(size_t i, InFlight& flight);
   void compute_planes(size_t i, InFlight& flight);
   /// Adds what the frame before knew, or nothing where a sequence begins. Returns whether it goes on.
   bool take_over(size_t i, InFlight& flight);
   void leave_for_next(size_t i, InFlight& flight);
-  /// Adds notes; of many frames each once, whichever file they name.
-  void add_notes(size_t i, const std::vector<std::string>& notes);
-  /// Runs a step and its clock. False if it failed, or returned false.
-  bool guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step);
+  bool step(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& work);
 
   const ShotFiles& files_;
   const ShotSettings& settings_;
@@ -75,7 +79,7 @@ class ShotWork {
   std::future<Device> starting_;
   std::optional<Device> device_;
   ShotReport& report_;
-  std::function<void()> stop_;
+  ShotSteps steps_;
   std::vector<std::unique_ptr<InFlight>> flights_;
   std::optional<Frame> before_;  ///< what the frame computed last leaves for the next
   size_t turn_before_ = 0;

@@ -180,7 +180,7 @@ const std::vector<Spelling>& spellings_of(const std::string& plane) {
 bool is_other_data(const std::string& layer) {
   static const std::set<std::string> known = {"mist",      "uv",          "indexob",    "indexma",
                                               "disparity", "disparityl",  "disparityr", "volumez",
-                                              "vector",    "cryptomatte", "id"};
+                                              "vector",    "cryptomatte", "id",         "gloamcomposite"};
   return known.contains(layer);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "base/lists.h"
+#include "exr/added_parts.h"
 #include "exr/conversion.h"
 #include "exr/decode_planes.h"
 #include "exr/depth.h"
@@ -111,6 +112,13 @@ std::optional<double> FrameFile::number_attribute(const std::string& name) const
 }
 
 std::string FrameFile::text_attribute(const std::string& name) const { return impl_->file.headers.text(name); }
+
+std::string FrameFile::text_attribute_of_added(const std::string& content, const std::string& name) const {
+  const Headers& headers = impl_->file.headers;
+  for (int part = 0; part < headers.parts(); ++part)
+    if (is_added_for(headers.of_part(part), content)) return headers.text_for_part(part, name);
+  return "";
+}
 
 // --- From the pixels
 

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 
 #include "base/lists.h"
+#include "exr/added_parts.h"
 #include "exr/attributes.h"
 
 namespace gloam {
@@ -41,7 +42,7 @@ void Headers::find_views() {
 
 const Imf::Header& Headers::of_view(const std::string& view) const {
   for (int part = 0; part < parts(); ++part)
-    if (!view.empty() && view_of_part(part) == view) return of_part(part);
+    if (!view.empty() && view_of_part(part) == view && !is_added_part(of_part(part))) return of_part(part);
   return of_part(0);
 }
 
@@ -78,6 +79,15 @@ std::optional<double> Headers::number(const std::string& name) const {
 std::string Headers::text(const std::string& name) const {
   for (int part = 0; part < parts(); ++part)
     if (std::string value = text_attribute(of_part(part), name); !value.empty()) return value;
+  return "";
+}
+
+std::string Headers::text_for_part(int part, const std::string& name) const {
+  if (is_added_part(of_part(part))) return text_attribute(of_part(part), name);
+  for (int other = 0; other < parts(); ++other) {
+    if (is_added_part(of_part(other))) continue;
+    if (std::string value = text_attribute(of_part(other), name); !value.empty()) return value;
+  }
   return "";
 }
 

@@ -25,7 +25,8 @@ class Headers {
 
   int parts() const { return file_->parts(); }
   const Imf::Header& of_part(int part) const { return file_->header(part); }
-  /// The header with the attributes of a view: that of the view's first part, else the file's first.
+  /// The header with the attributes of a view: that of the view's first part, else the file's first. Added parts (added_parts.h)
+  /// have none.
   const Imf::Header& of_view(const std::string& view) const;
   /// The places where attributes of a view are looked up, in order.
   std::vector<AttributePlace> places_of(const std::string& view) const;
@@ -41,6 +42,8 @@ class Headers {
   std::optional<double> number(const std::string& name) const;
   /// The first text attribute of this name that is not empty.
   std::string text(const std::string& name) const;
+  /// As `text`, for what is said of a part's channels: an added part (added_parts.h) speaks for itself, and for no other.
+  std::string text_for_part(int part, const std::string& name) const;
   bool has(const std::string& name) const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 /// The space that flags, the header and channel names declare.
 NormalSpace declared_space(const ExrFile& file, const PlaneSource& normal) {
   if (file.options.normal_space != NormalSpace::automatic) return file.options.normal_space;
-  const std::string written = file.headers.text("gloamNormalSpace");
+  const std::string written = file.headers.text_for_part(normal.channels.front().part, "gloamNormalSpace");
   if (written == "view") return NormalSpace::view;
   if (written == "world") return NormalSpace::world;
   if (normal.said == DeclaredConvention::view_space) return NormalSpace::view;

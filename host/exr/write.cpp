@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfOutputFile.h>
 
+#include "base/lists.h"
 #include "exr/stream.h"
 #include "exr/written_channels.h"
 #include "exr/written_header.h"
@@ -26,9 +27,24 @@ void check_frame(const Frame& frame) {
   }
 }
 
+/// Attributes that tell how the pixels of a part are stored, or which part it is.
+const std::vector<std::string> of_storage = {
+    "tiles",   "type",      "name", "chunkCount",          "version",
+    "preview", "multiView", "view", "dwaCompressionLevel", "maxSamplesPerPixel"};
+
+void take_attributes(const Imf::Header& from, Imf::Header& to) {
+  for (auto attribute = from.begin(); attribute != from.end(); ++attribute) {
+    const std::string name = attribute.name();
+    const bool is_default = name.starts_with("screenWindow");
+    if (contains(of_storage, name) || (to.find(name) != to.end() && !is_default)) continue;
+    to.insert(name, attribute.attribute());
+  }
+}
+
 }  // namespace
 
-void write_exr(NewFile& new_file, const std::string& name, const Frame& frame, const WriteOptions& options) {
+void write_exr(NewFile& new_file, const std::string& name, const Frame& frame, const WriteOptions& options,
+               const Imf::Header* like) {
   check_frame(frame);
   const std::vector<WrittenChannel> channels = written_channels(frame, options);
   if (channels.empty()) throw Error("the frame has no plane");
@@ -37,7 +53,9 @@ void write_exr(NewFile& new_file, const std::string& name, const Frame& frame, c
   for (const WrittenChannel& channel : channels) buffer.insert(channel.name, slice_for(copies, channel, frame.window));
   ExrOutput stream(new_file.descriptor(), name);
   {
-    Imf::OutputFile file(stream, header_of(frame, channels, options));
+    Imf::Header header = header_of(frame, channels, options);
+    if (like) take_attributes(*like, header);
+    Imf::OutputFile file(stream, header);
     file.setFrameBuffer(buffer);
     file.writePixels(frame.height());
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.h"
 #include "camera/matrices.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -21,6 +22,7 @@ std::string channel_name(const std::string& channel, const std::string& view, bo
 
 Imf::PixelType type_of(const PlaneKind& kind, const WriteOptions& options) {
   if (kind.name == "instance") return Imf::UINT;
+  if (contains(options.half_planes, kind.name)) return Imf::HALF;
   return options.half && kind.meaning == PlaneKind::unit_interval ? Imf::HALF : Imf::FLOAT;
 }
 
@@ -53,18 +55,27 @@ uint32_t to_identity(float value) {
 
 }  // namespace
 
+std::vector<WrittenChannel> channels_of_view(const View& view, const glm::dvec3& shift, const WriteOptions& options) {
+  std::vector<WrittenChannel> channels;
+  for (const auto& [name, plane] : view.planes) {
+    const PlaneKind kind = plane_kind(name);
+    for (size_t i = 0; i < plane.channels.size(); ++i) {
+      const std::string own = i < kind.channels.size() ? kind.channels[i] : fmt::format("{}.{}", name, i);
+      channels.push_back(
+          {own, type_of(kind, options), &plane.channels[i], name == "position" && i < 3 ? shift[int(i)] : 0.0});
+    }
+  }
+  return channels;
+}
+
 std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOptions& options) {
   std::vector<WrittenChannel> channels;
   for (const View& view : frame.views) {
     const bool first = &view == &frame.views.front();
     const glm::dvec3 shift = view.origin - written_origin(view, frame.display);
-    for (const auto& [name, plane] : view.planes) {
-      const PlaneKind kind = plane_kind(name);
-      for (size_t i = 0; i < plane.channels.size(); ++i) {
-        const std::string own = i < kind.channels.size() ? kind.channels[i] : fmt::format("{}.{}", name, i);
-        channels.push_back({channel_name(own, view.name, first), type_of(kind, options), &plane.channels[i],
-                            name == "position" && i < 3 ? shift[int(i)] : 0.0});
-      }
+    for (WrittenChannel& channel : channels_of_view(view, shift, options)) {
+      channel.name = channel_name(channel.name, view.name, first);
+      channels.push_back(std::move(channel));
     }
   }
   return channels;

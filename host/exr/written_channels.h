@@ -26,6 +26,9 @@ struct WrittenChannel {
 /// gloam's channel names, in OpenEXR's multi-view form.
 std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOptions& options);
 
+/// Those of one view, without its name. `shift`: added to positions.
+std::vector<WrittenChannel> channels_of_view(const View& view, const glm::dvec3& shift, const WriteOptions& options);
+
 /// Copies of channels; they must live until the file is written.
 using ChannelCopies = std::list<std::vector<uint32_t>>;
 

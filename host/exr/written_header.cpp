@@ -72,9 +72,20 @@ Imath::Box2i inclusive_box(const Window& window) {
   return {Imath::V2i(window.x0, window.y0), Imath::V2i(window.x1 - 1, window.y1 - 1)};
 }
 
-bool has_directions(const Frame& frame) {
-  return std::any_of(frame.views.begin(), frame.views.end(),
-                     [](const View& view) { return view.find("normal") || view.find("bent_normal"); });
+bool has_directions(const View& view) { return view.find("normal") || view.find("bent_normal"); }
+
+/// Windows, channels and attributes.
+Imf::Header header_without_views(const Frame& frame, const std::vector<WrittenChannel>& channels, bool has_directions,
+                                 const WriteOptions& options) {
+  Imf::Header header(inclusive_box(frame.display), inclusive_box(frame.window));
+  header.compression() = compression_of(options.compression);
+  header.zipCompressionLevel() = zip_level;
+  header.pixelAspectRatio() = float(frame.pixel_aspect);
+  for (const WrittenChannel& channel : channels) header.channels().insert(channel.name, Imf::Channel(channel.type));
+  if (has_directions) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));
+  for (const auto& [name, text] : frame.attributes) header.insert(name, Imf::StringAttribute(text));
+  for (const auto& [name, number] : frame.numbers) header.insert(name, Imf::FloatAttribute(float(number)));
+  return header;
 }
 
 }  // namespace
@@ -88,16 +99,15 @@ std::vector<std::string> compressions() {
 void check_compression(const std::string& name) { compression_of(name); }
 
 Imf::Header header_of(const Frame& frame, const std::vector<WrittenChannel>& channels, const WriteOptions& options) {
-  Imf::Header header(inclusive_box(frame.display), inclusive_box(frame.window));
-  header.compression() = compression_of(options.compression);
-  header.zipCompressionLevel() = zip_level;
-  header.pixelAspectRatio() = float(frame.pixel_aspect);
-  for (const WrittenChannel& channel : channels) header.channels().insert(channel.name, Imf::Channel(channel.type));
+  const bool any_directions = std::any_of(frame.views.begin(), frame.views.end(), has_directions);
+  Imf::Header header = header_without_views(frame, channels, any_directions, options);
   insert_views(header, frame);
-  if (has_directions(frame)) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));
-  for (const auto& [name, text] : frame.attributes) header.insert(name, Imf::StringAttribute(text));
-  for (const auto& [name, number] : frame.numbers) header.insert(name, Imf::FloatAttribute(float(number)));
   return header;
+}
+
+Imf::Header header_of_part(const Frame& frame, const View& view, const std::vector<WrittenChannel>& channels,
+                           const WriteOptions& options) {
+  return header_without_views(frame, channels, has_directions(view), options);
 }
 
 }  // namespace gloam

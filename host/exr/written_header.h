@@ -18,4 +18,8 @@ void check_compression(const std::string& name);
 /// Windows, channels, views, cameras and attributes.
 Imf::Header header_of(const Frame& frame, const std::vector<WrittenChannel>& channels, const WriteOptions& options);
 
+/// Of a part beside others that have the cameras: windows, channels of the view, and attributes.
+Imf::Header header_of_part(const Frame& frame, const View& view, const std::vector<WrittenChannel>& channels,
+                           const WriteOptions& options);
+
 }  // namespace gloam

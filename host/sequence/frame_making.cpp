@@ -76,14 +76,17 @@ std::map<std::string, std::string> attributes_of(const FrameMaking& making) {
   return {{"gloamVersion", making.version}, {"gloamSettings", making.settings}, {"gloamInput", making.input}};
 }
 
-std::string why_again(const fs::path& path, const FrameMaking& making) {
+std::string why_again(const fs::path& path, const FrameMaking& making, const std::string& added) {
   std::error_code unknown;
   if (!fs::exists(path, unknown)) return "it is not there";
   try {
     FrameFile file(path, {.only_looks = true, .as_stored = true});
     const std::map<std::string, std::string> wanted = attributes_of(making);
-    const auto differs = [&](const char* name) { return file.text_attribute(name) != wanted.at(name); };
-    if (file.text_attribute("gloamSettings").empty()) return "it was not made by a run on a sequence";
+    const auto said = [&](const char* name) {
+      return added.empty() ? file.text_attribute(name) : file.text_attribute_of_added(added, name);
+    };
+    const auto differs = [&](const char* name) { return said(name) != wanted.at(name); };
+    if (said("gloamSettings").empty()) return "it was not made by a run on a sequence";
     if (differs("gloamVersion")) return "it was made by another version";
     if (differs("gloamSettings")) return "it was made with other settings";
     if (differs("gloamInput")) return "its input has changed";

@@ -28,7 +28,8 @@ std::string identity_of(const FrameFiles& files);
 std::map<std::string, std::string> attributes_of(const FrameMaking& making);
 
 /// Why a frame has to be written again: "it is damaged", "it was made with other settings", ...; empty if the file is whole
-/// (every channel decodes) and was made in the same way. "it is not there" for a missing file.
-std::string why_again(const std::filesystem::path& file, const FrameMaking& making);
+/// (every channel decodes) and was made in the same way. "it is not there" for a missing file. `added`: what the file is a copy
+/// with (exr_copy.h); empty for a file of its own.
+std::string why_again(const std::filesystem::path& file, const FrameMaking& making, const std::string& added = "");
 
 }  // namespace gloam

@@ -97,6 +97,8 @@ class FrameFile {
   std::optional<double> number_attribute(const std::string& name) const;
   /// A text attribute of the header ("aoDefinition"); empty if absent.
   std::string text_attribute(const std::string& name) const;
+  /// The same of the first part that `write_copy` added for `content` (exr_copy.h); empty if there is none.
+  std::string text_attribute_of_added(const std::string& content, const std::string& name) const;
 
   /// Decodes the named planes of all selected views and brings them to gloam's conventions: depth to planar view-space z, scene
   /// units, with +inf background; normals to unit view space. A plane that a view lacks is skipped; a layer beyond the end of a
@@ -152,8 +154,9 @@ class FrameFile {
 
 /// Options for writing a frame.
 struct WriteOptions {
-  bool half = false;                ///< AO and other bounded planes as half; depth stays float
-  std::string compression = "zip";  ///< one of `compressions`
+  bool half = false;                     ///< AO and other bounded planes as half; depth stays float
+  std::string compression = "zip";       ///< one of `compressions`
+  std::vector<std::string> half_planes;  ///< these as half too, whatever they hold
 };
 
 /// Names of the lossless compressions that frames can be written with.

@@ -1,0 +1,26 @@
+// The flags of gloam auto.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/options.h"
+#include "cli/shot_flags.h"
+#include "plan/automatic.h"
+
+namespace gloam::cli {
+
+struct AutoCommand {
+  std::string out, explain, compression = "zip";
+  std::optional<MaskUse> mask;
+  bool half = false, measure = false;
+  FrameArguments frame;
+  FrameFlags frame_flags;
+  TechniqueFlags technique_flags;
+  RunFlags run_flags;
+  ShotFlags shot;
+  JsonFlag json;
+  std::string given;  ///< flags that decide what is written, as text
+};
+
+}  // namespace gloam::cli

@@ -1,0 +1,217 @@
+#include "cli/auto_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/memory.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "gloam/provenance.h"
+
+namespace gloam::cli {
+namespace {
+
+double best(const RunResult& result) {
+  return result.total_ms.empty() ? 0 : *std::min_element(result.total_ms.begin(), result.total_ms.end());
+}
+
+/// Adds the planes of effects that the frame does not call for: nothing is occluded, nothing is reflected.
+void add_idle_planes(const Frame& frame, const std::vector<std::string>& outputs, Frame& out) {
+  const Layout layout(frame.width(), frame.height());
+  for (View& view : out.views) {
+    for (const std::string& name : outputs) {
+      const PlaneKind kind = plane_kind(name);
+      Plane plane{name, {}};
+      for (size_t i = 0; i < kind.components.size(); ++i) {
+        Channel& channel = plane.channels.emplace_back(layout);
+        for (int y = 0; y < layout.height; ++y) std::fill_n(channel.row(y), layout.width, kind.outside);
+        channel.fill_padding(kind.outside);
+      }
+      view.planes[name] = std::move(plane);
+    }
+  }
+}
+
+void take_planes(Frame& from, Frame& to) {
+  for (View& view : from.views) {
+    for (auto& [name, plane] : view.planes) to.view(view.name).planes[name] = std::move(plane);
+  }
+}
+
+/// Also finds the classes of the cells, for a picture of them.
+void probe_closely_for_picture(EffectChoice& choice, const EffectProbe& probe) {
+  if (choice.is_wanted && !choice.is_everywhere) probe_closely(choice, probe);
+}
+
+Outcome outcome_of(const Technique& technique, const AutoSettings& settings, const EffectProbe& probe, Frame& out) {
+  Outcome outcome{.decision = decide(technique, probe)};
+  EffectChoice& effect = outcome.decision.effect;
+  if (settings.explains) {
+    probe_closely_for_picture(effect, probe);
+    for (EffectChoice& refinement : outcome.decision.refinements) probe_closely_for_picture(refinement, probe);
+  }
+  outcome.ms = effect.classify_ms;
+  if (effect.is_wanted) {
+    Computed computed = compute(outcome.decision, probe, settings.mask);
+    outcome.ms += computed.ms;
+    outcome.is_masked = computed.is_masked;
+    outcome.ms_masked = computed.ms_masked;
+    outcome.ms_everywhere = computed.ms_everywhere;
+    take_planes(computed.result.frame, out);
+  }
+  outcome.plan = make_plan(outcome.decision.request, probe.available, probe.holds);
+  outcome.outputs = outcome.plan->outputs;
+  if (!effect.is_wanted) add_idle_planes(probe.frame, outcome.outputs, out);
+  if (settings.measures && std::isnan(outcome.ms_everywhere)) {
+    const Plan everywhere = make_plan(outcome.decision.everywhere, probe.available, probe.holds);
+    outcome.ms_everywhere = best(run(everywhere, probe.frame, probe.device, probe.options));
+  }
+  return outcome;
+}
+
+bool is_of_display(const FrameFiles& files) {
+  for (const FrameFile& file : files.files()) {
+    for (const std::string& view : file.views()) {
+      const std::optional<Camera> camera = file.camera(view);
+      if (camera && camera->slits) return true;
+    }
+  }
+  return false;
+}
+
+bool has_effect_for_displays(const std::string& name) {
+  const std::vector<const Technique*> all = techniques_with_effects();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Technique* t) { return t->effect.for_displays && t->effect.name == name; });
+}
+
+Outcome impossible(const Technique& technique, std::string why) {
+  Outcome outcome;
+  outcome.decision.effect.technique = &technique;
+  outcome.decision.effect.why = std::move(why);
+  return outcome;
+}
+
+/// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
+Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
+  Candidates found;
+  std::optional<MissingPlanes> missing;
+  const bool of_display = is_of_display(files);
+  for (const Technique* technique : techniques_with_effects()) {
+    if (technique->effect.for_displays && !of_display) continue;
+    if (of_display && !technique->any_projection) {
+      // Another technique of the same effect may support displays.
+      if (!has_effect_for_displays(technique->effect.name))
+        found.impossible.push_back(
+            impossible(*technique, "its kernels need a single centre of projection, and a display has none"));
+      continue;
+    }
+    try {
+      found.possible.push_back({technique, asked_of_effect(*technique, asked, files.common_planes(), holdings(files))});
+    } catch (const MissingPlanes& error) {
+      if (!missing) missing = error;
+      found.impossible.push_back(impossible(*technique, fmt::format("the frame has no '{}'", error.planes.front())));
+    }
+  }
+  if (found.possible.empty()) throw *missing;
+  for (const auto& setting : asked.settings) {
+    const bool is_known = std::any_of(found.possible.begin(), found.possible.end(), [&](const Candidate& candidate) {
+      const auto& settings = candidate.asked.settings;
+      return std::find(settings.begin(), settings.end(), setting) != settings.end();
+    });
+    if (!is_known) found.possible.front().asked.settings.push_back(setting);  // its plan reports the error
+  }
+  return found;
+}
+
+std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vector<std::string>& planes) {
+  std::vector<std::string> found;
+  for (const std::string& plane : planes) {
+    const auto has = [&](const View& view) { return view.find(plane) != nullptr; };
+    if (std::all_of(frame.views.begin(), frame.views.end(), has)) found.push_back(plane);
+  }
+  return found;
+}
+
+/// The frame's views, without planes.
+Frame without_planes(const Frame& frame) {
+  Frame out;
+  out.display = frame.display;
+  out.window = frame.window;
+  out.pixel_aspect = frame.pixel_aspect;
+  out.assumed = frame.assumed;
+  for (const View& view : frame.views)
+    out.views.push_back({.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}});
+  return out;
+}
+
+}  // namespace
+
+AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, bool explains) {
+  AutoFrame planned{std::move(files), {}, {"depth"}, {}};
+  const FrameFiles& opened = planned.files;
+  planned.candidates = candidates_for(asked, opened);
+  for (const Candidate& candidate : planned.candidates.possible) {
+    planned.plans.push_back(
+        plans_of_effect(*candidate.technique, candidate.asked, opened.common_planes(), holdings(opened)));
+    for (const Plan& plan : planned.plans.back()) add_new(planned.planes, plan.inputs);
+  }
+  if (explains && contains(opened.common_planes(), "color")) add_new(planned.planes, "color");
+  return planned;
+}
+
+void set_radius(AutoFrame& planned, std::optional<double> radius) {
+  for (Candidate& candidate : planned.candidates.possible) candidate.asked.radius = radius;
+}
+
+// Results of each effect stay in memory, and its masked results while it runs without the mask.
+unsigned long long bytes_of_auto(const AutoFrame& planned, bool shares_memory) {
+  const Layout layout(planned.files.window().width(), planned.files.window().height());
+  const size_t views = planned.files.views().size();
+  unsigned long long kept = 0, most = 0;
+  for (const std::vector<Plan>& plans : planned.plans) {
+    unsigned long long results = 0;
+    for (const Plan& plan : plans) {
+      const unsigned long long own = bytes_beside_frame(plan, layout, views, false);
+      results = std::max(results, own);
+      most = std::max(most, own + bytes_beside_frame(plan, layout, views, shares_memory));
+    }
+    kept += results;
+  }
+  return process_bytes_with_device + bytes_to_read(planned.files, planned.planes) + kept + most;
+}
+
+unsigned long long bytes_of_results(const AutoFrame& planned) {
+  const Layout layout(planned.files.window().width(), planned.files.window().height());
+  unsigned long long bytes = 0;
+  for (const std::vector<Plan>& plans : planned.plans) {
+    unsigned long long most = 0;
+    for (const Plan& plan : plans)
+      most = std::max(most, bytes_beside_frame(plan, layout, planned.files.views().size(), false));
+    bytes += most;
+  }
+  return bytes;
+}
+
+AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, const Frame& frame, Device& device,
+                           const RunOptions& options) {
+  const std::vector<std::string> available = planes_of_every_view(frame, planned.planes);
+  const std::string holds = holdings(planned.files);
+  AutoResult result{without_planes(frame), {}, {}, {}};
+  for (const Candidate& candidate : planned.candidates.possible) {
+    const EffectProbe probe{candidate.asked, frame, available, holds, device, options};
+    result.outcomes.push_back(outcome_of(*candidate.technique, settings, probe, result.frame));
+    if (result.radius) continue;
+    const Outcome& outcome = result.outcomes.back();
+    result.used_radius = radius_of(*outcome.plan, outcome.decision.request, settings.radius_from);
+    if (result.used_radius) result.radius.emplace(*result.used_radius, frame, cap_of(*outcome.plan));
+  }
+  for (Outcome& outcome : planned.candidates.impossible) result.outcomes.push_back(std::move(outcome));
+  std::vector<MadeBy> made_by;
+  for (const Outcome& outcome : result.outcomes)
+    if (outcome.plan) made_by.push_back({&*outcome.plan, outcome.decision.effect.is_wanted});
+  result.frame.attributes = provenance(made_by, options);
+  return result;
+}
+
+}  // namespace gloam::cli

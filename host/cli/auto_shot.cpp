@@ -1,0 +1,263 @@
+#include "cli/auto_shot.h"
+
+#include <map>
+#include <memory>
+
+#include "base/page_pool.h"
+#include "cli/auto_frame.h"
+#include "cli/shot_memory.h"
+#include "cli/shot_start.h"
+#include "cli/shot_steps.h"
+#include "gloam/error.h"
+#include "sequence/chunks.h"
+#include "sequence/frame_making.h"
+
+namespace gloam::cli {
+namespace {
+
+void check_flags(const AutoCommand& flags) {
+  if (!flags.explain.empty())
+    throw UsageError("--explain {}: is a picture of one frame; leave it out, or explain that frame alone",
+                     flags.explain);
+  if (flags.measure) throw UsageError("--measure: times one frame; leave it out, or measure that frame alone");
+  if (flags.mask == MaskUse::measured)
+    throw UsageError(
+        "--mask measured: times one frame, and masks that come and go would flicker; a shot takes always or never");
+  if (flags.run_flags.repeat > 1)
+    throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
+  if (!FramePattern::is_pattern(flags.out))
+    throw UsageError("-o {}: is one file, and {} a shot; write both as patterns, such as out.####.exr", flags.out,
+                     flags.frame.frame);
+}
+
+/// What all frames have in common.
+struct AutoShotSettings {
+  PlanRequest asked;
+  AutoSettings computing;
+  std::optional<double> radius;  ///< made from the first frame, for those effects that none is asked for
+  RunOptions options;
+  WriteOptions writing;
+  FramePattern output;
+  bool keeps_depth = false, resumes = false;
+  std::string version, contents;  ///< as in FrameMaking
+  Window display;
+  unsigned long long frame_bytes = 0;
+};
+
+unsigned long long bytes_in_flight(const AutoFrame& planned) {
+  const unsigned long long results = bytes_of_results(planned);
+  return bytes_to_read(planned.files, planned.planes) + results + results / 2;
+}
+
+/// The frames that called for an effect, by what was done there: a technique's name; "" where it was not wanted.
+using FramesByTechnique = std::map<std::string, std::vector<int>>;
+
+/// Of a shot's effects, by their names.
+class Tally {
+ public:
+  void add(int frame, const std::vector<Outcome>& outcomes) {
+    for (const Outcome& outcome : outcomes) {
+      const EffectChoice& effect = outcome.decision.effect;
+      if (!outcome.plan) continue;
+      const std::string runs = effect.is_wanted ? outcome.decision.request.outputs.front() : "";
+      effects_[effect.technique->effect.name][runs].push_back(frame);
+      ++frames_[effect.technique->effect.name];
+    }
+  }
+  /// "ambient occlusion: wanted in 3 of 5 frames: gtao in 1-3; not wanted in 4-5, and written as if computed there"
+  std::vector<std::string> in_words() const {
+    std::vector<std::string> lines;
+    for (const auto& [effect, by_technique] : effects_) {
+      const auto idle = by_technique.find("");
+      const size_t not_wanted = idle == by_technique.end() ? 0 : idle->second.size();
+      std::vector<std::string> parts;
+      for (const auto& [technique, frames] : by_technique)
+        if (!technique.empty()) parts.push_back(fmt::format("{} in {}", technique, frames_as_flag(frames)));
+      if (not_wanted > 0) parts.push_back(fmt::format("not wanted in {}", frames_as_flag(idle->second)));
+      const size_t all = frames_.at(effect);
+      lines.push_back(fmt::format("{}: wanted in {} of {} frames computed: {}", effect, all - not_wanted, all,
+                                  fmt::join(parts, ", ")));
+    }
+    return lines;
+  }
+
+ private:
+  std::map<std::string, FramesByTechnique> effects_;
+  std::map<std::string, size_t> frames_;
+};
+
+/// The steps of a frame, for a `Pipeline`.
+class AutoShotWork {
+ public:
+  AutoShotWork(const ShotFiles& files, const AutoShotSettings& settings, const std::string& device, ShotReport& report,
+               std::function<void()> stop)
+      : files_(files),
+        settings_(settings),
+        device_(device),
+        report_(report),
+        steps_(files, report, std::move(stop)),
+        flights_(files.frames().size()) {}
+
+  bool decode(size_t i) {
+    flights_[i] = std::make_unique<InFlight>();
+    return step(i, &StepTimes::decode, [&](InFlight& flight) {
+      if (!open(i, flight)) return false;
+      flight.frame = flight.planned->files.read(flight.planned->planes);
+      steps_.add_notes(i, flight.frame.assumed);
+      return true;
+    });
+  }
+
+  /// On one thread.
+  bool compute(size_t i) {
+    return step(i, &StepTimes::compute, [&](InFlight& flight) {
+      AutoResult result =
+          compute_effects(*flight.planned, settings_.computing, flight.frame, device_, settings_.options);
+      flight.result = std::move(result.frame);
+      keep_first_outputs(flight.result, result.outcomes);
+      if (settings_.keeps_depth) take_depth(flight.frame, flight.result);
+      flight.result.attributes.merge(attributes_of(flight.making));
+      if (result.used_radius && result.used_radius->from == RadiusSource::frame)
+        note({fmt::format("radius: {:g} for all frames, made from the first; --radius gives another",
+                          result.used_radius->value)});
+      tally_.add(files_.frames()[i].number, result.outcomes);
+      flight.frame = {};
+      flight.planned.reset();
+      return true;
+    });
+  }
+
+  bool write(size_t i) {
+    const bool is_written = step(i, &StepTimes::write, [&](InFlight& flight) {
+      write_frame(output_of(i), flight.result, settings_.writing);
+      return true;
+    });
+    if (!is_written) return false;
+    report_.done(files_.frames()[i].number, flights_[i]->times);
+    flights_[i].reset();
+    return true;
+  }
+
+  const Tally& tally() const { return tally_; }
+
+ private:
+  struct InFlight {
+    std::optional<AutoFrame> planned;
+    Frame frame, result;
+    FrameMaking making;
+    StepTimes times;
+  };
+
+  std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(files_.frames()[i].number); }
+
+  bool open(size_t i, InFlight& flight) {
+    const SequenceFrame& frame = files_.frames()[i];
+    FrameFiles files = files_.open(frame);
+    flight.making = {settings_.version, settings_.contents, identity_of(files)};
+    if (settings_.resumes) {
+      const std::string why = why_again(output_of(i), flight.making);
+      if (why.empty()) {
+        report_.skipped(frame.number);
+        return false;
+      }
+      if (std::filesystem::exists(output_of(i))) report_.written_again(frame.number, why);
+    }
+    check_size_in_shot(files, settings_.display);
+    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, false));
+    set_radius(*flight.planned, settings_.radius);
+    check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned), settings_.frame_bytes);
+    return true;
+  }
+
+  /// Of each effect, with the extras asked for.
+  void keep_first_outputs(Frame& frame, const std::vector<Outcome>& outcomes) const {
+    std::vector<std::string> kept = settings_.asked.with;
+    for (const Outcome& outcome : outcomes)
+      if (!outcome.outputs.empty()) add_new(kept, outcome.outputs.front());
+    for (View& view : frame.views)
+      std::erase_if(view.planes, [&](const auto& plane) { return !contains(kept, plane.first); });
+  }
+
+  static void take_depth(Frame& from, Frame& to) {
+    for (View& view : to.views) view.planes["depth"] = std::move(from.view(view.name).planes.at("depth"));
+  }
+
+  bool step(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& work) {
+    const bool goes_on = steps_.run(i, flights_[i]->times.*time, [&] { return work(*flights_[i]); });
+    if (!goes_on) flights_[i].reset();
+    return goes_on;
+  }
+
+  const ShotFiles& files_;
+  const AutoShotSettings& settings_;
+  Device device_;
+  ShotReport& report_;
+  ShotSteps steps_;
+  Tally tally_;
+  std::vector<std::unique_ptr<InFlight>> flights_;
+};
+
+/// The first frame that can be planned and read stands for all: it gives the radius.
+struct FirstFrame {
+  AutoFrame planned;
+  Radius radius;
+};
+
+FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked) {
+  std::string first_error;
+  for (const SequenceFrame& frame : shot.frames()) {
+    try {
+      AutoFrame planned = planned_auto(shot.open(frame), asked, false);
+      const Radius radius = default_radius(planned.files.read({"depth"}), stated_radius(planned.files));
+      return {std::move(planned), radius};
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& error) {
+      if (first_error.empty()) first_error = error.what();
+    }
+  }
+  throw none_of_shot(shot, first_error);
+}
+
+}  // namespace
+
+void run_auto_on_shot(const AutoCommand& flags) {
+  check_flags(flags);
+  const FramePattern output(flags.out, "-o");
+  const NamedPatterns outputs = {{"-o", output}};
+  const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
+  check_outputs(outputs, shot, {{"--json", flags.json.file()}});
+  const PlanRequest asked = flags.technique_flags.request({});
+  const FirstFrame first = first_frame(shot, asked);
+  AutoShotSettings settings{
+      .asked = asked,
+      .computing = {.mask = flags.mask.value_or(MaskUse::never), .radius_from = first.radius.from},
+      .radius = first.radius.value,
+      .options = flags.run_flags.run_options(),
+      .writing = {!flags.shot.as_float, flags.compression},
+      .output = output,
+      .keeps_depth = flags.shot.keep_depth,
+      .resumes = flags.shot.resume,
+      .version = version_with_kernels(GLOAM_VERSION),
+      .contents = fmt::format("auto{} radius {}", flags.given, first.radius.value),
+      .display = first.planned.files.files().front().display()};
+  const ShotMemory memory =
+      shot_memory(first.planned.files.name(), bytes_in_flight(first.planned), bytes_of_auto(first.planned, true),
+                  limit_of(flags.frame_flags, flags.shot.memory),
+                  "ask for --resolution half, for one view (--view), or allow more");
+  settings.frame_bytes = memory.frame;
+  const PageReuse reuse(memory.all - process_bytes_with_device);
+  const ShotStart start(outputs, shot.numbers());
+  ShotReport report(shot.frames().size(), flags.json);
+  Pipeline* running = nullptr;
+  AutoShotWork work(shot, settings, flags.run_flags.device, report, [&] { running->stop(); });
+  Pipeline pipeline(shot.frames().size(), memory.size,
+                    {[&](size_t i) { return work.decode(i); }, [&](size_t i) { return work.compute(i); },
+                     [&](size_t i) { return work.write(i); }});
+  running = &pipeline;
+  pipeline.run();
+  note(work.tally().in_words());
+  report.finish(flags.out, "effects");
+}
+
+}  // namespace gloam::cli

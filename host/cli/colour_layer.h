@@ -1,0 +1,22 @@
+// The colour of a frame as its file stores it, for a composite.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gloam/exr.h"
+#include "gloam/frame_files.h"
+
+namespace gloam::cli {
+
+struct ColourLayer {
+  FrameFiles files;
+  std::vector<std::string> planes;       ///< colour, and alpha where there is one
+  std::vector<std::string> half_planes;  ///< those that the file stores as half
+  int part = 0;                          ///< of the first file
+};
+
+/// Opens the frame's files once more, for values without any change. Throws Error if there is no colour.
+ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions& options);
+
+}  // namespace gloam::cli

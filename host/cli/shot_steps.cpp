@@ -1,0 +1,70 @@
+#include "cli/shot_steps.h"
+
+#include <new>
+
+#include "base/elapsed.h"
+#include "base/files.h"
+#include "base/memory.h"
+#include "cli/notes.h"
+#include "gloam/error.h"
+
+namespace gloam::cli {
+namespace {
+
+void replace_all(std::string& text, const std::string& what, const std::string& with) {
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+}  // namespace
+
+bool ShotSteps::run(size_t i, double& ms, const std::function<bool()>& step, bool is_told) {
+  const int number = files_.frames()[i].number;
+  std::string why;
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    const bool goes_on = step();
+    ms = 1000 * seconds_since(start);
+    return goes_on;
+  } catch (const Error& error) {
+    if (is_lack_of_space(error)) {
+      if (report_.found_no_space(number, error.what())) stop_();
+      return false;
+    }
+    why = error.what();
+  } catch (const std::bad_alloc&) {
+    why = "out of memory; --memory sets how much is used";
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  if (is_told) report_.failed(number, why);
+  return false;
+}
+
+void ShotSteps::add_notes(size_t i, const std::vector<std::string>& notes) const {
+  for (std::string text : notes) {
+    for (const FramePattern& pattern : files_.inputs())
+      replace_all(text, pattern.path_of(files_.frames()[i].source).filename().string(), pattern.name());
+    note({text});
+  }
+}
+
+void check_size_in_shot(const FrameFiles& files, const Window& first) {
+  const Window display = files.files().front().display();
+  if (display.width() != first.width() || display.height() != first.height())
+    throw Error("{}: is {}x{}, and the shot's first frame {}x{}; render all alike", files.name(), display.width(),
+                display.height(), first.width(), first.height());
+}
+
+void check_bytes_in_shot(const FrameFiles& files, unsigned long long bytes, unsigned long long most) {
+  if (bytes > most)
+    throw Error("{}: takes {} of memory, and a frame of this shot has {}; --memory gives more", files.name(),
+                memory_in_words(bytes), memory_in_words(most));
+}
+
+Error none_of_shot(const ShotFiles& shot, const std::string& first_error) {
+  if (shot.frames().size() == 1) return Error("{}", first_error);
+  return Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
+}
+
+}  // namespace gloam::cli
