@@ -1,9 +1,11 @@
-// gloam compare TEST.exr REF.exr [-o difference.png]; compare_stereo.cpp has the form with --stereo
+// gloam compare TEST.exr REF.exr [-o difference.png]; compare_stereo.cpp has the form with --stereo, compare_sequence.cpp that of
+// sequences
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "cli/compare_figures.h"
+#include "cli/compare_sequence.h"
 #include "cli/compare_sides.h"
 #include "cli/compare_stereo.h"
 #include "cli/memory.h"
@@ -136,17 +138,21 @@ void compare_command(const CompareFlags& flags) {
 void add_compare(CLI::App& app) {
   auto flags = std::make_shared<CompareFlags>();
   auto stereo = std::make_shared<StereoFlags>();
+  auto sequence = std::make_shared<CompareSequenceFlags>();
   CLI::App* command = app.add_subcommand(
       "compare", "how far an image is from the truth, or its two views from each other: figures and a picture");
-  command->add_option("test", flags->test, "EXR file, such as gloam run writes")->required()->type_name("TEST.exr");
+  command->add_option("test", flags->test, "EXR file, such as gloam run writes; those of a sequence: test.####.exr")
+      ->required()
+      ->type_name("TEST.exr");
   command
       ->add_option("reference", flags->reference,
                    "EXR file with the truth; with --stereo: none, or the file of the second eye")
       ->type_name("REF.exr");
   command
-      ->add_option("-o,--output", flags->picture,
-                   "picture of test, truth, difference and histogram; with --stereo: of the first view's errors, or "
-                   "ERRORS.exr with those of both")
+      ->add_option(
+          "-o,--output", flags->picture,
+          "picture of test, truth, difference and histogram; of a sequence: plot over its frames; with --stereo: "
+          "of the first view's errors, or ERRORS.exr with those of both")
       ->type_name("DIFFERENCE.png");
   command
       ->add_option("--what", flags->plane,
@@ -164,6 +170,7 @@ void add_compare(CLI::App& app) {
       "they are")
       ->type_name("FACTOR");
   stereo->add_to(*command);
+  sequence->add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
@@ -173,15 +180,18 @@ void add_compare(CLI::App& app) {
       "  gloam compare ao.exr truth.exr --what ao_raw\n"
       "  gloam compare ao.exr truth.exr --plane ao=Lamp.R\n"
       "  gloam compare reflection.exr truth.exr --plane reflection --view left\n"
+      "  gloam compare 'ao.####.exr' 'truth.####.exr' --frame 'shot.####.exr' -o plot.png\n"
       "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
-  command->callback([flags, stereo] {
+  command->callback([flags, stereo, sequence] {
     flags->take_plane_names();
+    const bool has_frames = is_sequence(*flags, *sequence, stereo->is_asked_for);
     if (stereo->is_asked_for && flags->exposure)
       throw UsageError("--exposure {}: two views are compared as they are; leave it out", *flags->exposure);
     if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
     if (flags->reference.empty())
       throw UsageError(
           "compare: REF.exr is required, or --stereo for the two views of one file (gloam compare --help)");
+    if (has_frames) return compare_sequence(*flags, *sequence);
     compare_command(*flags);
   });
 }

@@ -33,7 +33,10 @@ std::string canonical_name(const fs::path& path) {
 }  // namespace
 
 ShotFiles::ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice)
-    : inputs_(patterns_of(inputs)), options_(flags.read_options()) {
+    : ShotFiles(patterns_of(inputs), flags, choice) {}
+
+ShotFiles::ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice)
+    : inputs_(std::move(inputs)), options_(flags.read_options()) {
   std::vector<std::string> notes;
   frames_ = list_frames(inputs_, choice, notes);
   note(notes);
@@ -74,7 +77,8 @@ ReadOptions ShotFiles::options_for(const SequenceFrame& frame) const {
   return options;
 }
 
-void check_outputs(const FramePattern& output, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs) {
+void check_outputs(const FramePattern& output, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs,
+                   const std::string& output_flag) {
   std::map<std::string, int> inputs;  // the frame that reads a file
   for (const SequenceFrame& frame : shot.frames()) {
     for (const std::string& path : shot.paths_of(frame)) inputs.emplace(canonical_name(path), frame.number);
@@ -85,13 +89,14 @@ void check_outputs(const FramePattern& output, const ShotFiles& shot, const std:
     throw UsageError("{}: {} is also what frame {} is read from; name another file", flag, path.string(),
                      input->second);
   };
-  for (const SequenceFrame& frame : shot.frames()) check_no_input("-o " + output.text(), output.path_of(frame.number));
+  for (const SequenceFrame& frame : shot.frames())
+    check_no_input(output_flag + " " + output.text(), output.path_of(frame.number));
   for (const auto& [flag, path] : other_outputs) {
     if (!path.empty()) check_no_input(flag + " " + path, path);
   }
   // The folder is that of every frame.
   const SequenceFrame& first = shot.frames().front();
-  std::vector<NamedPath> outputs = {{"-o", output.path_of(first.number).string()}};
+  std::vector<NamedPath> outputs = {{output_flag, output.path_of(first.number).string()}};
   outputs.insert(outputs.end(), other_outputs.begin(), other_outputs.end());
   check_paths({{"--camera", shot.camera_of(first)}}, outputs);
 }

@@ -17,8 +17,9 @@ namespace {
 /// Share by which a surface's depth may differ from the one expected, as for techniques with a history.
 constexpr double same_depth = 0.05;
 
-/// Least sum of the weights of the pixels around a place that show the surface.
-constexpr double least_weight = 0.5;
+/// Least sum of the weights of the pixels around a place that show the surface: for a comparison, and for the surface to have been
+/// in view, as for techniques with a history. At an edge a surface may be in view by less than what a comparison needs.
+constexpr double least_weight = 0.5, least_weight_in_view = 0.01;
 
 /// Positions this near to the middle of a pixel count as the middle, pixels: cameras and motion in single precision are not exact.
 constexpr double on_centre = 1e-3;
@@ -45,12 +46,15 @@ struct Place {
   double depth;
 };
 
-/// Up to four pixels of the frame before that show a surface; weights add up to 1. None: `count` is 0.
+/// Up to four pixels of the frame before that show a surface; weights add up to 1.
 struct Past {
   std::array<int, 4> x{}, y{};
   std::array<double, 4> weight{};
   int count = 0;
+  double sum = 0;  ///< of the weights, before they were scaled
 
+  bool is_in_view() const { return sum > least_weight_in_view; }
+  bool is_comparable() const { return sum >= least_weight; }
   double value_of(const Channel& channel) const {
     double value = 0;
     for (size_t k = 0; k < size_t(count); ++k) value += weight[k] * double(channel.at(x[k], y[k]));
@@ -134,7 +138,6 @@ class Pair {
   Past around(const Place& place, const glm::dvec2& slope) const {
     const glm::dvec2 corner = glm::floor(place.at + on_centre), share = glm::max(place.at - corner, glm::dvec2(0));
     Past past;
-    double sum = 0;
     for (int k = 0; k < 4; ++k) {
       const double across = share.x < on_centre ? (k & 1 ? 0 : 1) : (k & 1 ? share.x : 1 - share.x),
                    down = share.y < on_centre ? (k >> 1 ? 0 : 1) : (k >> 1 ? share.y : 1 - share.y);
@@ -142,10 +145,10 @@ class Pair {
       if (across * down <= 0 || !shows(x, y, place, slope)) continue;
       const size_t i = size_t(past.count++);
       past.x[i] = x, past.y[i] = y, past.weight[i] = across * down;
-      sum += across * down;
+      past.sum += across * down;
     }
-    if (sum < least_weight) return {};
-    for (double& weight : past.weight) weight /= sum;
+    if (!past.is_in_view()) return {};
+    for (double& weight : past.weight) weight /= past.sum;
     return past;
   }
 
@@ -158,7 +161,7 @@ class Pair {
 };
 
 unsigned char age_after(const Past& past, const std::vector<unsigned char>& ages, int width) {
-  if (past.count == 0) return 0;
+  if (!past.is_in_view()) return 0;
   const size_t most = size_t(std::max_element(past.weight.begin(), past.weight.end()) - past.weight.begin());
   const unsigned char before = ages[size_t(past.y[most]) * size_t(width) + size_t(past.x[most])];
   return before >= always - 1 ? before : (unsigned char)(before + 1);
@@ -173,11 +176,11 @@ void add_error(FlickerSums& sums, double squared, bool is_new) {
 void add_pixel(FlickerSums& sums, const SequenceFramePlanes& now, const SequenceFramePlanes& before, const Past& past,
                int x, int y, bool is_new) {
   ++sums.pixels;
-  sums.comparable += past.count > 0;
+  sums.comparable += past.is_comparable();
   for (size_t c = 0; c < now.test.channels.size(); ++c) {
     const double test = now.test.channels[c].at(x, y), truth = now.truth.channels[c].at(x, y);
     add_error(sums, (test - truth) * (test - truth), is_new);
-    if (past.count == 0) continue;
+    if (!past.is_comparable()) continue;
     const double truth_change = truth - past.value_of(before.truth.channels[c]),
                  difference = test - past.value_of(before.test.channels[c]) - truth_change;
     ++sums.values;
