@@ -188,10 +188,10 @@ void add_compare(CLI::App& app) {
     if (stereo->is_asked_for && flags->exposure)
       throw UsageError("--exposure {}: two views are compared as they are; leave it out", *flags->exposure);
     if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
+    if (has_frames) return compare_sequence(*flags, *sequence);
     if (flags->reference.empty())
       throw UsageError(
           "compare: REF.exr is required, or --stereo for the two views of one file (gloam compare --help)");
-    if (has_frames) return compare_sequence(*flags, *sequence);
     compare_command(*flags);
   });
 }

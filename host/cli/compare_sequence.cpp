@@ -19,6 +19,7 @@ struct SequenceRow {
   int frame = 0;
   Metrics figures;                  ///< of all views
   std::vector<Metrics> views;       ///< in the order of the views
+  double exposure = 0;              ///< of radiance, before SSIM, GMSD and FLIP; 0: none
   std::optional<FlickerSums> pair;  ///< with the frame before
 };
 
@@ -76,10 +77,10 @@ std::optional<FlickerSums> add_pair(SequenceComparison& c, ComparedFrame& frame,
 }
 
 void add_frame(SequenceComparison& c, const SequenceFrame& at, bool with_range) {
-  ComparedFrame frame = read_compared_frame(c.shot.flags_of(at), c.shot.options_of(at));
+  ComparedFrame frame = read_compared_frame(c.shot, at);
   if (c.rows.empty()) take_first(c, frame);
   check_like_first(c, frame);
-  SequenceRow row{at.number, {}, {}, {}};
+  SequenceRow row{at.number, {}, {}, frame.exposure, {}};
   for (const SequenceFramePlanes& view : frame.views) {
     row.views.push_back(naming_files(
         frame.flags, [&] { return gloam::compare(view.test, view.truth, view.foreground, frame.exposure); }));
@@ -115,7 +116,7 @@ void write_movie(const SequenceComparison& c, const std::string& movie) {
   const FramePattern pattern(movie, "--differences");
   size_t next = 0;
   for_each_frame(c.shot, [&](const SequenceFrame& at) {
-    const ComparedFrame frame = read_compared_frame(c.shot.flags_of(at), c.shot.options_of(at));
+    const ComparedFrame frame = read_compared_frame(c.shot, at);
     const SequenceRow& row = c.rows[next++];
     check_like_first(c, frame);
     for (size_t i = 0; i < frame.views.size(); ++i) {
@@ -163,6 +164,7 @@ Json row_document(const SequenceComparison& c, const SequenceRow& row) {
   Json document = {{"frame", row.frame}};
   document.update(metrics_document(row.figures));
   document.update(pair_document(row.pair));
+  if (row.exposure > 0) document["exposure"] = row.exposure;
   if (row.views.size() > 1) {
     for (size_t i = 0; i < row.views.size(); ++i) document["views"][c.views[i].first] = metrics_document(row.views[i]);
   }
@@ -249,14 +251,12 @@ SequencePlot plot_of(const SequenceComparison& c, const CompareFlags& flags) {
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   const std::string of_flicker =
       c.sums.flicker() ? fmt::format("; flicker {:.4g} over {} pairs", *c.sums.flicker(), c.pairs) : "";
-  return {
-      name(flags.test) + "  against  " + name(flags.reference),
-      fmt::format("{}; mean RMSE {:.4g}; worst frame {} (marked), RMSE {:.4g}{}; motion: {}", c.planes.test,
-                  means_of(c).rmse, worst.frame, worst.figures.rmse, of_flicker, motion_in_words(c)),
-      c.shot.numbers(),
-      {{"Error of each frame", {rmse, mae}},
-       {"Change from the frame before, along motion: error against the truth's, and the truth's", {flicker, change}}},
-      worst.frame};
+  return {name(flags.test) + "  against  " + name(flags.reference),
+          fmt::format("{}; mean RMSE {:.4g}; worst frame {} (marked), RMSE {:.4g}{}; motion: {}", c.planes.test,
+                      means_of(c).rmse, worst.frame, worst.figures.rmse, of_flicker, motion_in_words(c)),
+          c.shot.numbers(),
+          {{"Error of each frame", {rmse, mae}}, {"Change from the frame before, along motion", {flicker, change}}},
+          worst.frame};
 }
 
 /// Two frames of each side, and what measuring and drawing one takes.
@@ -313,6 +313,8 @@ void compare_sequence(const CompareFlags& flags, const CompareSequenceFlags& seq
     throw UsageError("-o {}: the plot is one picture; --differences names a picture for each frame", flags.picture);
   check_picture_name(flags.picture, "-o");
   check_picture_name(sequence.differences, "--differences");
+  if (flags.reference.empty())
+    throw UsageError("compare: REF.exr is required: the error of a sequence, and of its changes, is against a truth");
   const ComparedShot shot(flags, sequence.choice);
   shot.check_outputs(sequence.differences);
   const unsigned long long memory =
@@ -320,6 +322,8 @@ void compare_sequence(const CompareFlags& flags, const CompareSequenceFlags& seq
                      "compare one view (--view) or a part of it");
   SequenceComparison c{shot, {}, {}, {}, 0, {}, {}, {}, {}, {}, 0, false};
   for_each_frame(shot, [&](const SequenceFrame& frame) { add_frame(c, frame, !sequence.differences.empty()); });
+  for (const std::string& file : shot.files_of_all_frames())
+    note({fmt::format("{} is one file for all frames: the camera is taken to stand still", file)});
   if (!c.is_background_known)
     note({"no depth in either file: every pixel counts; --frame 'FRAME.####.exr' tells the background"});
   if (c.pairs == 0)

@@ -89,6 +89,13 @@ CompareFlags ComparedShot::flags_of(const SequenceFrame& frame) const {
   return flags;
 }
 
+std::vector<std::string> ComparedShot::files_of_all_frames() const {
+  std::vector<std::string> files;
+  if (!reference_) files.push_back(flags_.reference);
+  if (!frame_ && !flags_.frame.empty()) files.push_back(flags_.frame);
+  return files;
+}
+
 ReadOptions ComparedShot::options_of(const SequenceFrame& frame) const {
   ReadOptions options = shot_.options_for(frame);
   options.as_stored = true;
@@ -110,7 +117,9 @@ void ComparedShot::check_outputs(const std::string& movie) const {
   cli::check_outputs(FramePattern(movie, "--differences"), shot_, others, "--differences");
 }
 
-ComparedFrame read_compared_frame(const CompareFlags& flags, const ReadOptions& options) {
+ComparedFrame read_compared_frame(const ComparedShot& shot, const SequenceFrame& at) {
+  const CompareFlags flags = shot.flags_of(at);
+  const ReadOptions options = shot.options_of(at);
   ComparedFrame c{flags,
                   {FrameFile(flags.test, options), {}},
                   {FrameFile(flags.reference, options_beside(options, flags.reference)), {}},
@@ -128,6 +137,10 @@ ComparedFrame read_compared_frame(const CompareFlags& flags, const ReadOptions& 
   c.exposure = exposure_of(flags, c.reference.file, c.planes.reference);
   const SurfaceFile from = surface_file(c, options);
   c.surfaces_from = from.name;
+  const std::vector<std::string> standing = shot.files_of_all_frames();
+  const bool stands = contains(standing, from.name == "--frame" ? flags.frame
+                                         : from.is_reference    ? flags.reference
+                                                                : "");
   const Rows all{0, c.overlap.layout.height};
   const Frame tests = c.test.read(c.planes.test, c.overlap, all),
               truths = c.reference.read(c.planes.reference, c.overlap, all);
@@ -141,6 +154,8 @@ ComparedFrame read_compared_frame(const CompareFlags& flags, const ReadOptions& 
          without_confidence(c.reference.rows_of(truths, c.planes.reference, views.second, c.overlap, all)),
          known ? *known : Mask(size_t(c.overlap.layout.width) * size_t(c.overlap.layout.height), 1),
          surfaces_under(c, from, views)});
+    // one frame's motion is not that of all others
+    if (stands) c.views.back().surfaces.motion.reset();
   }
   return c;
 }

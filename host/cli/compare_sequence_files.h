@@ -21,6 +21,8 @@ class ComparedShot {
   std::vector<int> numbers() const { return shot_.numbers(); }
   /// The flags of a comparison of one frame.
   CompareFlags flags_of(const SequenceFrame& frame) const;
+  /// The truth and --frame, where they are one file for all frames.
+  std::vector<std::string> files_of_all_frames() const;
   /// How the frame is read: values as in the file.
   ReadOptions options_of(const SequenceFrame& frame) const;
   /// Throws UsageError if an output is an input or another output, and Error if one cannot be written. `movie`: --differences.
@@ -46,6 +48,6 @@ struct ComparedFrame {
 };
 
 /// Opens and decodes a frame.
-ComparedFrame read_compared_frame(const CompareFlags& flags, const ReadOptions& options);
+ComparedFrame read_compared_frame(const ComparedShot& shot, const SequenceFrame& frame);
 
 }  // namespace gloam::cli

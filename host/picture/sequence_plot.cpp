@@ -17,8 +17,8 @@ const std::array<cv::Scalar, 4> curve_inks = {cv::Scalar(150, 60, 20), cv::Scala
                                               cv::Scalar(60, 140, 40), cv::Scalar(150, 90, 170)};
 const cv::Scalar chart_grid(232, 232, 232), worst_band(215, 225, 250);
 
-constexpr int sheet_width = 1200, sheet_margin = 28, axis_room = 84, top_room = 92, chart_height = 250,
-              chart_step = 330, bottom_room = 34;
+constexpr int sheet_width = 1200, sheet_margin = 28, axis_room = 84, top_room = 98, chart_height = 250,
+              chart_step = 330, bottom_room = 0;
 const TextStyle title_style{14, ink, true}, strong_style{9.5, ink, true}, tick_style{8.5, ink}, facts_style{8.5, faint};
 
 /// The smallest step of 1, 2 or 5 times a power of ten of which `most` at most reach `end`.
@@ -94,7 +94,7 @@ void draw_curve(cv::Mat& canvas, const ChartArea& area, const std::vector<int>& 
 void draw_keys(cv::Mat& canvas, const ChartArea& area, const SequenceChart& chart) {
   int right = area.x1;
   for (size_t i = chart.curves.size(); i-- > 0;) {
-    const int baseline = area.y0 - 10, left = right - cvRound(text_width(chart.curves[i].name, tick_style));
+    const int baseline = area.y0 - 16, left = right - cvRound(text_width(chart.curves[i].name, tick_style));
     put_text(canvas, chart.curves[i].name, {left, baseline}, tick_style);
     cv::line(canvas, {left - 30, baseline - 4}, {left - 8, baseline - 4}, curve_inks[i % curve_inks.size()], 3);
     right = left - 48;
@@ -109,7 +109,7 @@ void draw_chart(cv::Mat& canvas, const SequencePlot& plot, const SequenceChart& 
   }
   draw_values_axis(canvas, area);
   draw_frames_axis(canvas, area);
-  put_text(canvas, ascii(chart.title), {sheet_margin, area.y0 - 10}, strong_style);
+  put_text(canvas, ascii(chart.title), {sheet_margin, area.y0 - 16}, strong_style);
   draw_keys(canvas, area, chart);
   for (size_t i = 0; i < chart.curves.size(); ++i)
     draw_curve(canvas, area, plot.frames, chart.curves[i], curve_inks[i % curve_inks.size()]);
