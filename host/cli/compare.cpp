@@ -8,6 +8,7 @@
 #include "cli/compare_sequence.h"
 #include "cli/compare_sides.h"
 #include "cli/compare_stereo.h"
+#include "cli/compare_stereo_sequence.h"
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "gloam/error.h"
@@ -184,9 +185,10 @@ void add_compare(CLI::App& app) {
       "  gloam compare --stereo ao.exr --frame pair.exr -o inconsistency.png --anaglyph both.png");
   command->callback([flags, stereo, sequence] {
     flags->take_plane_names();
-    const bool has_frames = is_sequence(*flags, *sequence, stereo->is_asked_for);
+    const bool has_frames = is_sequence(*flags, *sequence);
     if (stereo->is_asked_for && flags->exposure)
       throw UsageError("--exposure {}: two views are compared as they are; leave it out", *flags->exposure);
+    if (stereo->is_asked_for && has_frames) return compare_stereo_sequence(*flags, *stereo, *sequence);
     if (stereo->is_asked_for) return stereo_command(*flags, *stereo);
     if (has_frames) return compare_sequence(*flags, *sequence);
     if (flags->reference.empty())

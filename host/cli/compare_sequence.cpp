@@ -93,24 +93,6 @@ void add_frame(SequenceComparison& c, const SequenceFrame& at, bool with_range) 
   c.rows.push_back(std::move(row));
 }
 
-/// Runs `work` on every frame; an error names the frame.
-template <typename Work>
-void for_each_frame(const ComparedShot& shot, const Work& work) {
-  const auto progress = progress_bar();
-  const int count = int(shot.frames().size());
-  int done = 0;
-  for (const SequenceFrame& frame : shot.frames()) {
-    try {
-      work(frame);
-    } catch (const UsageError&) {
-      throw;
-    } catch (const Error& error) {
-      throw Error("frame {}: {}", frame.number, error.what());
-    }
-    if (progress) progress(++done, count);
-  }
-}
-
 /// Writes the differences of every frame in the colours of one scale. Decodes all frames again: the scale is known only now.
 void write_movie(const SequenceComparison& c, const std::string& movie) {
   const FramePattern pattern(movie, "--differences");
@@ -289,7 +271,7 @@ std::string CompareSequenceFlags::any() const {
   return differences.empty() ? "" : "--differences";
 }
 
-bool is_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence, bool is_stereo) {
+bool is_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence) {
   const bool is_pattern = FramePattern::is_pattern(flags.test);
   if (!is_pattern) {
     if (!sequence.any().empty())
@@ -302,16 +284,17 @@ bool is_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence
     }
     return false;
   }
-  if (is_stereo)
-    throw UsageError("--stereo: TEST.exr {} names many frames, and --stereo takes one; give one frame's file in a loop",
-                     flags.test);
   return true;
 }
 
+void check_plot_name(const std::string& path) {
+  if (FramePattern::is_pattern(path))
+    throw UsageError("-o {}: the plot is one picture; --differences names a picture for each frame", path);
+  check_picture_name(path, "-o");
+}
+
 void compare_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence) {
-  if (FramePattern::is_pattern(flags.picture))
-    throw UsageError("-o {}: the plot is one picture; --differences names a picture for each frame", flags.picture);
-  check_picture_name(flags.picture, "-o");
+  check_plot_name(flags.picture);
   check_picture_name(sequence.differences, "--differences");
   if (flags.reference.empty())
     throw UsageError("compare: REF.exr is required: the error of a sequence, and of its changes, is against a truth");

@@ -18,9 +18,11 @@ struct CompareSequenceFlags {
   std::string any() const;
 };
 
-/// Whether the test is a sequence. Throws UsageError for patterns and flags of a sequence beside a test that is one file, and for
-/// two eyes of a sequence.
-bool is_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence, bool is_stereo);
+/// Whether the test is a sequence. Throws UsageError for patterns and flags of a sequence beside a test that is one file.
+bool is_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence);
+
+/// Throws UsageError for a plot over frames that is no PNG, or a pattern.
+void check_plot_name(const std::string& path);
 
 void compare_sequence(const CompareFlags& flags, const CompareSequenceFlags& sequence);
 

@@ -91,7 +91,7 @@ CompareFlags ComparedShot::flags_of(const SequenceFrame& frame) const {
 
 std::vector<std::string> ComparedShot::files_of_all_frames() const {
   std::vector<std::string> files;
-  if (!reference_) files.push_back(flags_.reference);
+  if (!reference_ && !flags_.reference.empty()) files.push_back(flags_.reference);
   if (!frame_ && !flags_.frame.empty()) files.push_back(flags_.frame);
   return files;
 }

@@ -7,6 +7,7 @@
 
 #include "cli/compare_sequence.h"
 #include "cli/compare_sides.h"
+#include "cli/notes.h"
 #include "cli/shot.h"
 #include "gloam/flicker.h"
 
@@ -46,6 +47,24 @@ struct ComparedFrame {
   std::vector<SequenceFramePlanes> views;
   std::string surfaces_from;  ///< whose depth, cameras and motion: "--frame", "the test", "the truth"; empty: nobody's
 };
+
+/// Runs `work` on every frame, with progress; an error names the frame.
+template <typename Work>
+void for_each_frame(const ComparedShot& shot, const Work& work) {
+  const auto progress = progress_bar();
+  const int count = int(shot.frames().size());
+  int done = 0;
+  for (const SequenceFrame& frame : shot.frames()) {
+    try {
+      work(frame);
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& error) {
+      throw Error("frame {}: {}", frame.number, error.what());
+    }
+    if (progress) progress(++done, count);
+  }
+}
 
 /// Opens and decodes a frame.
 ComparedFrame read_compared_frame(const ComparedShot& shot, const SequenceFrame& frame);

@@ -143,6 +143,31 @@ TEST_F(CompareSequence, DrawsAPlotAndAMovieInOneScale) {
   EXPECT_NE(slurp(path("movie.0001.png")), slurp(path("alone.1.png"))) << "alone it has a scale to 0.05";
 }
 
+TEST_F(CompareSequence, TwoEyesHaveTheInconsistencyOfEachFrameAlone) {
+  for (const int frame : {1, 2})
+    ok({"capture", "gallery", "-o", file(numbered("pair", frame)), "--size", "96x54", "--planes", "normal", "--stereo",
+        frame == 1 ? "0.065" : "0.2"});
+  ok({"run", "gtao", file("pair.####.exr"), "-o", file("eyes.####.exr"), "--radius", "0.5", "--preset", "low",
+      "--keep-depth"});
+  const nlohmann::json all = document({"--stereo", file("eyes.####.exr"), "-o", file("plot.png")});
+  std::vector<double> means;
+  for (const int frame : {1, 2}) {
+    const nlohmann::json one = document({"--stereo", file(numbered("eyes", frame))});
+    const nlohmann::json& row = all["frames"][size_t(frame) - 1];
+    EXPECT_EQ(row["frame"], frame);
+    EXPECT_EQ(row["inconsistency"], one["inconsistency"]);
+    EXPECT_EQ(row["pixels"], one["pixels"]);
+    means.push_back(one["inconsistency"]["mean"]);
+  }
+  ASSERT_NE(means[0], means[1]);
+  const nlohmann::json& summary = all["summary"];
+  EXPECT_NEAR(summary["inconsistency"].get<double>(), (means[0] + means[1]) / 2, 1e-12);
+  EXPECT_EQ(summary["worst"]["frame"], means[0] > means[1] ? 1 : 2);
+  EXPECT_GT(fs::file_size(path("plot.png")), 5000u);
+  const Result told = ok({"compare", "--stereo", file("eyes.####.exr"), "--frame", file("pair.####.exr")});
+  expect_says(told.out, fmt::format("worst frame {}: ", means[0] > means[1] ? 1 : 2));
+}
+
 TEST_F(CompareSequence, RefusesInALine) {
   make_ao("test", {{1, 0.5f}, {2, 0.75f}});
   make_ao("truth", {{1, 0.5f}, {2, 0.5f}});
@@ -155,7 +180,11 @@ TEST_F(CompareSequence, RefusesInALine) {
   expect_refused({"compare", one, file("truth.0001.exr"), "--differences", file("d.####.png")}, 2,
                  {"--differences", "is one file"});
   expect_refused({"compare", test}, 2, {"REF.exr is required"});
-  expect_refused({"compare", test, "--stereo"}, 2, {"--stereo", "names many frames"});
+  expect_refused({"compare", test, "--stereo"}, 1, {"frame 1"});
+  expect_refused({"compare", test, one, "--stereo"}, 2, {"REF.exr", "is one file"});
+  expect_refused({"compare", test, "--stereo", "--anaglyph", file("both.png")}, 2, {"--anaglyph", "leave it out"});
+  expect_refused({"compare", test, "--stereo", "--differences", file("d.####.png")}, 2,
+                 {"--differences", "leave it out"});
   expect_refused({"compare", file("none.####.exr"), truth}, 1, {"frame"});
   expect_refused({"compare", test, file("none.####.exr")}, 1, {"none.0001.exr"});
   expect_refused({"compare", test, truth, "--frames", "1-3"}, 1, {"test.0003.exr"});

@@ -24,11 +24,14 @@ TEST_F(Docs, CommandsOfThePageOnSequencesWork) {
   std::ofstream(path("path.json")) << between(page, "```json\n", "```");
   const std::string commands = between(page, "Frames to try this on, by `", "`") + "\n" + between(page, "```\n", "```");
   ASSERT_EQ(std::count(commands.begin(), commands.end(), '\n'), 5) << commands;
-  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && set -e\n{}", folder.string(),
-                                           fs::path(program).parent_path().string(), commands);
+  const std::string comparison = between(page.substr(page.find("## Error and flicker")), "```\n", "```");
+  ASSERT_EQ(std::count(comparison.begin(), comparison.end(), '\n'), 3) << comparison;
+  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && set -e\n{}\n{}", folder.string(),
+                                           fs::path(program).parent_path().string(), commands, comparison);
   ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0)
-      << commands << slurp(path("log"));
-  for (const char* file : {"ao.0012.exr", "gtao.0001.exr", "gtao.0011.exr", "full.0012.exr"})
+      << commands << comparison << slurp(path("log"));
+  for (const char* file : {"ao.0012.exr", "gtao.0001.exr", "gtao.0011.exr", "full.0012.exr", "plot.png",
+                           "difference.0004.png", "flicker.json"})
     EXPECT_TRUE(fs::exists(path(file))) << file;
   EXPECT_FALSE(fs::exists(path("gtao.0002.exr")));
 }
