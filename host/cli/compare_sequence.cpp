@@ -179,6 +179,10 @@ Json sequence_document(const SequenceComparison& c, unsigned long long memory) {
           {"memory_bytes", memory}};
 }
 
+std::string pairs_in_words(const SequenceComparison& c) {
+  return c.pairs == 1 ? "1 pair" : fmt::format("{} pairs", c.pairs);
+}
+
 std::string figure_or_dash(const std::optional<double>& value) { return value ? fmt::format("{:.5f}", *value) : "-"; }
 std::string percent_or_dash(const std::optional<double>& share) {
   return share ? fmt::format("{:.1f} %", 100 * *share) : "-";
@@ -209,9 +213,9 @@ void print_sequence(const SequenceComparison& c, const CompareFlags& flags, cons
   print_table(table, 1);
   if (c.sums.flicker())
     fmt::print(
-        "\nflicker {:.5f}: RMSE of the change from frame to frame along motion, over {} pairs; the truth's own "
+        "\nflicker {:.5f}: RMSE of the change from frame to frame along motion, over {}; the truth's own "
         "change is {:.5f} (RMS)\n",
-        *c.sums.flicker(), c.pairs, *c.sums.truth_change());
+        *c.sums.flicker(), pairs_in_words(c), *c.sums.truth_change());
   if (c.sums.new_rmse() && c.sums.old_rmse())
     fmt::print("RMSE {:.5f} where a surface came into view within the last {} frames ({}), {:.5f} elsewhere\n",
                *c.sums.new_rmse(), FlickerMeter::young, percent_or_dash(c.sums.new_share()), *c.sums.old_rmse());
@@ -232,7 +236,7 @@ SequencePlot plot_of(const SequenceComparison& c, const CompareFlags& flags) {
   const SequenceRow& worst = worst_of(c);
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   const std::string of_flicker =
-      c.sums.flicker() ? fmt::format("; flicker {:.4g} over {} pairs", *c.sums.flicker(), c.pairs) : "";
+      c.sums.flicker() ? fmt::format("; flicker {:.4g} over {}", *c.sums.flicker(), pairs_in_words(c)) : "";
   return {name(flags.test) + "  against  " + name(flags.reference),
           fmt::format("{}; mean RMSE {:.4g}; worst frame {} (marked), RMSE {:.4g}{}; motion: {}", c.planes.test,
                       means_of(c).rmse, worst.frame, worst.figures.rmse, of_flicker, motion_in_words(c)),

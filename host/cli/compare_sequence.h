@@ -10,7 +10,7 @@ namespace gloam::cli {
 
 /// Flags that only a sequence has.
 struct CompareSequenceFlags {
-  FrameChoice choice;
+  FrameChoice choice{.frames = {}, .missing = {}, .may_hold = false};  ///< a frame that is held has no error of its own
   std::string differences;
   bool is_asked_for = false;
   void add_to(CLI::App& app);

@@ -111,6 +111,9 @@ TEST_F(CompareSequence, MeasuresNoFlickerAcrossAGap) {
   make_ao("test", {{1, 0.5f}, {2, 0.75f}, {4, 0.25f}, {5, 0.25f}});
   make_ao("truth", {{1, 0.5f}, {2, 0.5f}, {3, 0.5f}, {4, 0.5f}, {5, 0.5f}});
   expect_refused({"compare", file("test.####.exr"), file("truth.####.exr")}, 1, {"test.0003.exr"});
+  const Result refused = gloam({"compare", file("test.####.exr"), file("truth.####.exr")});
+  EXPECT_EQ(refused.err.find("hold"), std::string::npos)
+      << "what compare does not take is not advised: " << refused.err;
   const nlohmann::json all = document({file("test.####.exr"), file("truth.####.exr"), "--missing", "skip"});
   EXPECT_EQ(all["summary"]["frames"], 4);
   EXPECT_EQ(all["summary"]["pairs"], 2);

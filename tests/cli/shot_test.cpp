@@ -166,8 +166,7 @@ TEST_F(Shot, RefusesInOneLine) {
   expect_refused({"run", "temporal-sssr", shot, "-o", out}, 2,
                  {"temporal-sssr: takes over the frame before", "--history"});
   expect_refused(run_on({shot, "-o", out, "--json", one}), 2, {"--json", "is also"});
-  expect_refused({"compare", shot, one}, 1, {"only run and info take the files of a shot"});
-  expect_refused({"auto", shot, "-o", file("a.exr")}, 1, {"only run and info take the files of a shot"});
+  expect_refused({"auto", shot, "-o", file("a.exr")}, 1, {"only run, info and compare take the files of a shot"});
 }
 
 // --- Cameras and eyes
