@@ -296,29 +296,38 @@ StereoInconsistency inconsistency_of(const CompareFlags& flags, const Frame& pai
   }
 }
 
-void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
-  check_names(flags, stereo);
+StereoComparison compare_stereo(const CompareFlags& flags, const StereoFlags& stereo, const ReadOptions& options) {
   const StereoOptions check = options_of(stereo);
-  ReadOptions options = flags.frame_flags.read_options();
-  options.as_stored = true;
   std::vector<StereoInput> results = open_results(flags, options), frames = open_frame(flags, options);
-  const std::string plane = flags.plane.empty() ? plane_to_compare(results) : plane_asked_for(results, flags.plane);
+  StereoComparison c;
+  c.plane = flags.plane.empty() ? plane_to_compare(results) : plane_asked_for(results, flags.plane);
   std::vector<std::string> geometry = {"depth"};
   if (check.normal_check) geometry.push_back("normal");
-  const unsigned long long memory = planned_memory(
-      flags.frame_flags, flags.test, bytes_of(results, frames, geometry, plane), "give a smaller part of the image");
-  read_all(results, geometry, plane);
+  c.memory = planned_memory(flags.frame_flags, flags.test, bytes_of(results, frames, geometry, c.plane),
+                            "give a smaller part of the image");
+  read_all(results, geometry, c.plane);
   read_all(frames, geometry, "depth");
-
   const std::vector<Sources> sources = sources_of(frames, results);
-  Frame pair = pair_of(sources_of(results), sources, plane);
-  const StereoInconsistency result = inconsistency_of(flags, pair, plane, check);
-  note_assumptions(sources, check.normal_check && !result.normal_check);
-  const std::vector<std::string> written = write_pictures(flags, stereo, pair, plane, result);
-  Json document = document_of(result, pair, plane);
-  document["memory_bytes"] = memory;
-  flags.json.write(document, written);
-  if (!flags.json.only_json()) print_result(flags, result, pair, plane, written);
+  c.pair = pair_of(sources_of(results), sources, c.plane);
+  c.result = inconsistency_of(flags, c.pair, c.plane, check);
+  note_assumptions(sources, check.normal_check && !c.result.normal_check);
+  return c;
+}
+
+Json stereo_document(const StereoComparison& c) {
+  Json document = document_of(c.result, c.pair, c.plane);
+  document["memory_bytes"] = c.memory;
+  return document;
+}
+
+void stereo_command(const CompareFlags& flags, const StereoFlags& stereo) {
+  check_names(flags, stereo);
+  ReadOptions options = flags.frame_flags.read_options();
+  options.as_stored = true;
+  StereoComparison c = compare_stereo(flags, stereo, options);
+  const std::vector<std::string> written = write_pictures(flags, stereo, c.pair, c.plane, c.result);
+  flags.json.write(stereo_document(c), written);
+  if (!flags.json.only_json()) print_result(flags, c.result, c.pair, c.plane, written);
 }
 
 }  // namespace gloam::cli

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/compare_inputs.h"
+#include "gloam/stereo_consistency.h"
 
 namespace gloam::cli {
 
@@ -13,6 +14,17 @@ struct StereoFlags {
   std::string anaglyph, side_by_side;
   void add_to(CLI::App& app);
 };
+
+/// Two views of a frame, and how far they are from each other.
+struct StereoComparison {
+  Frame pair;
+  std::string plane;
+  StereoInconsistency result;
+  unsigned long long memory = 0;  ///< planned, bytes
+};
+
+StereoComparison compare_stereo(const CompareFlags& flags, const StereoFlags& stereo, const ReadOptions& options);
+Json stereo_document(const StereoComparison& comparison);
 
 void stereo_command(const CompareFlags& flags, const StereoFlags& stereo);
 

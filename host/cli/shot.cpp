@@ -33,7 +33,10 @@ std::string canonical_name(const fs::path& path) {
 }  // namespace
 
 ShotFiles::ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice)
-    : inputs_(patterns_of(inputs)), options_(flags.read_options()) {
+    : ShotFiles(patterns_of(inputs), flags, choice) {}
+
+ShotFiles::ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice)
+    : inputs_(std::move(inputs)), options_(flags.read_options()) {
   std::vector<std::string> notes;
   frames_ = list_frames(inputs_, choice, notes);
   note(notes);

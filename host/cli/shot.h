@@ -18,6 +18,8 @@ class ShotFiles {
  public:
   /// Throws UsageError and Error as `list_frames` and `CameraList` do, and UsageError for one input of two that is no pattern.
   ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice);
+  /// Of any number of patterns. Throws as above.
+  ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice);
 
   const std::vector<FramePattern>& inputs() const { return inputs_; }
   const std::vector<SequenceFrame>& frames() const { return frames_; }

@@ -29,7 +29,8 @@ ExrInput::ExrInput(const std::filesystem::path& path) : Imf::IStream(path.c_str(
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for the other end of a pipe
   if (descriptor_ < 0 && errno == ENOENT && FramePattern::is_pattern(path.string()))
     throw Error(
-        "{}: cannot read: no file has this name; only run, auto and info take the files of a shot, so name one of them",
+        "{}: cannot read: no file has this name; only run, auto, info and compare take the files of a shot, so name "
+        "one of them",
         path.string());
   if (descriptor_ < 0) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   struct stat about {};

@@ -279,4 +279,8 @@ void write_difference_picture(const std::filesystem::path& path, const Plane& te
   write_png(path, sheet.canvas);
 }
 
+double difference_range(const Plane& test, const Plane& truth, const Mask& foreground) {
+  return fitting_range(differences(test, truth, foreground));
+}
+
 }  // namespace gloam

@@ -86,10 +86,11 @@ std::vector<SequenceFrame> list_frames(const std::vector<FramePattern>& files, c
   }
   const bool is_error = choice.missing.value_or(MissingFrames::error) == MissingFrames::error;
   if (!missing.empty() && is_error)
-    throw Error("{} missing ({}); --missing skip leaves {} out, --missing hold takes the frame before",
+    throw Error("{} missing ({}); --missing skip leaves {} out{}",
                 missing.size() == 1 ? fmt::format("frame {} is", missing.front())
                                     : fmt::format("frames {} are", frames_in_words(missing)),
-                lacking_file(files, missing.front()), missing.size() == 1 ? "it" : "them");
+                lacking_file(files, missing.front()), missing.size() == 1 ? "it" : "them",
+                choice.may_hold ? ", --missing hold takes the frame before" : "");
   if (frames.empty())
     throw Error("{}: none of the frames {} is there, but {} are", names_of(files), frames_in_words(missing),
                 frames_in_words(there));

@@ -21,6 +21,7 @@ struct SequenceFrame {
 struct FrameChoice {
   std::optional<std::vector<int>> frames;
   std::optional<MissingFrames> missing;  ///< none: error
+  bool may_hold = true;                  ///< whether messages may advise to hold frames
 };
 
 /// `files`: one pattern, or one for each eye; a frame is there if all its files are. Appends a sentence to `notes` for frames

@@ -22,19 +22,19 @@ std::string between(const std::string& page, const std::string& begin, const std
 TEST_F(Docs, CommandsOfThePageOnSequencesWork) {
   const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/sequences.md");
   std::ofstream(path("path.json")) << between(page, "```json\n", "```");
-  const std::string copying = page.substr(page.find("## Into a copy")),
-                    composite = page.substr(page.find("## Composite")),
-                    automatic = page.substr(page.find("## What each frame calls for"));
+  const auto first_of = [&](const std::string& heading) { return between(page.substr(page.find(heading)), "```\n", "```"); };
   const std::string commands = between(page, "Frames to try this on, by `", "`") + "\n" +
-                               between(page, "```\n", "```") + between(copying, "```\n", "```") +
-                               between(composite, "```\n", "```") + between(automatic, "```\n", "```");
-  ASSERT_EQ(std::count(commands.begin(), commands.end(), '\n'), 11) << commands;
+                               between(page, "```\n", "```") + first_of("## Into a copy") + first_of("## Composite") +
+                               first_of("## What each frame calls for") + first_of("## Accumulating over time") +
+                               first_of("## Error and flicker");
+  ASSERT_EQ(std::count(commands.begin(), commands.end(), '\n'), 15) << commands;
   const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && set -e\n{}", folder.string(),
                                            fs::path(program).parent_path().string(), commands);
   ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0)
       << commands << slurp(path("log"));
-  for (const char* file : {"ao.0012.exr", "gtao.0001.exr", "gtao.0011.exr", "full.0012.exr", "copy.0012.exr",
-                           "graded.0012.exr", "all.0012.exr", "auto.0004.exr"})
+  for (const char* file :
+       {"ao.0012.exr", "gtao.0001.exr", "gtao.0011.exr", "full.0012.exr", "copy.0012.exr", "graded.0012.exr",
+        "all.0012.exr", "auto.0004.exr", "plot.png", "difference.0004.png", "flicker.json"})
     EXPECT_TRUE(fs::exists(path(file))) << file;
   EXPECT_FALSE(fs::exists(path("gtao.0002.exr")));
 }

@@ -170,7 +170,7 @@ TEST_F(Shot, RefusesInOneLine) {
   expect_refused(run_on({shot, "-o", out, "--temporal", "--resolution", "half"}), 2, {"--temporal", "--resolution"});
   expect_refused({"run", "normals", shot, "-o", out, "--temporal"}, 2, {"--temporal: normals makes neither"});
   expect_refused(run_on({shot, "-o", out, "--json", one}), 2, {"--json", "is also"});
-  expect_refused({"compare", shot, one}, 1, {"only run, auto and info take the files of a shot"});
+  expect_refused({"plan", "ao", shot}, 1, {"only run, auto, info and compare take the files of a shot"});
 }
 
 // --- Cameras and eyes

@@ -20,4 +20,8 @@ struct DifferencePicture {
 void write_difference_picture(const std::filesystem::path& path, const Plane& test, const Plane& truth,
                               const Mask& foreground, const Metrics& metrics, const DifferencePicture& options);
 
+/// The `range` of one picture, where none is given: for one scale over several pictures, the largest of theirs. Throws Error as the
+/// picture does.
+double difference_range(const Plane& test, const Plane& truth, const Mask& foreground);
+
 }  // namespace gloam

@@ -5,4 +5,5 @@
 #include "gloam/difference_picture.h"
 #include "gloam/explanation.h"
 #include "gloam/plane_picture.h"
+#include "gloam/sequence_plot.h"
 #include "gloam/view_pictures.h"
