@@ -9,6 +9,7 @@
 #include "cli/capture_flags.h"
 #include "cli/capture_result.h"
 #include "cli/capture_shots.h"
+#include "cli/shot_flags.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
@@ -54,6 +55,26 @@ void take(const CaptureShot& shot, const Tracer& tracer, CaptureOptions options,
   figures.files.push_back(shot.file);
 }
 
+/// Frames of a moving camera have numbers in their names; one frame has none.
+void check_moving_flags(const CaptureCommand& flags) {
+  if (!flags.path.empty() && !flags.shot.empty())
+    throw UsageError("--camera-path and --shot both move the camera; give one of them");
+  const std::string moving = flags.moving();
+  if (!moving.empty() && flags.camera.any())
+    throw UsageError("{} places the camera and has its field of view; leave out --camera, --eye, --target and --fov",
+                     moving);
+  if (!moving.empty()) return;
+  if (flags.choice.frames)
+    throw UsageError("--frames: one camera makes one frame; give --camera-path FILE.json or --shot NAME too");
+  for (const auto& [flag, name] : {std::pair("-o", flags.out), std::pair("--picture", flags.picture)}) {
+    if (FramePattern::is_pattern(name))
+      throw UsageError(
+          "{} {}: is the name of many frames, and one camera makes one; give --camera-path FILE.json or "
+          "--shot NAME too",
+          flag, name);
+  }
+}
+
 void check_flags(const CaptureCommand& flags) {
   check_picture_name(flags.picture, "--picture");
   check_frame_name(flags.out, "-o");
@@ -62,10 +83,7 @@ void check_flags(const CaptureCommand& flags) {
     throw UsageError("--modules are for a light-field display; give --display FILE too");
   if (flags.display.empty() && flags.separate)
     throw UsageError("--separate is for the modules of a light-field display; give --display FILE too");
-  if (!flags.path.empty() && flags.camera.any())
-    throw UsageError(
-        "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "
-        "--fov");
+  check_moving_flags(flags);
   if (!flags.picture.empty() && !flags.planes.empty() && !contains(split_list(flags.planes, "--planes"), "color"))
     throw UsageError("--picture shows the plane color; add it to --planes");
 }
@@ -93,8 +111,8 @@ void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& sh
 void capture_command(const CaptureCommand& flags) {
   const WriteOptions write{flags.half, flags.compression};
   check_flags(flags);
-  if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
-  if (!flags.display.empty()) read_display(flags.display);                       // reports its errors first
+  if (flags.moving().empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
+  if (!flags.display.empty()) read_display(flags.display);                           // reports its errors first
   CaptureOptions options;
   if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.planes = planes_of(flags);
@@ -103,13 +121,18 @@ void capture_command(const CaptureCommand& flags) {
   const std::optional<OutlineOptions> outline_options = outlines_of(flags);
   options.second_view = second_view_of(flags);
   options.stereo = stereo_of(flags);
+  std::vector<CaptureShot> shots;
+  if (const auto path = path_of(flags, options.width, options.height)) {
+    shots = shots_of_path(flags, *path);
+    check_files(flags, shots);
+  }
   CaptureFigures figures;
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = flags.scene.load();
   figures.load = seconds_since(start);
   const Tracer tracer(scene);
-  const std::vector<CaptureShot> shots = flags.display.empty() ? shots_of(flags, scene, options.width, options.height)
-                                                               : shots_of_display(flags, tracer, options);
+  if (!flags.display.empty()) shots = shots_of_display(flags, tracer, options);
+  if (shots.empty()) shots.push_back(single_shot(flags, scene, options.width, options.height));
   check_files(flags, shots);
   figures.camera = shots.front().views.front().camera.source;
   figures.build = tracer.build_seconds();
@@ -180,6 +203,11 @@ void add_capture(CLI::App& app) {
   command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");
+  command
+      ->add_option("--shot", flags->shot,
+                   "a moving camera of a built-in scene, of gloam list shots: frames with motion")
+      ->type_name("NAME");
+  add_frames(*command, flags->choice);
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
   command->add_flag("--half", flags->half, "store bounded planes as half");
   add_compression(*command, flags->compression);
@@ -193,6 +221,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
       "  gloam capture courtyard -o courtyard.exr --outlines 0.5\n"
       "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
+      "  gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-12 --size 960x540\n"
       "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"

@@ -7,6 +7,7 @@
 #include "camera/camera_json.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
+#include "gloam/frame_pattern.h"
 #include "gloam/scene/light_field_capture.h"
 
 namespace gloam::cli {
@@ -22,10 +23,44 @@ void check_single_view(const CaptureCommand& flags, const std::vector<CaptureVie
                    flags.camera.camera, enumerate(names), flag);
 }
 
-/// "frame.exr" and 7 make "frame.0007.exr".
-std::string numbered(const std::string& path, int number) {
+/// The file of a frame: by the pattern, or "frame.0007.exr" for "frame.exr".
+std::string numbered(const std::string& path, const std::string& flag, int number) {
+  if (path.empty()) return "";
+  if (FramePattern::is_pattern(path)) return FramePattern(path, flag).path_of(number).string();
   const std::filesystem::path p(path);
   return (p.parent_path() / fmt::format("{}.{:04}{}", p.stem().string(), number, p.extension().string())).string();
+}
+
+/// The shot of a built-in scene.
+const ShotRecipe& named_shot(const std::string& scene, const std::string& name) {
+  const SceneRecipe* recipe = find_builtin_scene(scene);
+  if (!recipe)
+    throw UsageError("--shot {}: '{}' is not a built-in scene, and only these have shots; give --camera-path FILE",
+                     name, scene);
+  std::vector<std::string> names;
+  for (const ShotRecipe& shot : recipe->shots) {
+    if (shot.name == name) return shot;
+    names.push_back(shot.name);
+  }
+  if (names.empty())
+    throw UsageError("--shot {}: {} has no shots; gloam list shots shows those that there are", name, scene);
+  throw UsageError("--shot {}: {} has no shot of that name{}; it has {}", name, scene, suggestion(name, names),
+                   enumerate(names));
+}
+
+/// The frames to make, all of them frames of the path.
+std::vector<int> chosen_frames(const CaptureCommand& flags, const CameraPath& path) {
+  const int last = int(path.cameras.size());
+  std::vector<int> frames;
+  if (flags.choice.frames) {
+    frames = *flags.choice.frames;
+  } else {
+    for (int frame = 1; frame <= last; ++frame) frames.push_back(frame);
+  }
+  for (const int frame : {frames.front(), frames.back()}) {
+    if (frame < 1 || frame > last) throw UsageError("--frames {}: {} has frames 1 to {}", frame, path.flag, last);
+  }
+  return frames;
 }
 
 /// "frame.exr" and "module07" make "frame.module07.exr".
@@ -111,23 +146,38 @@ std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tra
   return shots;
 }
 
-std::vector<CaptureShot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height) {
-  std::vector<CaptureShot> shots;
-  if (flags.path.empty()) {
-    CaptureShot shot{flags.out, flags.picture, {}};
-    for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
-      shot.views.push_back({name, camera, {}});
-    check_single_view(flags, shot.views);
-    return {shot};
+std::optional<CameraPath> path_of(const CaptureCommand& flags, int width, int height) {
+  if (!flags.path.empty()) {
+    std::vector<std::string> assumed;
+    CameraPath path{"--camera-path " + flags.path, read_camera_path(flags.path, {0, 0, width, height}, assumed)};
+    note(assumed);
+    return path;
   }
-  std::vector<std::string> assumed;
-  const std::vector<Camera> cameras = read_camera_path(flags.path, {0, 0, width, height}, assumed);
-  note(assumed);
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    const int number = int(i) + 1;
-    shots.push_back({numbered(flags.out, number),
-                     flags.picture.empty() ? "" : numbered(flags.picture, number),
-                     {{"", cameras[i], cameras[i == 0 ? 0 : i - 1]}}});
+  if (flags.shot.empty()) return {};
+  const ShotRecipe& shot = named_shot(flags.scene.scene, flags.shot);
+  CameraPath path{"--shot " + flags.shot, {}, &shot};
+  for (int frame = 1; frame <= shot.frames; ++frame) {
+    path.cameras.push_back(camera_for(shot.camera(seconds_of_frame(frame)), width, height));
+    path.cameras.back().source = fmt::format("shot '{}'", shot.name);
+  }
+  return path;
+}
+
+CaptureShot single_shot(const CaptureCommand& flags, const Scene& scene, int width, int height) {
+  CaptureShot shot{flags.out, flags.picture, {}};
+  for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
+    shot.views.push_back({name, camera, {}});
+  check_single_view(flags, shot.views);
+  return shot;
+}
+
+std::vector<CaptureShot> shots_of_path(const CaptureCommand& flags, const CameraPath& path) {
+  std::vector<CaptureShot> shots;
+  for (const int frame : chosen_frames(flags, path)) {
+    const size_t i = size_t(frame) - 1;
+    shots.push_back({numbered(flags.out, "-o", frame),
+                     numbered(flags.picture, "--picture", frame),
+                     {{"", path.cameras[i], path.cameras[i == 0 ? 0 : i - 1]}}});
   }
   return shots;
 }

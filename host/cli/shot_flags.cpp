@@ -13,7 +13,7 @@ constexpr const char* group = "Shots";
 
 void add_frames(CLI::App& app, FrameChoice& choice) {
   add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
-             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all that are there")
+             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all")
       ->type_name("A-B")
       ->group(group);
 }
