@@ -9,11 +9,13 @@
 #include "cli/capture_flags.h"
 #include "cli/capture_result.h"
 #include "cli/capture_shots.h"
+#include "cli/moving_scene.h"
 #include "cli/shot_flags.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
 #include "gloam/radius.h"
+#include "gloam/scene/light_field_capture.h"
 #include "gloam/visualise.h"
 
 namespace gloam::cli {
@@ -108,51 +110,78 @@ void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& sh
               outputs);
 }
 
-void capture_command(const CaptureCommand& flags) {
-  const WriteOptions write{flags.half, flags.compression};
-  check_flags(flags);
-  if (flags.moving().empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
-  if (!flags.display.empty()) read_display(flags.display);                           // reports its errors first
+CaptureOptions options_of(const CaptureCommand& flags) {
   CaptureOptions options;
   if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.planes = planes_of(flags);
   options.peel = flags.peel;
   options.stochastic = stochastic_of(flags);
-  const std::optional<OutlineOptions> outline_options = outlines_of(flags);
   options.second_view = second_view_of(flags);
   options.stereo = stereo_of(flags);
+  return options;
+}
+
+/// The path, for an image of the size of the frames, or of a small one that a display is fitted to. Reports a display's errors.
+std::optional<CameraPath> path_for(const CaptureCommand& flags, const CaptureOptions& options) {
+  if (flags.display.empty()) return path_of(flags, options.width, options.height);
+  const FittingSize size = fitting_size(read_display(flags.display));
+  return path_of(flags, size.width, size.height);
+}
+
+/// All frames of a path have the radius of its first frame, whichever of them are made.
+std::optional<double> radius_of_first_frame(const CaptureCommand& flags, const CameraPath& path, const Tracer& tracer,
+                                            CaptureOptions options) {
+  CaptureCommand first = flags;
+  first.choice.frames = {1};
+  options.views = (flags.display.empty() ? shots_of_path(first, path) : shots_of_display(first, tracer, options, &path))
+                      .front()
+                      .views;
+  options.planes.clear();
+  options.peel = options.stochastic.samples = 0;
+  return radius_made_from(capture(tracer, options).frame);
+}
+
+void capture_command(const CaptureCommand& flags) {
+  const WriteOptions write{flags.half, flags.compression};
+  check_flags(flags);
+  if (flags.moving().empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
+  CaptureOptions options = options_of(flags);
+  const std::optional<OutlineOptions> outlines = outlines_of(flags);
+  const std::optional<CameraPath> path = path_for(flags, options);
   std::vector<CaptureShot> shots;
-  if (const auto path = path_of(flags, options.width, options.height)) {
+  if (path && flags.display.empty()) {
     shots = shots_of_path(flags, *path);
     check_files(flags, shots);
   }
-  CaptureFigures figures;
-  const auto start = std::chrono::steady_clock::now();
-  const Scene scene = flags.scene.load();
-  figures.load = seconds_since(start);
-  const Tracer tracer(scene);
-  if (!flags.display.empty()) shots = shots_of_display(flags, tracer, options);
-  if (shots.empty()) shots.push_back(single_shot(flags, scene, options.width, options.height));
+  MovingScene scene(flags.scene, path ? path->recipe : nullptr, outlines);
+  if (!flags.display.empty()) shots = shots_of_display(flags, scene.tracer(), options, path ? &*path : nullptr);
+  if (shots.empty()) shots.push_back(single_shot(flags, scene.scene(), options.width, options.height));
   check_files(flags, shots);
+  CaptureFigures figures;
   figures.camera = shots.front().views.front().camera.source;
-  figures.build = tracer.build_seconds();
-  std::optional<Outlines> outlines;
-  if (outline_options) options.outlines = &outlines.emplace(tracer, *outline_options);
-  figures.faces = scene.faces();
-  if (scene.ao_radius > 0) figures.ao_radius = scene.ao_radius;
-  figures.meshes = scene.meshes.size();
+  figures.faces = scene.scene().faces();
+  figures.meshes = scene.scene().meshes.size();
+  if (scene.scene().ao_radius > 0)
+    figures.ao_radius = scene.scene().ao_radius;
+  else if (shots.front().frame > 1)
+    figures.ao_radius = radius_of_first_frame(flags, *path, scene.tracer(), options);
   const auto bar = progress_bar();
   int taken = 0;
   if (bar) {
     options.progress = [&](int done, int of) { bar(taken * 1000 + int(1000LL * done / of), int(shots.size()) * 1000); };
   }
   for (const CaptureShot& shot : shots) {
-    take(shot, tracer, options, write, figures);
+    scene.go_to(shot.frame);
+    options.previous_scene = scene.previous();
+    options.outlines = scene.outlines();
+    take(shot, scene.tracer(), options, write, figures);
     ++taken;
   }
+  figures.load = scene.load_seconds();
+  figures.build = scene.build_seconds();
   if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
-  flags.json.write(capture_document(scene, options, figures), figures.files);
-  if (!flags.json.only_json()) print_capture(scene, options, figures);
+  flags.json.write(capture_document(scene.scene(), options, figures), figures.files);
+  if (!flags.json.only_json()) print_capture(scene.scene(), options, figures);
 }
 
 }  // namespace

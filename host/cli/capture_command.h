@@ -33,6 +33,7 @@ struct CaptureCommand {
 struct CaptureShot {
   std::string file, picture;
   std::vector<CaptureView> views;
+  int frame = 1;  ///< of a path
 };
 
 /// Number of surfaces under the pixels that show any.

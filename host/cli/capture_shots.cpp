@@ -88,29 +88,36 @@ std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
   return chosen;
 }
 
-/// The display, with the part of the world that it shows: the one that the display states, or the scene camera's image at its
-/// middle depth, which comes to lie in the screen.
-LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer) {
-  LightFieldDisplay display = read_display(flags.display);
-  if (display.world) {
-    if (flags.camera.any())
-      throw UsageError(
-          "--display {}: states which part of the world it shows; leave out --camera, --eye, --target "
-          "and --fov",
-          flags.display);
-    return display;
-  }
-  const FittingSize size = fitting_size(display);
-  const auto cameras = flags.camera.cameras(tracer.scene(), size.width, size.height);
+/// What a display shows if it states no part of the world: the image of a camera of one view.
+Camera framing_camera(const CaptureCommand& flags, const Scene& scene, const FittingSize& size) {
+  const auto cameras = flags.camera.cameras(scene, size.width, size.height);
   if (cameras.size() != 1)
     throw UsageError("--display {}: shows what one camera frames, and {} has {}; give a camera of one view",
                      flags.display, flags.camera.camera, cameras.size());
-  const auto fitted = fitted_to(display, tracer, cameras.begin()->second);
-  if (!fitted)
+  return cameras.front().second;
+}
+
+/// The display at each frame, with the part of the world that it shows: the one that the display states, or a camera's image at
+/// its middle depth, which comes to lie in the screen. Along a path that is the depth in the first frame: the display moves with
+/// the camera, and its world does not jump.
+std::vector<LightFieldDisplay> displays_for(const CaptureCommand& flags, const Tracer& tracer, const CameraPath* path) {
+  const LightFieldDisplay display = read_display(flags.display);
+  if (display.world && !path && !flags.camera.any()) return {display};
+  if (display.world)
+    throw UsageError("--display {}: states which part of the world it shows; leave out {}", flags.display,
+                     path ? flags.moving() : "--camera, --eye, --target and --fov");
+  const FittingSize size = fitting_size(display);
+  const std::vector<Camera> cameras =
+      path ? path->cameras : std::vector<Camera>{framing_camera(flags, tracer.scene(), size)};
+  const std::optional<double> depth = fitting_depth(display, tracer, cameras.front());
+  if (!depth)
     throw Error(
         "--display {}: the camera shows nothing of the scene that the display could; another --camera or --eye may",
         flags.display);
-  return *fitted;
+  std::vector<LightFieldDisplay> displays;
+  for (const Camera& camera : cameras)
+    displays.push_back(fitted_to(display, camera, {0, 0, size.width, size.height}, *depth));
+  return displays;
 }
 
 }  // namespace
@@ -131,17 +138,27 @@ std::vector<std::pair<int, int>> parse_modules(const std::string& text, const st
   return items;
 }
 
-std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
-  const LightFieldDisplay display = display_for(flags, tracer);
-  if (!flags.size) options.width = display.width, options.height = display.height;
-  const std::vector<CaptureView> views = module_views(display, options.width, options.height);
+std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options,
+                                          const CameraPath* path) {
+  const std::vector<LightFieldDisplay> displays = displays_for(flags, tracer, path);
+  if (!flags.size) options.width = displays.front().width, options.height = displays.front().height;
+  const std::vector<size_t> modules = chosen_modules(flags, displays.front().modules.size());
+  const auto views_at = [&](int frame) {
+    return module_views(displays[size_t(std::max(frame, 1)) - 1], options.width, options.height);
+  };
   std::vector<CaptureShot> shots;
-  if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});
-  for (const size_t i : chosen_modules(flags, views.size())) {
-    const std::string& name = views[i].name;
-    if (flags.separate)
-      shots.push_back({of_view(flags.out, name), flags.picture.empty() ? "" : of_view(flags.picture, name), {}});
-    shots.back().views.push_back(views[i]);
+  for (const int frame : path ? chosen_frames(flags, *path) : std::vector<int>{1}) {
+    const std::vector<CaptureView> views = views_at(frame), before = views_at(frame - 1);
+    const std::string file = path ? numbered(flags.out, "-o", frame) : flags.out,
+                      picture = path ? numbered(flags.picture, "--picture", frame) : flags.picture;
+    if (!flags.separate) shots.push_back({file, picture, {}, frame});
+    for (const size_t i : modules) {
+      const std::string& name = views[i].name;
+      if (flags.separate)
+        shots.push_back({of_view(file, name), picture.empty() ? "" : of_view(picture, name), {}, frame});
+      shots.back().views.push_back(views[i]);
+      if (path) shots.back().views.back().previous_camera = before[i].camera;
+    }
   }
   return shots;
 }
@@ -177,7 +194,8 @@ std::vector<CaptureShot> shots_of_path(const CaptureCommand& flags, const Camera
     const size_t i = size_t(frame) - 1;
     shots.push_back({numbered(flags.out, "-o", frame),
                      numbered(flags.picture, "--picture", frame),
-                     {{"", path.cameras[i], path.cameras[i == 0 ? 0 : i - 1]}}});
+                     {{"", path.cameras[i], path.cameras[i == 0 ? 0 : i - 1]}},
+                     frame});
   }
   return shots;
 }
