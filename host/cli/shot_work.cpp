@@ -1,7 +1,5 @@
 #include "cli/shot_work.h"
 
-#include <new>
-
 #include "base/elapsed.h"
 #include "base/files.h"
 #include "base/memory.h"
@@ -46,29 +44,15 @@ ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, std::fu
       flights_(files.frames().size()) {}
 
 bool ShotWork::guarded(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& step) {
-  const int number = frame_at(i).number;
-  std::string why;
-  try {
+  const auto timed = [&] {
     const auto start = std::chrono::steady_clock::now();
     const bool goes_on = step(*flights_[i]);
     flights_[i]->times.*time = 1000 * seconds_since(start);
-    if (!goes_on) flights_[i].reset();
     return goes_on;
-  } catch (const Error& error) {
-    flights_[i].reset();
-    if (is_lack_of_space(error)) {
-      if (report_.found_no_space(number, error.what())) stop_();
-      return false;
-    }
-    why = error.what();
-  } catch (const std::bad_alloc&) {
-    why = "out of memory; --memory sets how much is used";
-  } catch (const std::exception& error) {
-    why = error.what();
-  }
-  flights_[i].reset();
-  report_.failed(number, why);
-  return false;
+  };
+  const bool goes_on = report_.attempt(frame_at(i).number, timed, stop_);
+  if (!goes_on) flights_[i].reset();
+  return goes_on;
 }
 
 void ShotWork::add_notes(size_t i, const std::vector<std::string>& notes) {
