@@ -52,6 +52,15 @@ class TruthsOfShot {
     }
   }
 
+  /// "ao, ao_noise; radius 0.5 scene units"
+  std::string contents() const {
+    std::string words = fmt::format("{0}, {0}_noise", job_.plane);
+    if (radius_)
+      words += radius_->from == RadiusSource::frame ? "; each frame's own radius"
+                                                    : fmt::format("; radius {:g} scene units", radius_->value);
+    return words;
+  }
+
   void add_notes() const {
     if (!unlike_.empty())
       note(
@@ -109,7 +118,7 @@ class TruthsOfShot {
   void look_at(int number, const TracedFrame& traced) {
     if (traced.radius && !is_looked_at_) {
       const RadiusReport noted(*traced.radius, traced.frame, std::nullopt);
-      if (!flags_.json.only_json()) noted.print();
+      radius_ = traced.radius;
       if (traced.radius->from == RadiusSource::frame)
         note({"radius: each frame has its own, made from its depths; --radius gives one to all"});
     }
@@ -129,6 +138,7 @@ class TruthsOfShot {
   std::optional<FramePattern> pictures_;
   std::vector<int> unlike_;
   double most_unlike_share_ = 0;
+  std::optional<Radius> radius_;  ///< of the first frame
   bool is_looked_at_ = false;
 };
 
@@ -162,7 +172,7 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
   say_on_interruption("frames that were written are whole; the same command with --resume goes on");
   truths.trace_all();
   truths.add_notes();
-  report.finish(flags.out, fmt::format("{0}, {0}_noise", job.plane));
+  report.finish(flags.out, truths.contents());
 }
 
 }  // namespace gloam::cli

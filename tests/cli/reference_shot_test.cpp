@@ -37,7 +37,9 @@ class TruthsOfAShot : public ShotTest {
 };
 
 TEST_F(TruthsOfAShot, AreThoseOfItsFramesAlone) {
-  ASSERT_EQ(trace({"--seed", "7"}).err, "");
+  const Result traced = trace({"--seed", "7"});
+  ASSERT_EQ(traced.err, "");
+  EXPECT_NE(traced.out.find("(ao, ao_noise; radius 0.25 scene units)"), std::string::npos) << traced.out;
   EXPECT_EQ(contents("t.").size(), 4u);
   for (const int frame : {1, 4}) {
     ASSERT_EQ(gloam({"reference", "ao", file(numbered("c", frame)), "-o", file("alone.exr"), "--samples", "64",
@@ -111,6 +113,23 @@ TEST_F(TruthsOfAShot, MissingFrames) {
   expect_refused(truths_of({"--frames", "1-4"}), 1, {"frame 2 is missing", "--missing skip"});
   ASSERT_EQ(trace({"--frames", "1-4", "--missing", "skip"}).status, 0);
   EXPECT_EQ(contents("t.").size(), 3u);
+}
+
+// Neither the frames nor the scene states a radius.
+TEST_F(TruthsOfAShot, ARadiusOfEachFrameIsNoted) {
+  std::ofstream(path("wall.obj")) << "v -9 -9 0\nv 9 -9 0\nv 9 9 -9\nv -9 9 0\nf 1 2 3\nf 1 3 4\n";
+  const Arguments capture = {"capture", file("wall.obj"), "-o",    file("w.exr"), "--size",
+                             "16x9",    "--eye",          "0,0,6", "--target",    "0,0,0"};
+  ASSERT_EQ(gloam(capture).status, 0);
+  for (const int number : {1, 2}) {
+    Frame frame = FrameFile(path("w.exr"), {}).read({"depth", "normal"});
+    frame.numbers.erase("aoRadius");
+    write_frame(path(numbered("w", number)), frame);
+  }
+  const Result traced = gloam({"reference", "ao", file("w.####.exr"), "-o", file("t.####.exr"), "--samples", "32",
+                               "--scene", file("wall.obj")});
+  ASSERT_EQ(traced.status, 0) << traced.err;
+  EXPECT_NE(traced.err.find("--radius gives one to all"), std::string::npos) << traced.err;
 }
 
 TEST_F(TruthsOfAShot, ReflectionsAndPictures) {
