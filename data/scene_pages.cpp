@@ -128,8 +128,10 @@ std::string section(const Figures& f) {
   if (f.recipe.parameters.empty()) text += "It has no parameters.\n";
   for (const Parameter& p : f.recipe.parameters)
     text += fmt::format("- `--{} {}`: {} ({})\n", p.name, initial_value(p), p.help, allowed_values(p));
-  text += fmt::format("\nCameras: {}.\n\n![All planes of {}](images/scenes/{}.png)\n", enumerate(f.cameras),
-                      f.recipe.name, f.recipe.name);
+  text += fmt::format("\nCameras: {}.\n", enumerate(f.cameras));
+  for (const ShotRecipe& shot : f.recipe.shots)
+    text += fmt::format("\nMoving, `--shot {}`: {} ({} frames).\n", shot.name, shot.summary, shot.frames);
+  text += fmt::format("\n![All planes of {}](images/scenes/{}.png)\n", f.recipe.name, f.recipe.name);
   return text;
 }
 

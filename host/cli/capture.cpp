@@ -9,10 +9,13 @@
 #include "cli/capture_flags.h"
 #include "cli/capture_result.h"
 #include "cli/capture_shots.h"
+#include "cli/moving_scene.h"
+#include "cli/shot_flags.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
 #include "gloam/radius.h"
+#include "gloam/scene/light_field_capture.h"
 #include "gloam/visualise.h"
 
 namespace gloam::cli {
@@ -54,6 +57,26 @@ void take(const CaptureShot& shot, const Tracer& tracer, CaptureOptions options,
   figures.files.push_back(shot.file);
 }
 
+/// Frames of a moving camera have numbers in their names; one frame has none.
+void check_moving_flags(const CaptureCommand& flags) {
+  if (!flags.path.empty() && !flags.shot.empty())
+    throw UsageError("--camera-path and --shot both move the camera; give one of them");
+  const std::string moving = flags.moving();
+  if (!moving.empty() && flags.camera.any())
+    throw UsageError("{} places the camera and has its field of view; leave out --camera, --eye, --target and --fov",
+                     moving);
+  if (!moving.empty()) return;
+  if (flags.choice.frames)
+    throw UsageError("--frames: one camera makes one frame; give --camera-path FILE.json or --shot NAME too");
+  for (const auto& [flag, name] : {std::pair("-o", flags.out), std::pair("--picture", flags.picture)}) {
+    if (FramePattern::is_pattern(name))
+      throw UsageError(
+          "{} {}: is the name of many frames, and one camera makes one; give --camera-path FILE.json or "
+          "--shot NAME too",
+          flag, name);
+  }
+}
+
 void check_flags(const CaptureCommand& flags) {
   check_picture_name(flags.picture, "--picture");
   check_frame_name(flags.out, "-o");
@@ -62,10 +85,7 @@ void check_flags(const CaptureCommand& flags) {
     throw UsageError("--modules are for a light-field display; give --display FILE too");
   if (flags.display.empty() && flags.separate)
     throw UsageError("--separate is for the modules of a light-field display; give --display FILE too");
-  if (!flags.path.empty() && flags.camera.any())
-    throw UsageError(
-        "--camera-path places the camera and has its field of view; leave out --camera, --eye, --target and "
-        "--fov");
+  check_moving_flags(flags);
   if (!flags.picture.empty() && !flags.planes.empty() && !contains(split_list(flags.planes, "--planes"), "color"))
     throw UsageError("--picture shows the plane color; add it to --planes");
 }
@@ -90,46 +110,78 @@ void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& sh
               outputs);
 }
 
-void capture_command(const CaptureCommand& flags) {
-  const WriteOptions write{flags.half, flags.compression};
-  check_flags(flags);
-  if (flags.path.empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
-  if (!flags.display.empty()) read_display(flags.display);                       // reports its errors first
+CaptureOptions options_of(const CaptureCommand& flags) {
   CaptureOptions options;
   if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.planes = planes_of(flags);
   options.peel = flags.peel;
   options.stochastic = stochastic_of(flags);
-  const std::optional<OutlineOptions> outline_options = outlines_of(flags);
   options.second_view = second_view_of(flags);
   options.stereo = stereo_of(flags);
-  CaptureFigures figures;
-  const auto start = std::chrono::steady_clock::now();
-  const Scene scene = flags.scene.load();
-  figures.load = seconds_since(start);
-  const Tracer tracer(scene);
-  const std::vector<CaptureShot> shots = flags.display.empty() ? shots_of(flags, scene, options.width, options.height)
-                                                               : shots_of_display(flags, tracer, options);
+  return options;
+}
+
+/// The path, for an image of the size of the frames, or of a small one that a display is fitted to. Reports a display's errors.
+std::optional<CameraPath> path_for(const CaptureCommand& flags, const CaptureOptions& options) {
+  if (flags.display.empty()) return path_of(flags, options.width, options.height);
+  const FittingSize size = fitting_size(read_display(flags.display));
+  return path_of(flags, size.width, size.height);
+}
+
+/// All frames of a path have the radius of its first frame, whichever of them are made.
+std::optional<double> radius_of_first_frame(const CaptureCommand& flags, const CameraPath& path, const Tracer& tracer,
+                                            CaptureOptions options) {
+  CaptureCommand first = flags;
+  first.choice.frames = {1};
+  options.views = (flags.display.empty() ? shots_of_path(first, path) : shots_of_display(first, tracer, options, &path))
+                      .front()
+                      .views;
+  options.planes.clear();
+  options.peel = options.stochastic.samples = 0;
+  return radius_made_from(capture(tracer, options).frame);
+}
+
+void capture_command(const CaptureCommand& flags) {
+  const WriteOptions write{flags.half, flags.compression};
+  check_flags(flags);
+  if (flags.moving().empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
+  CaptureOptions options = options_of(flags);
+  const std::optional<OutlineOptions> outlines = outlines_of(flags);
+  const std::optional<CameraPath> path = path_for(flags, options);
+  std::vector<CaptureShot> shots;
+  if (path && flags.display.empty()) {
+    shots = shots_of_path(flags, *path);
+    check_files(flags, shots);
+  }
+  MovingScene scene(flags.scene, path ? path->recipe : nullptr, outlines);
+  if (!flags.display.empty()) shots = shots_of_display(flags, scene.tracer(), options, path ? &*path : nullptr);
+  if (shots.empty()) shots.push_back(single_shot(flags, scene.scene(), options.width, options.height));
   check_files(flags, shots);
+  CaptureFigures figures;
   figures.camera = shots.front().views.front().camera.source;
-  figures.build = tracer.build_seconds();
-  std::optional<Outlines> outlines;
-  if (outline_options) options.outlines = &outlines.emplace(tracer, *outline_options);
-  figures.faces = scene.faces();
-  if (scene.ao_radius > 0) figures.ao_radius = scene.ao_radius;
-  figures.meshes = scene.meshes.size();
+  figures.faces = scene.scene().faces();
+  figures.meshes = scene.scene().meshes.size();
+  if (scene.scene().ao_radius > 0)
+    figures.ao_radius = scene.scene().ao_radius;
+  else if (shots.front().frame > 1)
+    figures.ao_radius = radius_of_first_frame(flags, *path, scene.tracer(), options);
   const auto bar = progress_bar();
   int taken = 0;
   if (bar) {
     options.progress = [&](int done, int of) { bar(taken * 1000 + int(1000LL * done / of), int(shots.size()) * 1000); };
   }
   for (const CaptureShot& shot : shots) {
-    take(shot, tracer, options, write, figures);
+    scene.go_to(shot.frame);
+    options.previous_scene = scene.previous();
+    options.outlines = scene.outlines();
+    take(shot, scene.tracer(), options, write, figures);
     ++taken;
   }
+  figures.load = scene.load_seconds();
+  figures.build = scene.build_seconds();
   if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
-  flags.json.write(capture_document(scene, options, figures), figures.files);
-  if (!flags.json.only_json()) print_capture(scene, options, figures);
+  flags.json.write(capture_document(scene.scene(), options, figures), figures.files);
+  if (!flags.json.only_json()) print_capture(scene.scene(), options, figures);
 }
 
 }  // namespace
@@ -180,6 +232,11 @@ void add_capture(CLI::App& app) {
   command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
   command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
       ->type_name("FILE");
+  command
+      ->add_option("--shot", flags->shot,
+                   "a moving camera of a built-in scene, of gloam list shots: frames with motion")
+      ->type_name("NAME");
+  add_frames(*command, flags->choice);
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
   command->add_flag("--half", flags->half, "store bounded planes as half");
   add_compression(*command, flags->compression);
@@ -193,6 +250,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
       "  gloam capture courtyard -o courtyard.exr --outlines 0.5\n"
       "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
+      "  gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-12 --size 960x540\n"
       "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"

@@ -8,11 +8,12 @@
 #include "cli/options.h"
 #include "cli/scene_flags.h"
 #include "gloam/scene/capture.h"
+#include "sequence/frame_list.h"
 
 namespace gloam::cli {
 
 struct CaptureCommand {
-  std::string out, planes, path, picture, compression = "zip";
+  std::string out, planes, path, shot, picture, compression = "zip";
   std::string display, modules;
   std::optional<Size> size;
   int peel = 0;
@@ -20,15 +21,19 @@ struct CaptureCommand {
   std::optional<double> alpha, view2, stereo, convergence, outlines, outline_angle;
   std::optional<OutlineMethod> outline_method;
   bool half = false, toe_in = false, separate = false;
+  FrameChoice choice;  ///< frames of the path or the shot
   SceneFlags scene;
   SceneCameraFlags camera;
   JsonFlag json;
+  /// The flag that moves the camera; empty for one frame.
+  std::string moving() const { return !path.empty() ? "--camera-path" : !shot.empty() ? "--shot" : ""; }
 };
 
 /// One moment: the views to capture, and the files to write.
 struct CaptureShot {
   std::string file, picture;
   std::vector<CaptureView> views;
+  int frame = 1;  ///< of a path
 };
 
 /// Number of surfaces under the pixels that show any.

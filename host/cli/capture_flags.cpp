@@ -12,9 +12,10 @@ std::vector<std::string> planes_of(const CaptureCommand& flags) {
   for (const std::string& plane : capture_planes()) {
     if (flags.planes.empty() && plane != "motion") planes.push_back(plane);
   }
-  if (contains(planes, "motion") && flags.path.empty())
-    throw UsageError("--planes motion needs cameras of two moments; give --camera-path FILE.json");
-  if (!flags.path.empty()) add_new(planes, "motion");
+  const bool moves = !flags.moving().empty();
+  if (contains(planes, "motion") && !moves)
+    throw UsageError("--planes motion needs cameras of two moments; give --camera-path FILE.json or --shot NAME");
+  if (moves) add_new(planes, "motion");
   return planes;
 }
 
@@ -71,11 +72,16 @@ void check_second_view_flags(const CaptureCommand& flags) {
   std::vector<std::string> given;
   if (flags.view2) given.push_back("--view2");
   if (flags.stereo) given.push_back("--stereo");
-  if (!flags.path.empty()) given.push_back("--camera-path");
   if (!flags.display.empty()) given.push_back("--display");
   if (given.size() > 1)
     throw UsageError("{} cannot be given together, as each says which views a frame has; give one of them",
                      enumerate(given));
+  if (flags.view2 && !flags.moving().empty())
+    throw UsageError(
+        "--view2 and {} cannot be given together: the second view turns about what the first one shows in each frame, "
+        "so "
+        "it has no motion; give one of them, or --stereo IPD for two eyes that move",
+        flags.moving());
 }
 
 }  // namespace gloam::cli

@@ -7,6 +7,7 @@
 #include "camera/camera_json.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
+#include "gloam/frame_pattern.h"
 #include "gloam/scene/light_field_capture.h"
 
 namespace gloam::cli {
@@ -22,10 +23,44 @@ void check_single_view(const CaptureCommand& flags, const std::vector<CaptureVie
                    flags.camera.camera, enumerate(names), flag);
 }
 
-/// "frame.exr" and 7 make "frame.0007.exr".
-std::string numbered(const std::string& path, int number) {
+/// The file of a frame: by the pattern, or "frame.0007.exr" for "frame.exr".
+std::string numbered(const std::string& path, const std::string& flag, int number) {
+  if (path.empty()) return "";
+  if (FramePattern::is_pattern(path)) return FramePattern(path, flag).path_of(number).string();
   const std::filesystem::path p(path);
   return (p.parent_path() / fmt::format("{}.{:04}{}", p.stem().string(), number, p.extension().string())).string();
+}
+
+/// The shot of a built-in scene.
+const ShotRecipe& named_shot(const std::string& scene, const std::string& name) {
+  const SceneRecipe* recipe = find_builtin_scene(scene);
+  if (!recipe)
+    throw UsageError("--shot {}: '{}' is not a built-in scene, and only these have shots; give --camera-path FILE",
+                     name, scene);
+  std::vector<std::string> names;
+  for (const ShotRecipe& shot : recipe->shots) {
+    if (shot.name == name) return shot;
+    names.push_back(shot.name);
+  }
+  if (names.empty())
+    throw UsageError("--shot {}: {} has no shots; gloam list shots shows those that there are", name, scene);
+  throw UsageError("--shot {}: {} has no shot of that name{}; it has {}", name, scene, suggestion(name, names),
+                   enumerate(names));
+}
+
+/// The frames to make, all of them frames of the path.
+std::vector<int> chosen_frames(const CaptureCommand& flags, const CameraPath& path) {
+  const int last = int(path.cameras.size());
+  std::vector<int> frames;
+  if (flags.choice.frames) {
+    frames = *flags.choice.frames;
+  } else {
+    for (int frame = 1; frame <= last; ++frame) frames.push_back(frame);
+  }
+  for (const int frame : {frames.front(), frames.back()}) {
+    if (frame < 1 || frame > last) throw UsageError("--frames {}: {} has frames 1 to {}", frame, path.flag, last);
+  }
+  return frames;
 }
 
 /// "frame.exr" and "module07" make "frame.module07.exr".
@@ -53,29 +88,36 @@ std::vector<size_t> chosen_modules(const CaptureCommand& flags, size_t count) {
   return chosen;
 }
 
-/// The display, with the part of the world that it shows: the one that the display states, or the scene camera's image at its
-/// middle depth, which comes to lie in the screen.
-LightFieldDisplay display_for(const CaptureCommand& flags, const Tracer& tracer) {
-  LightFieldDisplay display = read_display(flags.display);
-  if (display.world) {
-    if (flags.camera.any())
-      throw UsageError(
-          "--display {}: states which part of the world it shows; leave out --camera, --eye, --target "
-          "and --fov",
-          flags.display);
-    return display;
-  }
-  const FittingSize size = fitting_size(display);
-  const auto cameras = flags.camera.cameras(tracer.scene(), size.width, size.height);
+/// What a display shows if it states no part of the world: the image of a camera of one view.
+Camera framing_camera(const CaptureCommand& flags, const Scene& scene, const FittingSize& size) {
+  const auto cameras = flags.camera.cameras(scene, size.width, size.height);
   if (cameras.size() != 1)
     throw UsageError("--display {}: shows what one camera frames, and {} has {}; give a camera of one view",
                      flags.display, flags.camera.camera, cameras.size());
-  const auto fitted = fitted_to(display, tracer, cameras.begin()->second);
-  if (!fitted)
+  return cameras.front().second;
+}
+
+/// The display at each frame, with the part of the world that it shows: the one that the display states, or a camera's image at
+/// its middle depth, which comes to lie in the screen. Along a path that is the depth in the first frame: the display moves with
+/// the camera, and its world does not jump.
+std::vector<LightFieldDisplay> displays_for(const CaptureCommand& flags, const Tracer& tracer, const CameraPath* path) {
+  const LightFieldDisplay display = read_display(flags.display);
+  if (display.world && !path && !flags.camera.any()) return {display};
+  if (display.world)
+    throw UsageError("--display {}: states which part of the world it shows; leave out {}", flags.display,
+                     path ? flags.moving() : "--camera, --eye, --target and --fov");
+  const FittingSize size = fitting_size(display);
+  const std::vector<Camera> cameras =
+      path ? path->cameras : std::vector<Camera>{framing_camera(flags, tracer.scene(), size)};
+  const std::optional<double> depth = fitting_depth(display, tracer, cameras.front());
+  if (!depth)
     throw Error(
         "--display {}: the camera shows nothing of the scene that the display could; another --camera or --eye may",
         flags.display);
-  return *fitted;
+  std::vector<LightFieldDisplay> displays;
+  for (const Camera& camera : cameras)
+    displays.push_back(fitted_to(display, camera, {0, 0, size.width, size.height}, *depth));
+  return displays;
 }
 
 }  // namespace
@@ -96,38 +138,64 @@ std::vector<std::pair<int, int>> parse_modules(const std::string& text, const st
   return items;
 }
 
-std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options) {
-  const LightFieldDisplay display = display_for(flags, tracer);
-  if (!flags.size) options.width = display.width, options.height = display.height;
-  const std::vector<CaptureView> views = module_views(display, options.width, options.height);
+std::vector<CaptureShot> shots_of_display(const CaptureCommand& flags, const Tracer& tracer, CaptureOptions& options,
+                                          const CameraPath* path) {
+  const std::vector<LightFieldDisplay> displays = displays_for(flags, tracer, path);
+  if (!flags.size) options.width = displays.front().width, options.height = displays.front().height;
+  const std::vector<size_t> modules = chosen_modules(flags, displays.front().modules.size());
+  const auto views_at = [&](int frame) {
+    return module_views(displays[size_t(std::max(frame, 1)) - 1], options.width, options.height);
+  };
   std::vector<CaptureShot> shots;
-  if (!flags.separate) shots.push_back({flags.out, flags.picture, {}});
-  for (const size_t i : chosen_modules(flags, views.size())) {
-    const std::string& name = views[i].name;
-    if (flags.separate)
-      shots.push_back({of_view(flags.out, name), flags.picture.empty() ? "" : of_view(flags.picture, name), {}});
-    shots.back().views.push_back(views[i]);
+  for (const int frame : path ? chosen_frames(flags, *path) : std::vector<int>{1}) {
+    const std::vector<CaptureView> views = views_at(frame), before = views_at(frame - 1);
+    const std::string file = path ? numbered(flags.out, "-o", frame) : flags.out,
+                      picture = path ? numbered(flags.picture, "--picture", frame) : flags.picture;
+    if (!flags.separate) shots.push_back({file, picture, {}, frame});
+    for (const size_t i : modules) {
+      const std::string& name = views[i].name;
+      if (flags.separate)
+        shots.push_back({of_view(file, name), picture.empty() ? "" : of_view(picture, name), {}, frame});
+      shots.back().views.push_back(views[i]);
+      if (path) shots.back().views.back().previous_camera = before[i].camera;
+    }
   }
   return shots;
 }
 
-std::vector<CaptureShot> shots_of(const CaptureCommand& flags, const Scene& scene, int width, int height) {
-  std::vector<CaptureShot> shots;
-  if (flags.path.empty()) {
-    CaptureShot shot{flags.out, flags.picture, {}};
-    for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
-      shot.views.push_back({name, camera, {}});
-    check_single_view(flags, shot.views);
-    return {shot};
+std::optional<CameraPath> path_of(const CaptureCommand& flags, int width, int height) {
+  if (!flags.path.empty()) {
+    std::vector<std::string> assumed;
+    CameraPath path{"--camera-path " + flags.path, read_camera_path(flags.path, {0, 0, width, height}, assumed)};
+    note(assumed);
+    return path;
   }
-  std::vector<std::string> assumed;
-  const std::vector<Camera> cameras = read_camera_path(flags.path, {0, 0, width, height}, assumed);
-  note(assumed);
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    const int number = int(i) + 1;
-    shots.push_back({numbered(flags.out, number),
-                     flags.picture.empty() ? "" : numbered(flags.picture, number),
-                     {{"", cameras[i], cameras[i == 0 ? 0 : i - 1]}}});
+  if (flags.shot.empty()) return {};
+  const ShotRecipe& shot = named_shot(flags.scene.scene, flags.shot);
+  CameraPath path{"--shot " + flags.shot, {}, &shot};
+  for (int frame = 1; frame <= shot.frames; ++frame) {
+    path.cameras.push_back(camera_for(shot.camera(seconds_of_frame(frame)), width, height));
+    path.cameras.back().source = fmt::format("shot '{}'", shot.name);
+  }
+  return path;
+}
+
+CaptureShot single_shot(const CaptureCommand& flags, const Scene& scene, int width, int height) {
+  CaptureShot shot{flags.out, flags.picture, {}};
+  for (const auto& [name, camera] : flags.camera.cameras(scene, width, height))
+    shot.views.push_back({name, camera, {}});
+  check_single_view(flags, shot.views);
+  return shot;
+}
+
+std::vector<CaptureShot> shots_of_path(const CaptureCommand& flags, const CameraPath& path) {
+  std::vector<CaptureShot> shots;
+  for (const int frame : chosen_frames(flags, path)) {
+    const size_t i = size_t(frame) - 1;
+    shots.push_back({numbered(flags.out, "-o", frame),
+                     numbered(flags.picture, "--picture", frame),
+                     {{"", path.cameras[i], path.cameras[i == 0 ? 0 : i - 1]}},
+                     frame});
   }
   return shots;
 }

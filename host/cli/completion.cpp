@@ -20,6 +20,14 @@ Words scene_names() {
   return names;
 }
 
+Words shot_names() {
+  Words names;
+  for (const SceneRecipe& recipe : builtin_scenes()) {
+    for (const ShotRecipe& shot : recipe.shots) add_new(names, shot.name);
+  }
+  return names;
+}
+
 Words preset_names() {
   Words names;
   for (const Technique& technique : registry()) {
@@ -57,6 +65,7 @@ Words words_for(const std::string& command, const std::string& name) {
   if (name == "--only") return planes_and_techniques();
   if (name == "--preset" || name == "--presets" || name == "--adaptive") return preset_names();
   if (name == "--with") return extra_names();
+  if (name == "--shot") return shot_names();
   if (name == "scene" || name == "--scene" || name == "--scenes") return scene_names();
   return {};
 }

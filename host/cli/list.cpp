@@ -1,4 +1,4 @@
-// gloam list techniques|devices|metrics|scenes|cases
+// gloam list techniques|devices|metrics|scenes|shots|cases
 #include <memory>
 
 #include "cli/list_techniques.h"
@@ -64,6 +64,23 @@ void list_scenes(const JsonFlag& json) {
   print_table(rows, 3);
 }
 
+void list_shots(const JsonFlag& json) {
+  Json document = Json::array();
+  std::vector<std::vector<std::string>> rows = {{"scene", "shot", "frames", "summary"}};
+  for (const SceneRecipe& recipe : builtin_scenes()) {
+    for (const ShotRecipe& shot : recipe.shots) {
+      document.push_back({{"scene", recipe.name},
+                          {"shot", shot.name},
+                          {"frames", shot.frames},
+                          {"moves_objects", shot.moves_objects},
+                          {"summary", shot.summary}});
+      rows.push_back({recipe.name, shot.name, std::to_string(shot.frames), shot.summary});
+    }
+  }
+  json.write(document);
+  if (!json.only_json()) print_table(rows, 4);
+}
+
 void list_metrics(const JsonFlag& json) {
   const std::vector<std::pair<std::string, std::string>> metrics = {
       {"pixels", "pixels that count: foreground in both"},
@@ -100,7 +117,7 @@ void list_cases(const JsonFlag& json) {
   if (!json.only_json()) print_table(rows, 3);
 }
 
-const std::vector<std::string> listed = {"techniques", "devices", "metrics", "scenes", "cases"};
+const std::vector<std::string> listed = {"techniques", "devices", "metrics", "scenes", "shots", "cases"};
 
 }  // namespace
 
@@ -111,7 +128,8 @@ void add_list(CLI::App& app) {
     JsonFlag json;
   };
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes or hard cases");
+  CLI::App* command =
+      app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes, their shots or hard cases");
   command->add_option("what", flags->what, "what is listed")->required()->type_name(type_of_words(listed));
   command->add_option("name", flags->name, "a technique: all about it")->type_name("NAME");
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
@@ -125,6 +143,7 @@ void add_list(CLI::App& app) {
     if (flags->what == "devices") return list_devices_command(flags->json);
     if (flags->what == "metrics") return list_metrics(flags->json);
     if (flags->what == "scenes") return list_scenes(flags->json);
+    if (flags->what == "shots") return list_shots(flags->json);
     if (flags->what == "cases") return list_cases(flags->json);
     throw UsageError("list: no '{}'{}; {} can be listed", flags->what, suggestion(flags->what, listed),
                      enumerate(listed));

@@ -30,18 +30,26 @@ void add_chunks(CLI::App& app, ShotFlags& flags) {
 
 void add_frames(CLI::App& app, FrameChoice& choice) {
   add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
-             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all that are there")
+             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all")
       ->type_name("A-B")
       ->group(group);
 }
 
-void ShotFlags::add_to(CLI::App& app, bool divides) {
-  add_frames(app, choice);
+void add_missing(CLI::App& app, FrameChoice& choice) {
   add_choice(app, "--missing", choice.missing,
              {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}},
              "frames that are not there: refuse (the default), leave out, or take the nearest one before")
       ->group(group);
+}
+
+void add_resume(CLI::App& app, bool& resume) {
   app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(group);
+}
+
+void ShotFlags::add_to(CLI::App& app, bool divides) {
+  add_frames(app, choice);
+  add_missing(app, choice);
+  add_resume(app, resume);
   app.add_option("--memory", memory, "most memory for a shot: it decides how many frames are worked on at once")
       ->check(accepted_by(parse_memory, "--memory"))
       ->type_name("4G|512M")

@@ -24,5 +24,9 @@ struct ShotFlags {
 
 /// Adds --frames.
 void add_frames(CLI::App& app, FrameChoice& choice);
+/// Adds --missing.
+void add_missing(CLI::App& app, FrameChoice& choice);
+/// Adds --resume.
+void add_resume(CLI::App& app, bool& resume);
 
 }  // namespace gloam::cli

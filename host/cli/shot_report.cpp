@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <new>
 
 #include "base/elapsed.h"
 #include "base/files.h"
@@ -69,12 +70,39 @@ bool ShotReport::found_no_space(int frame, const std::string& why) {
   return is_disk_full_;
 }
 
+bool ShotReport::attempt(int frame, const std::function<bool()>& step, const std::function<void()>& stop,
+                         bool is_told) {
+  std::string why;
+  try {
+    return step();
+  } catch (const Error& error) {
+    if (is_lack_of_space(error)) {
+      if (found_no_space(frame, error.what())) stop();
+      return false;
+    }
+    why = error.what();
+  } catch (const std::bad_alloc&) {
+    why = "out of memory; --memory sets how much is used";
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  if (is_told) failed(frame, why);
+  return false;
+}
+
+void ShotReport::in_frame(double share_done) {
+  const std::lock_guard lock(mutex_);
+  share_done_ = share_done;
+  draw();
+}
+
 void ShotReport::written_again(int frame, const std::string& why) {
   const std::lock_guard lock(mutex_);
   again_[why].push_back(frame);
 }
 
 void ShotReport::end_frame(Json line) {
+  share_done_ = 0;
   if (json_.only_json()) {
     std::fputs(line_of(line).c_str(), stdout);
     std::fflush(stdout);
@@ -92,11 +120,12 @@ void ShotReport::tell(const Failure& failure) {
 void ShotReport::draw() {
   if (!shows_progress() || seconds() < drawn_ + least_between_drawings) return;
   drawn_ = seconds();
-  const size_t ended = done_ + skipped_ + failed_.size(), worked = done_ + failed_.size();
-  const double per_second = double(worked) / seconds();
-  const int width = 40, filled = int(double(width) * double(ended) / double(frames_));
+  const size_t ended = done_ + skipped_ + failed_.size();
+  const double come = double(ended) + share_done_, worked = double(done_ + failed_.size()) + share_done_;
+  const double per_second = worked / seconds();
+  const int width = 40, filled = int(double(width) * come / double(frames_));
   const std::string left =
-      worked == 0 ? "" : fmt::format(", {} left", time_in_words(double(frames_ - ended) / per_second));
+      worked == 0 ? "" : fmt::format(", {} left", time_in_words((double(frames_) - come) / per_second));
   fmt::print(stderr, "\r[{:=<{}}{:<{}}] {}/{}, {:.2g} frames a second{}\033[K", "", filled, "", width - filled, ended,
              frames_, per_second, left);
   std::fflush(stderr);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -29,6 +30,11 @@ class ShotReport {
   /// As `failed`, for lack of space on the disk. It is told once it is known whether later frames have found some. Returns
   /// whether so many frames in a row have failed for it that the others would too.
   bool found_no_space(int frame, const std::string& why);
+  /// Runs a step of a frame. An error ends the frame and, with `is_told`, is told; `stop` is called where all others would fail too. Returns what the
+  /// step returns, and false if it failed.
+  bool attempt(int frame, const std::function<bool()>& step, const std::function<void()>& stop, bool is_told = true);
+  /// Draws how far the frame has come that is worked on: for frames that take long, one after another.
+  void in_frame(double share_done);
   /// Remembers why a frame that was there is written again.
   void written_again(int frame, const std::string& why);
 
@@ -58,6 +64,7 @@ class ShotReport {
   std::vector<int> failed_;
   std::vector<Failure> without_space_;  ///< the last frames in a row
   bool is_disk_full_ = false;
+  double share_done_ = 0;  ///< of the frame that is worked on
   std::map<std::string, std::vector<int>> again_;
   std::string lines_;  ///< for a file of --json
 };

@@ -1,9 +1,6 @@
 #include "cli/shot_steps.h"
 
-#include <new>
-
 #include "base/elapsed.h"
-#include "base/files.h"
 #include "base/memory.h"
 #include "cli/notes.h"
 #include "gloam/error.h"
@@ -19,26 +16,13 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 }  // namespace
 
 bool ShotSteps::run(size_t i, double& ms, const std::function<bool()>& step, bool is_told) {
-  const int number = files_.frames()[i].number;
-  std::string why;
-  try {
+  const auto timed = [&] {
     const auto start = std::chrono::steady_clock::now();
     const bool goes_on = step();
     ms = 1000 * seconds_since(start);
     return goes_on;
-  } catch (const Error& error) {
-    if (is_lack_of_space(error)) {
-      if (report_.found_no_space(number, error.what())) stop_();
-      return false;
-    }
-    why = error.what();
-  } catch (const std::bad_alloc&) {
-    why = "out of memory; --memory sets how much is used";
-  } catch (const std::exception& error) {
-    why = error.what();
-  }
-  if (is_told) report_.failed(number, why);
-  return false;
+  };
+  return report_.attempt(files_.frames()[i].number, timed, stop_, is_told);
 }
 
 void ShotSteps::add_notes(size_t i, const std::vector<std::string>& notes) const {

@@ -20,6 +20,7 @@
 #include "scene/capture_options.h"
 #include "scene/capture_target.h"
 #include "scene/captured_pixels.h"
+#include "scene/earlier_position.h"
 #include "scene/outline_counter.h"
 #include "scene/stochastic_map.h"
 
@@ -49,6 +50,7 @@ class Capturer {
       : tracer_(tracer),
         view_(view),
         target_(target),
+        before_(options.previous_scene),
         stochastic_(options.stochastic, target.stochastic),
         outlines_(options.outlines, view.camera, target) {
     needs_all_ = target.back_depth || target.peel_count || stochastic_.is_wanted();
@@ -97,7 +99,7 @@ class Capturer {
     if (target_.instance) target_.instance->at(x, y) = float(first.mesh + 1);
     const dvec3 world = first.position + tracer_.scene().origin;
     put(target_.position, x, y, world - view_.camera.pose->position);
-    moved(x, y, world, 1);
+    moved(x, y, before_ ? earlier_position(tracer_.scene(), *before_, first) : world, 1);
   }
 
   void background(int x, int y, const TracerRay& ray) const {
@@ -126,15 +128,17 @@ class Capturer {
     }
   }
 
-  void moved(int x, int y, const dvec3& world, double w) const {
+  /// `earlier`: where the frame before has what the pixel shows.
+  void moved(int x, int y, const dvec3& earlier, double w) const {
     if (!target_.motion[0] || !view_.previous_camera) return;
-    const std::optional<glm::dvec2> before = pixel_of_world(*view_.previous_camera, world, w);
+    const std::optional<glm::dvec2> before = pixel_of_world(*view_.previous_camera, earlier, w);
     if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
   }
 
   const Tracer& tracer_;
   const CaptureView& view_;
   const CaptureTarget& target_;
+  const Scene* before_;
   StochasticMap stochastic_;
   OutlineCounter outlines_;
   bool needs_all_;
@@ -206,7 +210,11 @@ CaptureView second_view(const CaptureOptions& options, CaptureResult& result) {
 CaptureOptions with_both_eyes(CaptureOptions options) {
   if (!options.stereo) return options;
   const auto [left, right] = stereo_cameras(options.views[0].camera, *options.stereo);
+  const std::optional<Camera> middle_before = options.views[0].previous_camera;
   options.views = {{"left", left, {}}, {"right", right, {}}};
+  if (!middle_before) return options;
+  const std::array<Camera, 2> before = stereo_cameras(*middle_before, *options.stereo);
+  for (size_t eye : {0, 1}) options.views[eye].previous_camera = before[eye];
   return options;
 }
 
@@ -232,6 +240,7 @@ const std::vector<std::string>& capture_planes() {
 
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
   check_options(asked);
+  if (asked.previous_scene) check_earlier_scene(tracer.scene(), *asked.previous_scene);
   const CaptureOptions options = with_both_eyes(asked);
   const auto start = std::chrono::steady_clock::now();
   CaptureResult result;

@@ -25,7 +25,6 @@ void check_can_become_two(const CaptureOptions& options, const char* what, const
   if (options.second_view && options.stereo)
     throw UsageError("a second view and a pair of eyes cannot be captured together; leave out one of them");
   if (options.views.size() != 1) throw UsageError("{} {} one view, and there are {}", what, how, options.views.size());
-  if (contains(options.planes, "motion")) throw UsageError("{} has no motion; leave out one of them", what);
 }
 
 void check_second_view(const CaptureOptions& options) {
@@ -33,6 +32,10 @@ void check_second_view(const CaptureOptions& options) {
   if (!(std::abs(degrees) <= 90) || degrees == 0)
     throw UsageError("a second view turned by {:g} degrees is not allowed; -90 to 90 is, but not 0", degrees);
   check_can_become_two(options, "a second view", "goes beside");
+  if (contains(options.planes, "motion"))
+    throw UsageError(
+        "a second view has no motion, as its camera turns about what the first view shows in each frame; leave out one "
+        "of them");
   if (options.views[0].name == second_view_name)
     throw UsageError("the first view is called '{}', as the second would be; give it another name", second_view_name);
 }
@@ -53,7 +56,8 @@ void check_options(const CaptureOptions& options) {
   if (options.second_view) check_second_view(options);
   if (options.stereo) check_can_become_two(options, "a pair of eyes", "takes the place of");
   for (const CaptureView& view : options.views) {
-    if (!view.camera.pose) throw Error("view '{}' has a camera without a pose; give its camera_to_world", view.name);
+    if (!view.camera.pose || (view.previous_camera && !view.previous_camera->pose))
+      throw Error("view '{}' has a camera without a pose; give its camera_to_world", view.name);
   }
 }
 

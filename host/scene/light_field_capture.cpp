@@ -12,15 +12,22 @@ FittingSize fitting_size(const LightFieldDisplay& display) {
   return {std::max(1, int(std::lround(height * display.screen_width / display.screen_height))), height};
 }
 
-std::optional<LightFieldDisplay> fitted_to(const LightFieldDisplay& display, const Tracer& tracer,
-                                           const Camera& camera) {
+std::optional<double> fitting_depth(const LightFieldDisplay& display, const Tracer& tracer, const Camera& camera) {
   const FittingSize size = fitting_size(display);
   CaptureOptions options{.width = size.width, .height = size.height};
   options.views = {{"", camera, {}}};
   const CaptureResult seen = capture(tracer, options);
   const auto depths = visible_depths(seen.frame.views[0].planes.at("depth").channels[0]);
   if (!depths) return {};
-  return fitted_to(display, camera, {0, 0, size.width, size.height}, depths->median);
+  return depths->median;
+}
+
+std::optional<LightFieldDisplay> fitted_to(const LightFieldDisplay& display, const Tracer& tracer,
+                                           const Camera& camera) {
+  const FittingSize size = fitting_size(display);
+  const std::optional<double> depth = fitting_depth(display, tracer, camera);
+  if (!depth) return {};
+  return fitted_to(display, camera, {0, 0, size.width, size.height}, *depth);
 }
 
 std::vector<CaptureView> module_views(const LightFieldDisplay& display, int width, int height) {

@@ -39,5 +39,23 @@ TEST_F(Docs, CommandsOfThePageOnSequencesWork) {
   EXPECT_FALSE(fs::exists(path("gtao.0002.exr")));
 }
 
+TEST_F(Docs, CommandsThatMakeShotsWork) {
+  const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/sequences.md");
+  const std::string made = page.substr(page.find("## Making shots")), traced = page.substr(page.find("## Their truth"));
+  const std::string commands = between(made, "```\n", "```") + between(traced, "```\n", "```");
+  ASSERT_EQ(std::count(commands.begin(), commands.end(), '\n'), 4) << commands;
+  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && set -e\n{}", folder.string(),
+                                           fs::path(program).parent_path().string(), commands);
+  ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0)
+      << commands << slurp(path("log"));
+  for (const char* file : {"walk.0009.exr", "gears.0002.exr", "truth.0001.exr", "truth.0002.exr"})
+    EXPECT_TRUE(fs::exists(path(file))) << file;
+  // The page names every shot that there is.
+  for (const nlohmann::json& shot : gloam({"list", "shots", "--json", "-"}).json())
+    EXPECT_NE(
+        made.find(fmt::format("`{} --shot {}`", shot["scene"].get<std::string>(), shot["shot"].get<std::string>())),
+        std::string::npos);
+}
+
 }  // namespace
 }  // namespace gloam::test

@@ -262,11 +262,11 @@ TEST_F(Display, FlagsThatDoNotGoTogether) {
   refused({"--separate"}, {"--separate", "--display FILE"});
   refused({"--display", file("small.json"), "--stereo", "0.1"}, {"--stereo and --display"});
   refused({"--display", file("small.json"), "--view2", "10"}, {"--view2 and --display"});
-  refused({"--display", file("small.json"), "--camera-path", "p.json"}, {"--camera-path and --display"});
   nlohmann::json placed = nlohmann::json::parse(small_display);
   placed["region_of_interest"] = {{"physical", {{"size", {1.6, 1.2, 1}}}}, {"world", {{"size", {8, 6, 5}}}}};
   write("placed.json", placed.dump());
   refused({"--display", file("placed.json"), "--eye", "0,1,2"}, {"placed.json", "leave out --camera, --eye"});
+  refused({"--display", file("placed.json"), "--shot", "dolly"}, {"placed.json", "leave out --shot"});
 }
 
 TEST_F(Display, ACameraIsNoDisplay) {

@@ -264,7 +264,6 @@ TEST_F(CapturedStereo, RefusesInOneLine) {
   refused({"--toe-in"}, "--stereo IPD");
   refused({"--stereo", "1", "--convergence", "1e-9"}, "larger depth");
   refused({"--stereo", "1", "--view2", "30"}, "--view2 and --stereo");
-  refused({"--stereo", "1", "--camera-path", "p.json"}, "--stereo and --camera-path");
   refused({"--stereo", "1", "--planes", "motion"}, "--camera-path");
   write("pair.json", R"({"width": 8, "height": 8, "fx": 9, "fy": 9, "cx": 4, "cy": 4, "views": [
     {"view": "port", "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]},

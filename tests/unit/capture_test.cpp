@@ -685,7 +685,6 @@ TEST(PairOfEyes, RefusesWhatItCannotDo) {
   };
   refused([](CaptureOptions& o) { o.second_view = 30; });
   refused([](CaptureOptions& o) { o.views.push_back(o.views[0]); });
-  refused([](CaptureOptions& o) { o.planes = {"motion"}; });
   refused([](CaptureOptions& o) { o.views[0].camera.orthographic = true; });
   for (const StereoRig& rig : std::initializer_list<StereoRig>{{-0.1, 2, false},
                                                                {NAN, 2, false},

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "scene/built_in/mesh_builder.h"
+#include "scene/built_in/shot_cameras.h"
 
 namespace gloam::scenes {
 namespace {
@@ -481,7 +482,12 @@ std::vector<SceneRecipe> colonnade() {
   return {{.name = "colonnade",
            .summary = "a nave between two storeys of arches and columns, with vaulted aisles, curtains and banners",
            .kind = "architecture",
-           .make = make}};
+           .make = make,
+           .shots = {{.name = "dolly",
+                      .summary = "a camera on rails that goes sideways past the columns",
+                      .camera = [](double seconds) {
+                        return dolly("dolly", {-1.3, 1.75, 1.0}, {-1.3, 2.4, -9.0}, {0.35, 0, -0.1}, 76, seconds);
+                      }}}}};
 }
 
 }  // namespace gloam::scenes

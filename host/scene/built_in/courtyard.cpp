@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "scene/built_in/mesh_builder.h"
+#include "scene/built_in/shot_cameras.h"
 
 namespace gloam::scenes {
 namespace {
@@ -705,7 +706,10 @@ std::vector<SceneRecipe> courtyard() {
   return {{.name = "courtyard",
            .summary = "a town courtyard with an arcade, a fountain, stairs, tables and tiled roofs",
            .kind = "architecture",
-           .make = make}};
+           .make = make,
+           .shots = {{.name = "orbit", .summary = "a camera that circles the fountain", .camera = [](double seconds) {
+                        return orbit("orbit", {4.4, 1.75, 3.2}, {-0.6, 1.2, -0.8}, 7, 72, seconds);
+                      }}}}};
 }
 
 }  // namespace gloam::scenes

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "scene/built_in/mesh_builder.h"
+#include "scene/built_in/shot_cameras.h"
 
 namespace gloam::scenes {
 namespace {
@@ -555,7 +556,13 @@ std::vector<SceneRecipe> gallery() {
   return {{.name = "gallery",
            .summary = "a museum with skylights, a polished floor, framed pictures, sculptures and rope barriers",
            .kind = "architecture",
-           .make = make}};
+           .make = make,
+           .shots = {{.name = "walk",
+                      .summary = "a camera in the hand of someone who walks into the room and turns a little",
+                      .camera = [](double seconds) {
+                        return walk("walk", {1.6, 1.65, 2.3}, {-0.7, 1.35, -6.0}, {-1.6, 1.35, -6.0}, 2.5,
+                                    {-0.15, 0, -0.6}, 74, seconds);
+                      }}}}};
 }
 
 }  // namespace gloam::scenes

@@ -35,10 +35,14 @@ struct CaptureOptions {
   StochasticOptions stochastic = {};     ///< of every view
   const Outlines* outlines = nullptr;  ///< outlines of the tracer's scene, for plane outline_count; null: no such plane
   std::vector<CaptureView> views = {};
+  /// The tracer's scene in the frame before, of the same meshes with vertices in other places, for the motion of objects; null: only
+  /// cameras move.
+  const Scene* previous_scene = nullptr;
   /// Adds a second view, "view2", by `secondary_camera`, to the only view: degrees, -90 to 90, not 0. If the first view has no
   /// name, it becomes "main".
   std::optional<double> second_view = {};
-  /// Replaces the only view by two, "left" and "right", by `stereo_cameras`; the view's camera is the middle between them.
+  /// Replaces the only view by two, "left" and "right", by `stereo_cameras`; the view's cameras, now and before, are the middle
+  /// between them.
   std::optional<StereoRig> stereo = {};
   std::function<void(int done, int of)> progress = {};
 };
@@ -65,8 +69,8 @@ const std::vector<std::string>& capture_planes();
 /// degrees), the turn of its second view (gloamSecondView, degrees) and the placement of its eyes (gloamStereo and
 /// gloamConvergence, scene units, gloamToeIn, degrees). Near and far planes of cameras clip.
 /// Throws UsageError for an unknown plane; for a size or a number of layers or samples out of range; for a second view or a pair of
-/// eyes with several views or with motion, or both at once; for a rig that `stereo_cameras` refuses. Throws Error for a camera
-/// without a pose, and for a second view if the first shows nothing.
+/// eyes with several views, or both at once; for a second view with motion; for a rig that `stereo_cameras` refuses; for a previous
+/// scene of other meshes. Throws Error for a camera without a pose, and for a second view if the first shows nothing.
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
 
 }  // namespace gloam

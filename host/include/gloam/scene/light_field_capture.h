@@ -15,8 +15,11 @@ struct FittingSize {
 };
 FittingSize fitting_size(const LightFieldDisplay& display);
 
-/// A display that shows the part of the world in the image, of `fitting_size`, of a camera: the median depth of its surfaces lies
-/// in the screen. None if the camera sees nothing of the scene. The camera needs a pose.
+/// The median depth of the surfaces in the image, of `fitting_size`, of a camera: that of the screen for a display that shows the
+/// camera's image (`fitted_to` in light_field.h). None if the camera sees nothing of the scene. The camera needs a pose.
+std::optional<double> fitting_depth(const LightFieldDisplay& display, const Tracer& tracer, const Camera& camera);
+
+/// A display that shows the part of the world in that image, with the surfaces at the median depth in the screen. None as above.
 std::optional<LightFieldDisplay> fitted_to(const LightFieldDisplay& display, const Tracer& tracer,
                                            const Camera& camera);
 

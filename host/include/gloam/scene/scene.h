@@ -88,6 +88,20 @@ struct Scene {
   size_t faces() const;
 };
 
+/// A camera that moves through a built-in scene. Frames are numbered from 1; `frames_per_second` of them are a second.
+struct ShotRecipe {
+  std::string name;     ///< "walk"; no other shot of the scene has it
+  std::string summary;  ///< one line
+  int frames = 48;
+  std::function<SceneCamera(double seconds)> camera;  ///< since the first frame; deterministic
+  bool moves_objects = false;                         ///< the scene's parameter `time` takes the same seconds
+};
+
+inline constexpr double frames_per_second = 24;
+
+/// Seconds from the first frame of a shot to another.
+inline double seconds_of_frame(int frame) { return (frame - 1) / frames_per_second; }
+
 /// A built-in scene.
 struct SceneRecipe {
   std::string name;     ///< "courtyard"
@@ -95,6 +109,7 @@ struct SceneRecipe {
   std::string kind;     ///< the kind of scene that it represents: "architecture", "thin", "object" or "flat"
   ParameterList parameters;
   std::function<Scene(const ParameterValues&)> make;  ///< deterministic
+  std::vector<ShotRecipe> shots = {};
 };
 
 /// All of host/scene/built_in/, sorted by name.
