@@ -9,7 +9,9 @@
 #include "bench/measurement.h"
 #include "bench/native.h"
 #include "bench/tables.h"
+#include "cli/bench_chunks.h"
 #include "cli/bench_paper.h"
+#include "cli/chunk_commands.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"
 
@@ -31,7 +33,9 @@ struct BenchCommand {
   std::optional<double> radius;
   int rounds = 9;
   LadderFor ladder = LadderFor::presets;
-  bool no_growth = false, no_checks = false, no_images = false;
+  bool no_growth = false, no_checks = false, no_images = false, print = false;
+  int chunks = 0;                     ///< 0: not divided
+  std::vector<std::string> repeated;  ///< words for a chunk
   FrameFlags frame_flags;
   JsonFlag json;
 };
@@ -245,7 +249,33 @@ void print(const Measurement& result, const Options& options, const DeviceInfo& 
   }
 }
 
+/// Throws UsageError for what cannot be divided, too.
+void print_chunks(const BenchCommand& flags) {
+  if (!flags.json.path.empty()) throw UsageError("--json {}: each chunk would write it; leave it out", flags.json.path);
+  Measurement unused;
+  DeviceInfo any;
+  any.has_double = true;  // the machine of each chunk says what it lacks
+  const Options options = options_of(flags, any, unused);
+  BenchChunks divided{
+      .repeated = flags.repeated, .folder = flags.folder, .has_growth = !flags.no_growth, .chunks = flags.chunks};
+  for (const SceneRecipe* scene : options.scenes) divided.scenes.push_back(scene->name);
+  const bool need_each_other = !flags.presets.empty() || !flags.sweeps.empty() ||
+                               std::any_of(options.techniques.begin(), options.techniques.end(),
+                                           [](const Technique* t) { return !needs_naming(*t).empty(); });
+  if (!flags.techniques.empty()) {
+    for (const Technique* t : options.techniques) divided.techniques.push_back(t->name);
+  }
+  divided.divides_techniques = !flags.techniques.empty() && !need_each_other;
+  if (divided.scenes.empty() && !divided.divides_techniques)
+    throw UsageError(
+        "--chunks {}: --frame {} is one frame, and its techniques are divided only where --techniques names "
+        "them, without --presets, --sweep and techniques of two views",
+        flags.chunks, flags.frame);
+  print_bench_chunks(divided);
+}
+
 void bench_command(const BenchCommand& flags) {
+  if (flags.chunks > 0) return print_chunks(flags);
   if (!flags.paper.empty()) {
     bench_paper({flags.paper, flags.folder, flags.device, flags.size, flags.rays, flags.rounds}, flags.json);
     return;
@@ -354,6 +384,7 @@ void add_bench(CLI::App& app) {
           ->add_option("--paper", flags->paper,
                        "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()))
           ->type_name("NAME");
+  add_chunk_flags(*command, flags->chunks, flags->print, "the scenes, and named techniques,", "Several machines");
   flags->frame_flags.add_to(*command);
   const std::vector<std::string> shared = {"--output", "--size", "--rounds", "--rays", "--device", "--help", "--paper"};
   for (CLI::Option* option : command->get_options()) {
@@ -368,10 +399,14 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/bench\n"
       "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
       "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
+      "  gloam bench -o 'out/bench.##' --scenes all --chunks 7 --print | parallel\n"
       "  gloam bench -o out/shi2022 --paper shi2022\n"
       "  gloam bench -o out/odssao2020 --paper odssao2020\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium");
-  command->callback([flags] { bench_command(*flags); });
+  command->callback([flags, command] {
+    if (flags->chunks > 0) flags->repeated = repeated_words(*command, not_of_bench_chunks());
+    bench_command(*flags);
+  });
 }
 
 }  // namespace gloam::cli

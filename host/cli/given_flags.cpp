@@ -7,14 +7,15 @@
 
 #include "base/files.h"
 #include "base/hash.h"
+#include "cli/chunk_commands.h"
 
 namespace gloam::cli {
 namespace {
 
 /// Flags that do not change what the file of a frame holds, or of which its header says more (the files read).
 const std::set<std::string> not_of_contents = {
-    "frame",     "other_eye", "--camera", "--output", "--into",  "--picture",      "--json", "--frames",
-    "--missing", "--resume",  "--memory", "--repeat", "--warm-up", "--quiet", "--limit-memory", "--help", "technique"};
+    "frame",    "other_eye", "--camera", "--output",  "--into",  "--picture",      "--json", "--frames", "--missing",
+    "--resume", "--memory",  "--repeat", "--warm-up", "--quiet", "--limit-memory", "--help", "technique"};
 
 /// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
 std::string value_in_words(const std::string& value) {
@@ -25,20 +26,6 @@ std::string value_in_words(const std::string& value) {
   return fmt::format("{} ({:016x})", value, hash_of(read_text(file)));
 }
 
-/// The name of a flag, with dashes, or of a positional argument.
-std::string flag_of(const CLI::Option& option) {
-  return (option.nonpositional() ? "--" : "") + option.get_single_name();
-}
-
-/// Those given, in the order of `--help`.
-std::vector<const CLI::Option*> options_given(const CLI::App& command, const std::set<std::string>& left_out) {
-  return command.get_options(
-      [&](const CLI::Option* option) { return option->count() > 0 && left_out.count(flag_of(*option)) == 0; });
-}
-
-/// Flags that each command of a chunk has in its own form, or not at all.
-const std::set<std::string> not_of_chunks = {"--frames", "--warm-up", "--chunks", "--print", "--resume", "--help"};
-
 }  // namespace
 
 std::string contents_in_words(const CLI::App& command) {
@@ -46,19 +33,6 @@ std::string contents_in_words(const CLI::App& command) {
   for (const CLI::Option* option : options_given(command, not_of_contents)) {
     words += " " + flag_of(*option);
     for (const std::string& value : option->results()) words += " " + value_in_words(value);
-  }
-  return words;
-}
-
-std::vector<std::string> repeated_words(const CLI::App& command) {
-  std::vector<std::string> words = {command.get_name()};
-  for (const CLI::Option* option : options_given(command, not_of_chunks)) {
-    const bool takes_value = option->get_items_expected_max() > 0;
-    if (!takes_value) words.push_back(flag_of(*option));
-    for (const std::string& value : takes_value ? option->results() : std::vector<std::string>()) {
-      if (option->nonpositional()) words.push_back(flag_of(*option));
-      words.push_back(value);
-    }
   }
   return words;
 }

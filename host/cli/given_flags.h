@@ -10,7 +10,4 @@ namespace gloam::cli {
 /// Those that decide what the file of a frame holds: "--set radius=0.5 --preset medium".
 std::string contents_in_words(const CLI::App& command);
 
-/// The words of a command that do the same as this one, but for the frames.
-std::vector<std::string> repeated_words(const CLI::App& command);
-
 }  // namespace gloam::cli

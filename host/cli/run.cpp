@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/chunk_commands.h"
 #include "cli/given_flags.h"
 #include "cli/list_techniques.h"
 #include "cli/run_frame.h"
@@ -13,6 +14,9 @@
 namespace gloam::cli {
 namespace {
 
+/// Flags that each command of a chunk has in its own form.
+const std::set<std::string> not_of_chunks = {"--frames", "--warm-up", "--resume"};
+
 void run_command(const RunCommand& given, const CLI::App& command) {
   RunCommand flags = given;
   flags.technique = technique_for(given.technique);
@@ -21,7 +25,7 @@ void run_command(const RunCommand& given, const CLI::App& command) {
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
   if (flags.frame.has_pattern()) {
     flags.given = contents_in_words(command);
-    flags.repeated = repeated_words(command);
+    flags.repeated = repeated_words(command, not_of_chunks);
     return run_on_shot(flags, request);
   }
   check_no_shot(flags.frame, outputs_of(flags).named(), flags.shot.any(flags.into.empty()));

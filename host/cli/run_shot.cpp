@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/page_pool.h"
+#include "cli/chunk_commands.h"
 #include "cli/memory.h"
 #include "cli/shot_memory.h"
 #include "cli/shot_start.h"
@@ -46,13 +47,6 @@ void check_flags(const RunCommand& flags) {
     throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
 }
 
-/// The path of this program.
-std::string program_path() {
-  std::error_code unknown;
-  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  return unknown ? "gloam" : path.string();
-}
-
 /// Prints a command a line, each for some of the frames. Any of them may be run again, anywhere where the files are.
 void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
   if (!flags.json.path.empty()) throw UsageError("--json {}: each chunk would write it; leave it out", flags.json.path);
@@ -61,20 +55,18 @@ void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
         "--camera {}: lists cameras in the order of all frames, and a chunk has some of them; list them by number, as "
         "in {{\"frames\": {{\"1001\": ...}}}}",
         flags.frame_flags.camera);
-  std::string words;
-  for (const std::string& word : flags.repeated) words += " " + quoted_for_shell(word);
-  const std::string folder = quoted_for_shell(std::filesystem::current_path().string());
-  const auto print = [&](const std::vector<int>& chunk, const std::string& more) {
-    fmt::print("cd {} && {}{} --frames {}{} --resume\n", folder, quoted_for_shell(program_path()), words,
-               frames_as_flag(chunk), more);
+  const auto print = [&](const std::vector<int>& chunk, size_t warm_up) {
+    std::vector<std::string> more = {"--frames", frames_as_flag(chunk)};
+    if (warm_up > 0) more.insert(more.end(), {"--warm-up", std::to_string(warm_up)});
+    more.push_back("--resume");
+    print_chunk(flags.repeated, more);
   };
   if (is_temporal(flags)) {
-    for (const auto& [chunk, warm_up] : chunks_of_blocks(shot.numbers(), flags.shot.chunks))
-      print(chunk, warm_up == 0 ? "" : fmt::format(" --warm-up {}", warm_up));
+    for (const auto& [chunk, warm_up] : chunks_of_blocks(shot.numbers(), flags.shot.chunks)) print(chunk, warm_up);
   } else {
-    for (const std::vector<int>& chunk : chunks_of(shot.numbers(), flags.shot.chunks)) print(chunk, "");
+    for (const std::vector<int>& chunk : chunks_of(shot.numbers(), flags.shot.chunks)) print(chunk, 0);
   }
-  if (std::fflush(stdout) != 0) throw Error("standard output: cannot be written");
+  end_of_chunks();
 }
 
 /// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no

@@ -1,5 +1,6 @@
 #include "cli/shot_flags.h"
 
+#include "cli/chunk_commands.h"
 #include "cli/memory.h"
 #include "cli/typed.h"
 #include "gloam/frame_numbers.h"
@@ -11,15 +12,7 @@ constexpr const char* group = "Shots";
 
 /// Adds --chunks, --print and --warm-up.
 void add_chunks(CLI::App& app, ShotFlags& flags) {
-  CLI::Option* printing =
-      app.add_flag("--print", flags.print, "with --chunks: print the commands, one a line, and compute nothing")
-          ->group(group);
-  add_number(app, "--chunks", flags.chunks, {1, 1000000},
-             "divide a shot into so many commands, for several processes or machines")
-      ->type_name("N")
-      ->group(group)
-      ->needs(printing);
-  printing->needs(app.get_option("--chunks"));
+  add_chunk_flags(app, flags.chunks, flags.print, "a shot", group);
   add_number(app, "--warm-up", flags.warm_up, {0, 1000000},
              "with --temporal: this many of the first frames are computed for those that follow, and not written")
       ->type_name("N")

@@ -10,7 +10,9 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
+#include "cli/chunk_commands.h"
 #include "cli/stress_child.h"
+#include "cli/stress_chunks.h"
 #include "cli/stress_request.h"
 #include "gloam/error.h"
 #include "stress/document.h"
@@ -166,21 +168,27 @@ stress::Json read_document(const std::string& path) {
   return document;
 }
 
-/// Makes a page from the results of earlier runs.
-void page_from_files(const StressCommand& flags) {
+/// The results of earlier runs, joined: as a page, or in words with the exit status that one run would have had.
+void join_files(const StressCommand& flags) {
   if (!flags.technique.empty())
-    throw UsageError("stress: --from makes a page of earlier results and examines nothing; leave out '{}'",
-                     flags.technique);
-  if (flags.markdown.empty()) throw UsageError("--from needs --markdown FILE, the page to write");
-  std::vector<stress::Json> documents;
+    throw UsageError("stress: --from joins earlier results and examines nothing; leave out '{}'", flags.technique);
+  std::vector<StressFile> files;
   std::vector<NamedPath> inputs;
   for (const std::string& path : flags.from) {
     inputs.emplace_back("--from", path);
-    documents.push_back(read_document(path));
+    files.push_back({path, read_document(path)});
   }
-  check_paths(inputs, {{"--markdown", flags.markdown}});
+  check_paths(inputs, {{"--markdown", flags.markdown}, {"--json", flags.json.file()}});
+  const std::vector<stress::Json> documents = joined(files);
+  if (!flags.json.path.empty() && documents.size() > 1)
+    throw UsageError(
+        "--json {}: holds the results of one device and one set of settings, and --from those of {}; join "
+        "them one by one",
+        flags.json.path, documents.size());
   write_page(flags.markdown, documents);
-  fmt::print("wrote {}\n", printable(flags.markdown));
+  if (!flags.json.path.empty()) flags.json.write(documents.front());
+  if (flags.markdown.empty()) return judge(documents, !flags.json.only_json());
+  if (!flags.json.only_json()) fmt::print("wrote {}\n", printable(flags.markdown));
 }
 
 /// Throws UsageError if the requested trial does not exist.
@@ -202,9 +210,10 @@ void make_folder(const std::string& folder) {
 
 void stress_command(const StressCommand& flags) {
   if (flags.is_child) return examine_here(flags);
-  if (!flags.from.empty()) return page_from_files(flags);
+  if (!flags.from.empty()) return join_files(flags);
   if (flags.technique.empty()) throw UsageError("stress: which technique? name one, or all (gloam list techniques)");
   const StressRequest request = request_of(flags);
+  if (flags.chunks > 0) return print_stress_chunks(flags, request);
   check_paths({}, {{"--json", flags.json.file()}, {"--markdown", flags.markdown}});
   if (!flags.out.empty()) make_folder(flags.out);
   StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
@@ -232,7 +241,7 @@ void add_stress(CLI::App& app) {
   auto flags = std::make_shared<StressCommand>();
   CLI::App* command =
       app.add_subcommand("stress", "go through frames that are hard to get right, and say how stable a technique is");
-  command->add_option("technique", flags->technique, "a technique (gloam list techniques), or all")
+  command->add_option("technique", flags->technique, "one or several, A,B (gloam list techniques), or all")
       ->type_name("TECHNIQUE");
   command->add_option("--case", flags->cases, "only these, by number: 3 or 1,7 (gloam list cases)")
       ->check(accepted_by(parse_cases, "--case"))  // stays text, for messages
@@ -256,9 +265,13 @@ void add_stress(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "folder for the frames of a --trial and what was made of them")
       ->type_name("DIR");
   command->add_option("--markdown", flags->markdown, "write a page with all figures")->type_name("FILE.md");
-  command->add_option("--from", flags->from, "with --markdown: the page of what earlier runs wrote with --json")
+  command
+      ->add_option("--from", flags->from,
+                   "what earlier runs wrote with --json, joined: in words, or as the page of --markdown")
       ->take_all()
       ->type_name("FILE.json");
+  add_chunk_flags(*command, flags->chunks, flags->print, "the techniques, or the cases of a single one,",
+                  "Several machines");
   command->add_flag("--child", flags->is_child)->group("");
   flags->json.add_to(*command);
   command->footer(
@@ -266,8 +279,13 @@ void add_stress(CLI::App& app) {
       "  gloam stress hbao+\n"
       "  gloam stress all --quick --device NVIDIA --json stress.json\n"
       "  gloam stress gtao --case 3 --trial 17 -o out/trial\n"
+      "  gloam stress all --frames 10000 --json 'stress.##.json' --chunks 8 --print | parallel\n"
+      "  gloam stress --from stress.*.json\n"
       "Exit status 1 when something is beyond its bound.");
-  command->callback([flags] { stress_command(*flags); });
+  command->callback([flags, command] {
+    if (flags->chunks > 0) flags->repeated = repeated_words(*command, not_of_stress_chunks());
+    stress_command(*flags);
+  });
 }
 
 }  // namespace gloam::cli

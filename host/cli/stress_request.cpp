@@ -21,12 +21,16 @@ std::vector<int> parse_cases(const std::string& text, const std::string& flag) {
   return wanted;
 }
 
+std::vector<std::string> parse_techniques(const std::string& text) {
+  if (text == "all") return technique_names();
+  std::vector<std::string> names;
+  for (const std::string& name : split_list(text, "stress")) add_new(names, find_technique(name).name);
+  return names;
+}
+
 StressRequest request_of(const StressCommand& flags) {
   StressRequest request;
-  if (flags.technique == "all")
-    request.techniques = technique_names();
-  else
-    request.techniques = {find_technique(flags.technique).name};
+  request.techniques = parse_techniques(flags.technique);
   request.cases = parse_cases(flags.cases, "--case");
   request.extent = flags.quick ? stress::Extent::quick : stress::Extent::full;
   if (flags.frames) {

@@ -15,7 +15,9 @@ struct StressCommand {
   std::optional<int> trial, frames, seed, jobs;
   double patience = 600;  ///< seconds
   std::vector<std::string> from;
-  bool quick = false, is_child = false;
+  bool quick = false, is_child = false, print = false;
+  int chunks = 0;                     ///< 0: not divided
+  std::vector<std::string> repeated;  ///< words for a chunk
   JsonFlag json;
 };
 
@@ -28,6 +30,9 @@ struct StressRequest {
   unsigned seed = 1;
   stress::Extent extent = stress::Extent::full;
 };
+
+/// The techniques in "all", or "hbao+,gtao", each once. Throws UsageError.
+std::vector<std::string> parse_techniques(const std::string& text);
 
 /// The numbers of hard cases in "3" or "1,7", each once; all if the text is empty. Throws UsageError.
 std::vector<int> parse_cases(const std::string& text, const std::string& flag);

@@ -68,7 +68,7 @@ class Joining {
     for (const Scene& scene : m.scenes) add(scene);
     for (const Row& row : m.rows) add(row);
     for (const Converged& each : m.converged) {
-      if (is_new(each.scene, each.technique + ", converged", source)) all.converged.push_back(each);
+      if (!is_there(each) && is_new(each.scene, each.technique + ", converged", source)) all.converged.push_back(each);
     }
     all.scales.insert(all.scales.end(), m.scales.begin(), m.scales.end());
     all.planes.insert(all.planes.end(), m.planes.begin(), m.planes.end());
@@ -88,6 +88,14 @@ class Joining {
       throw Error("{}: the scene '{}' has a radius of {:g}, and of {:g} in {}; leave one of the two files out",
                   file(scene.source), scene.name, *scene.radius, *before->radius, file(before->source));
     }
+  }
+
+  /// The layers of several techniques are those of one other: files that divide the techniques of a scene each have its figures.
+  bool is_there(const Converged& each) const {
+    return std::any_of(all.converged.begin(), all.converged.end(), [&](const Converged& other) {
+      return other.technique == each.technique && other.scene == each.scene && other.bias == each.bias &&
+             other.rmse_to_truth == each.rmse_to_truth;
+    });
   }
 
   /// False for an entry that is there already.

@@ -1,22 +1,11 @@
 #include "sequence/chunks.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 
 namespace gloam {
-
-std::vector<std::vector<int>> chunks_of(const std::vector<int>& frames, int count) {
-  const size_t chunks = std::min(size_t(std::max(count, 0)), frames.size());
-  std::vector<std::vector<int>> result;
-  for (size_t i = 0; i < chunks; ++i) {
-    const size_t first = frames.size() * i / chunks, last = frames.size() * (i + 1) / chunks;
-    result.emplace_back(frames.begin() + std::ptrdiff_t(first), frames.begin() + std::ptrdiff_t(last));
-  }
-  return result;
-}
 
 std::string frames_as_flag(const std::vector<int>& frames) {
   std::string text;

@@ -22,7 +22,9 @@ std::string between(const std::string& page, const std::string& begin, const std
 TEST_F(Docs, CommandsOfThePageOnSequencesWork) {
   const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/sequences.md");
   std::ofstream(path("path.json")) << between(page, "```json\n", "```");
-  const auto first_of = [&](const std::string& heading) { return between(page.substr(page.find(heading)), "```\n", "```"); };
+  const auto first_of = [&](const std::string& heading) {
+    return between(page.substr(page.find(heading)), "```\n", "```");
+  };
   const std::string commands = between(page, "Frames to try this on, by `", "`") + "\n" +
                                between(page, "```\n", "```") + first_of("## Into a copy") + first_of("## Composite") +
                                first_of("## What each frame calls for") + first_of("## Accumulating over time") +
@@ -55,6 +57,20 @@ TEST_F(Docs, CommandsThatMakeShotsWork) {
     EXPECT_NE(
         made.find(fmt::format("`{} --shot {}`", shot["scene"].get<std::string>(), shot["shot"].get<std::string>())),
         std::string::npos);
+}
+
+TEST_F(Docs, CommandsOfThePageOnSeveralMachinesAreDivided) {
+  const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/farm.md");
+  const std::string commands = between(page, "for the number of the command:\n\n```\n", "```");
+  ASSERT_EQ(std::count(commands.begin(), commands.end(), '\n'), 2) << commands;
+  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && set -e\n{}", folder.string(),
+                                           fs::path(program).parent_path().string(), commands);
+  ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0)
+      << commands << slurp(path("log"));
+  for (const auto& [file, count] : std::map<std::string, int>{{"stress.txt", 8}, {"bench.txt", 7}}) {
+    const std::string text = slurp(path(file));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), count) << file;
+  }
 }
 
 }  // namespace
