@@ -27,6 +27,21 @@ class ShotTest : public Cli {
     for (const int number : frames) write_frame(path(numbered(stem, number)), frame_of(number));
   }
 
+  /// An eye that walks through the gallery, from x = 0 on, frames 1 to `frames` of shot.####.exr.
+  void walk(int frames, double step, int width, int height) const {
+    const auto key = [](double x) {
+      return fmt::format(R"({{"camera_to_world": [[1,0,0,{}],[0,1,0,1.6],[0,0,1,2],[0,0,0,1]]}})", x);
+    };
+    std::ofstream(path("path.json")) << fmt::format(
+        R"({{"width": 320, "height": 180, "fx": 220, "fy": 220, "cx": 160, "cy": 90, "frames": {}, "path": [{}, {}]}})",
+        frames, key(0), key(step * (frames - 1)));
+    ASSERT_EQ(gloam({"capture", "gallery", "-o", path("shot.exr"), "--size", fmt::format("{}x{}", width, height),
+                     "--camera-path", path("path.json"), "--planes", "depth,normal,color,roughness,reflectance,motion"})
+                  .status,
+              0);
+  }
+  void renumber(int from, int to) const { fs::rename(path(numbered("shot", from)), path(numbered("shot", to))); }
+
   /// A run on shot.####.exr. The radius is given, since each frame would make its own.
   Arguments run_of(const Arguments& more, const std::string& technique = "hbao+") const {
     Arguments all = {"run", technique, file("shot.####.exr"), "-o", file("ao.####.exr"), "--radius", "0.5"};

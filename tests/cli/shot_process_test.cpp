@@ -1,11 +1,13 @@
 // gloam run on a shot as a process among others: killed and started again, beside another, in little memory, on a full disk.
 #include <chrono>
+#include <numeric>
 #include <random>
 #include <thread>
 
 #include "cli/shot_fixture.h"
 #include "gloam/frame_pattern.h"
 #include "sequence/frame_locks.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -24,6 +26,46 @@ class ShotProcess : public ShotTest {
     const nlohmann::json summary = lines_of(result.out).back();
     EXPECT_EQ(summary["done"], done) << result.out << result.err;
     EXPECT_EQ(summary["skipped"], skipped) << result.out << result.err;
+  }
+  static std::vector<int> range(int first, int last) {
+    std::vector<int> frames(size_t(last - first + 1));
+    std::iota(frames.begin(), frames.end(), first);
+    return frames;
+  }
+  /// Starts a command, kills it after a random time, `times` times, and then lets it end: at no moment is there a file that differs from
+  /// those of an undisturbed run.
+  void kill_at_moments(int times, const Arguments& command) const {
+    ASSERT_EQ(gloam(command).status, 0) << "the first run also compiles kernels";
+    const auto start_time = std::chrono::steady_clock::now();
+    ASSERT_EQ(gloam(command).status, 0);
+    const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time).count();
+    const auto expected = contents();
+    ASSERT_GE(expected.size(), 24u);
+    for (const auto& [name, unused] : expected) fs::remove(path(name));
+    Arguments resumed = command;
+    resumed.emplace_back("--resume");
+    std::mt19937 random(std::random_device{}());
+    std::string moments;
+    int killed = 0;
+    for (int i = 0; i < times; ++i) {
+      const int ms = std::uniform_int_distribution<int>(0, int(1000 * whole))(random);
+      moments += fmt::format("{} ", ms);
+      const pid_t child = start(resumed);
+      std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+      kill(child, SIGKILL);
+      killed += finish(child).status == 128 + SIGKILL;
+      for (const auto& [name, bytes] : contents())
+        EXPECT_TRUE(bytes == expected.at(name)) << name << " after " << moments;
+      // Of a run that has little left to do, few moments are hit.
+      if (i % 8 == 7)
+        for (const auto& [name, unused] : contents()) fs::remove(path(name));
+    }
+    RecordProperty("killed", killed);
+    EXPECT_GT(killed, 0) << moments;
+    const Result last = gloam(resumed);
+    EXPECT_EQ(last.status, 0) << last.err << moments;
+    EXPECT_TRUE(contents() == expected) << moments;
+    EXPECT_EQ(hidden_files(), std::vector<std::string>()) << moments;
   }
   Result resume(const Arguments& more = {}) const {
     Arguments all = {"--resume", "--json", "-"};
@@ -78,31 +120,22 @@ TEST_F(ShotProcess, ResumeWritesAgainWhatWasMadeInAnotherWay) {
 
 /// At random moments, so each run of the test tries others; a failure tells them.
 TEST_F(ShotProcess, KilledAtAnyMomentTheSameCommandGoesOn) {
-  std::vector<int> frames;
-  for (int number = 1; number <= 24; ++number) frames.push_back(number);
-  make_shot(frames);
-  const auto start_time = std::chrono::steady_clock::now();
-  ASSERT_EQ(run().status, 0);
-  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time).count();
-  const auto expected = contents();
-  ASSERT_EQ(expected.size(), 24u);
-  for (const auto& [name, unused] : expected) fs::remove(path(name));
-  std::mt19937 random(std::random_device{}());
-  std::string moments;
-  for (int i = 0; i < 24; ++i) {
-    const int ms = std::uniform_int_distribution<int>(0, int(1000 * whole))(random);
-    moments += fmt::format("{} ", ms);
-    const pid_t child = start(run_of({"--resume"}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-    kill(child, SIGKILL);
-    finish(child);
-    for (const auto& [name, bytes] : contents())
-      EXPECT_TRUE(bytes == expected.at(name)) << name << " after " << moments;
-  }
-  const Result last = run({"--resume"});
-  EXPECT_EQ(last.status, 0) << last.err << moments;
-  EXPECT_TRUE(contents() == expected) << moments;
-  EXPECT_EQ(hidden_files(), std::vector<std::string>()) << moments;
+  make_shot(range(1, 24));
+  kill_at_moments(24, run_of({}));
+}
+
+TEST_F(ShotProcess, KilledAtFiftyMomentsTheSameCommandGoesOn) {
+  ONLY_IN_LONG_RUN();
+  make_shot(range(1, 60));
+  kill_at_moments(50, run_of({}));
+}
+
+/// Across the border of two blocks of frames, which begin with an empty history.
+TEST_F(ShotProcess, KilledAtFiftyMomentsAShotThatGoesOnOverTimeIsTheSame) {
+  ONLY_IN_LONG_RUN();
+  walk(60, 0.01, 64, 36);
+  for (int i = 60; i >= 1; --i) renumber(i, i + 30);
+  kill_at_moments(50, run_of({"--temporal"}, "gtao"));
 }
 
 TEST_F(ShotProcess, AnotherProcessOnTheSameFramesIsRefused) {
@@ -173,6 +206,45 @@ TEST_F(ShotProcess, AFullDiskStopsTheShot) {
   const std::string listing = slurp(path("listing"));
   EXPECT_EQ(std::count(listing.begin(), listing.end(), '\n'), done) << listing;
   EXPECT_EQ(listing.find(".gloam"), std::string::npos) << listing;
+}
+
+/// One of two chunks finds its disk full; once there is space, the same command writes the rest.
+TEST_F(ShotProcess, AChunkWhoseDiskWasFullGoesOn) {
+  make_shot(range(1, 40));
+  ASSERT_EQ(run({"-q"}).status, 0);
+  const auto whole = contents();
+  for (const auto& [name, bytes] : whole) fs::rename(path(name), path("whole." + name));
+  fs::create_directory(path("disk"));
+  const Result printed = gloam({"run", "hbao+", file("shot.####.exr"), "-o", file("disk/ao.####.exr"), "--radius",
+                                "0.5", "-q", "--chunks", "2", "--print"});
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  std::ofstream(path("list")) << printed.out;
+  std::ofstream(path("script")) << R"(
+    cd "$1"
+    mount -t tmpfs -o size=48k none disk || exit 77
+    sed -n 1p list | sh >out 2>first; echo $? >status
+    ls -A disk >listing
+    for name in $(cat listing); do cmp disk/$name whole.$name || exit 3; done
+    mount -o remount,size=16m disk || exit 77
+    set -e
+    sed -n 2p list | sh >out
+    sed -n 1p list | sh >out
+    for name in whole.ao.*; do cmp $name disk/${name#whole.}; done
+    ls -A disk | wc -l >count
+  )";
+  const int status = WEXITSTATUS(
+      std::system(("unshare -rm bash " + file("script") + " " + folder.string() + " 2>" + file("stderr")).c_str()));
+  if (status == 77 || slurp(path("stderr")).find("unshare") != std::string::npos)
+    GTEST_SKIP() << "no disk can be mounted: " << slurp(path("stderr"));
+  EXPECT_EQ(status, 0) << slurp(path("stderr")) << slurp(path("out"));
+  EXPECT_EQ(slurp(path("status")), "1\n");
+  const std::string said = slurp(path("first")), listing = slurp(path("listing"));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  EXPECT_NE(said.find("No space left on device"), std::string::npos) << said;
+  EXPECT_GE(std::count(listing.begin(), listing.end(), '\n'), 1) << listing;
+  EXPECT_LT(std::count(listing.begin(), listing.end(), '\n'), 20) << listing;
+  EXPECT_EQ(listing.find(".gloam"), std::string::npos) << listing;
+  EXPECT_EQ(slurp(path("count")), "40\n");
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -8,22 +8,6 @@ using Json = nlohmann::json;
 
 class Temporal : public ShotTest {
  protected:
-  /// An eye that walks through the gallery, from x = 0 on, frames 1 to `frames` of shot.####.exr.
-  void walk(int frames, double step, int width, int height) const {
-    const auto key = [](double x) {
-      return fmt::format(R"({{"camera_to_world": [[1,0,0,{}],[0,1,0,1.6],[0,0,1,2],[0,0,0,1]]}})", x);
-    };
-    std::ofstream(path("path.json")) << fmt::format(
-        R"({{"width": 320, "height": 180, "fx": 220, "fy": 220, "cx": 160, "cy": 90, "frames": {}, "path": [{}, {}]}})",
-        frames, key(0), key(step * (frames - 1)));
-    ASSERT_EQ(gloam({"capture", "gallery", "-o", path("shot.exr"), "--size", fmt::format("{}x{}", width, height),
-                     "--camera-path", path("path.json"), "--planes", "depth,normal,color,roughness,reflectance,motion"})
-                  .status,
-              0);
-  }
-  void renumber(int from, int to) const {
-    std::filesystem::rename(path(numbered("shot", from)), path(numbered("shot", to)));
-  }
   double rmse(const std::string& test, const std::string& truth) const {
     return gloam({"compare", path(test), path(truth), "--frame", path("shot.0009.exr"), "--json", "-"}).json()["rmse"];
   }
