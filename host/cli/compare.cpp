@@ -92,6 +92,7 @@ void compare_command(const CompareFlags& flags) {
                      flags.picture.empty() ? "compare one view (--view) or a part of it"
                                            : "leave -o out, or compare one view (--view)");
   const PlanePair planes = survey_sides(test, reference, flags.plane, !flags.frame.empty());
+  note_other_camera(test.file, reference.file);
   if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test.file, reference.file);
   const Frame extra = background_frame(flags, options);
   const double exposure = exposure_of(flags, reference.file, planes.reference);

@@ -132,6 +132,7 @@ ComparedFrame read_compared_frame(const ComparedShot& shot, const SequenceFrame&
                   {}};
   c.pairs = pair_views(c.test.file, c.reference.file, !options.views.empty());
   c.planes = survey_sides(c.test, c.reference, flags.plane, !flags.frame.empty());
+  note_other_camera(c.test.file, c.reference.file);
   if (c.planes.test == "ao" || c.planes.test == "ao_raw") note_other_radius(c.test.file, c.reference.file);
   c.overlap = overlap_of(c.test, c.reference);
   c.exposure = exposure_of(flags, c.reference.file, c.planes.reference);

@@ -85,6 +85,21 @@ double exposure_of(const CompareFlags& flags, const FrameFile& reference, const 
   return plane == "reflection" ? reference.number_attribute("gloamExposure").value_or(0) : 0;
 }
 
+void note_other_camera(const FrameFile& test, const FrameFile& reference) {
+  constexpr double tolerance = 1e-4;  // headers hold floats
+  for (const std::string& view : test.views()) {
+    if (!contains(reference.views(), view)) continue;
+    const std::optional<Camera> a = test.camera(view), b = reference.camera(view);
+    if (!a || !b || !a->pose || !b->pose) continue;
+    const glm::dmat3 turn = a->pose->world_to_view - b->pose->world_to_view;
+    const double turned = glm::length(turn[0]) + glm::length(turn[1]) + glm::length(turn[2]);
+    const double moved = glm::distance(a->pose->position, b->pose->position);
+    if (turned <= tolerance && moved <= tolerance * (1 + glm::length(b->pose->position))) continue;
+    note({"by their headers, test and truth are seen by different cameras; are they of one frame?"});
+    return;
+  }
+}
+
 void note_other_radius(const FrameFile& test, const FrameFile& reference) {
   const std::optional<double> truth = reference.number_attribute("aoRadius");
   const std::optional<double> used = radius_in(test.text_attribute("gloamParameters"));

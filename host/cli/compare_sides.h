@@ -26,6 +26,9 @@ ViewPairs pair_views(const FrameFile& test, const FrameFile& reference, bool is_
 /// The exposure by the flag, else by the reference.
 double exposure_of(const CompareFlags& flags, const FrameFile& reference, const std::string& plane);
 
+/// Adds a note if a view's poses in the two headers differ: most likely two frames are compared.
+void note_other_camera(const FrameFile& test, const FrameFile& reference);
+
 /// Adds a note for an AO made with another radius than its truth.
 void note_other_radius(const FrameFile& test, const FrameFile& reference);
 

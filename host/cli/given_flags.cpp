@@ -13,9 +13,10 @@ namespace gloam::cli {
 namespace {
 
 /// Flags that do not change what the file of a frame holds, or of which its header says more (the files read).
-const std::set<std::string> not_of_contents = {
-    "frame",    "other_eye", "--camera", "--output",  "--into",  "--picture",      "--json", "--frames", "--missing",
-    "--resume", "--memory",  "--repeat", "--warm-up", "--quiet", "--limit-memory", "--help", "technique"};
+const std::set<std::string> not_of_contents = {"frame",          "other_eye", "--camera",  "--output",    "--into",
+                                               "--picture",      "--json",    "--frames",  "--missing",   "--resume",
+                                               "--memory",       "--repeat",  "--warm-up", "--composite", "--quiet",
+                                               "--limit-memory", "--help",    "technique"};
 
 /// A flag's value; a parameter that is a file, coefficients=FILE, with a hash of what the file holds.
 std::string value_in_words(const std::string& value) {

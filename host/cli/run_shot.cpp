@@ -40,6 +40,8 @@ void check_flags(const RunCommand& flags) {
     throw UsageError(
         "--missing hold: a frame that is held does not go on from the one before; skip missing frames, or "
         "leave out --temporal");
+  if (flags.shot.warm_up > 0 && flags.shot.chunks > 0)
+    throw UsageError("--warm-up {}: each chunk has its own; leave it out, or leave out --chunks", flags.shot.warm_up);
   if (flags.shot.warm_up > 0 && !is_temporal(flags))
     throw UsageError("--warm-up {}: no frame goes on from another; leave it out, or add --temporal",
                      flags.shot.warm_up);
@@ -132,16 +134,20 @@ std::vector<Turn> turns_for(const ShotFiles& shot, const ShotSettings& settings,
   std::vector<bool> is_whole(numbers.size(), false);
   turns = turns_of(numbers, warm_up, is_whole);
   if (!settings.resume) return turns;
+  std::string history;
   for (const Turn& turn : turns) {
-    if (!turn.is_written) continue;
     const SequenceFrame& frame = shot.frames()[turn.frame];
+    if (turn.begins) history.clear();
     try {
-      const FrameMaking making = making_of(settings, shot.open(frame), turn);
+      FrameMaking making = making_of(settings, shot.open(frame));
+      history = add_history_to(making, history);
+      if (!turn.is_written) continue;
       const auto [path, why] = first_to_write_again(settings.outputs.of(frame.number), settings.writing, making);
       is_whole[turn.frame] = why.empty();
       if (!why.empty() && std::filesystem::exists(path)) report.written_again(frame.number, why);
     } catch (const Error&) {
-      // Told when the frame's turn comes.
+      // Told when the frame's turn comes. The next one begins anew.
+      history.clear();
     }
   }
   turns = turns_of(numbers, warm_up, is_whole);
@@ -209,7 +215,8 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
                      [&](size_t i) { return work.write(i); }});
   running = &pipeline;
   pipeline.run();
-  report.finish(fmt::format("{}", fmt::join(named.paths(), ", ")), fmt::format("{}", fmt::join(written, ", ")));
+  report.finish(fmt::format("{}", fmt::join(named.paths(), ", ")),
+                fmt::format("{}{}", fmt::join(written, ", "), named.has_composite() ? ", composite" : ""));
 }
 
 }  // namespace gloam::cli

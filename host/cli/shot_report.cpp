@@ -86,7 +86,10 @@ bool ShotReport::attempt(int frame, const std::function<bool()>& step, const std
   } catch (const std::exception& error) {
     why = error.what();
   }
-  if (is_told) failed(frame, why);
+  if (is_told)
+    failed(frame, why);
+  else
+    note({fmt::format("frame {}: failed, and frames that go on from it begin anew: {}", frame, why)});
   return false;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/shot_work.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "cli/memory.h"
 #include "cli/radius.h"
@@ -36,10 +37,13 @@ unsigned long long bytes_in_flight(const PlannedFrame& planned) {
   return bytes_to_read(planned.files, planned.planes) + bytes_of_colour(planned) + results + results / 2;
 }
 
-FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files, const Turn& turn) {
-  std::string contents = settings.contents;
-  if (settings.request.temporal) contents += fmt::format(" history from {}", turn.history_begins);
-  return {settings.version, contents, identity_of(files)};
+FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files) {
+  return {settings.version, settings.contents, identity_of(files)};
+}
+
+std::string add_history_to(FrameMaking& making, const std::string& before) {
+  making.settings += fmt::format(" history {}", before.empty() ? "none" : before);
+  return fmt::format("{:016x}", hash_of(before + making.input));
 }
 
 ShotWork::ShotWork(const ShotFiles& files, const ShotSettings& settings, const std::vector<Turn>& turns,
@@ -61,7 +65,7 @@ bool ShotWork::step(size_t i, double StepTimes::*time, const std::function<bool(
 
 bool ShotWork::open(size_t i, InFlight& flight) {
   FrameFiles files = files_.open(frame_at(i));
-  flight.making = making_of(settings_, files, turns_[i]);
+  flight.making = making_of(settings_, files);
   // Of frames that go on over time, those to leave alone have been left out.
   if (settings_.resume && !settings_.request.temporal) {
     const auto [path, why] = first_to_write_again(outputs_of(i), settings_.writing, flight.making);
@@ -107,9 +111,14 @@ bool ShotWork::compute(size_t i) {
 bool ShotWork::take_over(size_t i, InFlight& flight) {
   const int number = frame_at(i).number;
   bool goes_on = !turns_[i].begins && before_ && turn_before_ + 1 == i;
+  histories_ = add_history_to(flight.making, goes_on ? histories_ : "");
   if (goes_on && contains(flight.plan.inputs, "motion") && frame_at(i - 1).number + 1 != number) {
-    note({fmt::format("frame {}: its motion leads to frame {}, which is not there; accumulation begins anew", number,
-                      number - 1)});
+    if (!gap_noted_)
+      note(
+          {fmt::format("frame {}: its motion leads to frame {}, which is not computed; accumulation begins anew "
+                       "there, and at all frames like it",
+                       number, number - 1)});
+    gap_noted_ = true;
     goes_on = false;
   }
   if (goes_on)

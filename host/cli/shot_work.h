@@ -35,8 +35,12 @@ struct ShotSettings {
 /// Memory that a frame takes from the start of its decoding to the end of its writing, besides what computing takes.
 unsigned long long bytes_in_flight(const PlannedFrame& planned);
 
-/// What decides the contents of a frame's file.
-FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files, const Turn& turn);
+/// What decides the contents of a frame's file, but for its history.
+FrameMaking making_of(const ShotSettings& settings, const FrameFiles& files);
+
+/// Adds the frames that a frame goes on from, in a word. `before`: the word of the frame before; empty where a history begins. Returns the
+/// frame's own.
+std::string add_history_to(FrameMaking& making, const std::string& before);
 
 /// The first file of a frame that has to be written again, and why; no reason if all may stay.
 std::pair<std::string, std::string> first_to_write_again(const FrameOutputs& outputs, const OutputSettings& settings,
@@ -83,6 +87,8 @@ class ShotWork {
   std::vector<std::unique_ptr<InFlight>> flights_;
   std::optional<Frame> before_;  ///< what the frame computed last leaves for the next
   size_t turn_before_ = 0;
+  bool gap_noted_ = false;
+  std::string histories_;  ///< word for the frames computed since a history began
 };
 
 }  // namespace gloam::cli

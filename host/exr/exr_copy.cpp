@@ -164,11 +164,12 @@ void note_planes_there_twice(const Headers& original, const std::vector<int>& ke
   for (const PlaneSource& source : name_planes(channels, original.listed_views()).planes) {
     for (const AddedPlanes& added : all) {
       if (!added.frame->views.front().find(source.plane) || added.content == composite_content) continue;
-      add_new(notes, fmt::format("copy: the input has '{0}' too, as channel {1}; of the copy, --plane {0}={2}:{3} "
-                                 "reads the new one",
-                                 source.plane, source.channels.front().name,
-                                 added_part_name(added.content, added.frame->views.front().name),
-                                 fmt::join(plane_kind(source.plane).channels, ",")));
+      add_new(notes,
+              fmt::format("copy: the input has '{0}' too: of the copy, --plane {0}={1} reads that one, and --plane "
+                          "{0}={2}:{3} the new one",
+                          source.plane, source.channels.front().name,
+                          added_part_name(added.content, added.frame->views.front().name),
+                          fmt::join(plane_kind(source.plane).channels, ",")));
     }
   }
 }

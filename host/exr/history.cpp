@@ -43,11 +43,15 @@ Plane empty_plane(const std::string& name, const Layout& layout) {
   return plane;
 }
 
+View* find_view(Frame& frame, const std::string& name) {
+  const auto same =
+      std::find_if(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.name == name; });
+  return same == frame.views.end() ? nullptr : &*same;
+}
+
 /// The view of the frame before that a view goes on from.
 View& view_before(Frame& before, const Frame& frame, const View& view, const std::string& name) {
-  const auto same = std::find_if(before.views.begin(), before.views.end(),
-                                 [&](const View& other) { return other.name == view.name; });
-  if (same != before.views.end()) return *same;
+  if (View* same = find_view(before, view.name)) return *same;
   // A file that names no view is for the only view of the frame.
   const bool is_unnamed =
       before.views.size() == 1 && frame.views.size() == 1 && (view.name.empty() || before.views.front().name.empty());
@@ -92,18 +96,45 @@ const std::vector<std::string>& planes_for_history() {
   return names;
 }
 
-void add_no_history(Frame& frame, const std::vector<std::string>& planes) {
+namespace {
+
+/// Planes of a history that knows nothing.
+void add_nothing(View& view, const Layout& layout, const std::vector<std::string>& planes) {
   for (const std::string& plane : history_planes()) {
-    if (!contains(planes, plane)) continue;
-    for (View& view : frame.views) view.planes[plane] = empty_plane(plane, Layout(frame.width(), frame.height()));
+    if (contains(planes, plane)) view.planes[plane] = empty_plane(plane, layout);
   }
 }
 
+/// The part of a plane that another window shows.
+Plane within_window(const Plane& plane, const Window& from, const Window& to) {
+  Plane placed = empty_plane(plane.name, Layout(to.width(), to.height()));
+  for (size_t c = 0; c < placed.channels.size(); ++c) {
+    for (int y = std::max(from.y0, to.y0); y < std::min(from.y1, to.y1); ++y) {
+      for (int x = std::max(from.x0, to.x0); x < std::min(from.x1, to.x1); ++x)
+        placed.channels[c].at(x - to.x0, y - to.y0) = plane.channels[c].at(x - from.x0, y - from.y0);
+    }
+  }
+  return placed;
+}
+
+}  // namespace
+
+void add_no_history(Frame& frame, const std::vector<std::string>& planes) {
+  for (View& view : frame.views) add_nothing(view, Layout(frame.width(), frame.height()), planes);
+}
+
 void add_history(Frame& frame, Frame before, const std::vector<std::string>& planes, const std::string& name) {
-  if (before.window != frame.window || before.display != frame.display)
+  if (before.display != frame.display)
     throw Error("{}: shows {}, and the frame {}; frames of a sequence are of one size and place", name,
-                in_words(before.window), in_words(frame.window));
+                in_words(before.display), in_words(frame.display));
+  const bool has_some = std::any_of(frame.views.begin(), frame.views.end(),
+                                    [&](const View& view) { return find_view(before, view.name) != nullptr; });
   for (View& view : frame.views) {
+    // A technique may have results for one of two views.
+    if (has_some && !find_view(before, view.name)) {
+      add_nothing(view, Layout(frame.width(), frame.height()), planes);
+      continue;
+    }
     View& from = view_before(before, frame, view, name);
     view.camera_before = from.camera;
     if (!from.find("frames")) from.planes["frames"] = one_frame(from.planes.at("depth"), from.find("reflection"));
@@ -111,6 +142,7 @@ void add_history(Frame& frame, Frame before, const std::vector<std::string>& pla
       if (!contains(planes, added) || !from.find(source)) continue;
       Plane& plane = view.planes[added] = std::move(from.planes.at(source));
       plane.name = added;
+      if (before.window != frame.window) plane = within_window(plane, before.window, frame.window);
     }
   }
 }

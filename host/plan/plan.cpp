@@ -119,6 +119,7 @@ bool reads_from(const Technique& reader, const Technique& writer) {
 Plan make_plan(const PlanRequest& given, const std::vector<std::string>& available, const std::string& holds) {
   PlanRequest request = given;
   if (request.temporal) request.outputs = over_time(request.outputs);
+  const bool asks_for_frames = request.temporal && takes_frames(request);
   Wanted wanted = wanted_by(request, available);
   const Techniques asked_for = wanted.makers;
   const Technique* elsewhere = want_elsewhere(request, wanted);
@@ -139,7 +140,8 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (!walk.missing.empty()) throw_missing(plan.technique, wanted, walk, holds);
   if (elsewhere) walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
   if (is_adaptive(request)) walk.order.push_back(&adapting());
-  if (request.temporal) walk.order.push_back(&accumulating());
+  const bool accumulates_after = request.temporal && !contains(asked_for.front()->reads, "history");
+  if (accumulates_after) walk.order.push_back(&accumulating());
   if (is_reduced) walk.order.push_back(&resampling());
   const Technique* restricted = mask.empty() || asked_for.empty() ? nullptr : asked_for.front();
   const std::vector<ParameterValues> values = values_of(request, walk.order, plan.technique, restricted, mask);
@@ -162,7 +164,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (!mask.empty())
     restrict_to_mask(plan, elsewhere ? Techniques{asked_for.front(), elsewhere} : asked_for, elsewhere);
   if (is_adaptive(request)) adapt(plan, without_maker(asked_for, mask), request.adaptive, values.back());
-  if (request.temporal) accumulate(plan, *asked_for.front(), values.back());
+  if (accumulates_after) accumulate(plan, *asked_for.front(), values.back(), asks_for_frames || given.only.empty());
   if (request.as_cells) put_out_cells(plan);
   leave_out_unread(plan, walk.order);
   plan.skipped = walk.skipped;

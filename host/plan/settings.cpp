@@ -6,6 +6,7 @@
 #include "gloam/planes.h"
 #include "gloam/radius.h"
 #include "plan/resample.h"
+#include "plan/temporal.h"
 
 namespace gloam {
 namespace {
@@ -72,11 +73,11 @@ void set_followers(const Techniques& order, std::vector<ParameterValues>& values
   }
 }
 
-/// A follower inherits the radius of the technique that it follows.
+/// A follower inherits the radius of the technique that it follows, and so does accumulation over time.
 void inherit(const Techniques& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
     for (size_t to = from + 1; to < order.size(); ++to) {
-      if (order[from]->then.empty()) continue;
+      if (order[from]->then.empty() && order[to] != &accumulating()) continue;
       if (order[to] != &resampling() && !reads_from(*order[to], *order[from])) continue;
       for (const Parameter& p : order[from]->parameters) {
         if (values[to].has(p.name)) values[to].set(p.name, values[from].text(p.name), order[to]->name);

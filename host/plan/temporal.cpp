@@ -68,7 +68,7 @@ Pass accumulate_pass() {
           .source = "temporal/accumulate.cl",
           .reads = {{"now", "ao_raw.now"}, "depth", own("before"), own("before_frames"), own("tiles_away")},
           .writes = {"ao_raw", "frames"},
-          .defines = {{"TILE", tile}},
+          .defines = {{"TILE", tile}, {"REACH", reach}},
           .footprint = {.columns = 2, .rows = 2}};
 }
 
@@ -106,15 +106,23 @@ void check_temporal(const PlanRequest& request) {
   const Technique& technique = find_technique(name);
   if (!can_accumulate(technique))
     throw UsageError("--temporal: {} makes neither raw ambient occlusion nor reflections; leave it out", name);
-  if (request.resolution != 1) throw UsageError("--temporal: works at full resolution; leave out --resolution");
+  if (request.resolution != 1)
+    throw UsageError(
+        "accumulation over time (--temporal, --history): works at full resolution; leave out --resolution");
   if (!request.adaptive.empty() && request.adaptive != "none")
-    throw UsageError("--temporal: each pixel gets the same samples in each frame; leave out --adaptive");
+    throw UsageError(
+        "accumulation over time (--temporal, --history): each pixel gets as many samples; leave out --adaptive");
   if (!request.mask.empty() && contains(technique.writes, "ao_raw"))
-    throw UsageError("--temporal: goes on from whole images; leave out --only");
+    throw UsageError("accumulation over time (--temporal, --history): goes on from whole images; leave out --only");
 }
 
-void accumulate(Plan& plan, const Technique& technique, const ParameterValues& values) {
-  if (accumulates_by_itself(technique)) return;
+bool takes_frames(PlanRequest& request) {
+  if (!contains(outputs_of(find_technique(request.outputs.front())), "frames"))
+    return std::erase(request.only, "frames") > 0;
+  return false;
+}
+
+void accumulate(Plan& plan, const Technique& technique, const ParameterValues& values, bool with_frames) {
   // A technique for two eyes filters by itself: its later passes read the mean.
   auto after = plan.passes.end();
   for (auto planned = plan.passes.begin(); planned != plan.passes.end(); ++planned) {
@@ -127,7 +135,7 @@ void accumulate(Plan& plan, const Technique& technique, const ParameterValues& v
   passes.insert(passes.begin(), reproject_pass(plan));
   passes.push_back(accumulate_pass());
   for (Pass& pass : passes) after = plan.passes.insert(after, {&accumulating(), std::move(pass), values}) + 1;
-  add_new(plan.outputs, "frames");
+  if (with_frames || contains(plan.outputs, "ao_raw")) add_new(plan.outputs, "frames");
 }
 
 }  // namespace gloam

@@ -16,7 +16,10 @@ const Technique& accumulating();
 std::vector<std::string> over_time(std::vector<std::string> outputs);
 
 /// Puts the mean of a technique's raw AO and that of the frame before between the technique and its filter. `values`: of
-/// `accumulating`. Does nothing for techniques that accumulate by themselves.
-void accumulate(Plan& plan, const Technique& technique, const ParameterValues& values);
+/// `accumulating`. `with_frames`: `frames` is put out, as it always is with `ao_raw`: a history needs both.
+void accumulate(Plan& plan, const Technique& technique, const ParameterValues& values, bool with_frames);
+
+/// Takes `frames` out of the outputs asked for, as no technique makes it. Returns whether it was there.
+bool takes_frames(PlanRequest& request);
 
 }  // namespace gloam

@@ -7,6 +7,8 @@
 namespace gloam {
 namespace {
 
+int block_of(int number) { return number / frames_of_block; }
+
 /// A block's frames, by their places: those that lead to it, and its own.
 struct Block {
   size_t first, own, end;
@@ -27,10 +29,6 @@ std::vector<Block> blocks_of(const std::vector<int>& numbers, size_t warm_up) {
 }
 
 }  // namespace
-
-int block_of(int number) {
-  return number >= 0 ? number / frames_of_block : -((-number + frames_of_block - 1) / frames_of_block);
-}
 
 std::vector<ChunkOfTurns> chunks_of_blocks(const std::vector<int>& numbers, int count) {
   const std::vector<Block> blocks = blocks_of(numbers, 0);
@@ -53,7 +51,7 @@ std::vector<Turn> turns_of(const std::vector<int>& numbers, size_t warm_up, cons
     while (first < block.end && !needs_work(first)) ++first;
     if (first == block.end) continue;
     for (size_t i = block.first; i < block.end; ++i)
-      turns.push_back({i, i == block.first, i >= block.own && i >= first, numbers[block.first]});
+      turns.push_back({i, i == block.first, i >= block.own && i >= first});
   }
   return turns;
 }

@@ -15,23 +15,20 @@ constexpr int frames_of_block = 64;
 /// Frames that are computed before a block, without being written.
 constexpr int warm_up_of_block = 8;
 
-/// The block of a frame number, which may be negative.
-int block_of(int number);
-
 /// One frame to compute. `frame`: its place in the list.
 struct Turn {
   size_t frame;
   bool begins = false;  ///< with an empty history
   bool is_written = true;
-  int history_begins = 0;  ///< number of the frame that began the history
 };
 
-/// For each chunk its frames as a list of `numbers` for `turns_of`, after the frames that lead to it. Chunks end where blocks do, so there
-/// may be fewer than `count`.
+/// A chunk's frames, after the `warm_up` frames that lead to it.
 struct ChunkOfTurns {
   std::vector<int> numbers;
   size_t warm_up;
 };
+
+/// Chunks end where blocks do, so there may be fewer than `count`.
 std::vector<ChunkOfTurns> chunks_of_blocks(const std::vector<int>& numbers, int count);
 
 /// `numbers`: ascending. The first `warm_up` of them are computed, but not written: they lead to a chunk of a sequence. `is_whole`: for

@@ -9,7 +9,7 @@
 //      tiles_away     of moving.cl, in tiles
 // out: ao_raw         mean over the frames; 1 on background
 //      frames         how many frames that is the mean of; 0 on background
-// -D TILE (pixels)
+// -D TILE (pixels), REACH (tiles)
 #include "shared/frame/camera.h"
 #include "shared/lanes/load.h"
 #include "shared/sampling/sample.h"
@@ -27,7 +27,7 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
     const real depth_there = load(depth, there), value = load(now, there), value_before = load(before, there);
     const mask counts = to_mask(to_natural(FIRST_X + dx + IOTA) < (natural)((uint)frame.width)) &
                         (load(before_frames, there) > 0) & !is_background(depth_there) &
-                        (fabs(depth_there - z) <= params.depth_tolerance * z);
+                        (fabs(depth_there - z) <= params.depth_change * z);
     pixels += choose(counts, (real)(1), (real)(0));
     sum += choose(counts, value, (real)(0));
     squares += choose(counts, value * value, (real)(0));
@@ -51,7 +51,8 @@ kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANE n
   // From pixel to pixel at least; a tile beside that of the pixel may begin at the next pixel.
   const scalar pixels = (tiles - 1) * TILE;
   const real reach = (scalar)params.radius / ((scalar)frame.scale_x * (frame.perspective * z + frame.parallel));
-  const mask may_change = is_surface & (count > 0) & (reach >= pixels);
+  // Nothing within REACH tiles: the radius may be infinite too.
+  const mask may_change = tiles <= REACH ? is_surface & (count > 0) & (reach >= pixels) : (mask)(0);
   if (ANY(may_change)) {
     const real alike =
         frames_alike(frame, params, z, choose(may_change, count, (real)(1)), now, depth, before, before_frames);

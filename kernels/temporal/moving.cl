@@ -12,17 +12,21 @@
 
 kernel void moving_tiles(Frame frame, Frame other, Params params, PLANE moved, PLANE_OUT moving) {
   const integer first = (FIRST_X + IOTA) * TILE;
-  mask found = (mask)(0), above[TILE];
-  for (int dy = 0; dy < TILE; ++dy) {
-    const int row = index_of(other, 0, min(ROW_Y * TILE + dy, other.height - 1));
+  // One column and one row more, for squares across the border of two tiles.
+  mask found = (mask)(0), above[TILE + 1];
+  for (int dy = -1; dy < TILE; ++dy) {
+    const int y = ROW_Y * TILE + dy;
+    const int row = index_of(other, 0, clamp(y, 0, other.height - 1));
+    const mask is_row_inside = y >= 0 && y < other.height ? EVERY_LANE : (mask)(0);
     mask left = (mask)(0);
-    for (int dx = 0; dx < TILE; ++dx) {
-      const mask here = gather(moved, row + min(first + dx, (integer)(other.width - 1))) > (scalar)0.5f;
-      if (dx > 0 && dy > 0) found |= here & left & above[dx] & above[dx - 1];
-      if (dx > 0) above[dx - 1] = left;
+    for (int dx = -1; dx < TILE; ++dx) {
+      const integer column = clamp(first + dx, (integer)(0), (integer)(other.width - 1));
+      const mask here = is_row_inside & to_mask(column == first + dx) & (gather(moved, row + column) > (scalar)0.5f);
+      if (dx >= 0 && dy >= 0) found |= here & left & above[dx + 1] & above[dx];
+      if (dx >= 0) above[dx] = left;
       left = here;
     }
-    above[TILE - 1] = left;
+    above[TILE] = left;
   }
   store(choose(found, (real)(0), REAL_INFINITY), moving, index_of(frame, FIRST_X, ROW_Y));
 }

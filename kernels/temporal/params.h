@@ -6,9 +6,9 @@
   P(float, plane_tolerance, 0.002f, 0, INFINITY, "radii",                                                         \
     "distance from a tangent plane, besides pixel_tolerance, from which on a surface is another")                 \
   P(float, pixel_tolerance, 0.2f, 0, INFINITY, "pixels", "the same, as a share of a pixel's width at its depth")  \
-  P(float, depth_tolerance, 0.05f, 0, 1, "shares of the depth",                                                   \
+  P(float, depth_change, 0.05f, 0, 1, "shares of the depth",                                                      \
     "change of depth from which on a surface that moves by itself is another")                                    \
-  P(float, edge_loss, 2, 0, INFINITY, "frames",                                                                   \
+  P(float, edge_loss, 2, 0, 1000, "frames",                                                                       \
     "the less of the four pixels around a position shows the surface, the fewer frames count: 1 / (1 / frames + " \
     "edge_loss * share)")                                                                                         \
   P(float, change_tolerance, 4, 0, INFINITY, "variances",                                                         \

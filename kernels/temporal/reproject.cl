@@ -58,9 +58,9 @@ static inline void find_same(Neighbour neighbour, Params params, Before before, 
     const real3 there = position_at(neighbour.frame, to_real(corners.column[k]), to_real(corners.row[k]),
                                     choose(is_surface, z, before.depth));
     const mask is_in_plane = fabs(dot3(plane.normal, there) - plane.distance) <= plane.tolerance;
-    const mask is_as_deep = fabs(z - before.depth) <= params.depth_tolerance * before.depth;
+    const mask is_as_deep = fabs(z - before.depth) <= params.depth_change * before.depth;
     is_same[k] = is_surface & ((before.is_at_rest & is_in_plane) | (!before.is_at_rest & is_as_deep));
-    *is_all_behind &= corners.is_inside[k] & (z > before.depth * (1 + (scalar)params.depth_tolerance));
+    *is_all_behind &= corners.is_inside[k] & (z > before.depth * (1 + (scalar)params.depth_change));
   }
 }
 
@@ -73,7 +73,7 @@ static inline mask has_gone(Frame frame, Neighbour neighbour, Params params, PLA
       position_at(neighbour.frame, to_real(FIRST_X + IOTA), (real)(ROW_Y), choose(was_there, z, (real)(1)));
   const Projection now = project_onto(frame, back_from_other(neighbour, there), was_there);
   const integer pixel = FRAME_GUARD + nearest(now.y) * frame.pitch + nearest(now.x);
-  return now.is_seen & (gather(depth, pixel) > now.depth * (1 + (scalar)params.depth_tolerance));
+  return now.is_seen & (gather(depth, pixel) > now.depth * (1 + (scalar)params.depth_change));
 }
 
 static inline void store_nothing(PLANE_OUT before, PLANE_OUT before_frames, PLANE_OUT moved, int here) {

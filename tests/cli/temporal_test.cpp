@@ -96,6 +96,58 @@ TEST_F(Temporal, KilledOrDividedItWritesTheSameBytes) {
   EXPECT_NE(gloam(run_of({"--temporal", "--resume"}, "gtao")).out.find("left 9 frames alone"), std::string::npos);
 }
 
+TEST_F(Temporal, ResumeKnowsTheFramesThatAFrameGoesOnFrom) {
+  walk(6, 0.02, 64, 36);
+  const Arguments command = run_of({"--temporal", "-q", "--plane", "motion=none"}, "gtao");
+  const auto with = [&](const Arguments& more) {
+    Arguments all = command;
+    all.insert(all.end(), more.begin(), more.end());
+    const Result result = gloam(all);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return contents();
+  };
+  const auto first = with({});
+  // Another third frame: what goes on from it is written again, even if only the third had been when the process was killed.
+  std::filesystem::copy_file(path("shot.0005.exr"), path("shot.0003.exr"),
+                             std::filesystem::copy_options::overwrite_existing);
+  const auto resumed = with({"--resume"}), fresh = with({});
+  EXPECT_EQ(resumed, fresh);
+  EXPECT_NE(fresh.at("ao.0006.exr"), first.at("ao.0006.exr"));
+  for (const int i : {4, 5, 6}) std::ofstream(path(numbered("ao", i)), std::ios::binary) << first.at(numbered("ao", i));
+  EXPECT_EQ(with({"--resume"}), fresh);
+  // Other frames in between.
+  const auto every_second = with({"--frames", "1-5x2"});
+  with({});
+  EXPECT_EQ(with({"--frames", "1-5x2", "--resume"}), every_second);
+}
+
+TEST_F(Temporal, AChunkKnowsTheFramesThatLeadToIt) {
+  walk(9, 0.02, 64, 36);
+  for (int i = 9; i >= 1; --i) renumber(i, i + 58);
+  const Arguments second = {"--temporal", "--frames", "59-67", "--warm-up", "5", "--resume", "--plane", "motion=none"};
+  ASSERT_EQ(gloam(run_of(second, "gtao")).status, 0);
+  EXPECT_NE(gloam(run_of(second, "gtao")).out.find("left 4 frames alone"), std::string::npos);
+  std::filesystem::copy_file(path("shot.0063.exr"), path("shot.0060.exr"),
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_NE(gloam(run_of(second, "gtao")).out.find("wrote 4 frames"), std::string::npos);
+  // A frame that leads to the chunk cannot be read.
+  std::ofstream(path("shot.0060.exr")) << "no image";
+  const Result broken = gloam(run_of(second, "gtao"));
+  EXPECT_EQ(broken.status, 0) << broken.err;
+  EXPECT_NE(broken.err.find("frame 60: failed, and frames that go on from it begin anew"), std::string::npos)
+      << broken.err;
+  EXPECT_NE(broken.out.find("wrote 4 frames"), std::string::npos) << broken.out;
+}
+
+TEST_F(Temporal, OneOfTwoViewsGoesOn) {
+  ASSERT_EQ(gloam({"capture", "gallery", "--shot", "walk", "-o", file("shot.####.exr"), "--frames", "1-3", "--size",
+                   "40x28", "--planes", "depth,normal", "--stereo", "0.3", "--peel", "2"})
+                .status,
+            0);
+  const Result result = gloam(run_of({"--temporal"}, "multiview"));
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
 TEST_F(Temporal, SaysWhereAHistoryIsOfNoUse) {
   walk(4, 0.02, 64, 36);
   const auto said = [&](const Arguments& more) {
@@ -103,8 +155,9 @@ TEST_F(Temporal, SaysWhereAHistoryIsOfNoUse) {
     EXPECT_EQ(result.status, 0) << result.err;
     return result.err;
   };
-  EXPECT_NE(said({"--temporal", "--frames", "1,3,4"}).find("frame 3: its motion leads to frame 2, which is not there"),
-            std::string::npos);
+  EXPECT_NE(
+      said({"--temporal", "--frames", "1,3,4"}).find("frame 3: its motion leads to frame 2, which is not computed"),
+      std::string::npos);
   // A cut: frame 3 shows another place.
   ASSERT_EQ(gloam({"capture", "courtyard", "-o", path("shot.0003.exr"), "--size", "64x36", "--eye", "3,7.3,2",
                    "--target", "9,4,-3"})

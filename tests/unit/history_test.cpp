@@ -89,6 +89,25 @@ TEST_F(HistoryTest, AnUnnamedViewIsOfTheOnlyOne) {
   EXPECT_EQ(frame.views[0].find("history")->channels[0].at(3, 1), 0.25f);
 }
 
+TEST_F(HistoryTest, AnotherPartOfTheImageIsPlaced) {
+  Frame before = frame_of({""}), frame = frame_of({""}, 8, 4, 2);
+  before.display = frame.display = {0, 0, 16, 4};
+  Channel& depth = before.views[0].planes.at("depth").channels[0];
+  for (int x = 0; x < 8; ++x) depth.at(x, 1) = 10 + float(x);
+  add_history(frame, std::move(before), history_planes(), "the frame before");
+  const Channel& placed = frame.views[0].find("history_depth")->channels[0];
+  EXPECT_EQ(placed.at(0, 1), 12);
+  EXPECT_EQ(placed.at(5, 1), 17);
+  EXPECT_TRUE(std::isinf(placed.at(6, 1))) << "the frame before did not show it";
+}
+
+TEST_F(HistoryTest, AViewWithoutResultsKnowsNothing) {
+  Frame before = frame_of({"left"}), frame = frame_of({"left", "right"});
+  add_history(frame, std::move(before), history_planes(), "the frame before");
+  EXPECT_EQ(frame.views[0].find("history_depth")->channels[0].at(3, 1), 2);
+  EXPECT_TRUE(std::isinf(frame.views[1].find("history_depth")->channels[0].at(3, 1)));
+}
+
 TEST_F(HistoryTest, AnotherEyeOrWindowIsRefused) {
   Frame frame = frame_of({"left"});
   EXPECT_NE(message_of([&] { take(frame_of({"right"}), frame); }).find("has no view 'left'"), std::string::npos);

@@ -334,7 +334,7 @@ TEST(Chunks, AreEvenAndHoldEachFrameOnce) {
   const Numbers frames = parse_frame_numbers("1-7,9,20-21", "--frames");
   EXPECT_EQ(chunks_of(frames, 3), (std::vector<Numbers>{{1, 2, 3}, {4, 5, 6}, {7, 9, 20, 21}}));
   EXPECT_EQ(chunks_of(frames, 1), std::vector<Numbers>{frames});
-  EXPECT_EQ(chunks_of({5, 6}, 9), (std::vector<Numbers>{{5}, {6}})) << "no chunk is empty";
+  EXPECT_EQ(chunks_of(Numbers{5, 6}, 9), (std::vector<Numbers>{{5}, {6}})) << "no chunk is empty";
   for (const int count : {2, 4, 7, 10}) {
     Numbers all;
     for (const Numbers& chunk : chunks_of(frames, count)) {

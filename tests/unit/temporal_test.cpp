@@ -168,6 +168,12 @@ TEST(Temporal, MotionOfASurfaceIsFollowed) {
   EXPECT_GE(old, block - 4) << "its borders are new";
 }
 
+TEST(Temporal, AnInfiniteRadiusForgetsNothingAtRest) {
+  Sequence sequence({{"temporal.radius", "inf"}}, {.seed = 1});
+  for (int i = 0; i < 8; ++i) sequence.add(frame_of({}));
+  for (int x = 8; x < width - 8; ++x) ASSERT_NEAR(sequence.last("frames").at(x, 50), 8, 1e-3) << x;
+}
+
 TEST(Temporal, IsTheSameAtEveryLaneWidth) {
   std::vector<Frame> results;
   for (const int lanes : {1, 4, 8, 16}) {
@@ -204,8 +210,24 @@ TEST(Temporal, OnlyPlansThatMakeAoOrReflectionsGoOn) {
   EXPECT_THROW(planned({.outputs = {"normals"}}), UsageError);
   EXPECT_THROW(planned({.outputs = {"gtao"}, .resolution = 2}), UsageError);
   EXPECT_THROW(planned({.outputs = {"gtao"}, .adaptive = "low"}), UsageError);
-  const Plan plan = planned({.outputs = {"gtao"}, .only = {"ao", "ao_raw"}});
-  EXPECT_EQ(plan.outputs, (std::vector<std::string>{"ao", "ao_raw", "frames"}));
+  // The filter's, in radii: accumulation has no parameter of this name.
+  EXPECT_NO_THROW(planned({.outputs = {"gtao"}, .settings = {{"depth_tolerance", "2"}}}));
+  const auto radius_of_accumulation = [&](const Settings& settings) {
+    for (const PlannedPass& pass : planned({.outputs = {"gtao"}, .settings = settings}).passes) {
+      if (pass.label() == "temporal/accumulate") return pass.values.text("radius");
+    }
+    return std::string();
+  };
+  EXPECT_EQ(radius_of_accumulation({{"gtao.radius", "2"}}), "2");
+  EXPECT_EQ(radius_of_accumulation({{"radius", "2"}, {"temporal.radius", "3"}}), "3");
+  const auto outputs_for = [&](const std::vector<std::string>& only) {
+    return planned({.outputs = {"gtao"}, .only = only}).outputs;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(outputs_for({"ao", "ao_raw"}), (Names{"ao", "ao_raw", "frames"})) << "a history needs both";
+  EXPECT_EQ(outputs_for({"ao"}), (Names{"ao"}));
+  EXPECT_EQ(outputs_for({"ao", "frames"}), (Names{"ao", "frames"}));
+  EXPECT_EQ(outputs_for({}), (Names{"ao", "ao_raw", "frames"}));
 }
 
 }  // namespace
