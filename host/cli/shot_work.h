@@ -14,6 +14,7 @@
 #include "cli/shot_report.h"
 #include "cli/shot_steps.h"
 #include "sequence/frame_making.h"
+#include "sequence/history_chain.h"
 #include "sequence/turns.h"
 
 namespace gloam::cli {
@@ -81,8 +82,8 @@ class ShotWork {
   ShotReport& report_;
   ShotSteps steps_;
   std::vector<std::unique_ptr<InFlight>> flights_;
-  std::optional<Frame> before_;  ///< what the frame computed last leaves for the next
-  size_t turn_before_ = 0;
+  HistoryChain history_;
+  size_t turn_before_ = 0;  ///< the frame computed last
 };
 
 }  // namespace gloam::cli
