@@ -1,4 +1,6 @@
 // gloam bench --sequence: error and flicker of settings on the frames of a shot, and what it refuses. No times.
+#include <cmath>
+
 #include "cli/shot_fixture.h"
 
 namespace gloam::test {
@@ -43,7 +45,7 @@ TEST_F(BenchSequence, FiguresAreThoseOfRunAndCompare) {
                    "64x36", "--planes", "normal"})
                 .status,
             0);
-  ASSERT_EQ(gloam({"reference", "ao", file("shot.####.exr"), "-o", file("truth.####.exr"), "--samples", "16",
+  ASSERT_EQ(gloam({"reference", "ao", file("shot.####.exr"), "-o", file("truth.####.exr"), "--samples", "32",
                    "--radius", "0.5"})
                 .status,
             0);
@@ -51,7 +53,7 @@ TEST_F(BenchSequence, FiguresAreThoseOfRunAndCompare) {
   const Json& sequence = document["sequence"];
   EXPECT_EQ(sequence["frames"], Json({1, 2, 3}));
   EXPECT_EQ(sequence["radius"], 0.5);
-  EXPECT_EQ(sequence["truth_rays"], 16);
+  EXPECT_EQ(sequence["truth_rays"], 32);
   EXPECT_EQ(sequence["motion"], Json({"plane"}));
   ASSERT_EQ(sequence["rows"].size(), 2u);
   for (const bool temporal : {false, true}) {
@@ -85,8 +87,8 @@ TEST_F(BenchSequence, FramesOfABuiltInShotAreThoseOfCaptureAndAreUsedAgain) {
                    "48x27", "--planes", "normal"})
                 .status,
             0);
-  const Frame captured = read_frame(path("shot.0003.exr")),
-              kept = read_frame(path("out/scenes/clockwork_gears_0003.exr"));
+  const auto read = [&](const std::string& name) { return FrameFile(path(name), {}).read({"depth", "motion"}); };
+  const Frame captured = read("shot.0003.exr"), kept = read("out/scenes/clockwork_gears_0003.exr");
   for (const char* plane : {"depth", "motion"}) {
     const Plane &a = captured.views[0].planes.at(plane), &b = kept.views[0].planes.at(plane);
     for (size_t c = 0; c < a.channels.size(); ++c)
@@ -96,6 +98,24 @@ TEST_F(BenchSequence, FramesOfABuiltInShotAreThoseOfCaptureAndAreUsedAgain) {
           ASSERT_TRUE(v == w || (std::isnan(v) && std::isnan(w))) << plane << " " << x << " " << y;
         }
   }
+}
+
+TEST_F(BenchSequence, ReportsShowIt) {
+  const Json document = measured("walk", {"--size", "48x27", "--rays", "8", "--frames", "1-2"});
+  const Result page = gloam({"report", file("out")});
+  ASSERT_EQ(page.status, 0) << page.err;
+  const std::string html = slurp(path("out/report.html"));
+  const size_t data = html.find("id=\"data\">") + 10;
+  const Json shown = Json::parse(html.substr(data, html.find("</script>", data) - data))["sequence"];
+  EXPECT_EQ(shown["shot"], "gallery:walk");
+  ASSERT_EQ(shown["rows"].size(), 2u);
+  EXPECT_EQ(shown["rows"][1]["temporal"], true);
+  EXPECT_EQ(shown["rows"][1]["flicker"], row_of(document, true)["flicker"]);
+  const Result markdown = gloam({"report", file("out"), "--markdown", file("page.md")});
+  ASSERT_EQ(markdown.status, 0) << markdown.err;
+  const std::string text = slurp(path("page.md"));
+  EXPECT_NE(text.find("gallery:walk, 2 frames of 48x27"), std::string::npos) << text;
+  EXPECT_NE(text.find("gtao low, temporal"), std::string::npos) << text;
 }
 
 TEST_F(BenchSequence, WhatCannotBeMeasuredIsSaidInALine) {
