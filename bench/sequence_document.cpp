@@ -87,6 +87,10 @@ Table table_of_sequence(const MeasuredSequence& sequence, const SequenceMeasurem
                           fmt::format("{:.2f}", median(row->ms)), row->ratio ? fmt::format("{:.2f}", *row->ratio) : "-",
                           error_words(row->rmse), error_words(row->worst_rmse), std::to_string(row->worst_frame),
                           fmt::format("{:.3f}", row->ssim), error_words(row->flicker.flicker())});
+  if (!measurement.truth_change) {
+    table.below = {"no flicker: no surface is in two frames whose numbers follow one another (--frames 1-10 are such)"};
+    return table;
+  }
   std::string truth = "the truth's own change is " + error_words(measurement.truth_change);
   if (measurement.comparable) truth += fmt::format(", over {:.1f} % of the foreground", 100 * *measurement.comparable);
   if (!measurement.motions.empty()) truth += fmt::format("; motion: {}", fmt::join(measurement.motions, ", "));

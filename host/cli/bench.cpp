@@ -350,8 +350,10 @@ void add_bench(CLI::App& app) {
       command
           ->add_option("--sequence", flags->sequence,
                        "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
-          ->type_name("SCENE:SHOT|shot.####.exr");
+          ->type_name("SHOT|FRAME.####.exr");
   add_frames(*command, flags->choice);
+  add_missing_without_hold(*command, flags->choice);
+  command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");
   CLI::Option* size =
       add_parsed(*command, "--size", flags->size, parse_size,
                  "of the scenes' images; default 960x540, with --paper 1920x1080, with --sequence 640x360")

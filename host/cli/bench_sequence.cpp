@@ -195,6 +195,8 @@ void check(const SequenceBenchFlags& flags) {
   if (!flags.reading.empty())
     throw UsageError("{}: says how files are read, and {} is a built-in shot; leave it out", flags.reading,
                      shot.name());
+  if (flags.choice.missing)
+    throw UsageError("--missing: is for files, and {} is a built-in shot; leave it out", shot.name());
   check_count(frames_of(flags.choice, shot));
 }
 

@@ -70,6 +70,16 @@ TEST_F(BenchSequence, FiguresAreThoseOfRunAndCompare) {
     EXPECT_GT(row["ratio_to_hbao_plus"], 0);
   }
   EXPECT_NE(row_of(document, false)["rmse"], row_of(document, true)["rmse"]);
+  // without neighbours
+  fs::remove(path("truth.0002.exr"));
+  expect_refused(bench_of(file("shot.####.exr"), {"--truth", file("truth.####.exr")}), 1,
+                 {"frame 2 is missing", "--missing skip"});
+  const Result gap = gloam(bench_of(file("shot.####.exr"), {"--truth", file("truth.####.exr"), "--missing", "skip"}));
+  ASSERT_EQ(gap.status, 0) << gap.err;
+  EXPECT_NE(gap.out.find("no flicker"), std::string::npos) << gap.out;
+  const Json left = Json::parse(slurp(path("out/bench.json")));
+  EXPECT_EQ(left["sequence"]["frames"], Json({1, 3}));
+  EXPECT_TRUE(row_of(left, true)["flicker"].is_null());
 }
 
 TEST_F(BenchSequence, FramesOfABuiltInShotAreThoseOfCaptureAndAreUsedAgain) {
@@ -125,6 +135,7 @@ TEST_F(BenchSequence, WhatCannotBeMeasuredIsSaidInALine) {
   expect_refused(bench_of("walk", {"--frames", "40-60"}), 2, {"--frames 60", "gallery:walk has frames 1 to 48"});
   expect_refused(bench_of("walk", {"--truth", "t.####.exr"}), 2, {"--truth t.####.exr", "are traced"});
   expect_refused(bench_of("walk", {"--depth", "z"}), 2, {"--depth", "leave it out"});
+  expect_refused(bench_of("walk", {"--missing", "skip"}), 2, {"--missing", "leave it out"});
   expect_refused(bench_of("walk", {"--frame", "a.exr"}), 2, {"--frame", "excludes --sequence"});
   expect_refused(bench_of("walk", {"--rounds", "2"}), 2, {"--rounds", "excludes"});
   expect_refused(bench_of(file("no.####.exr")), 1, {"no.####.exr", "no file of this pattern"});
