@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/lists.h"
+#include "gloam/history.h"
 #include "gloam/planes.h"
 #include "shared/sampling/ambient_occlusion.h"
 #include "technique/ambient_occlusion.h"
@@ -19,6 +20,7 @@ PlanRequest request_for(const Variation& variation) {
   if (ParameterValues(variation.technique->parameters).has("radius"))
     request.settings.emplace_back("radius", fmt::format("{}", float(variation.radius)));
   request.settings.insert(request.settings.end(), variation.settings.begin(), variation.settings.end());
+  request.temporal = variation.temporal;
   return request;
 }
 
@@ -99,7 +101,14 @@ std::vector<std::string> planes_of(const Frame& frame) {
 Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds) {
   PlanRequest request = request_for(variation);
   request.only = {"ao"};
-  return make_plan(request, available, holds);
+  if (!variation.temporal) return make_plan(request, available, holds);
+  check_temporal(request);
+  for (const std::string& plane : planes_for_history()) {
+    if (contains(outputs_of(*variation.technique), plane)) add_new(request.only, plane);
+  }
+  std::vector<std::string> with_history = available;
+  with_history.insert(with_history.end(), history_planes().begin(), history_planes().end());
+  return make_plan(request, with_history, holds);
 }
 
 Plan unfiltered_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds,

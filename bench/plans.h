@@ -43,7 +43,8 @@ struct Variation {
   Math math = Math::fast;
   Real real = Real::float32;
   Storage storage = Storage::float32;
-  Settings settings;  ///< override those of the preset
+  Settings settings;      ///< override those of the preset
+  bool temporal = false;  ///< goes on from the frame before, as `PlanRequest::temporal`
   std::string name() const { return preset.empty() ? "default" : preset; }
   RunOptions run_options() const;
 };
@@ -55,7 +56,8 @@ Settings settings_over_other_layers(const Settings& settings, const Technique& f
 /// The names of a frame's planes that every view has.
 std::vector<std::string> planes_of(const Frame& frame);
 
-/// The whole plan for `ao`, with the filter. Throws as `make_plan` does.
+/// The whole plan for `ao`, with the filter; of one that goes on over time also the planes from which a history is made. Throws as
+/// `make_plan` does.
 Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds);
 
 /// The plan without the filter, for `own_plane`. `more`: settings that override those of the preset.

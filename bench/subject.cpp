@@ -34,6 +34,16 @@ std::string digest_of(const Frame& frame) {
   return print.text();
 }
 
+/// Identifies what a frame of a sequence has besides; empty for a frame alone.
+std::string digest_of(const std::optional<InSequence>& in) {
+  if (!in) return "";
+  Fingerprint print;
+  print.add(in->camera_before.pose.world_to_view);
+  print.add(in->camera_before.pose.position);
+  if (in->scene_before) print.add(*in->scene_before);
+  return " before=" + print.text();
+}
+
 /// Identifies a contribution by its values.
 std::string digest_of(const std::function<double(double, double)>& contribution) {
   if (!contribution) return "none";
@@ -81,8 +91,8 @@ bool Truths::is_there(const std::string& file, const std::string& recipe) {
 
 std::filesystem::path Truths::frame_file() {
   const std::string file = name_ + ".exr";
-  const std::string recipe =
-      fmt::format("{} {} {}x{} layers={}", name_, recipe_, options_.width, options_.height, options_.layers);
+  const std::string recipe = fmt::format("{} {} {}x{} layers={}{}", name_, recipe_, options_.width, options_.height,
+                                         options_.layers, digest_of(options_.in_sequence));
   const std::filesystem::path path = options_.folder / file;
   if (is_there(file, recipe)) return path;
   CaptureOptions capturing;
@@ -91,7 +101,11 @@ std::filesystem::path Truths::frame_file() {
   capturing.peel = options_.layers;
   capturing.views = {{"", camera_for(scene_.cameras.front(), options_.width, options_.height), {}}};
   for (const std::string& plane : capture_planes()) {
-    if (plane != "motion") capturing.planes.push_back(plane);
+    if (plane != "motion" || options_.in_sequence) capturing.planes.push_back(plane);
+  }
+  if (const auto& in = options_.in_sequence) {
+    capturing.views.front().previous_camera = camera_for(in->camera_before, options_.width, options_.height);
+    capturing.previous_scene = in->scene_before.get();
   }
   capturing.progress = [&](int done, int of) { tell("frame", double(done) / of); };
   CaptureResult result = capture(tracer(), capturing);
@@ -112,13 +126,16 @@ Frame Truths::captured(int width, int height) {
 
 const Truth& Truths::traced(const Frame& frame, const std::string& file, const Contribution& contribution,
                             const std::string& falloff) {
-  const std::string recipe =
+  std::string recipe =
       fmt::format("{} {} frame={} {}x{} radius={} rays={} contribution={}", name_, recipe_, digest_of(frame),
                   frame.width(), frame.height(), radius_, options_.rays, digest_of(contribution));
+  const int seed = options_.in_sequence ? options_.in_sequence->seed : 0;
+  if (seed != 0) recipe += fmt::format(" seed={}", seed);
   if (!is_there(file, recipe)) {
     AoReferenceOptions options;
     options.radius = radius_;
     options.samples = options_.rays;
+    options.seed = uint32_t(seed);
     options.contribution = contribution;
     options.falloff = falloff;
     const std::string what = contribution ? fmt::format("truth with the falloff of {}", falloff) : "truth";

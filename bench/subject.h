@@ -22,6 +22,13 @@ struct Truth {
   std::optional<double> noise, radius, rays;  ///< RMS, scene units, and per pixel, if its file states them
 };
 
+/// What a frame of a moving camera has besides: motion from the frame before, and rays of its own.
+struct InSequence {
+  SceneCamera camera_before;
+  std::shared_ptr<const Scene> scene_before;  ///< null: objects stand still
+  int seed = 0;                               ///< of the truth's rays
+};
+
 /// Where and how frames and truths of a scene are stored.
 struct SceneOptions {
   std::filesystem::path folder;
@@ -29,6 +36,8 @@ struct SceneOptions {
   int layers = 8;                ///< peeled layers per pixel
   int rays = 256;                ///< rays per pixel, for a truth
   std::optional<double> radius;  ///< scene units; none: the scene's own
+  std::optional<InSequence> in_sequence;
+  std::vector<std::string> more_planes;  ///< to read where a frame has them, besides those of the techniques
   /// Called for lengthy steps: "courtyard: truth", 0.25. May be empty.
   std::function<void(const std::string& what, double share_done)> progress;
 };
@@ -44,7 +53,7 @@ class Truths {
   const Scene& scene() const { return scene_; }
   double radius() const { return radius_; }
 
-  /// NAME.exr: the scene from its first camera, with every plane that can be captured except motion. The file is made if it is
+  /// NAME.exr: the scene from its first camera, with every plane that can be captured; motion only in a sequence. The file is made if it is
   /// missing or shows something else.
   std::filesystem::path frame_file();
 

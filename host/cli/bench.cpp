@@ -11,7 +11,9 @@
 #include "bench/tables.h"
 #include "cli/bench_chunks.h"
 #include "cli/bench_paper.h"
+#include "cli/bench_sequence.h"
 #include "cli/chunk_commands.h"
+#include "cli/shot_flags.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"
 
@@ -26,7 +28,7 @@ constexpr size_t most_swept = 1000;
 
 struct BenchCommand {
   std::vector<std::string> truths;
-  std::string paper, folder, techniques, scenes, presets, frame, device, variants;
+  std::string paper, folder, techniques, scenes, presets, frame, sequence, device, variants;
   std::vector<std::string> sweeps;
   std::optional<Size> size;
   std::optional<int> rays;
@@ -36,9 +38,13 @@ struct BenchCommand {
   bool no_growth = false, no_checks = false, no_images = false, print = false;
   int chunks = 0;                     ///< 0: not divided
   std::vector<std::string> repeated;  ///< words for a chunk
+  FrameChoice choice;
   FrameFlags frame_flags;
   JsonFlag json;
+  const CLI::App* app = nullptr;
 };
+
+constexpr Size sequence_size = {640, 360};
 
 /// The request, checked.
 struct Options : MeasureOptions {
@@ -179,7 +185,8 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   options.checks = !flags.no_checks;
   options.layers_in_full = !flags.techniques.empty();
   if (flags.frame.empty()) choose_scenes(options, flags.scenes);
-  if (flags.size) std::tie(options.scene.width, options.scene.height) = *flags.size;
+  const std::optional<Size> size = flags.sequence.empty() ? flags.size : flags.size.value_or(sequence_size);
+  if (size) std::tie(options.scene.width, options.scene.height) = *size;
   options.scene.layers = peeled_layers;
   options.scene.rays = flags.rays.value_or(options.scene.rays);
   options.scene.radius = flags.radius;
@@ -189,12 +196,6 @@ Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurem
   options.ladder = flags.ladder;
   if (!flags.no_images) options.folder = flags.folder;
   return options;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error("-o {}: cannot be made ({})", folder.string(), error.message());
 }
 
 // --- Output
@@ -274,7 +275,35 @@ void print_chunks(const BenchCommand& flags) {
   print_bench_chunks(divided);
 }
 
+/// The first flag given that says how frames are read; empty if there is none.
+std::string reading_flag(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() == "Reading the frame" && option->count() > 0) return option->get_name();
+  }
+  return "";
+}
+
+SequenceBenchFlags sequence_flags(const BenchCommand& flags) {
+  return {flags.sequence,         flags.truths,
+          flags.folder,           flags.choice,
+          flags.frame_flags,      reading_flag(*flags.app),
+          flags.size.has_value(), !flags.techniques.empty()};
+}
+
+/// Throws UsageError for flags about frames without frames.
+void check_flags(const BenchCommand& flags) {
+  if (flags.sequence.empty() && flags.choice.frames) throw UsageError("--frames: is for a shot; --sequence names one");
+  if (flags.sequence.empty() && flags.frame.empty() && !flags.truths.empty())
+    throw UsageError("--truth {}: whose truth it is has to be said: --frame FRAME.exr, or --sequence 'shot.####.exr'",
+                     flags.truths.front());
+  if (!flags.sequence.empty()) return check(sequence_flags(flags));
+  const std::string reading = reading_flag(*flags.app);
+  if (flags.frame.empty() && !reading.empty())
+    throw UsageError("{}: says how frames are read, and there is none; --frame or --sequence names them", reading);
+}
+
 void bench_command(const BenchCommand& flags) {
+  check_flags(flags);
   if (flags.chunks > 0) return print_chunks(flags);
   if (!flags.paper.empty()) {
     bench_paper({flags.paper, flags.folder, flags.device, flags.size, flags.rays, flags.rounds}, flags.json);
@@ -285,7 +314,9 @@ void bench_command(const BenchCommand& flags) {
   Measurement result;
   Device device(flags.device);
   const Options options = options_of(flags, device.info(), result);
-  make_folder(options.scene.folder);
+  if (!flags.sequence.empty())
+    return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
+  make_output_folder(options.scene.folder);
   const std::filesystem::path folder = flags.folder;
   std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
@@ -344,11 +375,19 @@ void add_bench(CLI::App& app) {
                    "REF_right.exr); default: traced where the frame shows a built-in scene")
       ->expected(1)
       ->take_all()
-      ->type_name("REF.exr")
-      ->needs(frame);
-  CLI::Option* size = add_parsed(*command, "--size", flags->size, parse_size,
-                                 "of the scenes' images; default 960x540, with --paper 1920x1080")
-                          ->type_name("WxH");
+      ->type_name("REF.exr");
+  CLI::Option* sequence =
+      command
+          ->add_option("--sequence", flags->sequence,
+                       "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
+          ->type_name("SHOT|FRAME.####.exr");
+  add_frames(*command, flags->choice);
+  add_missing_without_hold(*command, flags->choice);
+  command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");
+  CLI::Option* size =
+      add_parsed(*command, "--size", flags->size, parse_size,
+                 "of the scenes' images; default 960x540, with --paper 1920x1080, with --sequence 640x360")
+          ->type_name("WxH");
   frame->excludes(scenes)->excludes(size);
   add_number(*command, "--rays", flags->rays, allowed_rays,
              "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need")
@@ -390,9 +429,10 @@ void add_bench(CLI::App& app) {
   for (CLI::Option* option : command->get_options()) {
     if (!contains(shared, option->get_name())) option->excludes(paper);
   }
-  for (CLI::Option* option : command->get_options()) {
-    if (option->get_group() == "Reading the frame") option->needs(frame);
-  }
+  for (const char* option : {"--scenes", "--frame", "--variants", "--sweep", "--ladder", "--rounds", "--no-growth",
+                             "--no-checks", "--no-images", "--chunks"})
+    sequence->excludes(command->get_option(option));
+  flags->app = command;
   flags->json.add_to(*command);
   command->footer(
       "Frames and truths stay in DIR/scenes and are used again. Examples:\n"
@@ -402,6 +442,7 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o 'out/bench.##' --scenes all --chunks 7 --print | parallel\n"
       "  gloam bench -o out/shi2022 --paper shi2022\n"
       "  gloam bench -o out/odssao2020 --paper odssao2020\n"
+      "  gloam bench -o out/walk --sequence gallery:walk --techniques hbao+,gtao\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium");
   command->callback([flags, command] {
     if (flags->chunks > 0) flags->repeated = repeated_words(*command, not_of_bench_chunks());

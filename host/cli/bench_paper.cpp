@@ -43,9 +43,7 @@ void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.rounds = flags.rounds;
   options.rays = flags.rays.value_or(options.rays);
-  std::error_code error;
-  std::filesystem::create_directories(options.folder, error);
-  if (error) throw Error("-o {}: cannot be made ({})", options.folder.string(), error.message());
+  make_output_folder(options.folder);
   const std::filesystem::path document = options.folder / "bench.json", page = options.folder / (paper.name + ".md");
   check_paths({}, {{"-o", document.string()}, {"-o", page.string()}, {"--json", json.file()}});
   const PaperResult result = paper.reproduce(device, options);

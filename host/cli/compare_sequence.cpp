@@ -259,9 +259,7 @@ unsigned long long bytes_of_sequence(const ComparedShot& shot) {
 
 void CompareSequenceFlags::add_to(CLI::App& app) {
   add_frames(app, choice);
-  add_choice(app, "--missing", choice.missing, {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}},
-             "frames that are not there: refuse (the default) or leave out")
-      ->group("Shots");
+  add_missing_without_hold(app, choice);
   app.add_option("--differences", differences, "of a sequence: a picture of each frame's differences, in one scale")
       ->type_name("DIFFERENCE.####.png")
       ->group("Shots");

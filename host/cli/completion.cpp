@@ -65,7 +65,7 @@ Words words_for(const std::string& command, const std::string& name) {
   if (name == "--only") return planes_and_techniques();
   if (name == "--preset" || name == "--presets" || name == "--adaptive") return preset_names();
   if (name == "--with") return extra_names();
-  if (name == "--shot") return shot_names();
+  if (name == "--shot" || name == "--sequence") return shot_names();
   if (name == "scene" || name == "--scene" || name == "--scenes") return scene_names();
   return {};
 }

@@ -67,9 +67,10 @@ void write_page(const ReportCommand& flags) {
   write_text(path, page.html);
   flags.json.write(document_of(measurements, path.string()));
   if (flags.json.only_json()) return;
-  fmt::print("wrote {}: {}, {}, {}, {:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
+  const auto& sequence = measurements.sequence;
+  fmt::print("wrote {}: {}, {}, {}, {}{:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
              counted(measurements.scenes.size(), "scene"), counted(size_t(page.pictures), "picture"),
-             double(page.html.size()) / 1e6);
+             sequence ? counted(sequence->rows.size(), "row") + " of a shot, " : "", double(page.html.size()) / 1e6);
 }
 
 // --- For documentation

@@ -35,6 +35,13 @@ void add_missing(CLI::App& app, FrameChoice& choice) {
       ->group(group);
 }
 
+void add_missing_without_hold(CLI::App& app, FrameChoice& choice) {
+  choice.may_hold = false;
+  add_choice(app, "--missing", choice.missing, {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}},
+             "frames that are not there: refuse (the default) or leave out")
+      ->group(group);
+}
+
 void add_resume(CLI::App& app, bool& resume) {
   app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(group);
 }

@@ -26,6 +26,8 @@ struct ShotFlags {
 void add_frames(CLI::App& app, FrameChoice& choice);
 /// Adds --missing.
 void add_missing(CLI::App& app, FrameChoice& choice);
+/// The same for commands that measure: a frame held in place of another would be measured as if it were that one.
+void add_missing_without_hold(CLI::App& app, FrameChoice& choice);
 /// Adds --resume.
 void add_resume(CLI::App& app, bool& resume);
 

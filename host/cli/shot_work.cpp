@@ -110,40 +110,22 @@ bool ShotWork::compute(size_t i) {
 
 bool ShotWork::take_over(size_t i, InFlight& flight) {
   const int number = frame_at(i).number;
-  bool goes_on = !turns_[i].begins && before_ && turn_before_ + 1 == i;
-  histories_ = add_history_to(flight.making, goes_on ? histories_ : "");
-  if (goes_on && contains(flight.plan.inputs, "motion") && frame_at(i - 1).number + 1 != number) {
+  if (turns_[i].begins || turn_before_ + 1 != i) history_.begin_anew();
+  files_before_ = add_history_to(flight.making, history_.holds_any() ? files_before_ : "");
+  if (history_.holds_any() && contains(flight.plan.inputs, "motion") && frame_at(i - 1).number + 1 != number) {
     if (!gap_noted_)
       note(
           {fmt::format("frame {}: its motion leads to frame {}, which is not computed; accumulation begins anew "
                        "there, and at all frames like it",
                        number, number - 1)});
     gap_noted_ = true;
-    goes_on = false;
+    history_.begin_anew();
   }
-  if (goes_on)
-    add_history(flight.frame, std::move(*before_), flight.plan.inputs, fmt::format("frame {}", frame_at(i - 1).number));
-  else
-    add_no_history(flight.frame, flight.plan.inputs);
-  before_.reset();
-  return goes_on;
+  return history_.take_over(flight.frame, flight.plan.inputs);
 }
 
 void ShotWork::leave_for_next(size_t i, InFlight& flight) {
-  before_.emplace();
-  before_->window = flight.result.window;
-  before_->display = flight.result.display;
-  for (View& view : flight.result.views) {
-    View& kept = before_->views.emplace_back();
-    kept.name = view.name;
-    kept.camera = view.camera;
-    for (const std::string& name : planes_for_history()) {
-      const bool is_written = contains(settings_.written, name);
-      if (view.find(name)) kept.planes[name] = is_written ? view.find(name)->clone() : std::move(view.planes.at(name));
-    }
-    if (!kept.find("depth")) kept.planes["depth"] = flight.frame.view(view.name).find("depth")->clone();
-    std::erase_if(view.planes, [&](const auto& plane) { return !contains(settings_.written, plane.first); });
-  }
+  history_.leave_for_next(flight.frame, flight.result, settings_.written, fmt::format("frame {}", frame_at(i).number));
   turn_before_ = i;
 }
 
@@ -153,8 +135,7 @@ void ShotWork::compute_planes(size_t i, InFlight& flight) {
   bool goes_on = false;
   if (settings_.request.temporal) {
     goes_on = take_over(i, flight);
-    // Other samples in each frame, the same whichever process computes it.
-    options.seed = int((unsigned(options.seed) + unsigned(frame_at(i).number)) & 0x7fffffffu);
+    options.seed = seed_in_sequence(options.seed, frame_at(i).number);
   }
   flight.result = run(plan, flight.frame, *device_, options).frame;
   if (goes_on && !knows_where_surfaces_were(flight.frame))

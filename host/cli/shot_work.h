@@ -14,6 +14,7 @@
 #include "cli/shot_report.h"
 #include "cli/shot_steps.h"
 #include "sequence/frame_making.h"
+#include "sequence/history_chain.h"
 #include "sequence/turns.h"
 
 namespace gloam::cli {
@@ -85,10 +86,10 @@ class ShotWork {
   ShotReport& report_;
   ShotSteps steps_;
   std::vector<std::unique_ptr<InFlight>> flights_;
-  std::optional<Frame> before_;  ///< what the frame computed last leaves for the next
-  size_t turn_before_ = 0;
+  HistoryChain history_;
+  size_t turn_before_ = 0;    ///< the frame computed last
+  std::string files_before_;  ///< a word for the files of the frames computed since a history began
   bool gap_noted_ = false;
-  std::string histories_;  ///< word for the frames computed since a history began
 };
 
 }  // namespace gloam::cli

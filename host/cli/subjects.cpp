@@ -23,6 +23,12 @@ void show_status(const std::string& what, double share) {
   std::fflush(stderr);
 }
 
+void make_output_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error("-o {}: cannot be made ({})", folder.string(), error.message());
+}
+
 std::vector<std::string> techniques_with_ao() {
   std::vector<std::string> names;
   for (const Technique& t : registry()) {
@@ -73,11 +79,16 @@ std::vector<std::string> planes_to_read(const FrameFile& file, const std::vector
   return planes;
 }
 
-void read_frame(Subject& subject, FrameFile& file, const std::vector<const Technique*>& techniques) {
+void read_frame(Subject& subject, FrameFile& file, const std::vector<const Technique*>& techniques,
+                const std::vector<std::string>& more) {
   if (!contains(file.common_planes(), "depth"))
     throw Error("{}: has no depth to measure on; {}", file.path().string(), holdings(file));
   subject.holds = holdings(file);
-  subject.frame = file.read(planes_to_read(file, techniques));
+  std::vector<std::string> planes = planes_to_read(file, techniques);
+  for (const std::string& plane : more) {
+    if (contains(file.common_planes(), plane)) add_new(planes, plane);
+  }
+  subject.frame = file.read(planes);
   note(subject.frame.assumed);
 }
 
@@ -138,14 +149,19 @@ RadiusReport report_of(const Subject& subject, const std::vector<const Technique
 
 Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                         const SceneOptions& options) {
-  Subject subject;
-  subject.name = recipe.name;
-  subject.scene_class = recipe.kind;
   show_status(recipe.name + ": scene", 0);
-  subject.truths = std::make_unique<Truths>(recipe.name, load_scene(recipe.name, {}), options);
+  return scene_subject(recipe.name, recipe.kind, load_scene(recipe.name, {}), techniques, options);
+}
+
+Subject scene_subject(const std::string& name, const std::string& scene_class, Scene scene,
+                      const std::vector<const Technique*>& techniques, const SceneOptions& options) {
+  Subject subject;
+  subject.name = name;
+  subject.scene_class = scene_class;
+  subject.truths = std::make_unique<Truths>(name, std::move(scene), options);
   subject.radius = {subject.truths->radius(), options.radius ? RadiusSource::flag : RadiusSource::scene};
   FrameFile file(subject.truths->frame_file(), {});
-  read_frame(subject, file, techniques);
+  read_frame(subject, file, techniques, options.more_planes);
   subject.truth = &subject.truths->truth(subject.frame);
   return subject;
 }
@@ -158,7 +174,7 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   subject.name = file.path().stem().string();
   subject.scene_class = "own";
   subject.memory_bytes = planned_memory_of(file, flags, techniques);
-  read_frame(subject, file, techniques);
+  read_frame(subject, file, techniques, options.more_planes);
   if (options.radius) subject.radius = {*options.radius, RadiusSource::flag};
   bool is_known = options.radius.has_value();
   if (!truths.empty()) {

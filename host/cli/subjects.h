@@ -14,6 +14,9 @@ namespace gloam::cli {
 void show_status(const std::string& what, double share);
 void erase_status();
 
+/// Throws Error if the folder of -o cannot be made.
+void make_output_folder(const std::filesystem::path& folder);
+
 /// Techniques that make `ao`, without filters.
 std::vector<std::string> techniques_with_ao();
 /// Why a technique is not among `techniques_with_ao`; else empty.
@@ -28,6 +31,10 @@ RadiusReport report_of(const bench::Subject& subject, const std::vector<const Te
 /// A built-in scene seen by its first camera, with its truth.
 bench::Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
                                const bench::SceneOptions& options);
+
+/// The same of a scene at hand. `name`: of the kept files.
+bench::Subject scene_subject(const std::string& name, const std::string& scene_class, Scene scene,
+                             const std::vector<const Technique*>& techniques, const bench::SceneOptions& options);
 
 /// The user's frame, with the planes that the techniques read. Its scene is known if the header names a built-in one. The radius is
 /// that of the options, else the truth's, else the scene's own, else derived from the frame. `truths`: files, one for all views or

@@ -3,8 +3,10 @@
 function renderHead() {
   const settings = unique(data.rows.map(keyOf)).length,
         used = data.scenes.filter((scene) => rowsOf(scene.name).length).length;
-  byId('lead').textContent =
-      `${many(settings, 'setting')} of ${many(techniques.length, 'technique')} on ${many(used, 'scene')}: ` +
+  const on = data.rows.length ?
+      `${many(settings, 'setting')} of ${many(techniques.length, 'technique')} on ${many(used, 'scene')}` :
+      `${many(sequenceRows.length, 'setting')} of ${many(techniquesWithSequence.length, 'technique')} on a shot`;
+  byId('lead').textContent = on + ': ' +
       'how far each image is from a ray-traced truth, and what it took to compute.';
   const facts = [
     ['CPU', data.cpu], ['Cores', data.cores], ['Device', data.device], ['Driver', data.driver], ['Measured', data.date],
@@ -31,7 +33,7 @@ function renderScenes() {
     if (means && means.scenes.length > 1)
       parts.push(pressButton('mean of ' + means.scenes.length, state.mean === name, () => goTo(state.scene, name)));
   }
-  for (const place of document.querySelectorAll('h2 .scene-name')) place.textContent = 'on ' + state.scene;
+  for (const place of document.querySelectorAll('h2 .scene-name:not([id])')) place.textContent = 'on ' + state.scene;
   const bar = byId('scenes'), at = bar.scrollLeft;
   bar.replaceChildren(...parts);
   bar.scrollLeft = at;

@@ -12,6 +12,7 @@
 #include "report/pictures.h"
 #include "report/sections_choice.h"
 #include "report/sections_errors.h"
+#include "report/sections_sequence.h"
 #include "report/sections_time.h"
 
 namespace gloam::report {
@@ -203,8 +204,9 @@ MarkdownPage make_markdown(const std::vector<Source>& sources, const MarkdownOpt
   const Material material = material_of(sources);
   MarkdownPage page;
   page.text = head(sources, options.command) + table_of_scenes(material.all);
-  for (const auto section : {needs_section, fronts_section, scenes_section, presets_section, converged_section,
-                             ladder_section, floor_section, scales_section, planes_section, others_section})
+  for (const auto section :
+       {needs_section, fronts_section, scenes_section, presets_section, converged_section, ladder_section,
+        sequence_section, floor_section, scales_section, planes_section, others_section})
     page.text += section(material);
   if (!options.pictures.empty()) page.text += Sheets(material, options, page).section();
   while (page.text.ends_with("\n\n")) page.text.pop_back();

@@ -215,6 +215,33 @@ PlaneReading plane_reading_of(const Object& o) {
           o.text("camera"),           o.number("x"),          o.number("y")};
 }
 
+SequenceRow sequence_row_of(const Object& o) {
+  const Object worst = o.object("worst");
+  return {.technique = o.needed_text("technique"),
+          .preset = o.text("preset"),
+          .temporal = o.json().value("temporal", Json(false)) == Json(true),
+          .ms = milliseconds_of(o.needed_object("ms")),
+          .ratio_to_hbao_plus = o.number("ratio_to_hbao_plus"),
+          .rmse = o.number("rmse"),
+          .worst_rmse = worst.number("rmse"),
+          .worst_frame = worst.number("frame"),
+          .ssim = o.number("ssim"),
+          .flicker = o.number("flicker")};
+}
+
+std::optional<Sequence> sequence_of(const Object& o) {
+  Sequence sequence;
+  for (const Object& row : o.list("rows")) sequence.rows.push_back(sequence_row_of(row));
+  if (sequence.rows.empty()) return {};
+  sequence.shot = o.text("shot");
+  if (const Json frames = o.json().value("frames", Json::array()); frames.is_array()) sequence.frames = frames.size();
+  std::tie(sequence.width, sequence.height) = o.size("size");
+  sequence.radius = o.number("radius");
+  sequence.truth_rays = o.number("truth_rays");
+  sequence.truth_change = o.number("truth_change");
+  return sequence;
+}
+
 Measurements measurements_of(const Object& o) {
   Measurements m;
   m.device = o.text("device");
@@ -234,6 +261,7 @@ Measurements measurements_of(const Object& o) {
   for (const Object& each : o.list("converged")) m.converged.push_back(converged_of(each));
   for (const Object& each : o.list("scales")) m.scales.push_back(scale_change_of(each));
   for (const Object& each : o.list("planes")) m.planes.push_back(plane_reading_of(each));
+  m.sequence = sequence_of(o.object("sequence"));
   return m;
 }
 
@@ -288,7 +316,7 @@ Measurements read_measurements(const std::filesystem::path& folder) {
     throw Error("{}: is not a folder; 'gloam bench -o {}' makes one to report on", folder.string(), folder.string());
   const std::filesystem::path file = measurements_file(folder);
   const Measurements m = read_file(file);
-  if (m.rows.empty()) nothing_to_show(file);
+  if (m.rows.empty() && !m.sequence) nothing_to_show(file);
   return m;
 }
 
@@ -306,7 +334,8 @@ std::filesystem::path measurements_file(const std::filesystem::path& folder_or_f
 
 Measurements read_measurements_file(const std::filesystem::path& file) {
   const Measurements m = read_file(file);
-  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty()) nothing_to_show(file);
+  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && !m.sequence)
+    nothing_to_show(file);
   return m;
 }
 

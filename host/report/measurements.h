@@ -114,6 +114,22 @@ struct PlaneReading {
   Number x, y;                   ///< the pixel of the least value
 };
 
+/// One technique with one preset on the frames of a shot.
+struct SequenceRow {
+  std::string technique, preset;
+  bool temporal = false;  ///< accumulated over the frames
+  Milliseconds ms;        ///< of one frame
+  Number ratio_to_hbao_plus, rmse, worst_rmse, worst_frame, ssim, flicker;
+};
+
+/// The frames of a shot (gloam bench --sequence).
+struct Sequence {
+  std::string shot;
+  size_t frames = 0;
+  Number width, height, radius, truth_rays, truth_change;
+  std::vector<SequenceRow> rows;
+};
+
 struct Measurements {
   std::string device, cpu, driver, date, commit;
   Number cores, rounds, rays;
@@ -125,6 +141,7 @@ struct Measurements {
   std::vector<Converged> converged;
   std::vector<ScaleChange> scales;
   std::vector<PlaneReading> planes;
+  std::optional<Sequence> sequence;
 };
 
 /// Reads DIR/bench.json, of this version or an older one: fields that an older version lacks are empty, and a technique's inputs
@@ -135,7 +152,7 @@ Measurements read_measurements(const std::filesystem::path& folder);
 /// The bench.json that a path names: the file itself, or the one in the folder. Throws Error if there is neither.
 std::filesystem::path measurements_file(const std::filesystem::path& folder_or_file);
 
-/// As `read_measurements`, from a file of any name, which may hold only `converged`, `scales` or `planes`.
+/// As `read_measurements`, from a file of any name, which may hold only `converged`, `scales`, `planes` or a sequence.
 Measurements read_measurements_file(const std::filesystem::path& file);
 
 }  // namespace gloam::report

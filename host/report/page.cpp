@@ -198,6 +198,27 @@ Json json(const PaperFigure& f) {
           {"base", f.base}};
 }
 
+Json json(const Sequence& sequence) {
+  Json rows = Json::array();
+  for (const SequenceRow& row : sequence.rows)
+    rows.push_back({{"technique", row.technique},
+                    {"preset", row.preset},
+                    {"temporal", row.temporal},
+                    {"ms", json(row.ms)},
+                    {"ratio", json(row.ratio_to_hbao_plus)},
+                    {"rmse", json(row.rmse)},
+                    {"worst_rmse", json(row.worst_rmse)},
+                    {"worst_frame", json(row.worst_frame)},
+                    {"ssim", json(row.ssim)},
+                    {"flicker", json(row.flicker)}});
+  return {{"shot", sequence.shot},
+          {"frames", sequence.frames},
+          {"width", json(sequence.width)},
+          {"height", json(sequence.height)},
+          {"truth_change", json(sequence.truth_change)},
+          {"rows", rows}};
+}
+
 Json data_of(const Measurements& m, const Pictures& pictures) {
   Json data = {{"device", m.device}, {"cpu", m.cpu},           {"driver", m.driver},       {"date", m.date},
                {"commit", m.commit}, {"cores", json(m.cores)}, {"rounds", json(m.rounds)}, {"rays", json(m.rays)}};
@@ -209,6 +230,7 @@ Json data_of(const Measurements& m, const Pictures& pictures) {
   for (const Skipped& s : m.skipped)
     data["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"scene", s.scene}, {"why", s.why}});
   for (const PaperFigure& f : m.paper) data["paper"].push_back(json(f));
+  data["sequence"] = m.sequence ? json(*m.sequence) : Json(nullptr);
   return data;
 }
 

@@ -28,10 +28,24 @@ function render() {
 function redraw() {
   renderFronts();
   renderOthers();
+  renderSequence();
   render();
 }
 
+/// A page of a shot alone: the parts about single frames have nothing to show.
+function startWithSequenceAlone() {
+  for (const section of document.querySelectorAll('main > section'))
+    section.hidden = !['sequence', 'skipped'].includes(section.id);
+  byId('scenes').hidden = true;
+  renderHead();
+  const show = () => (renderOthers(), renderSequence());
+  show();
+  addEventListener('resize', show);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', show);
+}
+
 function start() {
+  if (!data.rows.length) return startWithSequenceAlone();
   state.scene =
       (data.scenes.find((scene) => scene.plain_front.length) || data.scenes.find((scene) => rowsOf(scene.name).length))
           .name;

@@ -23,7 +23,7 @@ const techniqueOf = (row) => techniques.indexOf(row.technique);
 const mostChosen = 6;
 
 const state = {
-  scene: data.scenes[0].name,
+  scene: data.scenes.length ? data.scenes[0].name : null,
   mean: null,  // a class if its means are shown
   time: 'ratio',
   picked: null,

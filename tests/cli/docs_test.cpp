@@ -41,6 +41,16 @@ TEST_F(Docs, CommandsOfThePageOnSequencesWork) {
   EXPECT_FALSE(fs::exists(path("gtao.0002.exr")));
 }
 
+TEST_F(Docs, CommandThatMeasuresAShotWorks) {
+  const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/benchmarking.md");
+  const std::string command = between(between(page.substr(page.find("## A sequence")), "```\n", "```"), "", "\n");
+  ASSERT_EQ(command.rfind("gloam bench -o out/walk --sequence ", 0), 0u) << command;
+  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && {}", folder.string(),
+                                           fs::path(program).parent_path().string(), command);
+  ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0) << slurp(path("log"));
+  EXPECT_EQ(nlohmann::json::parse(slurp(path("out/walk/bench.json")))["sequence"]["frames"].size(), 4u);
+}
+
 TEST_F(Docs, CommandsThatMakeShotsWork) {
   const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/sequences.md");
   const std::string made = page.substr(page.find("## Making shots")), traced = page.substr(page.find("## Their truth"));

@@ -102,8 +102,9 @@ class Report : public Cli {
         "const until = async (holds) => { for (let i = 0; i < 400 && !holds(); ++i) await wait(25);"
         " if (!holds()) problems.push('never came: ' + holds); };"
         "const points = () => [...document.querySelectorAll('#scatter .point_marks path')];"
+        "const ofShot = (chart) => [...document.querySelectorAll(`#sequence-${chart} .point_marks path`)];"
         "const click = (e, more) => e.dispatchEvent(new MouseEvent('click', {bubbles: true, ...more}));"
-        "(async () => { const result = {}; try { await until(() => points().length > 0);" +
+        "(async () => { const result = {}; try { await until(() => points().length + ofShot('error').length > 0);" +
         script +
         "} catch (e) { problems.push(String(e)); } result.problems = problems; parent.postMessage(result, '*'); })();"
         "</script>\n";
@@ -312,6 +313,50 @@ TEST_F(ReportInBrowser, DrawsEveryRowAndAsksForNothing) {
   for (const char* words : {"a CPU", "a driver 1.0", "2026-01-31", "0123abc", "not at hand", "makes no </script> ao",
                             "hbao+ medium takes 2.00 times its floor", "no truth, so no front"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+/// A shot of two frames, with one technique by itself and over time.
+Json shot_measurements() {
+  Json rows = Json::array();
+  for (const bool temporal : {false, true}) {
+    rows.push_back({{"technique", "gtao"},
+                    {"preset", "low"},
+                    {"temporal", temporal},
+                    {"ms", {{"median", 4}, {"min", 3}, {"max", 5}}},
+                    {"ratio_to_hbao_plus", temporal ? 1.2 : 0.8},
+                    {"rmse", 0.1},
+                    {"worst", {{"frame", 2}, {"rmse", 0.11}}},
+                    {"ssim", 0.7},
+                    {"flicker", temporal ? 0.05 : 0.08}});
+  }
+  return {{"shot", "hall:</script>"}, {"frames", {1, 2}}, {"size", {48, 32}}, {"truth_change", 0.06}, {"rows", rows}};
+}
+
+TEST_F(ReportInBrowser, ShowsAShotBesideScenesAndAlone) {
+  Json document = measurements();
+  document["sequence"] = shot_measurements();
+  for (const bool alone : {false, true}) {
+    if (alone) document["results"] = document["scenes"] = Json::array();
+    write(document);
+    const Result written = report();
+    ASSERT_EQ(written.status, 0) << written.err;
+    EXPECT_NE(written.out.find("2 rows of a shot"), std::string::npos) << written.out;
+    const Json result = in_browser(R"js(
+      await until(() => ofShot('error').length && ofShot('flicker').length);
+      result.points = [ofShot('error').length, ofShot('flicker').length];
+      result.heights = ofShot('flicker').map((path) => path.getBoundingClientRect().top);
+      result.rows = document.querySelectorAll('#sequence-table tbody tr').length;
+      result.heading = document.querySelector('#sequence h2').innerText;
+      result.explorer = document.getElementById('explorer').hidden;
+      result.lead = document.getElementById('lead').innerText;
+    )js");
+    EXPECT_EQ(result["points"], Json({2, 2}));
+    EXPECT_GT(result["heights"][1], result["heights"][0]) << "less flicker is lower in the chart";
+    EXPECT_EQ(result["rows"], 2);
+    EXPECT_NE(result["heading"].get<std::string>().find("hall:</script>, 2 frames"), std::string::npos);
+    EXPECT_EQ(result["explorer"], alone);
+    EXPECT_EQ(result["lead"].get<std::string>().rfind("2 settings of 1 technique on a shot", 0) == 0, alone);
+  }
 }
 
 TEST_F(ReportInBrowser, ShowsWhatIsClicked) {

@@ -1,0 +1,33 @@
+// gloam bench --sequence SHOT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "cli/subjects.h"
+#include "sequence/frame_list.h"
+
+namespace gloam::cli {
+
+struct SequenceBenchFlags {
+  std::string sequence;             ///< "gallery:walk", "walk", or a pattern
+  std::vector<std::string> truths;  ///< patterns
+  std::string folder;
+  FrameChoice choice;
+  FrameFlags frame_flags;
+  std::string reading;  ///< the first flag given that says how frames are read; empty if there is none
+  bool has_size = false, names_techniques = false;
+};
+
+/// Throws UsageError for a shot that is not there (with the nearest name), for what is no pattern, and for flags that do not go
+/// with the shot.
+void check(const SequenceBenchFlags& flags);
+
+/// Measures settings on the frames, writes bench.json to the folder, and prints a table. `scene`: how frames and truths of built-in
+/// shots are made. `skipped`: techniques left out so far.
+void bench_sequence(const SequenceBenchFlags& flags, const bench::MeasureOptions& options,
+                    const bench::SceneOptions& scene, const std::vector<bench::Skipped>& skipped, Device& device,
+                    const JsonFlag& json);
+
+}  // namespace gloam::cli
