@@ -67,6 +67,34 @@ class ShotProcess : public ShotTest {
     EXPECT_TRUE(contents() == expected) << moments;
     EXPECT_EQ(hidden_files(), std::vector<std::string>()) << moments;
   }
+  struct MemorySample {
+    long frames_done;
+    double mebibytes;
+  };
+  /// Resident memory of a command with `--json -` until it ends, twenty times a second.
+  std::vector<MemorySample> memory_of(const Arguments& command) const {
+    std::vector<MemorySample> samples;
+    const pid_t child = start(command);
+    siginfo_t ended{};
+    while (waitid(P_PID, id_t(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0) {
+      const std::string said = slurp(path("stdout")), status = slurp(fmt::format("/proc/{}/status", child));
+      if (const size_t at = status.find("VmRSS:"); at != std::string::npos)
+        samples.push_back({std::count(said.begin(), said.end(), '\n'), std::stod(status.substr(at + 6)) / 1024});
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    const Result result = finish(child);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return samples;
+  }
+  /// Over the samples in which more than `from` and at most `to` frames were done.
+  static double mean_memory(const std::vector<MemorySample>& samples, long from, long to) {
+    double sum = 0;
+    int count = 0;
+    for (const MemorySample& sample : samples)
+      if (sample.frames_done > from && sample.frames_done <= to) sum += sample.mebibytes, ++count;
+    EXPECT_GT(count, 0) << "no sample from frame " << from << " to " << to;
+    return sum / std::max(1, count);
+  }
   Result resume(const Arguments& more = {}) const {
     Arguments all = {"--resume", "--json", "-"};
     all.insert(all.end(), more.begin(), more.end());
@@ -262,6 +290,28 @@ TEST_F(ShotProcess, KeepsToItsMemory) {
     RecordProperty(fmt::format("peak of {}", mebibytes), int(usage.ru_maxrss / 1024));
     EXPECT_LT(double(usage.ru_maxrss) / 1024, 1.05 * mebibytes);
     EXPECT_EQ(contents().size(), 12u);
+  }
+}
+
+/// Frames are links to a few files, and each sample is taken with the number of frames that were told as done.
+TEST_F(ShotProcess, MemoryDoesNotGrowOverTenThousandFrames) {
+  ONLY_IN_LONG_RUN();
+  constexpr int frames = 10000;
+  walk(20, 0.01, 64, 36);
+  for (int i = 1; i <= 20; ++i) fs::rename(path(numbered("shot", i)), path(numbered("link", i)));
+  for (int i = 1; i <= frames; ++i) fs::create_hard_link(path(numbered("link", 1 + i % 20)), path(numbered("shot", i)));
+  for (const Arguments& more : std::vector<Arguments>{{}, {"--temporal"}}) {
+    Arguments command = run_of({"--json", "-"}, "gtao");
+    command.insert(command.end(), more.begin(), more.end());
+    const std::vector<MemorySample> samples = memory_of(command);
+    const double second = mean_memory(samples, frames / 4, frames / 2);
+    const double last = mean_memory(samples, 3 * frames / 4, frames);
+    RecordProperty(more.empty() ? "second quarter" : "second quarter, temporal", fmt::format("{:.1f} MiB", second));
+    RecordProperty(more.empty() ? "last quarter" : "last quarter, temporal", fmt::format("{:.1f} MiB", last));
+    EXPECT_GT(second, 10) << "memory was measured";
+    EXPECT_LT(last, 1.02 * second);
+    EXPECT_EQ(contents().size(), size_t(frames));
+    for (const auto& [name, bytes] : contents()) fs::remove(path(name));
   }
 }
 #endif
