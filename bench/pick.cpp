@@ -217,7 +217,10 @@ class Search {
 
 }  // namespace
 
-const char* name_of(PickBy by) { return by == PickBy::ssim ? "SSIM" : by == PickBy::flip ? "FLIP" : "RMSE"; }
+const char* name_of(PickBy by) {
+  if (by == PickBy::flicker) return "flicker";
+  return by == PickBy::ssim ? "SSIM" : by == PickBy::flip ? "FLIP" : "RMSE";
+}
 
 double error_of(const Choice& choice, PickBy by) {
   if (by == PickBy::ssim) return 1 - choice.ssim;

@@ -11,8 +11,8 @@
 namespace gloam::bench {
 
 /// The figure that decides which image is nearer to the truth.
-enum class PickBy { rmse, ssim, flip };
-/// "RMSE", "SSIM" or "FLIP".
+enum class PickBy { rmse, ssim, flip, flicker };  // flicker: of sequences
+/// "RMSE", "SSIM", "FLIP" or "flicker".
 const char* name_of(PickBy by);
 
 struct PickOptions {

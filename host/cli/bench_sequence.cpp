@@ -200,43 +200,76 @@ void check(const SequenceBenchFlags& flags) {
   check_count(frames_of(flags.choice, shot));
 }
 
-void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given, const SceneOptions& scene,
-                    const std::vector<Skipped>& skipped, Device& device, const JsonFlag& json) {
-  const std::string document_path = (std::filesystem::path(flags.folder) / "bench.json").string();
-  MeasureOptions options = given;
-  std::vector<Skipped> left_out = skipped;
-  if (!flags.names_techniques) leave_out_layers(options, left_out, flags.sequence);
-  SceneOptions making = scene;
+namespace {
+
+/// Fits options to frames of a sequence. Adds to `skipped` the techniques that are left out.
+void fit(MeasureOptions& options, SceneOptions& making, const SequenceBenchFlags& flags,
+         std::vector<Skipped>& skipped) {
+  if (!flags.names_techniques) leave_out_layers(options, skipped, flags.sequence);
   making.more_planes = {"motion"};
   const bool has_layers = std::any_of(options.techniques.begin(), options.techniques.end(),
                                       [](const Technique* technique) { return reads_layers(*technique); });
   if (!has_layers) making.layers = 0;
-  MeasuredSequence sequence;
-  if (FramePattern::is_pattern(flags.sequence)) {
-    const ShotFiles shot(patterns_of(flags), flags.frame_flags, flags.choice);
-    if (!flags.frame_flags.camera.empty() && shot.camera_of(shot.frames().front()).empty())
-      throw UsageError("--camera {}: lists cameras; write one file for each frame, as in camera.####.json",
-                       flags.frame_flags.camera);
-    check_count(shot.numbers());
-    make_output_folder(making.folder);
-    check_outputs({}, shot, {{"-o", document_path}, {"--json", json.file()}});
-    add_own(sequence, flags, shot, options, making);
-  } else {
-    const BuiltinShot shot = find_shot(flags.sequence);
-    make_output_folder(making.folder);
-    check_paths({}, {{"-o", document_path}, {"--json", json.file()}});
-    add_builtin(sequence, shot, frames_of(flags.choice, shot), options, making);
-  }
+}
+
+SequenceMeasurement measured_on(MeasuredSequence& sequence, const MeasureOptions& options,
+                                const std::vector<Skipped>& skipped, Device& device) {
   SequenceMeasurement measured = measure_sequence(sequence, options, device);
   erase_status();
   if (measured.rows.empty())
     throw Error("nothing could be measured: {} {}", measured.skipped.back().technique, measured.skipped.back().why);
-  measured.skipped.insert(measured.skipped.end(), left_out.begin(), left_out.end());
-  const Json document = document_of(sequence, measured, device.info());
+  measured.skipped.insert(measured.skipped.end(), skipped.begin(), skipped.end());
+  return measured;
+}
+
+void read_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const MeasureOptions& options,
+              const SceneOptions& making, const std::vector<NamedPath>& outputs) {
+  const ShotFiles shot(patterns_of(flags), flags.frame_flags, flags.choice);
+  if (!flags.frame_flags.camera.empty() && shot.camera_of(shot.frames().front()).empty())
+    throw UsageError("--camera {}: lists cameras; write one file for each frame, as in camera.####.json",
+                     flags.frame_flags.camera);
+  check_count(shot.numbers());
+  make_output_folder(making.folder);
+  check_outputs({}, shot, outputs);
+  add_own(sequence, flags, shot, options, making);
+}
+
+}  // namespace
+
+MeasuredShot measure_own_shot(const SequenceBenchFlags& flags, MeasureOptions options, SceneOptions making,
+                              const std::vector<Skipped>& skipped, Device& device,
+                              const std::vector<NamedPath>& outputs) {
+  std::vector<Skipped> left_out = skipped;
+  fit(options, making, flags, left_out);
+  MeasuredShot shot;
+  read_own(shot.sequence, flags, options, making, outputs);
+  shot.measured = measured_on(shot.sequence, options, left_out, device);
+  return shot;
+}
+
+void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given, const SceneOptions& scene,
+                    const std::vector<Skipped>& skipped, Device& device, const JsonFlag& json) {
+  const std::string document_path = (std::filesystem::path(flags.folder) / "bench.json").string();
+  const std::vector<NamedPath> outputs = {{"-o", document_path}, {"--json", json.file()}};
+  MeasuredShot shot;
+  if (FramePattern::is_pattern(flags.sequence)) {
+    shot = measure_own_shot(flags, given, scene, skipped, device, outputs);
+  } else {
+    MeasureOptions options = given;
+    SceneOptions making = scene;
+    std::vector<Skipped> left_out = skipped;
+    fit(options, making, flags, left_out);
+    const BuiltinShot builtin = find_shot(flags.sequence);
+    make_output_folder(making.folder);
+    check_paths({}, outputs);
+    add_builtin(shot.sequence, builtin, frames_of(flags.choice, builtin), options, making);
+    shot.measured = measured_on(shot.sequence, options, left_out, device);
+  }
+  const Json document = document_of(shot.sequence, shot.measured, device.info());
   JsonFlag{document_path}.write(document);
   json.write(document);
   if (json.only_json()) return;
-  print(sequence, measured, device.info());
+  print(shot.sequence, shot.measured, device.info());
   fmt::print("wrote {}\n", printable(document_path));
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/sequence.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
 #include "sequence/frame_list.h"
@@ -29,5 +30,17 @@ void check(const SequenceBenchFlags& flags);
 void bench_sequence(const SequenceBenchFlags& flags, const bench::MeasureOptions& options,
                     const bench::SceneOptions& scene, const std::vector<bench::Skipped>& skipped, Device& device,
                     const JsonFlag& json);
+
+/// What settings give on frames.
+struct MeasuredShot {
+  bench::MeasuredSequence sequence;
+  bench::SequenceMeasurement measured;
+};
+
+/// Measures settings on frames that are files. `outputs`: files that the command writes. `options` and `making`: as of `bench_sequence`.
+/// Throws Error if nothing could be measured.
+MeasuredShot measure_own_shot(const SequenceBenchFlags& flags, bench::MeasureOptions options,
+                              bench::SceneOptions making, const std::vector<bench::Skipped>& skipped, Device& device,
+                              const std::vector<NamedPath>& outputs);
 
 }  // namespace gloam::cli

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/pick_shot.h"
+#include "cli/shot_flags.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"
 
@@ -24,12 +26,14 @@ struct PickCommand {
   std::optional<double> budget, error, radius;  ///< budget: milliseconds
   PickBy by = PickBy::rmse;
   int rays = 256, rounds = 9;
+  FrameChoice choice;
   FrameFlags frame_flags;
   JsonFlag json;
   const CLI::App* app = nullptr;
 };
 
-const Choices<PickBy> figures = {{"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}};
+const Choices<PickBy> figures = {
+    {"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}, {"flicker", PickBy::flicker}};
 
 /// Milliseconds of "20ms", "0.02s" or "20".
 double parse_budget(const std::string& text, const std::string& flag) {
@@ -82,7 +86,10 @@ std::string reading_flags(const CLI::App& app) {
 }
 
 std::string run_line(const PickCommand& flags, const Variation& v) {
-  std::string line = fmt::format("gloam run {} {} -o ao.exr", v.technique->name, quoted(flags.frame));
+  const bool is_shot = FramePattern::is_pattern(flags.frame);
+  std::string line = fmt::format("gloam run {} {} -o {}", v.technique->name, quoted(flags.frame),
+                                 is_shot ? "'ao.####.exr'" : "ao.exr");
+  if (v.temporal) line += " --temporal";
   if (!v.preset.empty()) line += " --preset " + v.preset;
   if (ParameterValues(v.technique->parameters).has("radius")) line += fmt::format(" --radius {}", float(v.radius));
   if (v.resolution > 1) line += " --resolution " + v.variant;
@@ -150,9 +157,32 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
+  const ScratchFolder scratch;
+  SceneOptions scene;
+  scene.folder = scratch.path();
+  scene.rays = flags.rays;
+  scene.radius = flags.radius;
+  scene.progress = show_status;
+  Device device(flags.device);
+  const SequenceBenchFlags sequence{.sequence = flags.frame,
+                                    .truths = flags.truths,
+                                    .folder = scratch.path(),
+                                    .choice = flags.choice,
+                                    .frame_flags = flags.frame_flags,
+                                    .names_techniques = !flags.techniques.empty()};
+  pick_on_shot(sequence, options, scene, left_out, device, flags.json,
+               [&](const Variation& v) { return run_line(flags, v); });
+}
+
 void pick_command(const PickCommand& flags) {
   std::vector<Skipped> left_out;
   const PickOptions options = options_of(flags, left_out);
+  if (FramePattern::is_pattern(flags.frame)) return pick_shot(flags, options, left_out);
+  if (flags.choice.frames) throw UsageError("--frames: is for a shot, and {} is one frame", flags.frame);
+  if (options.by == PickBy::flicker)
+    throw UsageError("--by flicker: is of a shot, and {} is one frame; write its number as in shot.####.exr",
+                     flags.frame);
   std::vector<NamedPath> inputs = {{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
   check_paths(inputs, {{"--json", flags.json.file()}});
@@ -187,14 +217,16 @@ void add_pick(CLI::App& app) {
       "pick", "the most accurate setting within a time on this device, or the cheapest within an error");
   flags->app = command;
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  add_frames(*command, flags->choice);
   add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of ao, its filter included")
       ->type_name("20ms");
   add_number(*command, "--error", flags->error, {0, 1},
              "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
       ->type_name("ERROR");
-  add_choice(
-      *command, "--by", flags->by, figures,
-      "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye sees");
+  add_choice(*command, "--by", flags->by, figures,
+             "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye "
+             "sees, flicker, of a "
+             "shot, what moves without reason");
   command
       ->add_option("--truth", flags->truths,
                    "ambient occlusion as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
@@ -219,7 +251,8 @@ void add_pick(CLI::App& app) {
       "Tries every preset at full and at half resolution on the frame, and prints the choice as a gloam run line.\n"
       "Examples:\n"
       "  gloam pick frame.exr --budget 20ms --truth ao_ref.exr\n"
-      "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -");
+      "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -\n"
+      "  gloam pick 'shot.####.exr' --truth 'truth.####.exr' --frames 1-8 --budget 20ms --by flicker");
   command->callback([flags] { pick_command(*flags); });
 }
 

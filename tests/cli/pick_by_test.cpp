@@ -149,5 +149,62 @@ TEST_F(TruthOfEyes, RaysOfATruthThatWasGivenAreWhatItsHeaderSays) {
   }
 }
 
+class PickShot : public Cli {
+ protected:
+  void make_shot() const {
+    ASSERT_EQ(gloam({"capture", "gallery", "--shot", "walk", "-o", path("w.####.exr"), "--frames", "1-3", "--size",
+                     "64x36", "--planes", "normal,motion"})
+                  .status,
+              0);
+    ASSERT_EQ(gloam({"reference", "ao", path("w.####.exr"), "-o", path("t.####.exr"), "--samples", "32"}).status, 0);
+  }
+  Result pick(const Arguments& more) const {
+    Arguments all = {"pick", path("w.####.exr"), "--truth", path("t.####.exr"), "--techniques", "gtao"};
+    all.insert(all.end(), more.begin(), more.end());
+    return gloam(all);
+  }
+};
+
+TEST_F(PickShot, TheCalmestWithinTheBudgetIsPicked) {
+  make_shot();
+  for (const std::string by : {"rmse", "flicker"}) {
+    const Result result = pick({"--budget", "1000s", "--by", by, "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json document = result.json();
+    ASSERT_EQ(document["settings"].size(), 8u) << "four presets, alone and over time";
+    for (const Json& setting : document["settings"]) EXPECT_LE(double(document[by]), double(setting[by]));
+  }
+  // The command that it prints makes the shot.
+  const std::string said = pick({"--error", "0.5"}).out;
+  const std::string command = said.substr(said.rfind("gloam run"));
+  EXPECT_EQ(
+      std::system(
+          ("cd " + path("").string() + " && " + fs::path(program).parent_path().string() + "/" + command).c_str()),
+      0)
+      << command;
+  EXPECT_TRUE(fs::exists(path("ao.0003.exr")));
+}
+
+TEST_F(PickShot, IsRefusedInOneLine) {
+  make_shot();
+  const auto refused = [&](const Result& result, int status, const std::string& words) {
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  refused(pick({"--error", "0.00001"}), 1, "no setting has RMSE 1e-05 or less; the nearest is gtao");
+  refused(pick({"--budget", "0.0001ms"}), 1, "the fastest is gtao");
+  refused(pick({"--budget", "1s", "--by", "flip"}), 2, "--by flip");
+  refused(pick({"--budget", "1s", "--frames", "2"}), 2, "is one frame");
+  const Arguments one = {"pick", path("w.0001.exr"), "--budget", "1s"};
+  const auto with = [&](const Arguments& more) {
+    Arguments all = one;
+    all.insert(all.end(), more.begin(), more.end());
+    return gloam(all);
+  };
+  refused(with({"--by", "flicker"}), 2, "is of a shot");
+  refused(with({"--frames", "1-2"}), 2, "--frames");
+}
+
 }  // namespace
 }  // namespace gloam::test
