@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "bench/document.h"
@@ -11,194 +10,16 @@
 #include "bench/tables.h"
 #include "cli/bench_chunks.h"
 #include "cli/bench_paper.h"
+#include "cli/bench_request.h"
 #include "cli/bench_sequence.h"
 #include "cli/chunk_commands.h"
 #include "cli/shot_flags.h"
-#include "cli/subjects.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
 namespace {
 
 using namespace gloam::bench;
-
-const std::vector<std::string> default_scenes = {"courtyard", "corridor", "colonnade", "gallery"};
-constexpr int peeled_layers = 8;
-constexpr size_t most_swept = 1000;
-
-struct BenchCommand {
-  std::vector<std::string> truths;
-  std::string paper, folder, techniques, scenes, presets, frame, sequence, device, variants;
-  std::vector<std::string> sweeps;
-  std::optional<Size> size;
-  std::optional<int> rays;
-  std::optional<double> radius;
-  int rounds = 9;
-  LadderFor ladder = LadderFor::presets;
-  bool no_growth = false, no_checks = false, no_images = false, print = false;
-  int chunks = 0;                     ///< 0: not divided
-  std::vector<std::string> repeated;  ///< words for a chunk
-  FrameChoice choice;
-  FrameFlags frame_flags;
-  JsonFlag json;
-  const CLI::App* app = nullptr;
-};
-
-constexpr Size sequence_size = {640, 360};
-
-/// The request, checked.
-struct Options : MeasureOptions {
-  std::vector<const SceneRecipe*> scenes;
-  SceneOptions scene;
-};
-
-// --- The request
-
-void choose_techniques(Options& options, const std::string& list, Measurement& result) {
-  for (const Technique& t : registry()) {
-    if (!list.empty()) continue;
-    const std::string why = no_ao(t).empty() ? needs_naming(t) : no_ao(t);
-    if (why.empty())
-      options.techniques.push_back(&t);
-    else
-      result.skipped.push_back({t.name, "", "", why});
-  }
-  // A truth that several techniques share has the name of the one over a single layer.
-  std::stable_partition(options.techniques.begin(), options.techniques.end(),
-                        [](const Technique* t) { return !reads_layers(*t); });
-  if (list.empty()) return;
-  for (const std::string& name : split_list(list, "--techniques")) {
-    const Technique& t = find_technique(name);
-    if (const std::string why = no_ao(t); !why.empty())
-      throw UsageError("--techniques {}: {}; {} can be measured", name, why, enumerate(techniques_with_ao()));
-    if (std::find(options.techniques.begin(), options.techniques.end(), &t) == options.techniques.end())
-      options.techniques.push_back(&t);
-  }
-}
-
-void choose_presets(Options& options, const std::string& list) {
-  if (list.empty()) return;
-  std::vector<std::string> known;
-  for (const Technique* t : options.techniques) {
-    for (const Preset& preset : t->presets) add_new(known, preset.name);
-  }
-  for (const std::string& name : split_list(list, "--presets")) {
-    if (!contains(known, name))
-      throw UsageError("--presets {} is not allowed{}; {} are", name, suggestion(name, known),
-                       known.empty() ? "none" : enumerate(known));
-    add_new(options.presets, name);
-  }
-}
-
-void choose_scenes(Options& options, const std::string& list) {
-  std::vector<std::string> known, chosen;
-  for (const SceneRecipe& recipe : builtin_scenes()) known.push_back(recipe.name);
-  if (list.empty()) {
-    for (const std::string& name : default_scenes) {
-      if (contains(known, name)) chosen.push_back(name);
-    }
-  } else if (list != "all") {
-    for (const std::string& name : split_list(list, "--scenes")) {
-      if (!contains(known, name))
-        throw UsageError("--scenes: no built-in scene '{}'{}; there are {} and all", name, suggestion(name, known),
-                         enumerate(known));
-      add_new(chosen, name);
-    }
-  }
-  for (const std::string& name : chosen.empty() ? known : chosen) options.scenes.push_back(find_builtin_scene(name));
-}
-
-void choose_variants(Options& options, const std::string& list, const DeviceInfo& device) {
-  if (list == "none") return;
-  options.variants = list.empty() ? default_variants() : variant_names();
-  if (list.empty() || list == "all") {
-    if (!device.has_double) std::erase(options.variants, "double");
-    return;
-  }
-  options.variants.clear();
-  for (const std::string& name : split_list(list, "--variants")) {
-    if (!contains(variant_names(), name))
-      throw UsageError("--variants {} is not allowed{}; {} are, all and none", name, suggestion(name, variant_names()),
-                       enumerate(variant_names()));
-    if (name == "double" && !device.has_double)
-      throw UsageError("--variants double: {} has no double precision; leave it out, or use another --device",
-                       device.name);
-    add_new(options.variants, name);
-  }
-}
-
-/// Throws UsageError for a value that no technique with the parameter accepts; techniques that do not accept it skip it.
-void check_sweep(const Options& options, const Sweep& sweep, const std::vector<const Technique*>& swept,
-                 Measurement& result) {
-  for (const std::string& value : sweep.values) {
-    std::vector<Skipped> refused;
-    for (const Technique* t : swept) {
-      const std::string why = not_allowed(*t, sweep.parameter, value);
-      const std::vector<std::string> presets = presets_of(*t, options);
-      if (!why.empty()) refused.push_back({t->name, base_preset(presets), "", why});
-    }
-    if (refused.size() == swept.size()) throw UsageError("--sweep: {}", refused.front().why);
-    for (Skipped& skipped : refused) result.skipped.push_back(std::move(skipped));
-  }
-}
-
-void choose_sweeps(Options& options, const std::vector<std::string>& items, Measurement& result) {
-  std::vector<std::string> known;
-  for (const Technique* t : options.techniques) {
-    for (const Parameter& p : t->parameters) add_new(known, p.name);
-  }
-  size_t product = 1;
-  for (const auto& [name, list] : parse_settings(items, "--sweep")) {
-    if (!contains(known, name))
-      throw UsageError("--sweep {}: no measured technique has this parameter{}; there are {}", name,
-                       suggestion(name, known), enumerate(known));
-    Sweep sweep{name, {}};
-    for (const std::string& value : split_list(list, "--sweep " + name)) add_new(sweep.values, value);
-    product *= sweep.values.size();
-    options.sweeps.push_back(std::move(sweep));
-  }
-  if (product > most_swept)
-    throw UsageError("--sweep: {} combinations; {} at most are measured, leave out values", product, most_swept);
-  std::vector<const Technique*> swept;
-  for (const Technique* t : options.techniques) {
-    if (has_all(*t, options.sweeps)) swept.push_back(t);
-  }
-  if (swept.empty()) throw UsageError("--sweep: no technique that is measured has all parameters that are swept");
-  for (const Sweep& sweep : options.sweeps) check_sweep(options, sweep, swept, result);
-}
-
-/// Chooses the techniques asked for; else those over one depth layer, since several layers take several times as long.
-void choose_growth(Options& options, const BenchCommand& flags) {
-  if (flags.no_growth) return;
-  for (const Technique* t : options.techniques) {
-    if (!flags.techniques.empty() || !reads_layers(*t)) options.growth.push_back(t);
-  }
-}
-
-Options options_of(const BenchCommand& flags, const DeviceInfo& device, Measurement& result) {
-  Options options;
-  choose_techniques(options, flags.techniques, result);
-  choose_presets(options, flags.presets);
-  choose_variants(options, flags.variants, device);
-  if (!flags.sweeps.empty()) choose_sweeps(options, flags.sweeps, result);
-  choose_growth(options, flags);
-  options.checks = !flags.no_checks;
-  options.layers_in_full = !flags.techniques.empty();
-  if (flags.frame.empty()) choose_scenes(options, flags.scenes);
-  const std::optional<Size> size = flags.sequence.empty() ? flags.size : flags.size.value_or(sequence_size);
-  if (size) std::tie(options.scene.width, options.scene.height) = *size;
-  options.scene.layers = peeled_layers;
-  options.scene.rays = flags.rays.value_or(options.scene.rays);
-  options.scene.radius = flags.radius;
-  options.scene.folder = std::filesystem::path(flags.folder) / "scenes";
-  options.scene.progress = options.progress = show_status;
-  options.rounds = flags.rounds;
-  options.ladder = flags.ladder;
-  if (!flags.no_images) options.folder = flags.folder;
-  return options;
-}
-
-// --- Output
 
 void print(const Table& table) {
   fmt::print("\n{}\n", printable(table.title));
@@ -207,7 +28,7 @@ void print(const Table& table) {
 }
 
 /// Techniques with only one preset measured.
-std::vector<std::string> measured_in_short(const Measurement& result, const Options& options) {
+std::vector<std::string> measured_in_short(const Measurement& result, const BenchOptions& options) {
   std::vector<std::string> names;
   for (const auto& row : result.rows) {
     if (in_short(*row->variation.technique, options)) add_new(names, row->variation.technique->name);
@@ -216,7 +37,7 @@ std::vector<std::string> measured_in_short(const Measurement& result, const Opti
 }
 
 /// Measured techniques whose growth was not measured.
-std::vector<std::string> without_growth(const Measurement& result, const Options& options) {
+std::vector<std::string> without_growth(const Measurement& result, const BenchOptions& options) {
   std::vector<std::string> names;
   for (const auto& row : result.rows) {
     const Technique* t = row->variation.technique;
@@ -225,7 +46,7 @@ std::vector<std::string> without_growth(const Measurement& result, const Options
   return names;
 }
 
-void print(const Measurement& result, const Options& options, const DeviceInfo& device) {
+void print(const Measurement& result, const BenchOptions& options, const DeviceInfo& device) {
   fmt::print("{}, {} ({}); {} rounds\n", cpu_model(), device.name, device.platform, options.rounds);
   fmt::print(
       "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
@@ -256,7 +77,7 @@ void print_chunks(const BenchCommand& flags) {
   Measurement unused;
   DeviceInfo any;
   any.has_double = true;  // the machine of each chunk says what it lacks
-  const Options options = options_of(flags, any, unused);
+  const BenchOptions options = options_of(flags, any, unused);
   BenchChunks divided{
       .repeated = flags.repeated, .folder = flags.folder, .has_growth = !flags.no_growth, .chunks = flags.chunks};
   for (const SceneRecipe* scene : options.scenes) divided.scenes.push_back(scene->name);
@@ -313,7 +134,7 @@ void bench_command(const BenchCommand& flags) {
     note({"OMP_WAIT_POLICY=passive could not be set: threads of the native loop may take time from the others"});
   Measurement result;
   Device device(flags.device);
-  const Options options = options_of(flags, device.info(), result);
+  const BenchOptions options = options_of(flags, device.info(), result);
   if (!flags.sequence.empty())
     return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
   make_output_folder(options.scene.folder);

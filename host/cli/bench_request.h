@@ -1,0 +1,46 @@
+// What gloam bench measures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/measurement.h"
+#include "cli/options.h"
+#include "cli/subjects.h"
+#include "sequence/frame_list.h"
+
+namespace gloam::cli {
+
+/// The flags as given.
+struct BenchCommand {
+  std::vector<std::string> truths;
+  std::string paper, folder, techniques, scenes, presets, frame, sequence, device, variants;
+  std::vector<std::string> sweeps;
+  std::optional<Size> size;
+  std::optional<int> rays;
+  std::optional<double> radius;
+  int rounds = 9;
+  bench::LadderFor ladder = bench::LadderFor::presets;
+  bool no_growth = false, no_checks = false, no_images = false, print = false;
+  int chunks = 0;                     ///< 0: not divided
+  std::vector<std::string> repeated;  ///< words for a chunk
+  FrameChoice choice;
+  FrameFlags frame_flags;
+  JsonFlag json;
+  const CLI::App* app = nullptr;
+};
+
+/// The request, checked.
+struct BenchOptions : bench::MeasureOptions {
+  std::vector<const SceneRecipe*> scenes;
+  bench::SceneOptions scene;
+};
+
+/// Those measured without --scenes.
+extern const std::vector<std::string> default_scenes;
+
+/// Checks the request. Techniques that it leaves out are added to what `result` skipped. Throws UsageError.
+BenchOptions options_of(const BenchCommand& flags, const DeviceInfo& device, bench::Measurement& result);
+
+}  // namespace gloam::cli
