@@ -157,13 +157,18 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
-  const ScratchFolder scratch;
+SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& flags) {
   SceneOptions scene;
-  scene.folder = scratch.path();
+  scene.folder = folder;
   scene.rays = flags.rays;
   scene.radius = flags.radius;
   scene.progress = show_status;
+  return scene;
+}
+
+void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
+  const ScratchFolder scratch;
+  const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device(flags.device);
   const SequenceBenchFlags sequence{.sequence = flags.frame,
                                     .truths = flags.truths,
@@ -187,11 +192,7 @@ void pick_command(const PickCommand& flags) {
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
   check_paths(inputs, {{"--json", flags.json.file()}});
   const ScratchFolder scratch;
-  SceneOptions scene;
-  scene.folder = scratch.path();
-  scene.rays = flags.rays;
-  scene.radius = flags.radius;
-  scene.progress = show_status;
+  const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device(flags.device);
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, scene);
   const RadiusReport radius = report_of(subject, options.techniques);
