@@ -27,7 +27,7 @@ void CompositeFlags::add_to(CLI::App& app) {
                      "puts it there")
           ->type_name("OUT.exr")
           ->group(group);
-  add_number(app, "--strength", strength, {0.0, 1000.0}, "of the effect in the composite; default 1")
+  add_number(app, "--composite-strength", strength, {0.0, 1000.0}, "of the effect in the composite; default 1")
       ->group(group)
       ->needs(composite);
   add_parsed(app, "--tint", tint, parse_tint, "factor on the colour where nothing is open; default 0,0,0: black")

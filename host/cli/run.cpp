@@ -64,7 +64,7 @@ void add_run(CLI::App& app) {
       "Examples:\n"
       "  gloam run ao frame.exr -o ao.exr --picture ao.png\n"
       "  gloam run ao frame.exr --into with_ao.exr\n"
-      "  gloam run ao frame.exr --composite graded.exr --strength 0.8 --tint 0.1,0.05,0\n"
+      "  gloam run ao frame.exr --composite graded.exr --composite-strength 0.8 --tint 0.1,0.05,0\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"

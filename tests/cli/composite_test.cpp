@@ -66,11 +66,11 @@ TEST_F(Composite, IsColourTimesAO) {
   const Frame before = stored("f.exr", {"color"}), ao = stored("ao.exr", {"ao"});
   expect_darkened(before, ao, stored("c.exr", {"color"}), 1, {0, 0, 0});
   EXPECT_EQ(FrameFile(path("c.exr"), {}).all_channels(), (std::vector<std::string>{"B", "G", "R"}));
-  ASSERT_EQ(composite({"--composite", file("c.exr"), "--strength", "0.7", "--tint", "0.3,0.1,1"}).status, 0);
+  ASSERT_EQ(composite({"--composite", file("c.exr"), "--composite-strength", "0.7", "--tint", "0.3,0.1,1"}).status, 0);
   expect_darkened(before, ao, stored("c.exr", {"color"}), 0.7, {0.3, 0.1, 1});
-  ASSERT_EQ(composite({"--composite", file("c.exr"), "--strength", "5"}).status, 0);
+  ASSERT_EQ(composite({"--composite", file("c.exr"), "--composite-strength", "5"}).status, 0);
   expect_darkened(before, ao, stored("c.exr", {"color"}), 5, {0, 0, 0});
-  ASSERT_EQ(composite({"--composite", file("c.exr"), "--strength", "0"}).status, 0);
+  ASSERT_EQ(composite({"--composite", file("c.exr"), "--composite-strength", "0"}).status, 0);
   EXPECT_TRUE(same_bits(before, stored("c.exr", {"color"})));
 }
 
@@ -116,8 +116,8 @@ TEST_F(Composite, AddsReflections) {
                    "normal,color,roughness,reflectance"})
                 .status,
             0);
-  const Arguments run = {"run",         "sssr",        file("f.exr"), "-o", file("r.exr"),
-                         "--composite", file("c.exr"), "--strength",  "0.5"};
+  const Arguments run = {"run",         "sssr",        file("f.exr"),          "-o", file("r.exr"),
+                         "--composite", file("c.exr"), "--composite-strength", "0.5"};
   const Result result = gloam(run);
   ASSERT_EQ(result.status, 0) << result.err;
   const Frame before = stored("f.exr", {"color"}), reflection = stored("r.exr", {"reflection"}),
@@ -175,14 +175,16 @@ TEST_F(Composite, OfAShot) {
     all.insert(all.end(), more.begin(), more.end());
     return gloam(all);
   };
-  ASSERT_EQ(shot({"-o", file("ao.####.exr"), "--float", "--composite", file("c.####.exr"), "--strength", "0.5"}).status,
-            0);
+  ASSERT_EQ(
+      shot({"-o", file("ao.####.exr"), "--float", "--composite", file("c.####.exr"), "--composite-strength", "0.5"})
+          .status,
+      0);
   for (const int number : {1, 2})
     expect_darkened(stored(numbered("shot", number), {"color"}), stored(numbered("ao", number), {"ao"}),
                     stored(numbered("c", number), {"color"}), 0.5, {0, 0, 0});
   fs::remove(path("c.0002.exr"));
-  const Result resumed = shot({"-o", file("ao.####.exr"), "--float", "--composite", file("c.####.exr"), "--strength",
-                               "0.5", "--resume", "--json", "-"});
+  const Result resumed = shot({"-o", file("ao.####.exr"), "--float", "--composite", file("c.####.exr"),
+                               "--composite-strength", "0.5", "--resume", "--json", "-"});
   EXPECT_EQ(lines_of(resumed.out).back()["skipped"], 1) << resumed.out;
   EXPECT_TRUE(fs::exists(path("c.0002.exr")));
   write_frame(path(numbered("shot", 2)), small_frame(64, 48, {"depth"}));
@@ -203,10 +205,10 @@ TEST_F(Composite, RefusesInOneLine) {
   const std::string out = file("c.exr");
   expect_refused({"run", "hbao+", file("depth.exr"), "--composite", out}, 1,
                  {"--composite", "depth.exr has only Z", "--plane color="});
-  expect_refused(with({"--composite", out, "--strength", "-1"}), 2, {"--strength", "-1"});
+  expect_refused(with({"--composite", out, "--composite-strength", "-1"}), 2, {"--composite-strength", "-1"});
   expect_refused(with({"--composite", out, "--tint", "0.1"}), 2, {"--tint 0.1", "three numbers"});
   expect_refused(with({"--composite", out, "--tint", "0,0,2"}), 2, {"--tint", "2"});
-  expect_refused(with({"-o", out, "--strength", "1"}), 2, {"--strength", "--composite"});
+  expect_refused(with({"-o", out, "--composite-strength", "1"}), 2, {"--composite-strength", "--composite"});
   expect_refused(with({"-o", out, "--tint", "0,0,0"}), 2, {"--tint", "--composite"});
   expect_refused(with({"--composite", file("f.exr")}), 2, {"--composite", "is also the frame"});
   expect_refused(with({"-o", out, "--composite", out}), 2, {"--composite", "is also -o"});
