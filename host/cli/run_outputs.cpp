@@ -50,11 +50,6 @@ void make_composite(OutputSources& sources, const Frame& result, const OutputSet
   }
 }
 
-void keep_planes(Frame& frame, const std::vector<std::string>& planes) {
-  for (View& view : frame.views)
-    std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
-}
-
 }  // namespace
 
 std::vector<std::string> FrameOutputs::paths() const {

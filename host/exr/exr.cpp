@@ -153,8 +153,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
   note_assumptions(file, impl_->cameras, planes, frame);
   convert_planes(file, impl_->cameras, frame, impl_->conventions);
   finish_frame(file, frame);
-  for (View& view : frame.views)
-    std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
+  keep_planes(frame, planes);
   return frame;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/lists.h"
 #include "base/page_pool.h"
 #include "frame/check.h"
 #include "gloam/error.h"
@@ -67,6 +68,11 @@ const View& Frame::view(const std::string& name) const {
 }
 
 View& Frame::view(const std::string& name) { return const_cast<View&>(std::as_const(*this).view(name)); }
+
+void keep_planes(Frame& frame, const std::vector<std::string>& planes) {
+  for (View& view : frame.views)
+    std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });
+}
 
 void check(const Frame& frame) {
   check_window(frame);

@@ -31,8 +31,8 @@ void HistoryChain::leave_for_next(const Frame& frame, Frame& result, const std::
         kept.planes[plane] = is_written ? view.find(plane)->clone() : std::move(view.planes.at(plane));
     }
     if (!kept.find("depth")) kept.planes["depth"] = frame.view(view.name).find("depth")->clone();
-    std::erase_if(view.planes, [&](const auto& plane) { return !contains(written, plane.first); });
   }
+  keep_planes(result, written);
 }
 
 int seed_in_sequence(int seed, int frame_number) {

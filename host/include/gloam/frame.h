@@ -103,6 +103,9 @@ struct Frame {
   const View& view(const std::string& name) const;
 };
 
+/// Removes all other planes from every view.
+void keep_planes(Frame& frame, const std::vector<std::string>& planes);
+
 /// Throws Error for a frame that cannot be computed on: without views or pixels, with a view whose camera is missing or refused by
 /// `check` (camera.h), with a plane whose channels have no memory or not the frame's size.
 void check(const Frame& frame);
