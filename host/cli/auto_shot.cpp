@@ -154,14 +154,8 @@ class AutoShotWork {
     const SequenceFrame& frame = files_.frames()[i];
     FrameFiles files = files_.open(frame);
     flight.making = {settings_.version, settings_.contents, identity_of(files)};
-    if (settings_.resumes) {
-      const std::string why = why_again(output_of(i), flight.making);
-      if (why.empty()) {
-        report_.skipped(frame.number);
-        return false;
-      }
-      if (std::filesystem::exists(output_of(i))) report_.written_again(frame.number, why);
-    }
+    if (settings_.resumes && report_.leaves_alone(frame.number, output_of(i), why_again(output_of(i), flight.making)))
+      return false;
     check_size_in_shot(files, settings_.display);
     flight.planned.emplace(planned_auto(std::move(files), settings_.asked, false));
     set_radius(*flight.planned, settings_.radius);
@@ -174,8 +168,7 @@ class AutoShotWork {
     std::vector<std::string> kept = settings_.asked.with;
     for (const Outcome& outcome : outcomes)
       if (!outcome.outputs.empty()) add_new(kept, outcome.outputs.front());
-    for (View& view : frame.views)
-      std::erase_if(view.planes, [&](const auto& plane) { return !contains(kept, plane.first); });
+    keep_planes(frame, kept);
   }
 
   static void take_depth(Frame& from, Frame& to) {
@@ -204,19 +197,13 @@ struct FirstFrame {
 };
 
 FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked) {
-  std::string first_error;
-  for (const SequenceFrame& frame : shot.frames()) {
-    try {
-      AutoFrame planned = planned_auto(shot.open(frame), asked, false);
-      const Radius radius = default_radius(planned.files.read({"depth"}), stated_radius(planned.files));
-      return {std::move(planned), radius};
-    } catch (const UsageError&) {
-      throw;
-    } catch (const Error& error) {
-      if (first_error.empty()) first_error = error.what();
-    }
-  }
-  throw none_of_shot(shot, first_error);
+  std::optional<FirstFrame> first;
+  first_that_can(shot, [&](const SequenceFrame& frame) {
+    AutoFrame planned = planned_auto(shot.open(frame), asked, false);
+    const Radius radius = default_radius(planned.files.read({"depth"}), stated_radius(planned.files));
+    first.emplace(FirstFrame{std::move(planned), radius});
+  });
+  return std::move(*first);
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ unsigned long long planned_memory(const FrameFlags& flags, const std::string& na
 unsigned long long bytes_to_read(const FrameFiles& files, const std::vector<std::string>& planes) {
   Bytes bytes = 0;
   for (const FrameFile& file : files.files()) bytes += file.bytes_to_read(planes);
-  const auto is_of_history = [](const std::string& plane) { return contains(history_planes(), plane); };
-  if (files.history() && std::any_of(planes.begin(), planes.end(), is_of_history))
+  if (files.history() && has_history(planes))
     bytes += files.history()->file().bytes_to_read(files.history()->planes_of_file());
   return bytes;
 }

@@ -129,8 +129,7 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
       for (const ChannelSource& channel : source.channels) names.push_back(prefix + channel.name);
     }
   }
-  const auto is_of_history = [](const std::string& plane) { return contains(history_planes(), plane); };
-  if (!files.history() || std::none_of(planes.begin(), planes.end(), is_of_history)) return names;
+  if (!files.history() || !has_history(planes)) return names;
   const FrameFile& before = files.history()->file();
   for (const PlaneSource& source : before.planes()) {
     if (!contains(files.history()->planes_of_file(), source.plane)) continue;

@@ -8,10 +8,10 @@
 #include "cli/radius.h"
 #include "cli/shot.h"
 #include "cli/shot_report.h"
+#include "cli/shot_start.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/visualise.h"
-#include "sequence/frame_locks.h"
 #include "sequence/frame_making.h"
 
 namespace gloam::cli {
@@ -82,7 +82,7 @@ class TruthsOfShot {
     scene_.load_for(files.files().front());
     const FrameMaking making = making_of(files);
     const std::filesystem::path out = output_.path_of(frame.number);
-    if (flags_.resume && is_whole(frame.number, out, making)) return false;
+    if (flags_.resume && report_.leaves_alone(frame.number, out, why_again(out, making))) return false;
     times.decode = lap();
     const std::string checkpoint = out.string() + ".partial";
     TracedFrame traced =
@@ -102,13 +102,6 @@ class TruthsOfShot {
   FrameMaking making_of(const FrameFiles& files) const {
     return {GLOAM_VERSION, fmt::format("reference {}{}; {}", flags_.what, flags_.given, scene_.identity()),
             identity_of(files)};
-  }
-
-  bool is_whole(int number, const std::filesystem::path& out, const FrameMaking& making) {
-    const std::string why = why_again(out, making);
-    if (why.empty()) report_.skipped(number);
-    if (!why.empty() && std::filesystem::exists(out)) report_.written_again(number, why);
-    return why.empty();
   }
 
   /// Frames have rays of their own: their noise differs, and is in no frame what it was in the one before.
@@ -161,15 +154,14 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
                      flags.picture, flags.frame);
   const FramePattern output(flags.out, "-o");
   const ShotFiles shot({.frame = flags.frame}, flags.frame_flags, flags.choice);
-  check_outputs({{"-o", output}}, shot, {{"--json", flags.json.file()}});
+  const NamedPatterns outputs = {{"-o", output}};
+  check_outputs(outputs, shot, {{"--json", flags.json.file()}});
   check_paths({{"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene}},
               {{"--json", flags.json.file()}});
   ShotReport report(shot.frames().size(), flags.json);
   TruthsOfShot truths(flags, job, shot, output, report);
   truths.check_scene();
-  const FrameLocks locks(output, shot.numbers());
-  remove_leftovers(output.folder());
-  say_on_interruption("frames that were written are whole; the same command with --resume goes on");
+  const ShotStart start(outputs, shot.numbers());
   truths.trace_all();
   truths.add_notes();
   report.finish(flags.out, truths.contents());

@@ -166,16 +166,6 @@ std::future<Device> start_device(const RunFlags& flags, const PlannedFrame& plan
                     });
 }
 
-/// Adds a note where a history tells nothing about the frame.
-void add_warning_about_history(const FrameFiles& files, const Plan& plan, const Frame& frame, const Frame& result) {
-  if (!files.history() || !reads_history(plan)) return;
-  if (!knows_where_surfaces_were(frame))
-    note({no_way_back});
-  else if (!goes_on_from_before(result))
-    note({fmt::format("--history {}: shows next to nothing that {} shows; accumulation begins anew",
-                      files.history()->file().path().string(), files.name())});
-}
-
 void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result,
                   const std::vector<std::string>& copied) {
   if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
@@ -239,7 +229,10 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   options.progress = progress_bar();
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
-  add_warning_about_history(files, plan, frame, result.frame);
+  if (files.history() && reads_history(plan))
+    add_warning_about_history(frame, result.frame,
+                              fmt::format("--history {}: shows next to nothing that {} shows",
+                                          files.history()->file().path().string(), files.name()));
   carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));

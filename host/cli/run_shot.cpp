@@ -21,7 +21,7 @@ namespace {
 
 /// Whether each frame goes on from the one before.
 bool is_temporal(const RunCommand& flags) {
-  return flags.technique_flags.temporal || contains(find_technique(flags.technique).reads, "history");
+  return flags.technique_flags.temporal || accumulates_by_itself(find_technique(flags.technique));
 }
 
 /// Throws UsageError for a technique, flags and names that do not go with a shot.
@@ -74,19 +74,12 @@ void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
 /// The first frame that can be planned stands for all. Throws UsageError for settings that no frame accepts, and Error if no
 /// frame can be planned.
 PlannedFrame first_planned(const ShotFiles& shot, const PlanRequest& request, bool carries_depth, bool has_composite) {
-  std::string first_error;
-  for (const SequenceFrame& frame : shot.frames()) {
-    try {
-      PlannedFrame planned = planned_frame(shot.open(frame), request, carries_depth);
-      if (has_composite) planned.colour.emplace(open_colour(shot.paths_of(frame), shot.options_for(frame)));
-      return planned;
-    } catch (const UsageError&) {
-      throw;
-    } catch (const Error& error) {
-      if (first_error.empty()) first_error = error.what();
-    }
-  }
-  throw none_of_shot(shot, first_error);
+  std::optional<PlannedFrame> planned;
+  first_that_can(shot, [&](const SequenceFrame& frame) {
+    planned.emplace(planned_frame(shot.open(frame), request, carries_depth));
+    if (has_composite) planned->colour.emplace(open_colour(shot.paths_of(frame), shot.options_for(frame)));
+  });
+  return std::move(*planned);
 }
 
 /// What a frame leaves for the next, while that takes it over.
@@ -94,7 +87,7 @@ unsigned long long bytes_of_history(const PlannedFrame& planned) {
   if (!planned.request.temporal) return 0;
   unsigned long long bytes = 0;
   for (const std::string& plane : planned.plan.inputs) {
-    if (contains(history_planes(), plane)) bytes += plane_kind(plane).components.size() * sizeof(float);
+    if (is_of_history(plane)) bytes += plane_kind(plane).components.size() * sizeof(float);
   }
   const Window window = planned.files.window();
   return 2 * bytes * size_t(window.width()) * size_t(window.height()) * planned.files.views().size();
@@ -144,7 +137,7 @@ std::vector<Turn> turns_for(const ShotFiles& shot, const ShotSettings& settings,
       if (!turn.is_written) continue;
       const auto [path, why] = first_to_write_again(settings.outputs.of(frame.number), settings.writing, making);
       is_whole[turn.frame] = why.empty();
-      if (!why.empty() && std::filesystem::exists(path)) report.written_again(frame.number, why);
+      if (!why.empty()) report.written_again(frame.number, path, why);
     } catch (const Error&) {
       // Told when the frame's turn comes. The next one begins anew.
       history.clear();

@@ -16,16 +16,12 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
   for (const std::string& plane : planes) {
     const bool everywhere =
         std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
-    if (everywhere || (expects_history && contains(history_planes(), plane))) left.push_back(plane);
+    if (everywhere || (expects_history && is_of_history(plane))) left.push_back(plane);
   }
   return left;
 }
 
 }  // namespace
-
-const std::string no_way_back =
-    "--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; each "
-    "frame is computed by itself; give the camera of each frame (--camera)";
 
 void plan_again(PlannedFrame& planned, bool carries_depth) {
   planned.plan = plan_for(planned.files, planned.request);
@@ -73,6 +69,16 @@ std::string warning_about_views(const Plan& plan, const Frame& frame) {
       "the views '{}' and '{}' have no surface in common, and each gets a result of its own; do both show "
       "one scene, each with its own camera?",
       frame.views[0].name, frame.views[1].name);
+}
+
+void add_warning_about_history(const Frame& frame, const Frame& result, const std::string& who) {
+  if (!knows_where_surfaces_were(frame))
+    note(
+        {"--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; "
+         "each "
+         "frame is computed by itself; give the camera of each frame (--camera)"});
+  else if (!goes_on_from_before(result))
+    note({who + "; accumulation begins anew"});
 }
 
 void carry_over(Frame& from, Frame& to, const Carried& carried) {

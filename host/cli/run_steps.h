@@ -40,8 +40,9 @@ std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);
 /// A note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras. Else empty.
 std::string warning_about_views(const Plan& plan, const Frame& frame);
 
-/// Note for a frame that cannot tell where its surfaces were in the frame before.
-extern const std::string no_way_back;
+/// Adds a note where a history tells nothing about a frame. `who`: "frame 7: shows next to nothing that the frame before showed", for
+/// that case.
+void add_warning_about_history(const Frame& frame, const Frame& result, const std::string& who);
 
 /// What an output has besides the planes computed.
 struct Carried {

@@ -99,9 +99,18 @@ void ShotReport::in_frame(double share_done) {
   draw();
 }
 
-void ShotReport::written_again(int frame, const std::string& why) {
+void ShotReport::written_again(int frame, const std::filesystem::path& file, const std::string& why) {
+  if (!std::filesystem::exists(file)) return;
   const std::lock_guard lock(mutex_);
   again_[why].push_back(frame);
+}
+
+bool ShotReport::leaves_alone(int frame, const std::filesystem::path& file, const std::string& why) {
+  if (why.empty())
+    skipped(frame);
+  else
+    written_again(frame, file, why);
+  return why.empty();
 }
 
 void ShotReport::end_frame(Json line) {

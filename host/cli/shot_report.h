@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -35,8 +36,10 @@ class ShotReport {
   bool attempt(int frame, const std::function<bool()>& step, const std::function<void()>& stop, bool is_told = true);
   /// Draws how far the frame has come that is worked on: for frames that take long, one after another.
   void in_frame(double share_done);
-  /// Remembers why a frame that was there is written again.
-  void written_again(int frame, const std::string& why);
+  /// Remembers why a frame is written again, if its file is there.
+  void written_again(int frame, const std::filesystem::path& file, const std::string& why);
+  /// Whether a frame is left alone: if there is no reason to write it again. Tells it, or remembers the reason.
+  bool leaves_alone(int frame, const std::filesystem::path& file, const std::string& why);
 
   /// Tells what is still to be told, prints figures and notes, and writes the document. Throws Error if a frame failed: with
   /// the numbers of the failed frames, or if space was lacking with what to do.

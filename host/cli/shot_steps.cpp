@@ -46,9 +46,19 @@ void check_bytes_in_shot(const FrameFiles& files, unsigned long long bytes, unsi
                 memory_in_words(bytes), memory_in_words(most));
 }
 
-Error none_of_shot(const ShotFiles& shot, const std::string& first_error) {
-  if (shot.frames().size() == 1) return Error("{}", first_error);
-  return Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
+void first_that_can(const ShotFiles& shot, const std::function<void(const SequenceFrame&)>& attempt) {
+  std::string first_error;
+  for (const SequenceFrame& frame : shot.frames()) {
+    try {
+      return attempt(frame);
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& error) {
+      if (first_error.empty()) first_error = error.what();
+    }
+  }
+  if (shot.frames().size() == 1) throw Error("{}", first_error);
+  throw Error("none of the {} frames can be computed; the first: {}", shot.frames().size(), first_error);
 }
 
 }  // namespace gloam::cli

@@ -35,7 +35,8 @@ void check_size_in_shot(const FrameFiles& files, const Window& first);
 /// Throws Error for a frame that would take more memory than a frame of the shot has.
 void check_bytes_in_shot(const FrameFiles& files, unsigned long long bytes, unsigned long long most);
 
-/// The error if no frame can be computed. `first_error`: of the first one.
-Error none_of_shot(const ShotFiles& shot, const std::string& first_error);
+/// Calls `attempt` with frame after frame until one succeeds, which then stands for all. Throws UsageError of the first that does, and
+/// Error with that of the first frame if none succeeds.
+void first_that_can(const ShotFiles& shot, const std::function<void(const SequenceFrame&)>& attempt);
 
 }  // namespace gloam::cli

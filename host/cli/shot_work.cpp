@@ -69,11 +69,7 @@ bool ShotWork::open(size_t i, InFlight& flight) {
   // Of frames that go on over time, those to leave alone have been left out.
   if (settings_.resume && !settings_.request.temporal) {
     const auto [path, why] = first_to_write_again(outputs_of(i), settings_.writing, flight.making);
-    if (why.empty()) {
-      report_.skipped(frame_at(i).number);
-      return false;
-    }
-    if (std::filesystem::exists(path)) report_.written_again(frame_at(i).number, why);
+    if (report_.leaves_alone(frame_at(i).number, path, why)) return false;
   }
   check_size_in_shot(files, settings_.display);
   flight.planned.emplace(planned_frame(std::move(files), settings_.request, settings_.carried.depth));
@@ -138,11 +134,10 @@ void ShotWork::compute_planes(size_t i, InFlight& flight) {
     options.seed = seed_in_sequence(options.seed, frame_at(i).number);
   }
   flight.result = run(plan, flight.frame, *device_, options).frame;
-  if (goes_on && !knows_where_surfaces_were(flight.frame))
-    note({no_way_back});
-  else if (goes_on && !goes_on_from_before(flight.result))
-    note({fmt::format("frame {}: shows next to nothing that the frame before showed; accumulation begins anew",
-                      frame_at(i).number)});
+  if (goes_on)
+    add_warning_about_history(
+        flight.frame, flight.result,
+        fmt::format("frame {}: shows next to nothing that the frame before showed", frame_at(i).number));
   if (settings_.request.temporal) leave_for_next(i, flight);
   carry_over(flight.frame, flight.result, settings_.carried);
   flight.result.attributes = provenance({{&plan}}, options);

@@ -144,11 +144,10 @@ std::string FrameFiles::why_missing(const std::string& plane) const {
 }
 
 Frame FrameFiles::read(const std::vector<std::string>& planes) {
-  const auto is_of_history = [](const std::string& plane) { return contains(history_planes(), plane); };
   std::vector<std::string> own = planes;
   std::erase_if(own, is_of_history);
   Frame frame = read_files(own);
-  if (history_ && std::any_of(planes.begin(), planes.end(), is_of_history)) history_->add_to(frame, planes);
+  if (history_ && has_history(planes)) history_->add_to(frame, planes);
   return frame;
 }
 

@@ -12,9 +12,23 @@
 namespace gloam {
 namespace {
 
-/// The planes of a history, and those of a result that they are.
-const std::vector<std::pair<std::string, std::string>> sources_of_history = {
-    {"history", "reflection"}, {"history_ao", "ao_raw"}, {"history_depth", "depth"}, {"history_frames", "frames"}};
+/// A plane of a history, and that of a result that it is.
+struct PlaneOfHistory {
+  std::string name, source;
+};
+using PlanesOfHistory = std::vector<PlaneOfHistory>;
+
+const PlanesOfHistory& table() {
+  static const PlanesOfHistory planes = {
+      {"history", "reflection"}, {"history_ao", "ao_raw"}, {"history_depth", "depth"}, {"history_frames", "frames"}};
+  return planes;
+}
+
+std::vector<std::string> column_of(std::string PlaneOfHistory::*column) {
+  std::vector<std::string> names;
+  for (const PlaneOfHistory& plane : table()) names.push_back(plane.*column);
+  return names;
+}
 
 bool is_all_zero(const Plane& plane, int x, int y) {
   return std::all_of(plane.channels.begin(), plane.channels.end(),
@@ -63,8 +77,19 @@ View& view_before(Frame& before, const Frame& frame, const View& view, const std
 }  // namespace
 
 const std::vector<std::string>& history_planes() {
-  static const std::vector<std::string> names = {"history", "history_ao", "history_depth", "history_frames"};
+  static const std::vector<std::string> names = column_of(&PlaneOfHistory::name);
   return names;
+}
+
+const std::vector<std::string>& planes_for_history() {
+  static const std::vector<std::string> names = column_of(&PlaneOfHistory::source);
+  return names;
+}
+
+bool is_of_history(const std::string& plane) { return contains(history_planes(), plane); }
+
+bool has_history(const std::vector<std::string>& planes) {
+  return std::any_of(planes.begin(), planes.end(), is_of_history);
 }
 
 bool knows_where_surfaces_were(const Frame& frame) {
@@ -89,11 +114,6 @@ bool goes_on_from_before(const Frame& result) {
     }
   }
   return double(known) >= least_share * double(surfaces);
-}
-
-const std::vector<std::string>& planes_for_history() {
-  static const std::vector<std::string> names = {"reflection", "ao_raw", "depth", "frames"};
-  return names;
 }
 
 namespace {
@@ -138,7 +158,7 @@ void add_history(Frame& frame, Frame before, const std::vector<std::string>& pla
     View& from = view_before(before, frame, view, name);
     view.camera_before = from.camera;
     if (!from.find("frames")) from.planes["frames"] = one_frame(from.planes.at("depth"), from.find("reflection"));
-    for (const auto& [added, source] : sources_of_history) {
+    for (const auto& [added, source] : table()) {
       if (!contains(planes, added) || !from.find(source)) continue;
       Plane& plane = view.planes[added] = std::move(from.planes.at(source));
       plane.name = added;
@@ -158,12 +178,12 @@ History::History(const std::filesystem::path& path) : file_(path, {}) {
 }
 
 std::vector<std::string> History::planes() const {
-  std::vector<std::string> names = history_planes();
   const std::vector<std::string> there = file_.common_planes();
-  std::erase_if(names, [&](const std::string& name) {
-    return (name == "history" && !contains(there, "reflection")) ||
-           (name == "history_ao" && !contains(there, "ao_raw"));
-  });
+  std::vector<std::string> names;
+  for (const auto& [name, source] : table()) {
+    // Without `frames`, the file counts as one frame.
+    if (contains(there, source) || source == "frames") names.push_back(name);
+  }
   return names;
 }
 

@@ -83,11 +83,8 @@ void check_full_resolution(const PlanRequest& request, const Techniques& techniq
   }
 }
 
-/// Adds what accumulation over time reads.
-void want_history(const PlanRequest& request, const Wanted& wanted, const std::vector<std::string>& available,
-                  std::vector<std::string>& also) {
-  check_temporal(request);
-  if (contains(wanted.makers.front()->reads, "history")) return;
+/// Adds what accumulation after a technique reads.
+void want_history(const std::vector<std::string>& available, std::vector<std::string>& also) {
   std::copy_if(accumulating().reads.begin(), accumulating().reads.end(), std::back_inserter(also),
                [](const std::string& plane) { return plane != "ao_raw"; });
   if (contains(available, "motion")) also.push_back("motion");
@@ -131,7 +128,9 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
     std::copy_if(elsewhere->may_read.begin(), elsewhere->may_read.end(), std::back_inserter(also),
                  [&](const std::string& plane) { return contains(available, plane); });
   }
-  if (request.temporal) want_history(request, wanted, available, also);
+  if (request.temporal) check_temporal(request);
+  const bool accumulates_after = request.temporal && !accumulates_by_itself(*asked_for.front());
+  if (accumulates_after) want_history(available, also);
   Walk walk(wanted, with_stacks(available), also, mask);
   check_full_resolution(request, walk.order);
   Plan plan;
@@ -140,7 +139,6 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (!walk.missing.empty()) throw_missing(plan.technique, wanted, walk, holds);
   if (elsewhere) walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
   if (is_adaptive(request)) walk.order.push_back(&adapting());
-  const bool accumulates_after = request.temporal && !contains(asked_for.front()->reads, "history");
   if (accumulates_after) walk.order.push_back(&accumulating());
   if (is_reduced) walk.order.push_back(&resampling());
   const Technique* restricted = mask.empty() || asked_for.empty() ? nullptr : asked_for.front();

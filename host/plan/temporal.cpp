@@ -8,8 +8,6 @@
 namespace gloam {
 namespace {
 
-bool accumulates_by_itself(const Technique& technique) { return contains(technique.reads, "history"); }
-
 /// Renames the raw AO in a pass of the technique: what this frame alone shows.
 void use_own_frame(Pass& pass) {
   for (std::vector<Binding>* list : {&pass.reads, &pass.writes}) {
@@ -93,6 +91,8 @@ std::vector<std::string> over_time(std::vector<std::string> outputs) {
   }
   return outputs;
 }
+
+bool accumulates_by_itself(const Technique& technique) { return contains(technique.reads, "history"); }
 
 bool can_accumulate(const Technique& technique) {
   return accumulates_by_itself(technique) || !technique.over_time.empty() || contains(technique.writes, "ao_raw");

@@ -13,10 +13,14 @@ namespace gloam {
 /// The planes that a history adds to a frame: `history` (of a reflection) or `history_ao` (of raw AO), `history_depth` and
 /// `history_frames`.
 const std::vector<std::string>& history_planes();
+bool is_of_history(const std::string& plane);
+/// Whether one of the planes is of a history.
+bool has_history(const std::vector<std::string>& planes);
 
 /// Adds those of its planes that are asked for, and `camera_before`, to every view of a frame: from the view of the same name of the
 /// frame before, or, if a name is missing, from the only view to the only view. A frame without `frames` counts as one frame.
-/// `name`: of the frame before, for messages. Throws Error for an image of another window and for a view that it lacks.
+/// Where the frame before has some of the views, those that it lacks know nothing, as do pixels outside its window. `name`: of the frame
+/// before, for messages. Throws Error for an image of another size, and if it has none of the views.
 void add_history(Frame& frame, Frame before, const std::vector<std::string>& planes, const std::string& name);
 
 /// Adds the same planes to a frame that begins a sequence: they know nothing.

@@ -92,6 +92,9 @@ Plan make_plan(const PlanRequest& request, const std::vector<std::string>& avail
 /// Planes that a technique returns, including those that it leaves to its filter.
 const std::vector<std::string>& outputs_of(const Technique& technique);
 
+/// Whether a technique is a form for sequences: it takes over the result of the frame before, as temporal-sssr does.
+bool accumulates_by_itself(const Technique& technique);
+
 /// Whether results of a technique can be accumulated over time (`PlanRequest::temporal`).
 bool can_accumulate(const Technique& technique);
 
