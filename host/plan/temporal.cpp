@@ -70,6 +70,14 @@ Pass accumulate_pass() {
           .footprint = {.columns = 2, .rows = 2}};
 }
 
+std::vector<std::string> with_form_for_sequences() {
+  std::vector<std::string> names;
+  for (const Technique& technique : registry()) {
+    if (!technique.over_time.empty()) names.push_back(technique.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 const Technique& accumulating() {
@@ -104,6 +112,8 @@ void check_temporal(const PlanRequest& request) {
   if (request.outputs.size() > 1 || !contains(names, name))
     throw UsageError("--temporal: takes one technique, not {}", enumerate(request.outputs));
   const Technique& technique = find_technique(name);
+  if (!can_accumulate(technique) && contains(technique.writes, "reflection"))
+    throw UsageError("--temporal: {} has no form for sequences; {} has", name, enumerate(with_form_for_sequences()));
   if (!can_accumulate(technique))
     throw UsageError("--temporal: {} makes neither raw ambient occlusion nor reflections; leave it out", name);
   if (request.resolution != 1)

@@ -169,6 +169,8 @@ TEST_F(Shot, RefusesInOneLine) {
   expect_refused(run_on({shot, "-o", out, "--temporal", "--missing", "hold"}), 2, {"--missing hold", "--temporal"});
   expect_refused(run_on({shot, "-o", out, "--temporal", "--resolution", "half"}), 2, {"--temporal", "--resolution"});
   expect_refused({"run", "normals", shot, "-o", out, "--temporal"}, 2, {"--temporal: normals makes neither"});
+  expect_refused({"run", "stereo-ssr", shot, "-o", out, "--temporal"}, 2,
+                 {"--temporal: stereo-ssr has no form for sequences; sssr has"});
   expect_refused(run_on({shot, "-o", out, "--json", one}), 2, {"--json", "is also"});
   expect_refused({"plan", "ao", shot}, 1, {"only run, auto, info and compare take the files of a shot"});
 }
