@@ -29,7 +29,7 @@ KernelFrame kernel_frame(const Frame& frame) {
 
 std::string options(const Device& device) {
   return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1",
-                     device.info().lanes, directions, steps);
+                     device.info().tuning.lanes, directions, steps);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ Floor::Floor(Device& device, const Frame& frame, const char* header, const char*
     : kernel_(build(device, flatten(header) + text, options(device), kernel)), device_(device) {
   const KernelFrame argument = kernel_frame(frame);
   kernel_.setArg(0, argument);
-  global_ = cl::NDRange(size_t(argument.pitch / device.info().lanes), size_t(argument.height));
+  global_ = cl::NDRange(size_t(argument.pitch / device.info().tuning.lanes), size_t(argument.height));
 }
 
 double Floor::run() { return launch(device_, kernel_, global_); }

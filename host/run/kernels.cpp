@@ -36,9 +36,12 @@ std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
 
 }  // namespace
 
-int lanes_for(const DeviceInfo& info, const RunOptions& options) {
-  if (options.lanes != 0) return options.lanes;
-  return options.real == Real::float64 && info.lanes > 4 ? info.lanes / 2 : info.lanes;
+Tuning tuning_for(const DeviceInfo& info, const RunOptions& options) {
+  Tuning tuning = options.use_measured_tuning ? info.tuning : info.usual;
+  if (options.real == Real::float64 && tuning.lanes > 4) tuning.lanes /= 2;
+  if (options.lanes != 0) tuning.lanes = options.lanes;
+  if (options.group != 0) tuning.group = options.group;
+  return tuning;
 }
 
 cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
