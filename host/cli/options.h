@@ -92,5 +92,6 @@ void add_pick(CLI::App& app);
 void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
 void add_stress(CLI::App& app);
+void add_doctor(CLI::App& app);
 
 }  // namespace gloam::cli
