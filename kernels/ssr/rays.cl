@@ -16,12 +16,12 @@ static inline real3 ray_of(Reflector s, Noise noise, int k, real* density) {
   // The rays of a pixel follow the R2 sequence (Roberts 2018).
   const real u = noise.shift + k * (scalar)0.7548776662, turn = noise.turn + k * (scalar)0.5698402910;
   real3 h = visible_normal(s.to_eye, s.alpha, u - floor(u), turn - floor(turn));
-  const mask is_mirror = s.is_mirror | (MASK_ALONE ? EVERY_LANE : (mask)(0));
+  const mask is_mirror = s.is_mirror | EVERY_LANE_IF(MASK_ALONE);
   h = choose3(is_mirror, make3((real)(0), (real)(0), (real)(1)), h);
   const real vh = 2 * dot3(s.to_eye, h);
   const real3 l = make3(vh * h.x - s.to_eye.x, vh * h.y - s.to_eye.y, vh * h.z - s.to_eye.z);
   const real per_angle = reflected_density(s.alpha, s.to_eye, h, hidden_per_seen(s.alpha, s.to_eye));
-  *density = choose(is_mirror, choose(s.reflects & (mask)(k == 0 ? EVERY_LANE : (mask)(0)), REAL_INFINITY, (real)(0)),
+  *density = choose(is_mirror, choose(s.reflects & EVERY_LANE_IF(k == 0), REAL_INFINITY, (real)(0)),
                     choose(s.reflects & (l.z > (scalar)1e-4f), per_angle, (real)(0)));
   return exactly_normalised(out_of_frame(s, l));
 }
