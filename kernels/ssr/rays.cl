@@ -40,18 +40,18 @@ kernel void ssr_rays(Frame frame, Params params, PLANE depth, PLANE normal_x, PL
                                    reflectance_g, reflectance_b);
   const Noise noise = noise_at(FIRST_X + IOTA, ROW_Y, frame.seed);
 #if MASKED
-  const int is_skipped = !ANY(wanted_in_row(wanted, frame));
+  const mask is_wanted = wanted_in_row(wanted, frame);
 #else
-  const int is_skipped = 0;
+  const mask is_wanted = EVERY_LANE;
 #endif
   for (int k = 0; k < RAYS; ++k) {
     real density = 0;
-    if (!is_skipped && ANY(s.reflects)) {
+    if (ANY(s.reflects & is_wanted)) {
       const real3 direction = ray_of(s, noise, k, &density);
       store(direction.x, layer_of_out(ray_x, frame, k), here);
       store(direction.y, layer_of_out(ray_y, frame, k), here);
       store(direction.z, layer_of_out(ray_z, frame, k), here);
-      density = choose(s.roughness <= params.max_roughness, density, (real)(0));
+      density = choose(is_wanted & (s.roughness <= params.max_roughness), density, (real)(0));
       append_pixels(list, here + k * floats_of_layer(frame), density > 0);
     }
     store(density, layer_of_out(ray_density, frame, k), here);
