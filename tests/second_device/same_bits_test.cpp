@@ -22,8 +22,8 @@ void expect_same_bits(const std::vector<KernelRun>& runs) {
     const Frame here = std::move(run(each.plan, each.frame, device(), options).frame);
     const Frame there = std::move(run(each.plan, each.frame, device(second), options).frame);
     const Difference d = difference(here, there);
-    EXPECT_TRUE(same_bits(here, there)) << each.what << ": " << d.place.view << " " << d.place.plane << " (" << d.place.x
-                                        << ", " << d.place.y << ") " << d.place.holds << " on " << second;
+    EXPECT_TRUE(same_bits(here, there)) << each.what << ": " << d.place.view << " " << d.place.plane << " ("
+                                        << d.place.x << ", " << d.place.y << ") " << d.place.holds << " on " << second;
   }
 }
 
