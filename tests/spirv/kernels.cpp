@@ -8,6 +8,8 @@
 #include <map>
 #include <vector>
 
+#include "bench/floors.h"
+#include "bench/naive.h"
 #include "gloam/error.h"
 #include "plan/layouts.h"
 #include "run/arguments.h"
@@ -150,6 +152,13 @@ class Listing {
   int texts_ = 0;
 };
 
+/// Lists the kernels that `gloam bench` compares with.
+void list_baselines(Listing& listing) {
+  std::vector<bench::KernelText> texts = bench::naive_texts();
+  for (bench::KernelText& floor : bench::floor_texts(1)) texts.push_back(std::move(floor));
+  for (const bench::KernelText& each : texts) listing.add(listing.add_text(each.text), usual, each.options);
+}
+
 /// Lists the kernels whose number, divided by `parts`, leaves `part`.
 void list_kernels(const std::string& folder, size_t part, size_t parts) {
   const Kernels kernels = all_kernels();
@@ -170,10 +179,10 @@ void list_kernels(const std::string& folder, size_t part, size_t parts) {
       }
     }
   }
+  if (part == 0) list_baselines(listing);
   std::printf(
-      "%zu kernels with %zu sets of constants, of which this is part %zu of %zu; at most %zu bytes of arguments and "
-      "%zu of a "
-      "table\n",
+      "%zu kernels with %zu sets of constants, of which this is part %zu of %zu\n"
+      "at most %zu bytes of arguments and %zu of a table\n",
       by_name.size(), kernels.all.size(), part + 1, parts, kernels.largest.arguments, kernels.largest.table);
 }
 
