@@ -1,0 +1,277 @@
+"""A G-buffer of a scene: passes sampled at pixel centres, rendered from a copy of the scene, and its cameras.
+
+The user's scene is not changed: settings are changed in a copy that shares the objects, and of cameras copies are rendered too.
+"""
+import os
+
+import bpy
+
+from . import camera as cameras
+from .errors import Problem
+from .roughness import RoughnessOutputs
+
+EEVEE = ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT")
+
+# Passes by the name of their switch in a view layer. Those that a version or an engine lacks are passed over.
+PASSES = ("use_pass_z", "use_pass_normal", "use_pass_vector", "use_pass_diffuse_color")
+
+
+def set_where_there(owner, **values):
+    """Sets properties that this version of Blender has."""
+    for name, value in values.items():
+        if hasattr(owner, name):
+            setattr(owner, name, value)
+
+
+def engine_for(scene, wanted, notes):
+    """The engine that renders the passes. wanted: `SCENE` or `CYCLES`. Throws Problem where it cannot render."""
+    engine = scene.render.engine
+    if wanted == "CYCLES" or engine not in ("CYCLES",) + EEVEE:
+        if wanted != "CYCLES":
+            notes.append(f"the engine {engine.title()} has no passes for gloam; Cycles renders them")
+        engine = "CYCLES"
+    if engine in EEVEE and bpy.app.background and not has_display():
+        raise Problem("EEVEE renders only where there is a display; give --engine cycles, and Cycles renders the passes")
+    if engine == "CYCLES" and not hasattr(bpy.types.Scene, "cycles"):
+        raise Problem("the add-on Cycles Render Engine is switched off; switch it on in Preferences > Add-ons")
+    return engine
+
+
+def has_display():
+    return os.name == "nt" or os.uname().sysname == "Darwin" or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
+
+
+def check_simulations(scene, notes):
+    """Says what a copy of the scene would simulate anew."""
+    world = scene.rigidbody_world
+    if world and world.enabled and not world.point_cache.is_baked:
+        notes.append("the rigid bodies are not baked: bake them (Scene > Rigid Body World > Cache), or they may stand elsewhere")
+
+
+class Capture:
+    """A copy of a scene that renders G-buffers. Use it in a `with` statement: it removes the copy again.
+
+    scene: the user's; layer: name of the view layer; engine: see engine_for; overscan: share of the image's size to add on
+    each side. Throws Problem.
+    """
+
+    def __init__(self, scene, layer, engine, overscan=0.0):
+        self.user_scene = scene
+        self.layer = layer
+        self.engine = engine
+        self.overscan = overscan
+        self.scene = None
+        self.added = []  # cameras, to be removed
+        self.roughness = None
+
+    def __enter__(self):
+        try:
+            self.frame_before = (self.user_scene.frame_current, self.user_scene.frame_subframe)
+            self.scene = self.user_scene.copy()
+            self.scene.name = f"gloam of {self.user_scene.name}"
+            self.change_render()
+            self.change_passes()
+            self.change_engine()
+            self.pick_cameras()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        if self.roughness:
+            self.roughness.remove()
+        if self.scene:
+            bpy.data.scenes.remove(self.scene)
+        for item in self.added:
+            data = item.data
+            bpy.data.objects.remove(item)
+            bpy.data.cameras.remove(data)
+        self.scene, self.added, self.roughness = None, [], None
+        if (self.user_scene.frame_current, self.user_scene.frame_subframe) != self.frame_before:
+            self.user_scene.frame_set(self.frame_before[0], subframe=self.frame_before[1])
+
+    # --- What is changed in the copy.
+
+    def change_render(self):
+        render = self.scene.render
+        render.engine = self.engine
+        # Compositing would write the user's File Output nodes again.
+        set_where_there(render, use_compositing=False, use_sequencer=False, use_motion_blur=False, use_freestyle=False,
+                        use_border=False, use_crop_to_border=False, use_stamp=False, film_transparent=False, filter_size=0.0)
+        if hasattr(self.scene, "compositing_node_group"):
+            self.scene.compositing_node_group = None
+        else:
+            self.scene.use_nodes = False
+        image = render.image_settings
+        if hasattr(image, "media_type"):
+            image.media_type = "MULTI_LAYER_IMAGE"
+        image.file_format = "OPEN_EXR_MULTILAYER"
+        image.color_depth = "32"
+        image.exr_codec = "ZIP"  # DWA damages normals
+        image.views_format = "MULTIVIEW"
+        set_where_there(render, use_file_extension=True, use_overwrite=True, use_placeholder=False)
+
+    def change_passes(self):
+        layers = self.scene.view_layers
+        if self.layer not in layers:
+            raise Problem(f"the scene has no view layer '{self.layer}'; it has {', '.join(layer.name for layer in layers)}")
+        for layer in list(layers):
+            if layer.name != self.layer:
+                layers.remove(layer)
+        layer = layers[0]
+        layer.use = True
+        for name in [p.identifier for p in layer.bl_rna.properties if p.identifier.startswith("use_pass_")]:
+            set_where_there(layer, **{name: name in PASSES or name == "use_pass_position" and layer.use_pass_position})
+        set_where_there(layer, use_freestyle=False)
+        for group in (getattr(layer, name, None) for name in ("cycles", "eevee")):
+            for pass_name in [p.identifier for p in group.bl_rna.properties] if group else []:
+                if pass_name.startswith("use_pass_") or pass_name == "denoising_store_passes":
+                    setattr(group, pass_name, False)
+        self.roughness = RoughnessOutputs(layer)
+
+    def change_engine(self):
+        """One sample through each pixel's centre: depth between two surfaces belongs to neither."""
+        cycles, eevee = getattr(self.scene, "cycles", None), getattr(self.scene, "eevee", None)
+        if cycles:
+            set_where_there(cycles, samples=1, use_adaptive_sampling=False, use_denoising=False, time_limit=0.0,
+                            pixel_filter_type="BOX", filter_width=0.01, max_bounces=0, film_exposure=1.0, use_layer_samples="IGNORE")
+        if eevee:
+            set_where_there(eevee, taa_render_samples=1, use_motion_blur=False, use_overscan=False)
+
+    # --- Cameras.
+
+    def pick_cameras(self):
+        """Copies of the scene's cameras without depth of field, one for each view."""
+        scene, render = self.scene, self.scene.render
+        cameras.check(scene.camera)
+        self.views = [("", scene.camera, None)]
+        if not render.use_multiview:
+            self.views = [("", self.copy_of(scene.camera, "gloam camera"), None)]
+            scene.camera = self.views[0][1]
+            return
+        used = [view for view in render.views if view.use]
+        if not used:
+            raise Problem("stereoscopy is on, and no view is used; switch a view on (Output > Stereoscopy)")
+        if render.views_format == "STEREO_3D":
+            eyes = self.copy_of(scene.camera, "gloam camera")
+            self.views = [(view.name, eyes, view.name == "left") for view in used]
+            scene.camera = eyes
+            self.check_eyes(eyes)
+            return
+        # Views with cameras of their own: Blender finds them by the ends of their names.
+        self.views = []
+        own = [(view, camera_of_view(scene, view)) for view in used]
+        for view, item in own:
+            cameras.check(item)
+            copy = self.copy_of(item, f"gloam camera{view.camera_suffix}")
+            scene.collection.objects.link(copy)
+            if copy.name != f"gloam camera{view.camera_suffix}":
+                raise Problem(f"an object is named 'gloam camera{view.camera_suffix}' already; rename it")
+            self.views.append((view.name, copy, None))
+        scene.camera = self.views[0][1]
+
+    def check_eyes(self, camera):
+        if camera.data.stereo.use_spherical_stereo and camera.data.type == "PERSP" and self.engine == "CYCLES":
+            raise Problem("spherical stereo bends the rays of each eye, and no flat camera describes them; "
+                          "switch Spherical Stereo off in the camera's Stereoscopy panel")
+
+    def copy_of(self, item, name):
+        copy = item.copy()
+        copy.data = item.data.copy()
+        self.added.append(copy)
+        copy.name = name
+        copy.data.dof.use_dof = False
+        self.add_overscan(copy.data)
+        return copy
+
+    def add_overscan(self, data):
+        """Adds the same number of pixels on each side, and lets the camera see as much more."""
+        if not self.overscan:
+            return
+        is_first = len(self.added) == 1
+        render = self.scene.render
+        if is_first:
+            self.size_before = cameras.size(render)
+        width, height = self.size_before
+        is_of_width = data.sensor_fit == "HORIZONTAL" or data.sensor_fit == "AUTO" and (
+            render.pixel_aspect_x * width >= render.pixel_aspect_y * height)
+        pad_x, pad_y = self.padding()
+        if is_first:
+            render.resolution_x, render.resolution_y = width + 2 * pad_x, height + 2 * pad_y
+            render.resolution_percentage = 100
+        # The sensor's fit stays that of the image without the border, which has another aspect.
+        size = cameras.sensor_size(data)
+        data.sensor_fit = "HORIZONTAL" if is_of_width else "VERTICAL"
+        more = (width + 2 * pad_x) / width if is_of_width else (height + 2 * pad_y) / height
+        data.sensor_width = data.sensor_height = size * more
+        data.ortho_scale *= more
+        data.shift_x /= more
+        data.shift_y /= more
+
+    def padding(self):
+        """Pixels added left and right, and above and below."""
+        if not self.overscan:
+            return 0, 0
+        width, height = self.size_before
+        return round(width * self.overscan), round(height * self.overscan)
+
+    def suffixes(self):
+        """The ends of file names, by the name of the view, in the order of the views; empty without stereoscopy."""
+        return {v.name: v.file_suffix for name, _, _ in self.views for v in self.scene.render.views if name and v.name == name}
+
+    # --- Frames.
+
+    def go_to(self, frame):
+        """Sets the frame. The frame that the user is at stays as it is, with values that have no key frame yet."""
+        if frame == self.scene.frame_current == self.user_scene.frame_current:
+            self.scene.view_layers[0].update()
+            return
+        self.user_scene.frame_set(frame)  # drivers of objects may read it there
+        self.scene.frame_set(frame)
+
+    def camera(self):
+        """The camera JSON of the current frame. Throws Problem."""
+        depsgraph = self.scene.view_layers[0].depsgraph
+        views = []
+        for name, item, is_left in self.views:
+            evaluated = item.evaluated_get(depsgraph)
+            cameras.check(evaluated)
+            if evaluated.data.dof.use_dof:
+                raise Problem(f"depth of field of the camera '{item.name}' is animated, so depth would be blurred; "
+                              "clear its key frames")
+            views.append(cameras.view_of(evaluated, self.scene.render, name, is_left))
+        return cameras.document(views)
+
+    def render(self, path):
+        """Renders the current frame into an EXR file. Throws Problem."""
+        self.scene.render.filepath = path
+        try:
+            bpy.ops.render.render(write_still=True, scene=self.scene.name, layer=self.layer)
+        except RuntimeError as error:
+            raise Problem(f"Blender did not render '{self.user_scene.name}': {first_line(error)}") from error
+        if not os.path.exists(path):
+            raise Problem(f"Blender wrote no '{path}'; its own messages say why (Window > Toggle System Console, or the terminal)")
+
+
+def first_line(error):
+    return str(error).strip().removeprefix("Error: ").splitlines()[0]
+
+
+def camera_of_view(scene, view):
+    """The camera of a view of Multi-View, as Blender finds it: the scene's camera with the end of its name replaced."""
+    name = scene.camera.name
+    ends = sorted((v.camera_suffix for v in scene.render.views if name.endswith(v.camera_suffix)), key=len)
+    if not ends:
+        return scene.camera
+    return scene.objects.get(name[:len(name) - len(ends[-1])] + view.camera_suffix, scene.camera)
+
+
+def region(render):
+    """What is left of the image by Crop to Render Region: first column and row, and those after the last, from the top."""
+    width, height = cameras.size(render)
+    if not (render.use_border and render.use_crop_to_border):
+        return 0, 0, width, height
+    return (int(render.border_min_x * width), height - int(render.border_max_y * height),
+            int(render.border_max_x * width), height - int(render.border_min_y * height))
