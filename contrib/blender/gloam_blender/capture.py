@@ -53,21 +53,22 @@ class Capture:
     """A copy of a scene that renders G-buffers. Use it in a `with` statement: it removes the copy again.
 
     scene: the user's; layer: name of the view layer; engine: see engine_for; overscan: share of the image's size to add on
-    each side. Throws Problem.
+    each side. `padding` is that in pixels. Throws Problem.
     """
 
     def __init__(self, scene, layer, engine, overscan=0.0):
         self.user_scene = scene
         self.layer = layer
         self.engine = engine
-        self.overscan = overscan
         self.scene = None
         self.added = []  # cameras, to be removed
         self.roughness = None
+        width, height = cameras.size(scene.render)
+        self.padding = round(width * overscan), round(height * overscan)  # pixels on each side
 
     def __enter__(self):
         try:
-            self.frame_before = (self.user_scene.frame_current, self.user_scene.frame_subframe)
+            self.before = (self.user_scene.frame_current, self.user_scene.frame_subframe, self.user_scene.camera)
             self.scene = self.user_scene.copy()
             self.scene.name = f"gloam of {self.user_scene.name}"
             self.change_render()
@@ -84,13 +85,12 @@ class Capture:
             self.roughness.remove()
         if self.scene:
             bpy.data.scenes.remove(self.scene)
-        for item in self.added:
-            data = item.data
-            bpy.data.objects.remove(item)
-            bpy.data.cameras.remove(data)
-        self.scene, self.added, self.roughness = None, [], None
-        if (self.user_scene.frame_current, self.user_scene.frame_subframe) != self.frame_before:
-            self.user_scene.frame_set(self.frame_before[0], subframe=self.frame_before[1])
+        self.remove_cameras()
+        self.scene, self.roughness = None, None
+        frame, subframe, camera = self.before
+        if (self.user_scene.frame_current, self.user_scene.frame_subframe) != (frame, subframe):
+            self.user_scene.frame_set(frame, subframe=subframe)
+            self.user_scene.camera = camera
 
     # --- What is changed in the copy.
 
@@ -104,6 +104,12 @@ class Capture:
             self.scene.compositing_node_group = None
         else:
             self.scene.use_nodes = False
+        for marker in self.scene.timeline_markers:
+            marker.camera = None  # they would set the scene's camera in place of its copy
+        if self.padding != (0, 0):
+            width, height = cameras.size(render)
+            render.resolution_x, render.resolution_y = width + 2 * self.padding[0], height + 2 * self.padding[1]
+            render.resolution_percentage = 100
         image = render.image_settings
         if hasattr(image, "media_type"):
             image.media_type = "MULTI_LAYER_IMAGE"
@@ -144,78 +150,70 @@ class Capture:
 
     def pick_cameras(self):
         """Copies of the scene's cameras without depth of field, one for each view."""
-        scene, render = self.scene, self.scene.render
-        cameras.check(scene.camera)
-        self.views = [("", scene.camera, None)]
-        if not render.use_multiview:
-            self.views = [("", self.copy_of(scene.camera, "gloam camera"), None)]
-            scene.camera = self.views[0][1]
-            return
+        self.remove_cameras()
+        scene, render, self.source = self.scene, self.scene.render, self.user_scene.camera
+        cameras.check(self.source)
         used = [view for view in render.views if view.use]
-        if not used:
+        if render.use_multiview and not used:
             raise Problem("stereoscopy is on, and no view is used; switch a view on (Output > Stereoscopy)")
-        if render.views_format == "STEREO_3D":
-            eyes = self.copy_of(scene.camera, "gloam camera")
-            self.views = [(view.name, eyes, view.name == "left") for view in used]
-            scene.camera = eyes
+        if render.use_multiview and render.views_format == "MULTIVIEW":
+            # Views with cameras of their own, which Blender finds by the ends of their names.
+            self.views = [(view.name, self.copy_of(camera_of_view(self.user_scene, view), view.camera_suffix), None) for view in used]
+        elif render.use_multiview:
+            eyes = self.copy_of(self.source)
             self.check_eyes(eyes)
-            return
-        # Views with cameras of their own: Blender finds them by the ends of their names.
-        self.views = []
-        own = [(view, camera_of_view(scene, view)) for view in used]
-        for view, item in own:
-            cameras.check(item)
-            copy = self.copy_of(item, f"gloam camera{view.camera_suffix}")
-            scene.collection.objects.link(copy)
-            if copy.name != f"gloam camera{view.camera_suffix}":
-                raise Problem(f"an object is named 'gloam camera{view.camera_suffix}' already; rename it")
-            self.views.append((view.name, copy, None))
+            self.views = [(view.name, eyes, view.name == "left") for view in used]
+        else:
+            self.views = [("", self.copy_of(self.source), None)]
         scene.camera = self.views[0][1]
+
+    def remove_cameras(self):
+        for item in self.added:
+            data = item.data
+            bpy.data.objects.remove(item)
+            bpy.data.cameras.remove(data)
+        self.added = []
 
     def check_eyes(self, camera):
         if camera.data.stereo.use_spherical_stereo and camera.data.type == "PERSP" and self.engine == "CYCLES":
             raise Problem("spherical stereo bends the rays of each eye, and no flat camera describes them; "
                           "switch Spherical Stereo off in the camera's Stereoscopy panel")
 
-    def copy_of(self, item, name):
+    def copy_of(self, item, suffix=""):
+        """suffix: of a view with a camera of its own; Blender looks for such cameras in the scene."""
+        cameras.check(item)
         copy = item.copy()
         copy.data = item.data.copy()
         self.added.append(copy)
-        copy.name = name
+        copy.name = name = f"gloam camera{suffix}"
         copy.data.dof.use_dof = False
         self.add_overscan(copy.data)
+        if suffix:
+            self.scene.collection.objects.link(copy)
+            if copy.name != name:
+                raise Problem(f"an object is named '{name}' already, and Blender finds cameras of views by name; rename it")
         return copy
 
     def add_overscan(self, data):
-        """Adds the same number of pixels on each side, and lets the camera see as much more."""
-        if not self.overscan:
+        """Lets a camera see as much more as the image has become larger."""
+        if self.padding == (0, 0):
             return
-        is_first = len(self.added) == 1
-        render = self.scene.render
-        if is_first:
-            self.size_before = cameras.size(render)
-        width, height = self.size_before
-        is_of_width = data.sensor_fit == "HORIZONTAL" or data.sensor_fit == "AUTO" and (
-            render.pixel_aspect_x * width >= render.pixel_aspect_y * height)
-        pad_x, pad_y = self.padding()
-        if is_first:
-            render.resolution_x, render.resolution_y = width + 2 * pad_x, height + 2 * pad_y
-            render.resolution_percentage = 100
-        # The sensor's fit stays that of the image without the border, which has another aspect.
-        size = cameras.sensor_size(data)
+        render, (width, height) = self.user_scene.render, cameras.size(self.user_scene.render)
+        # The sensor's fit stays that of the image without the border, which may have another aspect.
+        is_of_width, sensor = cameras.fits_width(data, render), cameras.sensor_size(data)
         data.sensor_fit = "HORIZONTAL" if is_of_width else "VERTICAL"
-        more = (width + 2 * pad_x) / width if is_of_width else (height + 2 * pad_y) / height
-        data.sensor_width = data.sensor_height = size * more
+        more = 1 + 2 * (self.padding[0] / width if is_of_width else self.padding[1] / height)
+        data.sensor_width = data.sensor_height = sensor * more
         data.ortho_scale *= more
         data.shift_x /= more
         data.shift_y /= more
 
-    def padding(self):
-        """Pixels added left and right, and above and below."""
-        if not self.overscan:
-            return 0, 0
-        width, height = self.size_before
-        return round(width * self.overscan), round(height * self.overscan)
+    def check_overscan(self, item, evaluated):
+        """Key frames of the camera undo what add_overscan did."""
+        names = ("sensor_width", "sensor_height", "ortho_scale", "shift_x", "shift_y")
+        if self.padding != (0, 0) and any(getattr(item.data, name) != getattr(evaluated.data, name) for name in names):
+            raise Problem("the camera's lens shift, sensor size or orthographic scale is animated, and overscan cannot follow it; "
+                          "set overscan to 0, or clear these key frames")
 
     def suffixes(self):
         """The ends of file names, by the name of the view, in the order of the views; empty without stereoscopy."""
@@ -228,31 +226,40 @@ class Capture:
         if frame == self.scene.frame_current == self.user_scene.frame_current:
             self.scene.view_layers[0].update()
             return
-        self.user_scene.frame_set(frame)  # drivers of objects may read it there
+        self.user_scene.frame_set(frame)  # drivers may read it there, and markers choose the camera
+        if self.user_scene.camera != self.source:
+            self.pick_cameras()
         self.scene.frame_set(frame)
 
     def camera(self):
         """The camera JSON of the current frame. Throws Problem."""
         depsgraph = self.scene.view_layers[0].depsgraph
+        width, height = cameras.size(self.scene.render)
         views = []
         for name, item, is_left in self.views:
             evaluated = item.evaluated_get(depsgraph)
             cameras.check(evaluated)
             if evaluated.data.dof.use_dof:
-                raise Problem(f"depth of field of the camera '{item.name}' is animated, so depth would be blurred; "
-                              "clear its key frames")
+                raise Problem(f"the depth of field of '{self.source.name}' is switched by key frames or a driver, and depth would be "
+                              "blurred; remove them")
+            self.check_overscan(item, evaluated)
             views.append(cameras.view_of(evaluated, self.scene.render, name, is_left))
-        return cameras.document(views)
+        return {"width": width, "height": height, **cameras.document(views)}
 
     def render(self, path):
         """Renders the current frame into an EXR file. Throws Problem."""
-        self.scene.render.filepath = path
+        part = path.removesuffix(".exr") + ".part.exr"
+        self.scene.render.filepath = part
         try:
             bpy.ops.render.render(write_still=True, scene=self.scene.name, layer=self.layer)
+            os.replace(part, path)
         except RuntimeError as error:
             raise Problem(f"Blender did not render '{self.user_scene.name}': {first_line(error)}") from error
-        if not os.path.exists(path):
-            raise Problem(f"Blender wrote no '{path}'; its own messages say why (Window > Toggle System Console, or the terminal)")
+        except OSError as error:
+            raise Problem(f"Blender wrote no '{path}' ({error.strerror}); its own messages in the terminal say why") from error
+        finally:
+            if os.path.exists(part):
+                os.remove(part)
 
 
 def first_line(error):

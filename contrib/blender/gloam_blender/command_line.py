@@ -113,7 +113,7 @@ def run(flags):
     for progress in job.steps(scene, settings, outcome):
         if progress.is_waiting:
             time.sleep(0.02)
-    for note in outcome.notes:
+    for note in outcome.notes + outcome.done:
         print(f"gloam_ao: {note}")
     print(f"gloam_ao: radius {outcome.radius:g}; wrote {len(outcome.files)} files: {', '.join(map(os.path.basename, outcome.files))}")
     print(f"gloam_ao: in '{settings.folder}'; image '{outcome.image.name}', compositor group '{outcome.group.name}'")

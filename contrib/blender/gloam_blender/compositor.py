@@ -114,16 +114,16 @@ def tree_of(scene, notes):
     return scene.node_tree
 
 
-def insert(scene, layer, group, notes):
-    """Puts the group behind the Render Layers of the view layer, once. Says in the notes what it did, or why not."""
-    tree = tree_of(scene, notes)
+def insert(scene, layer, group, outcome):
+    """Puts the group behind the Render Layers of the view layer, once. The outcome says that, or why not."""
+    tree = tree_of(scene, outcome.notes)
     if tree is None:
         return
     if any(getattr(node, "node_tree", None) == group for node in tree.nodes):
         return
     layers = next((n for n in tree.nodes if n.bl_idname == "CompositorNodeRLayers" and n.scene in (None, scene) and n.layer == layer), None)
     if layers is None:
-        notes.append(f"the compositor has no Render Layers of '{layer}'; add the group '{group.name}' where it belongs (Add > Group)")
+        outcome.notes.append(f"the compositor has no Render Layers of '{layer}'; add the group '{group.name}' where it belongs (Add > Group)")
         return
     node = tree.nodes.new("CompositorNodeGroup")
     node.node_tree = group
@@ -132,4 +132,4 @@ def insert(scene, layer, group, notes):
     for link in list(image.links):
         tree.links.new(node.outputs["Image"], link.to_socket)
     tree.links.new(image, node.inputs["Image"])
-    notes.append(f"the group '{group.name}' is in the compositor, behind the Render Layers")
+    outcome.done.append(f"the group '{group.name}' is in the compositor, behind the Render Layers")

@@ -170,6 +170,8 @@ class RenderAmbientOcclusion(bpy.types.Operator):
     def succeed(self):
         for note in self.outcome.notes:
             self.report({"WARNING"}, sentence(note))
+        for text in self.outcome.done:
+            self.report({"INFO"}, sentence(text))
         self.report({"INFO"}, f"Ambient occlusion of radius {self.outcome.radius:g} is in the image '{self.outcome.image.name}'; "
                               f"{len(self.outcome.files)} files are in '{os.path.dirname(self.outcome.files[0])}'")
         return {"FINISHED"}

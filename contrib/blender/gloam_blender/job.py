@@ -44,7 +44,8 @@ class Outcome:
     padding: tuple = (0, 0)  # pixels of overscan on each side
     suffixes: dict = dataclasses.field(default_factory=dict)  # of files, by view
     files: list = dataclasses.field(default_factory=list)
-    notes: list = dataclasses.field(default_factory=list)
+    notes: list = dataclasses.field(default_factory=list)  # what a person should know
+    done: list = dataclasses.field(default_factory=list)  # what was changed in the .blend
 
 
 class Files:
@@ -114,13 +115,12 @@ def captured(scene, settings, files, engine, tool, outcome):
     """Renders the frames and writes the cameras; after the first frame, asks gloam whether it can go on."""
     count = len(settings.frames)
     with capture.Capture(scene, settings.layer, engine, settings.overscan) as copy:
-        outcome.suffixes, outcome.padding = copy.suffixes(), copy.padding()
-        width, height = cameras.size(copy.scene.render)
+        outcome.suffixes, outcome.padding = copy.suffixes(), copy.padding
         frames = {}
         for index, number in enumerate(settings.frames):
             yield Progress(f"gloam: rendering passes of frame {number}", 0.8 * index / count)
             copy.go_to(number)
-            frames[str(number)] = {"width": width, "height": height, **copy.camera()}
+            frames[str(number)] = copy.camera()
             path = files.frame(four_digits(number))
             copy.render(path)
             outcome.files.append(path)
@@ -209,8 +209,8 @@ def images_of(files, number, outcome):
     """Writes what Blender loads of a frame: one grey image for each view, of the size of the user's render."""
     planes = exr_planes.read_channels(files.result(number))
     written = []
-    for index, (view, suffix) in enumerate(outcome.suffixes.items() or [("", "")]):
-        plane = planes["AO" if index == 0 else f"{view}.AO"]
+    for view, suffix in outcome.suffixes.items() or [("", "")]:
+        plane = planes[f"{view}.AO" if f"{view}.AO" in planes else "AO"]  # the first view's channels are without its name
         (pad_x, pad_y), (x0, y0, x1, y1) = outcome.padding, outcome.region
         plane = plane[pad_y:plane.shape[0] - pad_y, pad_x:plane.shape[1] - pad_x][y0:y1, x0:x1]
         written.append(files.image(number, suffix))
@@ -224,4 +224,4 @@ def load(scene, settings, files, outcome):
     outcome.image = compositor.load_image(scene, first, settings.frames, bool(outcome.suffixes))
     outcome.group = compositor.group_of(scene, outcome.image, settings.frames)
     if settings.insert:
-        compositor.insert(scene, settings.layer, outcome.group, outcome.notes)
+        compositor.insert(scene, settings.layer, outcome.group, outcome)
