@@ -50,18 +50,18 @@ def intrinsics(data, render, shift_x):
             "cx": width / 2 - shift_x * extent, "cy": height / 2 + data.shift_y * extent / aspect}
 
 
-def rigid(camera):
-    """The camera's pose without its scale, in double precision. Throws Problem for a pose that is no rotation."""
+def rigid(camera, name):
+    """The camera's pose without its scale, in double precision. Throws Problem, with the name, for a pose that is no rotation."""
     world = camera.matrix_world
     columns = [world.col[i].to_3d() for i in range(3)]
     lengths = [math.sqrt(sum(float(x) ** 2 for x in c)) for c in columns]
     if min(lengths) == 0:
-        raise Problem(f"the camera '{camera.name}' is scaled to 0; clear its scale (Object > Clear > Scale)")
+        raise Problem(f"the camera '{name}' is scaled to 0; clear its scale (Object > Clear > Scale)")
     x, y, z = ([float(v) / length for v in column] for column, length in zip(columns, lengths))
     cosines = [abs(sum(a * b for a, b in zip(*pair))) for pair in ((x, y), (y, z), (z, x))]
     volume = sum(x[i] * (y[(i + 1) % 3] * z[(i + 2) % 3] - y[(i + 2) % 3] * z[(i + 1) % 3]) for i in range(3))
     if max(cosines) > SHEAR_ALLOWED or volume < 0:
-        raise Problem(f"the camera '{camera.name}' is {'mirrored' if volume < 0 else 'sheared'} by its own scale or a "
+        raise Problem(f"the camera '{name}' is {'mirrored' if volume < 0 else 'sheared'} by its own scale or a "
                       "parent's; clear that scale (Object > Clear > Scale)")
     return [[x[row], y[row], z[row], float(world[row][3])] for row in range(3)] + [[0.0, 0.0, 0.0, 1.0]]
 
@@ -101,10 +101,11 @@ def eye(data, is_left):
     return moved(-distance * sign), shift
 
 
-def view_of(camera, render, name=None, is_left=None):
-    """One view of the camera JSON. camera: evaluated object; is_left: of two eyes, which; None: no eye. Throws Problem."""
+def view_of(camera, label, render, name=None, is_left=None):
+    """One view of the camera JSON. camera: evaluated object; label: what the user calls it; is_left: of two eyes, which; None: no
+    eye. Throws Problem."""
     data = camera.data
-    pose, shift_x = rigid(camera), data.shift_x
+    pose, shift_x = rigid(camera, label), data.shift_x
     if is_left is not None:
         offset, shift_x = eye(data, is_left)
         pose = product(pose, offset)

@@ -5,6 +5,7 @@ The user's scene is not changed: settings are changed in a copy that shares the 
 import os
 
 import bpy
+import numpy
 
 from . import camera as cameras
 from .errors import Problem
@@ -84,6 +85,10 @@ class Capture:
         if self.roughness:
             self.roughness.remove()
         if self.scene:
+            # Blender 3.4 counts the users of a copied compositor twice, and complains when the scene goes.
+            if getattr(self.scene, "node_tree", None):
+                self.scene.node_tree.nodes.clear()
+            self.scene.user_clear()
             bpy.data.scenes.remove(self.scene)
         self.remove_cameras()
         self.scene, self.roughness = None, None
@@ -117,7 +122,7 @@ class Capture:
         image.color_depth = "32"
         image.exr_codec = "ZIP"  # DWA damages normals
         image.views_format = "MULTIVIEW"
-        set_where_there(render, use_file_extension=True, use_overwrite=True, use_placeholder=False)
+        set_where_there(render, use_file_extension=True, use_overwrite=True, use_placeholder=False, use_persistent_data=False)
 
     def change_passes(self):
         layers = self.scene.view_layers
@@ -222,18 +227,45 @@ class Capture:
     # --- Frames.
 
     def go_to(self, frame):
-        """Sets the frame. The frame that the user is at stays as it is, with values that have no key frame yet."""
-        if frame == self.scene.frame_current == self.user_scene.frame_current:
-            self.scene.view_layers[0].update()
-            return
-        self.user_scene.frame_set(frame)  # drivers may read it there, and markers choose the camera
-        if self.user_scene.camera != self.source:
-            self.pick_cameras()
-        self.scene.frame_set(frame)
+        """Sets the frame. The user's scene stays as it is, with values that have no key frame yet, where it is at the frame."""
+        if frame != self.user_scene.frame_current:
+            self.user_scene.frame_set(frame)  # drivers may read it there, and markers choose the camera
+            if self.user_scene.camera != self.source:
+                self.pick_cameras()
+        self.scene.frame_current, self.scene.frame_subframe = frame, self.user_scene.frame_subframe
 
-    def camera(self):
-        """The camera JSON of the current frame. Throws Problem."""
-        depsgraph = self.scene.view_layers[0].depsgraph
+    def render(self, path):
+        """Renders the current frame into an EXR file; returns the camera JSON. Throws Problem."""
+        part = path.removesuffix(".exr") + ".part.exr"
+        self.scene.render.filepath = part
+        self.rendered = None  # the camera JSON or a Problem
+        bpy.app.handlers.frame_change_post.append(self.record)
+        try:
+            bpy.ops.render.render(write_still=True, scene=self.scene.name, layer=self.layer)
+            if isinstance(self.rendered, Problem):
+                raise self.rendered
+            os.replace(part, path)
+        except RuntimeError as error:
+            raise Problem(f"Blender did not render '{self.user_scene.name}': {first_line(error)}") from error
+        except OSError as error:
+            raise Problem(f"Blender wrote no '{path}' ({error.strerror}); its own messages in the terminal say why") from error
+        finally:
+            bpy.app.handlers.frame_change_post.remove(self.record)
+            if os.path.exists(part):
+                os.remove(part)
+        return self.rendered
+
+    def record(self, scene, depsgraph):
+        """Called when the renderer has evaluated a frame: what it sees then is the camera, key frames and drivers included."""
+        moment = (self.scene.frame_current, self.scene.frame_subframe)
+        if scene.name != self.scene.name or (depsgraph.scene.frame_current, depsgraph.scene.frame_subframe) != moment or self.rendered:
+            return  # for motion vectors it evaluates other frames too
+        try:
+            self.rendered = self.camera(depsgraph)
+        except Problem as problem:
+            self.rendered = problem
+
+    def camera(self, depsgraph):
         width, height = cameras.size(self.scene.render)
         views = []
         for name, item, is_left in self.views:
@@ -243,23 +275,8 @@ class Capture:
                 raise Problem(f"the depth of field of '{self.source.name}' is switched by key frames or a driver, and depth would be "
                               "blurred; remove them")
             self.check_overscan(item, evaluated)
-            views.append(cameras.view_of(evaluated, self.scene.render, name, is_left))
+            views.append(cameras.view_of(evaluated, self.source.name, self.scene.render, name, is_left))
         return {"width": width, "height": height, **cameras.document(views)}
-
-    def render(self, path):
-        """Renders the current frame into an EXR file. Throws Problem."""
-        part = path.removesuffix(".exr") + ".part.exr"
-        self.scene.render.filepath = part
-        try:
-            bpy.ops.render.render(write_still=True, scene=self.scene.name, layer=self.layer)
-            os.replace(part, path)
-        except RuntimeError as error:
-            raise Problem(f"Blender did not render '{self.user_scene.name}': {first_line(error)}") from error
-        except OSError as error:
-            raise Problem(f"Blender wrote no '{path}' ({error.strerror}); its own messages in the terminal say why") from error
-        finally:
-            if os.path.exists(part):
-                os.remove(part)
 
 
 def first_line(error):
@@ -280,5 +297,9 @@ def region(render):
     width, height = cameras.size(render)
     if not (render.use_border and render.use_crop_to_border):
         return 0, 0, width, height
-    return (int(render.border_min_x * width), height - int(render.border_max_y * height),
-            int(render.border_max_x * width), height - int(render.border_min_y * height))
+
+    def at(share, length):
+        return int(numpy.float32(share) * numpy.float32(length))  # as Blender computes it
+
+    return (at(render.border_min_x, width), height - at(render.border_max_y, height),
+            at(render.border_max_x, width), height - at(render.border_min_y, height))

@@ -120,9 +120,8 @@ def captured(scene, settings, files, engine, tool, outcome):
         for index, number in enumerate(settings.frames):
             yield Progress(f"gloam: rendering passes of frame {number}", 0.8 * index / count)
             copy.go_to(number)
-            frames[str(number)] = copy.camera()
             path = files.frame(four_digits(number))
-            copy.render(path)
+            frames[str(number)] = copy.render(path)
             outcome.files.append(path)
             if index == 0:
                 write_cameras(files.camera, frames)
@@ -151,27 +150,34 @@ def write_cameras(path, frames):
 
 
 def first_look(settings, path, tool, outcome):
-    """The radius, from the first frame where none is given, so that it stays the same over a shot."""
+    """Takes the radius from the first frame where none is given, so that it stays the same over a shot, and lets gloam check
+    everything that it was asked for, before the other frames are rendered."""
     found = program.ask(tool, ["info", path, "--normal-space", "world", "-q"])
     lacks = found["lacks"].get(settings.technique)
     if lacks:
-        raise Problem(f"the technique '{settings.technique}' needs {' and '.join(lacks)}, which the scene does not give "
-                      "(two eyes: Output > Stereoscopy)")
+        raise Problem(f"the technique '{settings.technique}' needs {' and '.join(lacks)}, which the scene does not give; "
+                      "switch Stereoscopy on (Output properties), or take another technique")
     outcome.radius = settings.radius or found["radius"]
+    program.ask(tool, ["plan", settings.technique, path, "-q", *flags_of(settings, outcome)])
+
+
+def flags_of(settings, outcome):
+    flags = ["--normal-space", "world", "--radius", repr(outcome.radius)]
+    if settings.temporal:
+        flags.append("--temporal")
+    if settings.preset:
+        flags += ["--preset", settings.preset]
+    for parameter in settings.parameters:
+        flags += ["--set", parameter]
+    return flags
 
 
 def arguments_of(settings, files, outcome):
     number, more = four_digits(settings.frames[0]), []
     if len(settings.frames) > 1:
         number, more = "####", ["--frames", ",".join(map(str, settings.frames)), "--float"]
-    if settings.temporal:
-        more.append("--temporal")
-    if settings.preset:
-        more += ["--preset", settings.preset]
-    for parameter in settings.parameters:
-        more += ["--set", parameter]
-    return ["run", settings.technique, files.frame(number), "-o", files.result(number), "--outputs", "ao",
-            "--normal-space", "world", "--radius", repr(outcome.radius), "--json", "-", *more]
+    return ["run", settings.technique, files.frame(number), "-o", files.result(number), "--outputs", "ao", "--json", "-", *more,
+            *flags_of(settings, outcome)]
 
 
 def computed(settings, files, tool, outcome):
