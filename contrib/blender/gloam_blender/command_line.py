@@ -93,7 +93,7 @@ def settings_of(flags, scene):
     numbers = [scene.frame_current]
     if flags.animation:
         numbers = list(range(scene.frame_start, scene.frame_end + 1, scene.frame_step))
-    return job.Settings(frames=flags.frames or numbers, folder=job.absolute_folder(flags.output), layer=flags.layer or first_layer(scene),
+    return job.Settings(frames=flags.frames or numbers, output=flags.output, layer=flags.layer or first_layer(scene),
                         program=flags.gloam, technique=flags.technique, preset=flags.preset, radius=flags.radius,
                         parameters=tuple(flags.parameters), temporal=flags.temporal, engine=flags.engine.upper(),
                         overscan=flags.overscan, insert=not flags.no_compositor)
@@ -116,7 +116,7 @@ def run(flags):
     for note in outcome.notes + outcome.done:
         print(f"gloam_ao: {note}")
     print(f"gloam_ao: radius {outcome.radius:g}; wrote {len(outcome.files)} files: {', '.join(map(os.path.basename, outcome.files))}")
-    print(f"gloam_ao: in '{settings.folder}'; image '{outcome.image.name}', compositor group '{outcome.group.name}'")
+    print(f"gloam_ao: in '{outcome.folder}'; image '{outcome.image.name}', compositor group '{outcome.group.name}'")
     if flags.save:
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(flags.save), copy=True, check_existing=False)
         print(f"gloam_ao: saved '{flags.save}'")

@@ -1,6 +1,4 @@
 """The panel, its settings, the button and the preferences."""
-import os
-
 import bpy
 
 from . import job, program
@@ -93,7 +91,7 @@ def settings_of(scene, layer):
     frames = [scene.frame_current]
     if own.is_animation:
         frames = list(range(scene.frame_start, scene.frame_end + 1, scene.frame_step))
-    return job.Settings(frames=frames, folder=job.absolute_folder(own.output), layer=layer.name, program=named_program(),
+    return job.Settings(frames=frames, output=own.output, layer=layer.name, program=named_program(),
                         technique=own.technique or "ao", preset="" if own.preset in ("", "DEFAULT") else own.preset, radius=own.radius,
                         temporal=own.temporal and own.is_animation, engine=own.engine, overscan=own.overscan / 100, insert=own.insert)
 
@@ -173,7 +171,7 @@ class RenderAmbientOcclusion(bpy.types.Operator):
         for text in self.outcome.done:
             self.report({"INFO"}, sentence(text))
         self.report({"INFO"}, f"Ambient occlusion of radius {self.outcome.radius:g} is in the image '{self.outcome.image.name}'; "
-                              f"{len(self.outcome.files)} files are in '{os.path.dirname(self.outcome.files[0])}'")
+                              f"{len(self.outcome.files)} files are in '{self.outcome.folder}'")
         return {"FINISHED"}
 
 

@@ -15,7 +15,7 @@ from .errors import Problem
 @dataclasses.dataclass
 class Settings:
     frames: list  # numbers, rising
-    folder: str  # absolute
+    output: str  # folder as a user writes it: see absolute_folder
     layer: str
     program: str = ""  # empty: found by itself
     technique: str = "ao"
@@ -39,6 +39,7 @@ class Progress:
 class Outcome:
     image: object = None
     group: object = None
+    folder: str = ""  # absolute
     radius: float = 0.0
     region: tuple = ()  # of the image that the user's render keeps
     padding: tuple = (0, 0)  # pixels of overscan on each side
@@ -94,16 +95,17 @@ def steps(scene, settings, outcome):
     if settings.frames[0] < 0:
         raise Problem(f"frame {settings.frames[0]} is before frame 0, and names of files have no place for a minus; "
                       "move the animation to later frames")
-    if bpy.data.filepath == "" and settings.folder.startswith(tempfile.gettempdir()):
-        outcome.notes.append(f"the .blend is not saved, so files are written to '{settings.folder}'")
+    outcome.folder = absolute_folder(settings.output)
+    if settings.output.startswith("//") and not bpy.data.filepath:
+        outcome.notes.append(f"the .blend is not saved, so files are written to '{outcome.folder}'")
     yield Progress("gloam: looking at the scene", 0)
     tool = program.find(settings.program)
     program.check_technique(tool, settings.technique, settings.preset)
     cameras.check(scene.camera)
-    check_folder(settings.folder)
+    check_folder(outcome.folder)
     capture.check_simulations(scene, outcome.notes)
     engine = capture.engine_for(scene, settings.engine, outcome.notes)
-    files = Files(settings.folder, scene)
+    files = Files(outcome.folder, scene)
     outcome.region = capture.region(scene.render)
     yield from captured(scene, settings, files, engine, tool, outcome)
     yield from computed(settings, files, tool, outcome)
