@@ -1,4 +1,5 @@
 """Ambient occlusion of Blender scenes by gloam: see docs/blender.md."""
+import sys
 
 bl_info = {
     "name": "gloam Ambient Occlusion",
@@ -21,3 +22,6 @@ def unregister():
     from . import interface
 
     interface.unregister()
+    # A newer version may be installed over this one while Blender runs.
+    for name in [name for name in sys.modules if name.startswith(__package__ + ".")]:
+        del sys.modules[name]
