@@ -118,7 +118,10 @@ def run(flags):
     print(f"gloam_ao: radius {outcome.radius:g}; wrote {len(outcome.files)} files: {', '.join(map(os.path.basename, outcome.files))}")
     print(f"gloam_ao: in '{outcome.folder}'; image '{outcome.image.name}', compositor group '{outcome.group.name}'")
     if flags.save:
-        bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(flags.save), copy=True, check_existing=False)
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(flags.save), copy=True, check_existing=False)
+        except RuntimeError as error:
+            raise Problem(f"'{flags.save}' was not written: {str(error).strip()}") from error
         print(f"gloam_ao: saved '{flags.save}'")
     else:
         print("gloam_ao: no .blend was written; --save FILE.blend keeps image and group")

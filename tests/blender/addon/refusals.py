@@ -12,7 +12,7 @@ addon, gloam, folder = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, addon)
 import scene as scenes  # noqa: E402
 import state  # noqa: E402
-from gloam_blender import command_line  # noqa: E402
+from gloam_blender import command_line, job  # noqa: E402
 
 FAULTS = []
 
@@ -113,6 +113,17 @@ expect("engine", "EEVEE renders only where there is a display", "--engine", "sce
 for flags in (("--radius", "-1"), ("--radius", "nan"), ("--frames", "5-1"), ("--overscan", "80"), ("--set", "radius"), ("--colour",),
               ("--frames", "1", "--animation")):
     expect(" ".join(flags), "(--help)", *flags, status=2)
+# Escape in the middle of an animation.
+scene, camera = scenes.build()
+scenes.animation(scene, camera)
+bpy.context.view_layer.update()
+before = state.lines()
+steps = job.steps(scene, job.Settings(frames=[1, 2, 3], output=folder, layer="ViewLayer", program=gloam), job.Outcome())
+for _ in range(3):
+    print(next(steps).text)
+steps.close()
+if state.difference(before, state.lines()):
+    FAULTS.append(f"cancelled: changed {state.difference(before, state.lines())}")
 for fault in FAULTS:
     print(f"FAULT {fault}")
 sys.stdout.flush()

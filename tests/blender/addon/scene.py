@@ -59,6 +59,7 @@ def animation(scene, camera):
     camera.keyframe_insert("location", frame=1)
     camera.location.x += 0.8
     camera.keyframe_insert("location", frame=3)
+    scene.frame_set(1)
 
 
 def stereo(scene, camera):
