@@ -236,8 +236,8 @@ TEST_F(Shot, ListOfCamerasIsFoundBesideTheFrames) {
     write_frame(path(numbered("shot", number)), frame);
   }
   const auto write_list = [&](const std::string& third) {
-    std::ofstream(path("shot.camera.json"))
-        << fmt::format(R"({{"frames": {{"1": {}, "2": {}, "{}": {}}}}})", camera_json(51), camera_json(52), third, camera_json(53));
+    std::ofstream(path("shot.camera.json")) << fmt::format(R"({{"frames": {{"1": {}, "2": {}, "{}": {}}}}})",
+                                                           camera_json(51), camera_json(52), third, camera_json(53));
   };
   write_list("3");
   ASSERT_EQ(run({}).status, 0);
