@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct PositionedPixel {
   glm::dvec2 pixel{0.0};  ///< of its centre, as in `Camera`
   glm::dvec3 world{0.0};
   double rounding = 0;  ///< standard deviation of the stored coordinates by their rounding, scene units
+  double depth = std::numeric_limits<double>::quiet_NaN();  ///< as the file has it, its sign left out; NaN: none
 };
 
 /// What the image is known to be before anything is fitted.
