@@ -130,8 +130,13 @@ bool has_one_distance(const Camera& camera, const Pixels& pixels) {
   return high < 1.02 * low;
 }
 
-/// A place from where an orthographic camera sees all of them before it.
-void step_back(Camera& camera, const Pixels& pixels) {
+/// A place from where an orthographic camera sees all of them before it, with the principal point in the middle of the image.
+void step_back(Camera& camera, const Pixels& pixels, const Window& display) {
+  const Camera middle = with_centred_lens(camera, display);
+  const glm::dvec3 aside((middle.cx - camera.cx) / camera.fx, (camera.cy - middle.cy) / camera.fy, 0);
+  camera.pose->position += glm::transpose(camera.pose->world_to_view) * aside;
+  camera.cx = middle.cx;
+  camera.cy = middle.cy;
   std::vector<double> z;
   for (const PositionedPixel& pixel : pixels)
     z.push_back((camera.pose->world_to_view * (pixel.world - camera.pose->position)).z);
@@ -253,7 +258,7 @@ CameraFit fit_camera(const Pixels& pixels, const FitPrior& prior) {
   if (fit.why_refused.empty() && !(chosen.refined.focal_error <= largest_focal_error))
     fit.why_refused = why_not_told(chosen.refined, explained(fit.camera, pixels));
   if (fit.why_refused.empty()) fit.why_refused = why_outside_range(fit.camera, prior.display);
-  if (fit.camera.orthographic) step_back(fit.camera, explained(fit.camera, pixels));
+  if (fit.camera.orthographic) step_back(fit.camera, explained(fit.camera, pixels), prior.display);
   return fit;
 }
 
