@@ -8,41 +8,20 @@
 #include <glm/matrix.hpp>
 
 #include "base/random.h"
-#include "gloam/projection.h"
+#include "camera/depth_relation.h"
+#include "support/seen_frame.h"
 
 namespace gloam {
 namespace {
 
 using glm::dvec2;
 using glm::dvec3;
+using test::known_camera;
+using test::world_at;
+
+const auto wavy = test::wavy_depth;
 
 const Window display{0, 0, 320, 180};
-
-/// Turned about y by `yaw`, then about its own x by `pitch`: radians, positive to the left and upwards.
-glm::dmat3 world_to_view(double yaw, double pitch) {
-  const double c = std::cos(yaw), s = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
-  const dvec3 right(c, 0, -s), ahead(-s * cp, sp, -c * cp), up = glm::cross(right, ahead);
-  return glm::transpose(glm::dmat3(right, up, -ahead));
-}
-
-Camera known_camera() {
-  Camera camera;
-  camera.fx = camera.fy = 250;
-  camera.cx = 160;
-  camera.cy = 90;
-  camera.pose = Pose{world_to_view(0.4, -0.2), {3, 1.5, 7}};
-  return camera;
-}
-
-/// Depths of a scene that is no plane: waves, and a box in front of them.
-double wavy(const dvec2& pixel) {
-  const double waves = 8 + std::sin(pixel.x * 0.05) + 0.8 * std::cos(pixel.y * 0.08);
-  return pixel.x > 100 && pixel.x < 180 && pixel.y > 60 && pixel.y < 140 ? 3.5 : waves;
-}
-
-dvec3 world_of(const Camera& camera, const dvec2& pixel, double depth) {
-  return glm::transpose(camera.pose->world_to_view) * view_ray(camera, pixel)->at(depth) + camera.pose->position;
-}
 
 template <typename Depth>
 std::vector<PositionedPixel> seen_by(const Camera& camera, const Depth& depth, int step = 4) {
@@ -50,7 +29,7 @@ std::vector<PositionedPixel> seen_by(const Camera& camera, const Depth& depth, i
   for (int y = display.y0; y < display.y1; y += step)
     for (int x = display.x0; x < display.x1; x += step) {
       const dvec2 centre(x + 0.5, y + 0.5);
-      const dvec3 world = world_of(camera, centre, depth(centre));
+      const dvec3 world = world_at(camera, centre, depth(centre));
       pixels.push_back({centre, dvec3(glm::vec3(world)), 1e-8 * glm::length(world)});
     }
   return pixels;
@@ -156,7 +135,6 @@ TEST(CameraFit, FindsTheOrthographicCamera) {
     ASSERT_LT((fit.camera.pose->world_to_view * (pixel.world - fit.camera.pose->position)).z, 0) << "before the camera";
 }
 
-/// Depth of a floor 2 below the camera, that is level.
 TEST(CameraFit, FindsTheCameraOfATiltedPlaneByAnAssumption) {
   Camera truth = known_camera();
   const auto plane = [](const dvec2& pixel) { return 1 / (0.05 + 0.0006 * pixel.y + 0.0002 * pixel.x); };
@@ -200,6 +178,49 @@ TEST(CameraFit, KeepsAShiftOfHalfAPixel) {
   truth.cx += 0.5;
   truth.cy += 0.5;
   expect_camera(fit_camera(seen_by(truth, wavy), {display}), truth, 1e-2, 1e-3);
+}
+
+/// The pixels with depths as a file may have them: by planar depth and length of the ray.
+template <typename Stored>
+std::vector<PositionedPixel> with_depths(const Camera& camera, const Stored& stored) {
+  std::vector<PositionedPixel> pixels = seen_by(camera, wavy);
+  for (PositionedPixel& pixel : pixels)
+    pixel.depth = stored(wavy(pixel.pixel), glm::distance(pixel.world, camera.pose->position));
+  return pixels;
+}
+
+TEST(DepthRelation, TellsPlanarDepthFromTheLengthOfTheRayAndItsScale) {
+  const Camera camera = known_camera();
+  const auto relation = [&](const auto& stored) { return relate_depth(camera, with_depths(camera, stored)); };
+  EXPECT_EQ(relation([](double z, double) { return z; }).kind, DepthRelation::planar);
+  EXPECT_NEAR(relation([](double z, double) { return z; }).scale, 1, 1e-6);
+  EXPECT_EQ(relation([](double, double ray) { return 100 * ray; }).kind, DepthRelation::along_ray);
+  EXPECT_NEAR(relation([](double, double ray) { return 100 * ray; }).scale, 100, 1e-4);
+  EXPECT_EQ(relation([](double z, double) { return 1 / z; }).kind, DepthRelation::neither);
+  EXPECT_EQ(relate_depth(camera, seen_by(camera, wavy)).kind, DepthRelation::unknown) << "no depths";
+}
+
+TEST(DepthRelation, SaysNothingOfANarrowView) {
+  Camera camera = known_camera();
+  camera.fx = camera.fy = 1e5;
+  EXPECT_EQ(relate_depth(camera, with_depths(camera, [](double z, double) { return z; })).kind, DepthRelation::unknown);
+}
+
+TEST(DepthRelation, PlacesAnOrthographicCamera) {
+  for (const bool is_mirrored : {false, true}) {
+    Camera truth = known_camera();
+    truth.orthographic = true;
+    truth.fx = truth.fy = 40;
+    if (is_mirrored)
+      for (int c = 0; c < 3; ++c) truth.pose->world_to_view[c].z *= -1;
+    const auto pixels = with_depths(truth, [](double z, double) { return 10 * z; });
+    Camera camera = fit_camera(pixels, {display}).camera;
+    const DepthRelation relation = place_by_depth(camera, pixels);
+    EXPECT_EQ(relation.kind, DepthRelation::planar);
+    EXPECT_NEAR(relation.scale, 10, 1e-3);
+    EXPECT_LT(glm::distance(camera.pose->position, truth.pose->position), 1e-3) << is_mirrored;
+    EXPECT_LT(glm::distance(camera.pose->world_to_view[2], truth.pose->world_to_view[2]), 1e-4) << is_mirrored;
+  }
 }
 
 }  // namespace
