@@ -41,7 +41,7 @@ class CameraByPositions : public Cli {
     EXPECT_NEAR(camera["cx"], truth.cx, pixels);
     EXPECT_NEAR(camera["cy"], truth.cy, pixels);
     EXPECT_NE(notes(document).find("fitted from P"), std::string::npos) << notes(document);
-    EXPECT_LT(document["camera_residual_pixels"], 0.5);
+    EXPECT_LT(document["camera_residual_pixels"], std::max(0.5, pixels));
     EXPECT_GE(document["camera_residual_pixels_99"], document["camera_residual_pixels"]);
   }
 
@@ -136,8 +136,7 @@ TEST_F(CameraByPositions, DepthInOtherUnitsIsScaled) {
   const Json document = info("frame.exr");
   expect_fit(document, seen.camera, 0.01);
   EXPECT_NE(notes(document).find("'Z' is 100 times as long"), std::string::npos) << notes(document);
-  for (const Json& plane : document["planes"])
-    if (plane["name"] == "depth") EXPECT_LT(plane["max"], 11);
+  for (const Json& plane : document["planes"]) EXPECT_TRUE(plane["name"] != "depth" || plane["max"] < 11) << plane;
 }
 
 TEST_F(CameraByPositions, DepthOfNoKindIsSaid) {
@@ -262,6 +261,7 @@ TEST_F(CameraByPositions, ACameraFileOfAnotherFrameIsSaid) {
 TEST_F(CameraByPositions, PositionsInCameraSpaceAreRecognised) {
   for (const double ahead : {-1.0, 1.0}) {
     SeenFrame seen;
+    seen.camera.pose->world_to_view = turned_view(1.2, -0.5);
     const Pose pose = *seen.camera.pose;
     seen.stored = [&](const dvec3& p) {
       const dvec3 v = pose.world_to_view * (p - pose.position);
@@ -345,7 +345,7 @@ TEST_F(CameraByPositions, MatricesOfPbrt) {
   EXPECT_NE(notes(document).find("as pbrt writes them"), std::string::npos) << notes(document);
 }
 
-/// The same camera three times: as the header of a renderer, whose positions show that it is read right.
+/// A header as Unreal writes it, over positions that show that it is read right.
 TEST_F(CameraByPositions, UnrealsAttributesLeadToThePositions) {
   SeenFrame seen;
   seen.camera.pose->position = {100, 200, 300};
