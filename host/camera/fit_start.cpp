@@ -192,11 +192,12 @@ Pixels thinned(const Pixels& pixels, size_t count) {
   return some;
 }
 
+constexpr double good_enough = 0.05;  ///< pixels: no wild position spoils it
+
 /// Of all pixels, or of the small sample whose camera has the least median error (Rousseeuw 1984), made anew from all pixels that
 /// agree with it.
 std::optional<Camera> best_camera(const Pixels& pixels, size_t sample_size, const Maker& make) {
   constexpr int samples = 150;
-  constexpr double good_enough = 0.05;  // pixels: no wild position spoils it
   std::optional<Camera> best = make(pixels);
   const Pixels judges = thinned(pixels, 300);
   double least = best ? median_error(*best, judges) : INFINITY;
@@ -250,8 +251,11 @@ std::vector<Camera> linear_cameras(const Pixels& pixels, const FitPrior& prior) 
     if (const auto camera = best_camera(pixels, sample_size, make)) cameras.push_back(*camera);
   };
   add(8, [&](const Pixels& some) { return from_space(some, image); });
-  // Wild positions make a plane look thick, so it is tried in any case.
-  add(6, [&](const Pixels& some) { return from_plane(some, image, prior.pixel_aspect); });
+  // The positions of a plane leave the first one open, however well it explains them; wild ones make a plane look thick.
+  const glm::dvec3 spread = spread_of(pixels).deviations;
+  const bool is_settled = !cameras.empty() && median_error(cameras.front(), pixels) < good_enough;
+  if (!is_settled || spread.z < 0.01 * spread.x)
+    add(6, [&](const Pixels& some) { return from_plane(some, image, prior.pixel_aspect); });
   add(6, orthographic);
   return cameras;
 }

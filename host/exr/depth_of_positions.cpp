@@ -68,7 +68,8 @@ class RowOfDepths {
 }  // namespace
 
 void add_depth_of_positions(ExrFile& file) {
-  if (file.options.channels.contains("depth")) return;
+  const bool measures = file.options.as_stored && !file.options.only_looks;  // sees what was written, and nothing else
+  if (measures || file.options.channels.contains("depth")) return;
   std::vector<PlaneSource> made;
   for (const PlaneSource& source : file.names.planes)
     if (source.plane == "position" && source.channels.size() == 3 && !file.source("depth", source.view))

@@ -7,8 +7,8 @@
 
 namespace gloam {
 
-/// Adds the plane `depth` to each view that has positions and no depth, unless --plane depth=none leaves it out: its channels are
-/// those of the positions.
+/// Adds the plane `depth` to each view that has positions and no depth, unless --plane depth=none leaves it out or the file is
+/// read for measuring: its channels are those of the positions.
 void add_depth_of_positions(ExrFile& file);
 
 /// Whether the depth of the view is made of positions.

@@ -12,7 +12,7 @@
 namespace gloam {
 namespace {
 
-constexpr int rows_to_fit = 24, rows_to_check = 8;
+constexpr int rows_to_fit = 16, rows_to_check = 6;
 constexpr double least_disagreement = 2;  ///< pixels: a camera file of the frame never lies this far off
 
 /// "ViewLayer.Position" for ViewLayer.Position.X, Y and Z.
