@@ -19,6 +19,7 @@ namespace {
 using Pixels = std::vector<PositionedPixel>;
 
 constexpr size_t fewest_pixels = 40, most_refined = 1200;
+constexpr double most_wild = 0.35;  ///< share of positions that a camera need not explain
 constexpr double half_pixel = 0.5, most_rounding = 3;  ///< pixels
 /// What has to be told for a camera: the aspect to 0.3 %, the principal point to 3 pixels, the focal length to 2 %.
 constexpr double largest_aspect_error = 0.003, largest_centre_error = 3, largest_focal_error = 0.02;
@@ -173,7 +174,7 @@ std::string why_unexplained(const CameraFit& fit, double allowed, const std::vec
         fit.median, allowed);
   const double far = 10 * std::max(allowed, fit.median);
   const auto wild = std::count_if(errors.begin(), errors.end(), [&](double error) { return error > far; });
-  if (double(wild) > 0.3 * double(errors.size()))
+  if (double(wild) > most_wild * double(errors.size()))
     return fmt::format("{:.0f} % of them lie over {:.2g} pixels off the best camera",
                        100.0 * double(wild) / double(errors.size()), far);
   return "";

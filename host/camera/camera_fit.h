@@ -41,7 +41,7 @@ struct CameraFit {
 
 /// Fits a perspective or an orthographic camera with a linear start and a robust refinement, all in double. A right-handed world
 /// gives a rotation, a left-handed one a mirrored one. Positions that no camera explains (edges against the background, noise) are
-/// outvoted up to two fifths of all. Pixels are taken as square, and the lens as centred, where the positions do not tell otherwise.
+/// outvoted up to three tenths of all. Pixels are taken as square, and the lens as centred, where the positions do not tell otherwise.
 /// An orthographic camera stands one extent of the scene before its nearest position, and its world is taken as right-handed.
 /// Refuses what does not determine a camera, and what no camera explains to half a pixel or to twice the rounding of the positions.
 CameraFit fit_camera(const std::vector<PositionedPixel>& pixels, const FitPrior& prior);

@@ -139,7 +139,7 @@ class Refinement {
     return error.is_seen ? std::hypot(error.x, error.y) / expected_[i] : 1e9;
   }
 
-  /// From the median, which two fifths of wild positions move little. At least 1, the expected error.
+  /// From the median, which wild positions move little. At least 1, the expected error.
   double scale_of(const Camera& camera) const {
     std::vector<double> norms;
     for (size_t i = 0; i < pixels_.size(); ++i) norms.push_back(norm_of(error_of(camera, pixels_[i]), i));

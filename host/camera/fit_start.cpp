@@ -197,7 +197,7 @@ constexpr double good_enough = 0.05;  ///< pixels: no wild position spoils it
 /// Of all pixels, or of the small sample whose camera has the least median error (Rousseeuw 1984), made anew from all pixels that
 /// agree with it.
 std::optional<Camera> best_camera(const Pixels& pixels, size_t sample_size, const Maker& make) {
-  constexpr int samples = 150;
+  constexpr int samples = 200;
   std::optional<Camera> best = make(pixels);
   const Pixels judges = thinned(pixels, 300);
   double least = best ? median_error(*best, judges) : INFINITY;
@@ -250,7 +250,7 @@ std::vector<Camera> linear_cameras(const Pixels& pixels, const FitPrior& prior) 
   const auto add = [&](size_t sample_size, const Maker& make) {
     if (const auto camera = best_camera(pixels, sample_size, make)) cameras.push_back(*camera);
   };
-  add(8, [&](const Pixels& some) { return from_space(some, image); });
+  add(7, [&](const Pixels& some) { return from_space(some, image); });
   // The positions of a plane leave the first one open, however well it explains them; wild ones make a plane look thick.
   const glm::dvec3 spread = spread_of(pixels).deviations;
   const bool is_settled = !cameras.empty() && median_error(cameras.front(), pixels) < good_enough;
