@@ -173,6 +173,29 @@ TEST(CameraFit, RefusesAnotherProjectionAndNoise) {
   EXPECT_NE(fit_camera(pixels, {display}).why_refused, "");
 }
 
+/// Units from micrometres to light minutes, lenses from wide to long, turned and shifted anyhow.
+TEST(CameraFit, FindsCamerasOfAnyUnitAndDirection) {
+  Random random(11);
+  for (int i = 0; i < 60; ++i) {
+    const double unit = random.of_any_size(1e-6, 1e8);
+    Camera truth = known_camera();
+    truth.fx = random.of_any_size(80, 3000);
+    truth.fy = truth.fx * (random.one_in(3) ? random.uniform(0.5, 2) : 1);
+    if (random.one_in(2)) truth.cx += random.uniform(-100, 100), truth.cy += random.uniform(-60, 60);
+    truth.pose->world_to_view = test::turned_view(random.uniform(-3, 3), random.uniform(-1.5, 1.5));
+    truth.pose->position = unit * dvec3(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9));
+    truth.orthographic = random.one_in(5);
+    if (truth.orthographic) truth.fx /= 8 * unit, truth.fy /= 8 * unit;
+    const CameraFit fit = fit_camera(seen_by(truth, [&](const dvec2& p) { return unit * wavy(p); }), {display});
+    ASSERT_EQ(fit.why_refused, "") << i;
+    ASSERT_EQ(fit.camera.orthographic, truth.orthographic) << i << " fx " << truth.fx;
+    EXPECT_LT(fit.median, 0.01) << i;
+    EXPECT_NEAR(fit.camera.fx / truth.fx, 1, 2e-3) << i << " fx " << truth.fx;
+    EXPECT_NEAR(fit.camera.fy / truth.fy, 1, 2e-3) << i;
+    EXPECT_LT(glm::distance(fit.camera.pose->world_to_view[2], truth.pose->world_to_view[2]), 1e-3) << i;
+  }
+}
+
 TEST(CameraFit, KeepsAShiftOfHalfAPixel) {
   Camera truth = known_camera();
   truth.cx += 0.5;
