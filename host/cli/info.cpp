@@ -1,9 +1,9 @@
 // gloam info FRAME.exr: contents, assumptions, and the techniques that can run or lack something.
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 
+#include "cli/info_cameras.h"
 #include "cli/info_shot.h"
 #include "cli/info_views.h"
 #include "cli/memory.h"
@@ -11,12 +11,9 @@
 #include "cli/plane_facts.h"
 #include "cli/radius.h"
 #include "cli/shot_flags.h"
-#include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
-#include "gloam/light_field.h"
 #include "gloam/planes.h"
-#include "gloam/projection.h"
 #include "gloam/visualise.h"
 
 namespace gloam::cli {
@@ -35,34 +32,6 @@ std::optional<double> background_share(const Frame& frame) {
   }
   if (pixels == 0) return {};
   return double(background) / double(pixels);
-}
-
-/// A module of a light-field display, in the display's units.
-Json module_document(const Camera& camera) {
-  const TwoSlits& slits = *camera.slits;
-  return {{"source", camera.source},
-          {"type", "two slits"},
-          {"display", display_from_text(*slits.display, "gloamDisplay").name},
-          {"module", {slits.module.x, slits.module.y, slits.module.z}},
-          {"observer_distance", slits.observer_distance},
-          {"depth_of_slit", depth_of_slit(camera)}};
-}
-
-Json camera_document(const Camera& camera, const Window& display) {
-  if (camera.slits) return module_document(camera);
-  Json document = {{"source", camera.source}, {"type", camera.orthographic ? "orthographic" : "perspective"},
-                   {"fx", camera.fx},         {"fy", camera.fy},
-                   {"cx", camera.cx},         {"cy", camera.cy}};
-  if (!camera.orthographic) {
-    const double left = std::atan((camera.cx - display.x0) / camera.fx),
-                 right = std::atan((display.x1 - camera.cx) / camera.fx);
-    document["hfov_deg"] = (left + right) * 57.29577951308232;
-  }
-  document["near"] = camera.near ? Json(*camera.near) : Json();
-  document["far"] = camera.far ? Json(*camera.far) : Json();
-  document["position"] =
-      camera.pose ? Json{camera.pose->position.x, camera.pose->position.y, camera.pose->position.z} : Json();
-  return document;
 }
 
 /// Needs of a technique for two views that the views of the frame do not meet.
@@ -131,20 +100,6 @@ std::string types_of(const PlaneSource& source) {
     if (types.find(channel.type) == std::string::npos) types += (types.empty() ? "" : "/") + channel.type;
   }
   return types;
-}
-
-std::string camera_line(const Json& camera) {
-  if (camera.contains("display"))
-    return fmt::format("module of display '{}', {}", camera["display"].get<std::string>(),
-                       camera["source"].get<std::string>());
-  std::string line = fmt::format("{}, {}", camera["type"].get<std::string>(), camera["source"].get<std::string>());
-  if (camera.contains("hfov_deg")) line += fmt::format(", hfov {:.2f} deg", camera["hfov_deg"].get<double>());
-  line += fmt::format(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}", camera["fx"].get<double>(),
-                      camera["fy"].get<double>(), camera["cx"].get<double>(), camera["cy"].get<double>());
-  for (const char* plane : {"near", "far"}) {
-    if (!camera[plane].is_null()) line += fmt::format(", {} {:g}", plane, camera[plane].get<double>());
-  }
-  return line;
 }
 
 /// Channels that belong to no plane.
@@ -271,6 +226,13 @@ void print_written(const std::vector<std::string>& pictures) {
   for (const std::string& picture : pictures) fmt::print("wrote {}\n", printable(picture));
 }
 
+void print_lines_for_blender(const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  fmt::print(
+      "\nIf Blender rendered the frame, these lines in its Python console write the camera beside the frame:\n\n");
+  for (const std::string& line : lines) fmt::print("{}\n", line);
+}
+
 void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   const std::string &path = flags.frame, &picture = flags.picture;
   ReadOptions options = flags.frame_flags.read_options();
@@ -291,13 +253,6 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   const std::vector<PlaneFacts> facts = picture.empty() ? facts_by_rows(file, frame) : facts_of(file, frame);
   file.verify();
 
-  Json cameras = Json::object(), first;
-  for (const std::string& view : file.views()) {
-    const std::optional<Camera> camera = file.camera(view);
-    if (!camera) continue;
-    cameras[view] = camera_document(*camera, file.display());
-    if (first.is_null()) first = cameras[view];
-  }
   const Abilities abilities = abilities_of(file, frame);
   const auto text = [](const std::string& value) { return value.empty() ? Json() : Json(value); };
   const std::optional<double> share = background_share(frame);
@@ -308,8 +263,11 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"window", {window.x0, window.y0, window.x1, window.y1}},
                    {"views", views},
                    {"planes", planes_document(facts)},
-                   {"camera", first},
-                   {"cameras", cameras},
+                   {"camera", Json()},
+                   {"cameras", Json()},
+                   {"camera_from", Json()},
+                   {"camera_residual_pixels", Json()},
+                   {"camera_residual_pixels_99", Json()},
                    {"depth_convention", text(file.depth_convention())},
                    {"normal_space", text(file.normal_space())},
                    {"background_share", share ? Json(*share) : Json()},
@@ -318,6 +276,9 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"lacks", abilities.lacks},
                    {"unread", unread_channels(file)},
                    {"memory_bytes", memory}};
+  add_cameras(file, flags.frame_flags, document);
+  const std::vector<std::string> for_blender = lines_for_blender(file);
+  if (!for_blender.empty()) document["camera_lines"] = for_blender;
   const Radius suggested = default_radius(frame, stated_radius(file));
   const RadiusReport radius(suggested, frame, {});
   if (pixels_at_median_depth(frame)) radius.add_to(document);
@@ -327,6 +288,7 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   if (flags.json.only_json()) return;
   print_info(file, facts, document, frame.assumed, abilities, flags.lacks);
   if (pixels_at_median_depth(frame)) radius.print();
+  print_lines_for_blender(for_blender);
   print_written(pictures);
 }
 
