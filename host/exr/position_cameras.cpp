@@ -56,10 +56,10 @@ class Settling {
     for (const std::string& view : file_.names.views) {
       if (!file_.source("position", view) || is_module(view)) continue;
       if (lacks_pose(view)) {
-        if (many.empty()) many = sample_positions(file_, rows_to_fit);
+        if (many.empty()) many = sampled(rows_to_fit);
         fit(view, many[view]);
       } else {
-        if (few.empty()) few = sample_positions(file_, rows_to_check);
+        if (few.empty()) few = sampled(rows_to_check);
         check(view, few[view], many);
       }
     }
@@ -67,6 +67,18 @@ class Settling {
   }
 
  private:
+  /// None of the positions of a file whose positions are damaged: what needs none of them goes on.
+  std::map<std::string, PositionSamples> sampled(int rows) {
+    try {
+      return sample_positions(file_, rows);
+    } catch (const Error& error) {
+      note(fmt::format("camera: the positions cannot be read: {}", error.what()));
+      std::map<std::string, PositionSamples> none;
+      for (const std::string& view : file_.names.views) none[view];
+      return none;
+    }
+  }
+
   bool is_module(const std::string& view) const {
     const auto camera = cameras_.cameras.find(view);
     return camera != cameras_.cameras.end() && camera->second.slits;
@@ -97,6 +109,13 @@ class Settling {
     return words;
   }
 
+  /// "; Z is planar"
+  std::string depth_in_words(const std::string& view, const DepthRelation& relation) const {
+    if (relation.kind != DepthRelation::planar && relation.kind != DepthRelation::along_ray) return "";
+    return fmt::format("; {} is {}", file_.source("depth", view)->channels.front().name,
+                       relation.kind == DepthRelation::planar ? "planar" : "along the ray");
+  }
+
   void note(const std::string& sentence) { add_new(cameras_.notes, sentence); }
 
   void fit(const std::string& view, const PositionSamples& samples) {
@@ -118,7 +137,7 @@ class Settling {
     findings.in_camera_space = is_of_camera_space(found.camera, samples.pixels) && !are_declared_world(view);
     note(fmt::format("camera{} fitted from {}: {}, residual {}{}", of_view(view), from_in_words(view, findings.depth),
                      camera_in_words(found.camera), residual_in_words(found.median, found.percentile_99),
-                     taken_for_granted(found, samples)));
+                     what_it_tells(view, found, findings.depth, samples)));
     if (findings.in_camera_space)
       note(fmt::format("positions{}: {} is in camera space, so the camera's place in the world stays unknown",
                        of_view(view), layer));
@@ -126,8 +145,9 @@ class Settling {
     cameras_.positions.emplace(view, std::move(findings));
   }
 
-  /// What a fit assumed or may surprise with, as the end of its note.
-  std::string taken_for_granted(const CameraFit& fit, const PositionSamples& samples) const {
+  /// What else a fit found, assumed or may surprise with, as the end of its note.
+  std::string what_it_tells(const std::string& view, const CameraFit& fit, const DepthRelation& relation,
+                            const PositionSamples& samples) const {
     std::string words;
     const glm::dvec2 off =
         glm::dvec2(fit.camera.cx, fit.camera.cy) -
@@ -135,6 +155,7 @@ class Settling {
     const bool is_half = std::abs(std::abs(off.x) - 0.5) < 0.05 && std::abs(std::abs(off.y) - 0.5) < 0.05;
     if (is_half && !fit.camera.orthographic)
       words += "; positions are those of the pixels' corners, not of their centres";
+    words += depth_in_words(view, relation);
     if (fit.assumption == FitAssumption::square_pixels) words += "; square pixels are assumed";
     if (fit.assumption == FitAssumption::centred_lens)
       words += "; square pixels and a centred lens are assumed, as the positions do not tell";
@@ -215,7 +236,7 @@ class Settling {
 
   /// Says what a camera would look like that positions lead to, if they lead to any.
   void explain(const std::string& view, PositionFindings& findings, std::map<std::string, PositionSamples>& many) {
-    if (many.empty()) many = sample_positions(file_, rows_to_fit);
+    if (many.empty()) many = sampled(rows_to_fit);
     const PositionSamples& samples = many[view];
     const CameraFit better = fitted(samples);
     const Camera& known = cameras_.cameras.at(view);

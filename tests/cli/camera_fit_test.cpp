@@ -72,6 +72,7 @@ TEST_F(CameraByPositions, WorldSpaceNormalsAreUsed) {
   expect_fit(document, seen.camera, 0.01);
   EXPECT_NE(notes(document).find("fitted from P and Z: fx 250.00 fy 250.00 cx 160.00 cy 90.00, residual"),
             std::string::npos);
+  EXPECT_NE(notes(document).find("; Z is planar"), std::string::npos) << notes(document);
   EXPECT_EQ(document["normal_space"], "world");
   EXPECT_EQ(document["depth_convention"], "z");
   for (int c = 0; c < 3; ++c)
@@ -169,6 +170,41 @@ TEST_F(CameraByPositions, HalfFloatsFarOriginsAndBackgroundDoNotBreakIt) {
     expect_fit(found, odd.camera, 0.01);
     EXPECT_NEAR(found["background_share"], 120.0 / 320, 1e-9) << background.x;
   }
+}
+
+/// Half of the positions are mixed with the background: alpha tells which.
+TEST_F(CameraByPositions, PixelsOfPartsOfSurfacesAreLeftOut) {
+  SeenFrame seen;
+  seen.alpha = [](int x, int y) { return (x / 3 + y / 5) % 2 == 0 ? 0.4 : 1.0; };
+  seen.write(path("frame.exr"), {"P", "A"});
+  expect_fit(info("frame.exr"), seen.camera, 0.01);
+  seen.write(path("without.exr"), {"P"});
+  EXPECT_TRUE(info("without.exr")["camera"].is_null()) << "half of them contradict";
+}
+
+/// A header with worldToCamera alone tells the pose, and positions the lens.
+TEST_F(CameraByPositions, ThePoseOfTheHeaderStays) {
+  SeenFrame seen;
+  seen.change = [&](Imf::Header& header) {
+    const glm::dmat3 turn = seen.camera.pose->world_to_view;
+    const dvec3 moved = -(turn * seen.camera.pose->position);
+    Imath::M44f m;  // rows: where the world's axes lead; z ahead
+    for (int row = 0; row < 3; ++row)
+      for (int c = 0; c < 3; ++c) m[row][c] = float(turn[row][c] * (c == 2 ? -1 : 1));
+    for (int c = 0; c < 3; ++c) m[3][c] = float(moved[c] * (c == 2 ? -1 : 1));
+    header.insert("worldToCamera", Imf::M44fAttribute(m));
+  };
+  seen.write(path("frame.exr"), {"P", "Z", "N"});
+  const Json document = info("frame.exr");
+  expect_fit(document, seen.camera, 0.01);
+  EXPECT_EQ(notes(document).find("does not fit"), std::string::npos) << notes(document);
+  SeenFrame other = seen;
+  other.change = [&](Imf::Header& header) {
+    seen.change(header);
+    header.typedAttribute<Imf::M44fAttribute>("worldToCamera").value()[3][0] += 0.5f;
+  };
+  other.write(path("other.exr"), {"P", "Z", "N"});
+  EXPECT_NE(notes(info("other.exr")).find("does not fit the positions"), std::string::npos);
 }
 
 TEST_F(CameraByPositions, WindowsAndThePlaceInThePixelAreKept) {

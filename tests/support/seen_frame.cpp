@@ -60,12 +60,14 @@ std::map<std::string, std::vector<float>> SeenFrame::channels(const std::vector<
       const dvec3 normal =
           glm::normalize(glm::cross(world(0, 1e-3) - world(0, -1e-3), world(1e-3, 0) - world(-1e-3, 0)));
       for (const std::string& layer : layers) {
-        if (layer.ends_with("Z"))
+        if (layer == "A")
+          values[layer].push_back(float(is_surface ? alpha(x, y) : 0));
+        else if (layer.ends_with("Z"))
           values[layer].push_back(is_surface ? float(stored_depth(z, length)) : 1e10f);
         else if (layer.find('N') != std::string::npos)
           put(layer, is_surface ? normal : dvec3(0.0));
         else
-          put(layer, is_surface ? stored(world(0, 0)) : dvec3(background_position));
+          put(layer, is_surface ? alpha(x, y) * stored(world(0, 0)) : dvec3(background_position));
       }
     }
   return values;

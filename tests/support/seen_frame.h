@@ -42,11 +42,12 @@ class SeenFrame {
   std::function<glm::dvec3(const glm::dvec3&)> stored = [](const glm::dvec3& p) { return p; };  ///< position as written
   std::function<double(double, double)> stored_depth = [](double z, double) {
     return z;
-  };                     ///< of z and the ray's length
-  bool is_half = false;  ///< positions are half floats
+  };                                                                     ///< of z and the ray's length
+  std::function<double(int, int)> alpha = [](int, int) { return 1.0; };  ///< with which a renderer multiplies positions
+  bool is_half = false;                                                  ///< positions are half floats
   std::function<void(Imf::Header&)> change = [](Imf::Header&) {};
 
-  /// Channels that `write` can write: Z, and P and N with .X .Y .Z, in the world; a view's name may stand before or between.
+  /// Channels that `write` can write: Z, A, and P and N with .X .Y .Z, in the world; a view's name may stand before or between.
   void write(const std::filesystem::path& path, const std::vector<std::string>& layers) const;
   /// The camera as a JSON for gloam.
   void write_camera(const std::filesystem::path& path) const;
