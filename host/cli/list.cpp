@@ -7,6 +7,7 @@
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
 #include "stress/case.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {

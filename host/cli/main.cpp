@@ -14,6 +14,7 @@
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
 #include "run/driver.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {

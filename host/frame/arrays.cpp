@@ -8,6 +8,7 @@
 #include "gloam/exr.h"
 #include "gloam/normalise.h"
 #include "gloam/planes.h"
+#include "normalise/each_row.h"
 
 namespace gloam {
 namespace {
@@ -22,37 +23,21 @@ void check_size(int width, int height) {
                 longest_side, max_pixels);
 }
 
-void check_array(const std::string& name, std::span<const float> values, const Arrays& arrays, size_t components) {
+void check_array(const std::string& name, std::span<const float> values, int width, int height, size_t components) {
   if (name.empty()) throw Error("a plane without a name; give one of planes.h, such as 'depth'");
-  const size_t needed = size_t(arrays.width) * size_t(arrays.height) * components;
+  const size_t needed = size_t(width) * size_t(height) * components;
   if (values.size() != needed)
-    throw Error("plane '{}' has {} values; {} x {} pixels of {} component{} are {}", name, values.size(), arrays.width,
-                arrays.height, components, components == 1 ? "" : "s", needed);
+    throw Error("plane '{}' has {} values; {} x {} pixels of {} component{} are {}", name, values.size(), width, height,
+                components, components == 1 ? "" : "s", needed);
   if (!values.data()) throw Error("plane '{}' is a null pointer; give its {} values, or leave it out", name, needed);
-}
-
-Channel component_of(std::span<const float> values, const Layout& layout, size_t component, size_t components) {
-  Channel channel(layout);
-  const float* value = values.data() + component;
-  for (int y = 0; y < layout.height; ++y) {
-    float* row = channel.row(y);
-    for (int x = 0; x < layout.width; ++x, value += components) row[x] = *value;
-  }
-  return channel;
 }
 
 View view_from(const Arrays& arrays) {
   View view;
   view.camera = arrays.camera;
   if (view.camera->source.empty()) view.camera->source = "memory";
-  const Layout layout(arrays.width, arrays.height);
-  for (const auto& [name, values] : arrays.planes) {
-    const size_t components = plane_kind(name).components.size();
-    check_array(name, values, arrays, components);
-    Plane plane{name, {}};
-    for (size_t i = 0; i < components; ++i) plane.channels.push_back(component_of(values, layout, i, components));
-    view.planes.emplace(name, std::move(plane));
-  }
+  for (const auto& [name, values] : arrays.planes)
+    view.planes.emplace(name, plane_from(name, arrays.width, arrays.height, values));
   return view;
 }
 
@@ -76,6 +61,22 @@ Frame frame_from(const Arrays& arrays) {
                 arrays.width, arrays.height);
   }
   return frame;
+}
+
+Plane plane_from(const std::string& name, int width, int height, std::span<const float> values) {
+  const size_t components = plane_kind(name).components.size();
+  check_array(name, values, width, height, components);
+  const Layout layout(width, height);
+  Plane plane{name, {}};
+  for (size_t i = 0; i < components; ++i) plane.channels.emplace_back(layout);
+  for_each_row(layout, [&](int y) {
+    const float* const pixels = values.data() + size_t(y) * size_t(width) * components;
+    for (size_t i = 0; i < components; ++i) {
+      float* row = plane.channels[i].row(y);
+      for (int x = 0; x < width; ++x) row[x] = pixels[size_t(x) * components + i];
+    }
+  });
+  return plane;
 }
 
 std::vector<float> values_of(const Frame& frame, const std::string& plane, const std::string& view) {

@@ -1,0 +1,25 @@
+"""techniques: what gloam can compute, with its parameters."""
+
+import collections
+
+from . import _gloam
+
+Parameter = collections.namedtuple("Parameter", ["name", "type", "default", "min", "max", "choices", "unit", "help"])
+
+
+class Technique:
+    """What is known of a technique: name, summary, paper, reads, optional, writes, outputs, extras, then (the filter that follows), views, caution,
+    presets (settings by name), and parameters, a dict of gloam.Parameter: name, type, default, min, max, choices, unit, help. A default of None comes
+    from the frame."""
+
+    def __init__(self, facts):
+        self.__dict__.update(facts)
+        self.parameters = {parameter["name"]: Parameter(**parameter) for parameter in facts["parameters"]}
+
+    def __repr__(self):
+        return f"<gloam.Technique {self.name}: {self.summary}; reads {', '.join(self.reads)}; writes {', '.join(self.outputs)}>"
+
+
+def techniques():
+    """All techniques: a dict of gloam.Technique by name, in the order of the names."""
+    return {facts["name"]: Technique(facts) for facts in _gloam.techniques()}
