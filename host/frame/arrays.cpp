@@ -1,14 +1,15 @@
 #include "gloam/arrays.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
 #include "camera/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "normalise/each_row.h"
+#include "normalise/normalise.h"
 
 namespace gloam {
 namespace {
@@ -32,12 +33,41 @@ void check_array(const std::string& name, std::span<const float> values, int wid
   if (!values.data()) throw Error("plane '{}' is a null pointer; give its {} values, or leave it out", name, needed);
 }
 
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  Plane plane{name, {}};
+  for (size_t i = 0; i < plane_kind(name).components.size(); ++i) plane.channels.emplace_back(layout);
+  return plane;
+}
+
+/// Copies a row of an array to that of a plane.
+void fill_row(Plane& plane, std::span<const float> values, int y) {
+  const size_t components = plane.channels.size();
+  const int width = plane.channels.front().layout().width;
+  const float* const pixels = values.data() + size_t(y) * size_t(width) * components;
+  if (components == 1) {
+    std::copy(pixels, pixels + width, plane.channels.front().row(y));
+    return;
+  }
+  for (size_t i = 0; i < components; ++i) {
+    float* row = plane.channels[i].row(y);
+    for (int x = 0; x < width; ++x) row[x] = pixels[size_t(x) * components + i];
+  }
+}
+
+/// Values are copied and cleaned row by row: each is then taken from memory once.
 View view_from(const Arrays& arrays) {
   View view;
   view.camera = arrays.camera;
   if (view.camera->source.empty()) view.camera->source = "memory";
-  for (const auto& [name, values] : arrays.planes)
-    view.planes.emplace(name, plane_from(name, arrays.width, arrays.height, values));
+  const Layout layout(arrays.width, arrays.height);
+  std::vector<std::pair<Plane*, std::span<const float>>> sources;
+  for (const auto& [name, values] : arrays.planes) {
+    check_array(name, values, arrays.width, arrays.height, plane_kind(name).components.size());
+    sources.emplace_back(&view.planes.emplace(name, empty_plane(name, layout)).first->second, values);
+  }
+  normalise_while_filling(view, layout, [&](int y) {
+    for (const auto& [plane, values] : sources) fill_row(*plane, values, y);
+  });
   return view;
 }
 
@@ -55,7 +85,6 @@ Frame frame_from(const Arrays& arrays) {
   frame.display = frame.window = {0, 0, arrays.width, arrays.height};
   try {
     frame.views.push_back(view_from(arrays));
-    normalise(frame);
   } catch (const std::bad_alloc&) {
     throw Error("out of memory for {} planes of {} x {} pixels; use a smaller image", arrays.planes.size(),
                 arrays.width, arrays.height);
@@ -64,18 +93,9 @@ Frame frame_from(const Arrays& arrays) {
 }
 
 Plane plane_from(const std::string& name, int width, int height, std::span<const float> values) {
-  const size_t components = plane_kind(name).components.size();
-  check_array(name, values, width, height, components);
-  const Layout layout(width, height);
-  Plane plane{name, {}};
-  for (size_t i = 0; i < components; ++i) plane.channels.emplace_back(layout);
-  for_each_row(layout, [&](int y) {
-    const float* const pixels = values.data() + size_t(y) * size_t(width) * components;
-    for (size_t i = 0; i < components; ++i) {
-      float* row = plane.channels[i].row(y);
-      for (int x = 0; x < width; ++x) row[x] = pixels[size_t(x) * components + i];
-    }
-  });
+  check_array(name, values, width, height, plane_kind(name).components.size());
+  Plane plane = empty_plane(name, Layout(width, height));
+  for_each_row(plane.channels.front().layout(), [&](int y) { fill_row(plane, values, y); });
   return plane;
 }
 
