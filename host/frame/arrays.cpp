@@ -48,6 +48,15 @@ void fill_row(Plane& plane, std::span<const float> values, int y) {
     std::copy(pixels, pixels + width, plane.channels.front().row(y));
     return;
   }
+  if (components == 3) {
+    float *a = plane.channels[0].row(y), *b = plane.channels[1].row(y), *c = plane.channels[2].row(y);
+    for (int x = 0; x < width; ++x) {
+      a[x] = pixels[3 * x];
+      b[x] = pixels[3 * x + 1];
+      c[x] = pixels[3 * x + 2];
+    }
+    return;
+  }
   for (size_t i = 0; i < components; ++i) {
     float* row = plane.channels[i].row(y);
     for (int x = 0; x < width; ++x) row[x] = pixels[size_t(x) * components + i];

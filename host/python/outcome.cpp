@@ -82,10 +82,6 @@ Outcome compute_outcome(const PlanRequest& request, SharedFrame held, bool is_ow
   outcome.device_bytes = result.device_bytes;
   outcome.attributes = provenance({{&plan}}, options);
   outcome.radius = computation.radius;
-  if (computation.radius) {
-    if (const std::optional<double> per_unit = pixels_at_median_depth(frame))
-      outcome.radius_pixels = computation.radius->value * *per_unit;
-  }
   take_planes(std::move(result.frame), written, outcome);
   outcome.source = carried(std::move(held), is_own);
   return outcome;

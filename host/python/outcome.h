@@ -28,7 +28,6 @@ struct Outcome {
   std::vector<PassTime> passes;
   std::vector<double> total_ms;
   std::optional<Radius> radius;
-  std::optional<double> radius_pixels;
   std::vector<std::string> notes;
   std::map<std::string, std::string> attributes;  ///< for a header
   double skipped_share = 0;

@@ -26,7 +26,7 @@ py::list passes_of(const Outcome& outcome) {
 
 py::object radius_of(const Outcome& outcome) {
   if (!outcome.radius) return py::none();
-  return py::make_tuple(outcome.radius->value, name_of(outcome.radius->from), outcome.radius_pixels);
+  return py::make_tuple(outcome.radius->value, name_of(outcome.radius->from));
 }
 
 Outcome run_on(const py::dict& request_words, const SharedFrame& frame, bool is_own,
@@ -61,6 +61,7 @@ void add_run(py::module_& module) {
       .def_readonly("source", &Outcome::source)
       .def_readonly("number", &Outcome::number);
   module.def("run", &run_on);
+  module.def("pixels_at_median_depth", [](const HeldFrame& held) { return pixels_at_median_depth(held.frame); });
   module.def("suggestion",
              [](const std::string& name, const std::vector<std::string>& names) { return suggestion(name, names); });
   module.def("enumerate", &enumerate);

@@ -29,6 +29,12 @@ std::optional<double> stated_radius(const Frame& frame) {
   return stated == frame.numbers.end() ? std::nullopt : std::optional(stated->second);
 }
 
+/// Whether the radius of a request's plan comes from its settings.
+bool has_radius(const PlanRequest& request, const Plan& plan) {
+  const std::optional<Radius> radius = radius_of(plan, request, RadiusSource::frame);
+  return radius && radius->from == RadiusSource::flag;
+}
+
 }  // namespace
 
 std::string warning_about_views(const Plan& plan, const Frame& frame) {
@@ -50,12 +56,16 @@ Computation plan_on(const PlanRequest& request, const Frame& frame, const std::v
   const std::string holds = holdings(planes);
   add_new(planes, also);
   Computation computation{make_plan(request, planes, holds), {}, {}};
-  const Radius made = default_radius(frame, stated_radius(frame));
-  if (radius_of(computation.plan, request, made.from)) {
+  computation.radius = radius_of(computation.plan, request, RadiusSource::flag);
+  const bool is_given = request.radius || has_radius(request, computation.plan);
+  if (computation.radius && !is_given) {
+    const Radius made = default_radius(frame, stated_radius(frame));
     PlanRequest with_radius = request;
-    if (!request.radius) with_radius.radius = made.value;
+    with_radius.radius = made.value;
     computation.plan = make_plan(with_radius, planes, holds);
-    computation.radius = radius_of(computation.plan, request, request.radius ? RadiusSource::flag : made.from);
+    computation.radius = radius_of(computation.plan, request, made.from);
+  }
+  if (computation.radius) {
     const std::string warning = warning_about(*computation.radius, frame, cap_of(computation.plan));
     if (!warning.empty()) computation.notes.push_back(warning);
   }

@@ -105,7 +105,6 @@ class Result(Dict[str, Any]):
     total_ms: List[float]
     radius: Optional[float]
     radius_from: Optional[str]
-    radius_pixels: Optional[float]
     notes: List[str]
     attributes: Dict[str, str]
     skipped_share: float
@@ -114,6 +113,8 @@ class Result(Dict[str, Any]):
     number: Optional[int]
     @property
     def ms(self) -> float: ...
+    @property
+    def radius_pixels(self) -> Optional[float]: ...
 
 class Run(Iterator[Result]):
     def __next__(self) -> Result: ...

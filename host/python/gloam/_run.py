@@ -33,7 +33,7 @@ class Result(dict):
         self.views = outcome.views
         self.passes = [Pass(*facts) for facts in outcome.passes]
         self.total_ms = outcome.total_ms
-        self.radius, self.radius_from, self.radius_pixels = outcome.radius or (None, None, None)
+        self.radius, self.radius_from = outcome.radius or (None, None)
         self.notes = outcome.notes
         self.attributes = outcome.attributes
         self.skipped_share = outcome.skipped_share
@@ -47,6 +47,12 @@ class Result(dict):
     def ms(self):
         """Time of all passes on the device, milliseconds; of several runs (`repeat`) the median."""
         return statistics.median(self.total_ms)
+
+    @property
+    def radius_pixels(self):
+        """The radius in pixels at the median depth of the frame; None without a radius or a surface."""
+        per_unit = None if self.radius is None else _gloam.pixels_at_median_depth(self.frame)
+        return None if per_unit is None else self.radius * per_unit
 
     def __repr__(self):
         planes = []
