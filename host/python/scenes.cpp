@@ -153,7 +153,7 @@ Options with_tracing(Options options, const Tracing& tracing, Interrupts& interr
   options.samples = tracing.samples.value_or(options.samples);
   options.seed = tracing.seed;
   options.checkpoint = tracing.checkpoint;
-  options.progress = [&interrupts](double) { interrupts.poll(); };
+  options.poll = [&interrupts] { interrupts.poll(); };
   return options;
 }
 
