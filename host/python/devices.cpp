@@ -38,7 +38,7 @@ std::shared_ptr<Device> shared_device(const std::string& text) {
 }
 
 void add_devices(py::module_& module) {
-  py::class_<DeviceInfo>(module, "DeviceInfo")
+  py::class_<DeviceInfo>(module, "DeviceInfo", device_info_help)
       .def_readonly("platform", &DeviceInfo::platform)
       .def_readonly("name", &DeviceInfo::name)
       .def_readonly("type", &DeviceInfo::type)

@@ -15,6 +15,8 @@ def _name_for(array, other, plane):
     components = array.shape[2] if array.ndim == 3 else 1
     if isinstance(other, numpy.ndarray):
         return "color" if components == 3 else "reflection" if components == 4 else "ao"
+    if not isinstance(other, (Frame, dict)):
+        return "ao"  # what is wrong with the other side is told next
     fitting = [name for name in _RESULTS if name in other and (other[name][0] if isinstance(other[name], list) else other[name]).ndim == array.ndim]
     return fitting[0] if fitting else "color" if components == 3 else "ao"
 

@@ -77,7 +77,7 @@ def divided(keywords):
     planes = {}
     parameters = {}
     for name, value in keywords.items():
-        if name in known and not isinstance(value, (str, bool, int, float)):
+        if name in known and not isinstance(value, (str, bool, int, float, numpy.generic)):
             planes[name] = value
         elif _is_planes(value):
             raise UsageError(f"no plane '{name}'{_gloam.suggestion(name, known)}; there are {_gloam.enumerate(known)}")
