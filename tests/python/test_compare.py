@@ -93,8 +93,8 @@ def test_background_that_is_not_known_is_told():
 
 
 @pytest.mark.parametrize("call, sentence", [
-    (lambda a, f: gloam.compare(a, a[:-1].copy()), "90"),
-    (lambda a, f: gloam.compare(a, numpy.stack([a] * 3, 2)), "component"),
+    (lambda a, f: gloam.compare(a, a[:-1].copy()), "the reference (89, 150)"),
+    (lambda a, f: gloam.compare(a, numpy.stack([a] * 3, 2)), "the test has the shape (90, 150), and the reference (90, 150, 3)"),
     (lambda a, f: gloam.compare(a, a, mask=numpy.zeros(a.shape, bool)), "all 150x90 pixels are background"),
     (lambda a, f: gloam.compare(a, a, mask=numpy.zeros((3, 3), bool)), "mask has the dtype bool and the shape (3, 3)"),
     (lambda a, f: gloam.compare(a, a, mask=[1]), "mask is no NumPy array"),

@@ -55,6 +55,8 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
     Raises gloam.Error for sizes that differ, values that are not finite, and a mask without a pixel.
     """
     test, reference = _opened(test), _opened(reference)
+    if isinstance(test, numpy.ndarray) and isinstance(reference, numpy.ndarray) and test.shape != reference.shape:
+        raise UsageError(f"the test has the shape {test.shape}, and the reference {reference.shape}; only images of one shape can be compared")
     plane = _words.text("plane", plane)
     images, teller = _side("test", test, reference, plane)
     truths, other_teller = _side("reference", reference, test, plane)
