@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "gloam/arrays.h"
+#include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "gloam/technique.h"
 #include "python/doc_strings.h"
@@ -100,6 +101,23 @@ SharedFrame image_of_arrays(const std::vector<py::dict>& planes, const std::vect
   });
 }
 
+/// A copy of a frame in which these planes join its own, or take their place. `planes`: for each view, arrays by name.
+SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& planes) {
+  const SharedFrame more = image_of_arrays(planes, view_names(held.frame));
+  const Frame& image = more->frame;
+  if (image.width() != held.frame.width() || image.height() != held.frame.height())
+    throw Error("the arrays are {} x {} pixels, and the frame has {} x {}; all planes of a frame have one size",
+                image.width(), image.height(), held.frame.width(), held.frame.height());
+  return without_lock([&](Interrupts&) {
+    std::vector<std::string> kept = common_planes(held.frame);
+    std::erase_if(kept, [&](const std::string& name) { return image.views.front().find(name); });
+    auto joined = std::make_shared<HeldFrame>(HeldFrame{copy_of(held.frame, kept), held.name});
+    for (size_t i = 0; i < image.views.size(); ++i) joined->frame.views[i].planes.merge(more->frame.views[i].planes);
+    normalise(joined->frame);
+    return joined;
+  });
+}
+
 const Plane& plane_of(const HeldFrame& held, const View& view, const std::string& name) {
   if (const Plane* plane = view.find(name)) return *plane;
   const std::vector<std::string> planes = common_planes(held.frame);
@@ -180,6 +198,7 @@ void add_frames(py::module_& module) {
       .def("__repr__", &in_words);
   module.def("frame_of_arrays", &frame_of_arrays);
   module.def("image_of_arrays", &image_of_arrays);
+  module.def("with_planes", &with_planes);
   module.def("camera_with_fov", &camera_with_fov);
   module.def("known_planes", &known_planes);
   module.def("is_stack", [](const std::string& plane) { return is_stack(plane); });

@@ -26,7 +26,8 @@ py::list passes_of(const Outcome& outcome) {
 
 py::object radius_of(const Outcome& outcome) {
   if (!outcome.radius) return py::none();
-  return py::make_tuple(outcome.radius->value, name_of(outcome.radius->from));
+  // A kernel has it as float: back to the decimals that a user wrote.
+  return py::make_tuple(std::stod(fmt::format("{}", float(outcome.radius->value))), name_of(outcome.radius->from));
 }
 
 Outcome run_on(const py::dict& request_words, const SharedFrame& frame, bool is_own,

@@ -142,8 +142,10 @@ def test_views_of_different_numbers(depth, camera):
     refused(lambda: gloam.run("stereo-gtao", depth=depth, camera=camera), "needs a frame of two views")
 
 
-def test_frames_are_not_mixed_with_arrays(frame, depth, camera):
-    refused(lambda: gloam.run("gtao", frame, depth=depth), "depth: planes come with the frame")
+def test_frames_with_arrays(frame, depth, camera):
+    refused(lambda: gloam.run("gtao", frame, depth=depth[:80]), "the arrays are 150 x 80 pixels, and the frame has 150 x 90")
+    refused(lambda: gloam.run("gtao", frame, depth=[depth, depth]), "the frame has 1 views, and 2 are given of depth")
+    refused(lambda: gloam.run("gtao", "frame.exr", depth=depth), "depth: arrays do not go with a path")
     refused(lambda: gloam.run("gtao", frame, camera=camera), "camera: a gloam.Frame has its own")
     refused(lambda: gloam.run("gtao", 5), "frame is of type int")
     refused(lambda: gloam.run("gtao", "no_such_file.exr"), "no_such_file.exr")

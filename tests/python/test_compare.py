@@ -8,7 +8,7 @@ import pytest
 
 import gloam
 
-DATA = pathlib.Path(os.environ["GLOAM_DATA"])
+DATA = pathlib.Path(os.environ["GLOAM_SOURCE_DIR"], "data")
 FIGURES = ("pixels", "mae", "rmse", "bias", "psnr", "max", "over_1_255", "over_0_05", "ssim", "gmsd")
 
 

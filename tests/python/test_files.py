@@ -9,7 +9,7 @@ import pytest
 
 import gloam
 
-DATA = pathlib.Path(os.environ["GLOAM_DATA"])
+DATA = pathlib.Path(os.environ["GLOAM_SOURCE_DIR"], "data")
 
 
 def assert_same_frames(a, b):

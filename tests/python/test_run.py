@@ -126,6 +126,15 @@ def test_a_mask_may_be_an_array(arrays, frame):
     part = gloam.run("gtao", **arrays, camera=frame.camera, radius=0.5, only=mask)
     assert numpy.array_equal(part["ao"][:, :75], whole["ao"][:, :75])
     assert part.skipped_share > 0.2 and (part["ao"][:, 110:] == 1).all()
+    assert_same(gloam.run("gtao", frame, radius=0.5, only=mask), part)
+
+
+def test_an_array_takes_the_place_of_a_frames_plane(arrays, frame):
+    depth = arrays["depth"] * numpy.float32(0.5)
+    depth[0, 0] = numpy.nan
+    expected = gloam.run("gtao", depth=depth, normal=arrays["normal"], camera=frame.camera, radius=0.5)
+    assert_same(gloam.run("gtao", frame, depth=depth, radius=0.5), expected)
+    assert numpy.array_equal(frame["depth"], arrays["depth"])
 
 
 def test_a_device_is_kept_with_its_kernels(arrays, frame):

@@ -173,10 +173,10 @@ def _frame_for(frame, planes, camera, fov, views, words):
     if frame is None:
         made, several = frame_of(planes, camera, fov, views)
         return made, True, several
-    if planes:
-        raise UsageError(f"{_gloam.enumerate(list(planes))}: planes come with the frame; give a frame, or arrays and a camera")
     paths = _files(frame)
     if paths is not None:
+        if planes:
+            raise UsageError(f"{_gloam.enumerate(list(planes))}: arrays do not go with a path; give gloam.read(path) and the arrays")
         read = _gloam.read_for(paths, _words.reading(camera, fov=fov, views=views), words)
         return read, True, len(read.views) > 1
     if not isinstance(frame, Frame):
@@ -184,14 +184,19 @@ def _frame_for(frame, planes, camera, fov, views, words):
     for name, value in (("camera", camera), ("fov", fov), ("views", views)):
         if value is not None:
             raise UsageError(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
-    return frame, False, len(frame.views) > 1
+    if not planes:
+        return frame, False, len(frame.views) > 1
+    of_views, several = _of_each_view(planes)
+    if len(of_views) != len(frame.views):
+        raise UsageError(f"the frame has {len(frame.views)} views, and {len(of_views)} are given of {_gloam.enumerate(list(planes))}")
+    return _gloam.with_planes(frame, of_views), True, len(frame.views) > 1
 
 
 def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, **keywords):
     """Runs a technique on arrays, on a gloam.Frame or on an EXR file, and returns a gloam.Result: arrays by the names of planes.
 
     technique: a name of gloam.techniques(); "ao" stands for the default of ambient occlusion.
-    frame: a gloam.Frame, a path, or a list of two paths, one for each eye. Of a path only the planes are read that the technique needs.
+    frame: a gloam.Frame (planes by keyword join its own, or take their place), a path, or a list of two paths, one for each eye. Of a path only the planes are read that the technique needs.
     Planes by keyword, instead of a frame: float32, C-contiguous, (height, width), or (height, width, 3) for normal, color, albedo,
         reflectance and position; peel and stochastic, stacks of layers, are (layers, height, width). depth is in scene units along the
         viewing axis, normal in view space. A list of arrays has one for each view. The arrays are only read, and may change or go
