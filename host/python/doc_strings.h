@@ -21,7 +21,8 @@ that their `device` text stands for at its first use, and keep it. Threads may s
 of their own run side by side.
 Raises gloam.Error, with a list of the devices, if none matches.)";
 
-inline constexpr const char* device_info_help = R"(What is known of a device: platform, name, type ("cpu", "gpu" or "other"), driver, lanes (pixels per work-item
+inline constexpr const char* device_info_help =
+    R"(What is known of a device: platform, name, type ("cpu", "gpu" or "other"), driver, lanes (pixels per work-item
 that suit it), has_double, and memory and largest_buffer in bytes.)";
 
 inline constexpr const char* frame_help =

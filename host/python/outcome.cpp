@@ -2,6 +2,7 @@
 
 #include "base/lists.h"
 #include "gloam/provenance.h"
+#include "gloam/strips.h"
 #include "python/frames.h"
 #include "python/memory.h"
 
@@ -56,7 +57,7 @@ void note_history(const Frame& frame, const Frame& result, const Chained& chaine
 }  // namespace
 
 Outcome compute_outcome(const PlanRequest& request, SharedFrame held, bool is_own, Device& device, RunOptions options,
-                        Interrupts& interrupts, Chained* chained) {
+                        Interrupts& interrupts, Chained* chained, std::optional<int> strips) {
   Frame& frame = held->frame;
   const Computation computation = plan_on(request, frame, chained ? history_planes() : std::vector<std::string>());
   const Plan& plan = computation.plan;
@@ -66,7 +67,10 @@ Outcome compute_outcome(const PlanRequest& request, SharedFrame held, bool is_ow
   add_new(outcome.notes, computation.notes);
   const bool goes_on = chained && chained->history.take_over(frame, plan.inputs);
   options.progress = [&](int, int) { interrupts.poll(); };
-  RunResult result = run(plan, frame, device, options);
+  if (!strips) check_memory_or_offer_strips(plan, frame, device, "strips='auto'");
+  RunResult result = strips
+                         ? run_in_strips(plan, frame, device, options, strips_for(plan, frame, device.info(), *strips))
+                         : run(plan, frame, device, options);
   if (goes_on) note_history(frame, result.frame, *chained, outcome.notes);
   std::vector<std::string> written = written_planes(plan, result.frame);
   if (chained) {

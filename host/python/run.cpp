@@ -31,11 +31,12 @@ py::object radius_of(const Outcome& outcome) {
 }
 
 Outcome run_on(const py::dict& request_words, const SharedFrame& frame, bool is_own,
-               const std::shared_ptr<Device>& device, const py::dict& option_words) {
+               const std::shared_ptr<Device>& device, const py::dict& option_words, std::optional<int> strips) {
   const PlanRequest request = plan_request(request_words);
   const RunOptions options = run_options(option_words);
-  return without_lock(
-      [&](Interrupts& interrupts) { return compute_outcome(request, frame, is_own, *device, options, interrupts); });
+  return without_lock([&](Interrupts& interrupts) {
+    return compute_outcome(request, frame, is_own, *device, options, interrupts, nullptr, strips);
+  });
 }
 
 }  // namespace

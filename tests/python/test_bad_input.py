@@ -195,7 +195,33 @@ print(gloam.run("gtao", depth=z[:64], camera=camera, radius=0.5)["ao"].shape)
     lines = done.stdout.splitlines()
     assert done.returncode == 0 and len(lines) == 2, done.stdout + done.stderr
     assert "8192x8192 pixels need " in lines[0] and " of device memory, and " in lines[0] and "has 1024 MiB" in lines[0], lines
+    assert "; or strips='auto': " in lines[0] and " more on either side, need " in lines[0], lines
     assert lines[1] == "(64, 8192)"
+
+
+def test_strips_are_offered_where_they_work(depth, camera):
+    refused(lambda: gloam.run("sssr", depth=depth, color=numpy.zeros((90, 150, 3), numpy.float32), roughness=depth, camera=camera, strips=2),
+            "sssr: cannot be computed in strips: ")
+    refused(lambda: gloam.run("gtao", depth=depth, camera=camera, strips="many"), "strips many is not allowed")
+    refused(lambda: gloam.run("gtao", depth=depth, camera=camera, strips=0), "strips 0 is not allowed")
+    # A radius that reaches beyond the image leaves strips as large as the image, and still right.
+    assert gloam.run("gtao", depth=depth, camera=camera, radius=500.0, strips=2)["ao"].shape == (90, 150)
+
+
+def test_a_frame_larger_than_the_device_is_computed_in_strips():
+    done = in_new_process("""
+import numpy, gloam
+z = numpy.full((6400, 6400), 5, numpy.float32)
+z[3000:3100, 3000:3100] = 4.95
+call = dict(depth=z, camera=gloam.Camera(6000, 6000, 3200, 3200), radius=0.1, outputs=["ao"], preset="low")
+try:
+    gloam.run("hbao", **call)
+except gloam.Error as error:
+    print("refused")
+result = gloam.run("hbao", **call, strips="auto")
+print(result["ao"].shape, float(result["ao"].min()) < 0.97, result.device_bytes < 1 << 30)
+""", POCL_MEMORY_LIMIT="1")
+    assert done.stdout == "refused\n(6400, 6400) True True\n", done.stdout + done.stderr
 
 
 def test_a_forked_process_is_told():

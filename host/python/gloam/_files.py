@@ -131,6 +131,8 @@ class Sequence:
         options = {name: keywords.pop(name) for name in _run._OPTIONS if name in keywords}
         if options.get("repeat") not in (None, 1):
             raise UsageError(f"repeat {options['repeat']}: times one frame; leave it out, or run one frame alone")
+        if options.get("strips") is not None:
+            raise UsageError("strips: are for gloam.run and one frame; leave them out")
         planes, parameters = _run.divided(keywords)
         if planes:
             raise UsageError(f"{_gloam.enumerate(list(planes))}: planes come with the frames; leave them out")

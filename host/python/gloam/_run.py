@@ -11,7 +11,7 @@ from ._gloam import Camera, Error, Frame, UsageError
 Pass = collections.namedtuple("Pass", ["view", "name", "ms"])
 
 #: Keywords of `run` that are neither planes nor parameters of techniques.
-_OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed", "repeat")
+_OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed", "repeat", "strips")
 
 
 class Result(dict):
@@ -159,6 +159,18 @@ def request_words(technique, parameters, settings, options):
     return words, run_words
 
 
+def _strips(value):
+    """The number of strips; 0 for as few as fit, None for a frame that is computed whole."""
+    if value == "auto":
+        return 0
+    if isinstance(value, str):
+        raise UsageError(f"strips {value} is not allowed; 'auto' is, or a number from 1 to 65536")
+    count = _words.integer("strips", value)
+    if count is not None and not 1 <= count <= 65536:
+        raise UsageError(f"strips {count} is not allowed; 'auto' is, or a number from 1 to 65536")
+    return count
+
+
 def _files(frame):
     """The paths of a frame in one file, or of its two eyes in two."""
     if _words.is_path(frame):
@@ -210,6 +222,8 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     only: a mask: an array, above 0 where work is wanted, a plane's name, or a technique that makes one.  elsewhere: a technique.
     device: a gloam.Device, or part of a name.  math: "fast" or "precise".  real: "float" or "double".  lanes: 1, 4, 8 or 16.
     seed: of the random numbers, 0 or more.  repeat: timed runs.
+    strips: computes a frame that is too large for the device in strips of rows, so many, or "auto", as few as fit. The estimate is the same
+        but for the random numbers of its samples, which begin anew in each strip.
 
     Raises gloam.Error, with the sentence of the command `gloam`: gloam.UsageError for names and values, gloam.MissingPlanes for all planes
     that the technique lacks. The interpreter is free for other threads meanwhile, and Ctrl-C ends the call between two passes.
@@ -221,7 +235,7 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     planes, parameters = divided(keywords)
     words, run_words = request_words(technique, parameters, settings, options)
     made, is_own, several = _frame_for(frame, planes, camera, fov, views, words)
-    outcome = _gloam.run(words, made, is_own, _words.device(device), run_words)
+    outcome = _gloam.run(words, made, is_own, _words.device(device), run_words, _strips(options.get("strips")))
     result = Result(outcome, several)
     assumed = set() if is_own else set(made.notes)
     notes = [text for text in outcome.notes if text not in assumed]
