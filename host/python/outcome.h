@@ -44,7 +44,8 @@ struct Chained {
   bool is_noted = false;             ///< whether a note on motion has been given
 };
 
-/// Computes. `strips`: how many the frame is divided into (strips.h), 0 for as few as fit; none: it is computed whole. `is_own`: nobody else holds the frame, so that its planes may be taken. `chained`: where the request is temporal; the frame is
+/// Computes. `strips`: how many the frame is divided into (strips.h), 0 for as few as fit; none: it is computed whole. `is_own`: nobody
+/// else holds the frame, so that its planes may be taken. `chained`: where the request is temporal; the frame is
 /// the caller's own then, too. Needs no interpreter lock.
 Outcome compute_outcome(const PlanRequest& request, SharedFrame frame, bool is_own, Device& device, RunOptions options,
                         Interrupts& interrupts, Chained* chained = nullptr, std::optional<int> strips = {});

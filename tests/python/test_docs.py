@@ -42,3 +42,15 @@ def test_figures_are_those_of_the_page(name, folder):
     assert made.shape[:2] == kept.shape[:2] or abs(numpy.subtract(made.shape, kept.shape)).max() < 20
     if made.shape == kept.shape:
         assert numpy.abs(made.astype(int) - kept.astype(int)).mean() < 6, "run script/update-python-figures"
+
+
+def test_the_snippet_of_the_readme_runs():
+    import re
+
+    import numpy
+
+    snippets = re.findall(r"^```python\n(.*?)^```$", (SOURCE / "README.md").read_text(), flags=re.DOTALL | re.MULTILINE)
+    assert len(snippets) == 1
+    names = {"z": numpy.full((1080, 1920), 5, numpy.float32), "n": numpy.tile(numpy.float32([0, 0, 1]), (1080, 1920, 1))}
+    exec(snippets[0], names)
+    assert names["result"]["ao"].shape == (1080, 1920)

@@ -17,7 +17,8 @@ def _name_for(array, other, plane):
         return "color" if components == 3 else "reflection" if components == 4 else "ao"
     if not isinstance(other, (Frame, dict)):
         return "ao"  # what is wrong with the other side is told next
-    fitting = [name for name in _RESULTS if name in other and (other[name][0] if isinstance(other[name], list) else other[name]).ndim == array.ndim]
+    first = {name: other[name][0] if isinstance(other[name], list) else other[name] for name in _RESULTS if name in other}
+    fitting = [name for name, values in first.items() if values.ndim == array.ndim]
     return fitting[0] if fitting else "color" if components == 3 else "ao"
 
 
@@ -56,7 +57,8 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
     """
     test, reference = _opened(test), _opened(reference)
     if isinstance(test, numpy.ndarray) and isinstance(reference, numpy.ndarray) and test.shape != reference.shape:
-        raise UsageError(f"the test has the shape {test.shape}, and the reference {reference.shape}; only images of one shape can be compared")
+        raise UsageError(f"the test has the shape {test.shape}, and the reference {reference.shape}; "
+                         "only images of one shape can be compared")
     plane = _words.text("plane", plane)
     images, teller = _side("test", test, reference, plane)
     truths, other_teller = _side("reference", reference, test, plane)
@@ -67,7 +69,8 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
             raise UsageError("frame: has no depth to tell the background by; a gloam.Frame or a path with depth is allowed")
         tellers.insert(0, given)
     figures = _gloam.compare(images, truths, plane or "", mask, tellers, _words.number("exposure", exposure))
-    notes = [] if figures.pop("background_is_known") else ["no depth on either side: every pixel counts; frame=... or mask=... tells the background"]
+    unknown = "no depth on either side: every pixel counts; frame=... or mask=... tells the background"
+    notes = [] if figures.pop("background_is_known") else [unknown]
     figures["notes"] = notes
     _words.note(notes, stacklevel=2)
     return figures

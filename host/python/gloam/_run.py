@@ -9,16 +9,23 @@ from . import _gloam, _words
 from ._gloam import Camera, Error, Frame, UsageError
 
 Pass = collections.namedtuple("Pass", ["view", "name", "ms"])
+Pass.__doc__ = "A pass of a run: the view, its name such as 'gtao/estimate', and a list of times on the device, milliseconds."
 
 #: Keywords of `run` that are neither planes nor parameters of techniques.
-_OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed", "repeat", "strips")
+_OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed",
+            "repeat", "strips")
 
 
 class Result(dict):
     """What a run made: arrays by the names of their planes, and facts about the run as attributes.
 
-    An array is float32, C-contiguous and its owner's alone: (height, width), or (height, width, components). Of a frame with several views
-    each value is a list of arrays, in the order of `views`.
+    An array is float32, C-contiguous and its owner's alone: (height, width), or (height, width, components). Of a frame with several
+    views each value is a list of arrays, in the order of `views`.
+
+    technique; device, its name; lanes; views.  ms: time of all passes on the device, milliseconds; passes: a gloam.Pass for each (view,
+    name, ms for each repeat); total_ms for each repeat.  radius, scene units, or None; radius_from: "flag", "scene" or "frame";
+    radius_pixels.  notes: sentences.  attributes: how it was made, for a header.  skipped_share: of the pixels, by a mask.
+    device_bytes.  frame: what it was made of, with depth and cameras.  number: of a sequence's frame, or None.
     """
 
     def __init__(self, outcome, several):
@@ -208,12 +215,14 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     """Runs a technique on arrays, on a gloam.Frame or on an EXR file, and returns a gloam.Result: arrays by the names of planes.
 
     technique: a name of gloam.techniques(); "ao" stands for the default of ambient occlusion.
-    frame: a gloam.Frame (planes by keyword join its own, or take their place), a path, or a list of two paths, one for each eye. Of a path only the planes are read that the technique needs.
+    frame: a gloam.Frame (planes by keyword join its own, or take their place), a path, or a list of two paths, one for each eye. Of a
+        path only the planes are read that the technique needs.
     Planes by keyword, instead of a frame: float32, C-contiguous, (height, width), or (height, width, 3) for normal, color, albedo,
         reflectance and position; peel and stochastic, stacks of layers, are (layers, height, width). depth is in scene units along the
         viewing axis, normal in view space. A list of arrays has one for each view. The arrays are only read, and may change or go
         when the call has returned.
-    camera: a gloam.Camera, or a list with one for each view; fov instead: the horizontal field of view, degrees. Of a path: a camera JSON too.
+    camera: a gloam.Camera, or a list with one for each view; fov instead: the horizontal field of view, degrees. Of a path: a camera
+        JSON too.
     views: names of the views; of a path those to read.
     Parameters of the technique by keyword: radius (scene units), samples, ...; settings: the same as a dict, for names with a dot
         ({"bilateral.radius": 2}). Without a radius one is made from the frame, and the result says so.

@@ -5,12 +5,15 @@ import collections
 from . import _gloam
 
 Parameter = collections.namedtuple("Parameter", ["name", "type", "default", "min", "max", "choices", "unit", "help"])
+Parameter.__doc__ = "A parameter of a technique: its type, default, range and choices, and the unit that it is in."
 
 
 class Technique:
-    """What is known of a technique: name, summary, paper, reads, optional, writes, outputs, extras, then (the filter that follows), views, caution,
-    presets (settings by name), and parameters, a dict of gloam.Parameter: name, type, default, min, max, choices, unit, help. A default of None comes
-    from the frame."""
+    """What is known of a technique.
+
+    name, summary, paper; reads, optional, writes, outputs, extras: names of planes; then: the filter that follows; views: how many it
+    needs; caution; presets: settings by name; parameters: a dict of gloam.Parameter by name. A default of None comes from the frame.
+    """
 
     def __init__(self, facts):
         self.__dict__.update(facts)
