@@ -41,7 +41,6 @@ struct Chained {
   HistoryChain& history;
   std::vector<std::string> written;  ///< planes wanted; empty: the technique's outputs
   std::string name;                  ///< of the frame, for messages
-  bool is_noted = false;             ///< whether a note on motion has been given
 };
 
 /// Computes. `strips`: how many the frame is divided into (strips.h), 0 for as few as fit; none: it is computed whole. `is_own`: nobody
