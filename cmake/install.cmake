@@ -81,4 +81,33 @@ install(FILES ${completion}/gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-comp
 install(FILES ${completion}/_gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT zsh)
 
 include(${PROJECT_SOURCE_DIR}/cmake/blender.cmake)
+# --- The Python module: below /usr and /usr/local where the interpreter looks for modules (Debian's has folders of its own there),
+# elsewhere in a folder for PYTHONPATH.
+if(GLOAM_PYTHON)
+  execute_process(COMMAND ${Python_EXECUTABLE} -c "
+import sysconfig
+known = sysconfig.get_scheme_names()
+for scheme, prefix in (('deb_system', '/usr'), ('posix_local', '/usr/local'), ('posix_prefix', '/opt')):
+    scheme = scheme if scheme in known else 'posix_prefix'
+    variables = {'base': prefix, 'platbase': prefix, 'installed_base': prefix}
+    if scheme == 'posix_local':  # adds /local by itself
+        variables = {'base': '/usr', 'platbase': '/usr', 'installed_base': '/usr'}
+    print(sysconfig.get_path('platlib', scheme, variables)[len(prefix) + 1:])"
+    OUTPUT_VARIABLE python_folders OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" python_folders "${python_folders}")
+  list(GET python_folders 0 python_of_usr)
+  list(GET python_folders 1 python_of_local)
+  list(GET python_folders 2 python_elsewhere)
+  install(CODE "
+    if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+      set(python_folder ${python_of_usr})
+    elseif(CMAKE_INSTALL_PREFIX STREQUAL \"/usr/local\")
+      set(python_folder ${python_of_local})
+    else()
+      set(python_folder ${python_elsewhere})
+    endif()
+    file(INSTALL ${python_paths} \"$<TARGET_FILE:gloam_python>\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/\${python_folder}/gloam\")
+  " COMPONENT python)
+endif()
+
 include(${PROJECT_SOURCE_DIR}/cmake/package.cmake)

@@ -1,4 +1,4 @@
-# Debian packages by `cpack` (script/package): `gloam` and `libgloam-dev`.
+# Debian packages by `cpack` (script/package): `gloam`, `libgloam-dev` and `python3-gloam`.
 set(GLOAM_MAINTAINER "The gloam authors <gloam@users.noreply.github.com>" CACHE STRING "who answers for Debian packages made here")
 set(packaging ${PROJECT_BINARY_DIR}/generated/debian)
 
@@ -9,19 +9,22 @@ if(NOT GZIP)
 endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/package/changelog.in ${packaging}/changelog.Debian @ONLY)
 execute_process(COMMAND ${GZIP} -9nkf changelog.Debian WORKING_DIRECTORY ${packaging} COMMAND_ERROR_IS_FATAL ANY)
-foreach(package gloam libgloam-dev)
-  if(package STREQUAL "gloam")
-    set(component debian_runtime)
-  else()
-    set(component debian_development)
-  endif()
+set(packages gloam libgloam-dev)
+set(components_of_packages debian_runtime debian_development)
+if(GLOAM_PYTHON)
+  list(APPEND packages python3-gloam)
+  list(APPEND components_of_packages debian_python)
+  install(TARGETS gloam_python LIBRARY DESTINATION ${python_of_usr}/gloam COMPONENT debian_python EXCLUDE_FROM_ALL)
+  install(FILES ${python_paths} DESTINATION ${python_of_usr}/gloam COMPONENT debian_python EXCLUDE_FROM_ALL)
+endif()
+foreach(package component IN ZIP_LISTS packages components_of_packages)
   install(FILES ${PROJECT_SOURCE_DIR}/cmake/package/copyright ${packaging}/changelog.Debian.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
 endforeach()
 install(FILES ${completion}/_gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions
   COMPONENT debian_runtime EXCLUDE_FROM_ALL)
 
-# --- Both packages.
+# --- All packages.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME gloam)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
@@ -37,6 +40,10 @@ set(CPACK_COMPONENT_RUNTIME_GROUP command)
 set(CPACK_COMPONENT_DEBIAN_RUNTIME_GROUP command)
 set(CPACK_COMPONENT_DEVELOPMENT_GROUP library)
 set(CPACK_COMPONENT_DEBIAN_DEVELOPMENT_GROUP library)
+if(GLOAM_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL debian_python)
+  set(CPACK_COMPONENT_DEBIAN_PYTHON_GROUP python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -72,6 +79,27 @@ are any, from OpenEXR files or from arrays in memory, on any OpenCL device.
 This package has its static libraries and headers, and what CMake and
 pkg-config need to find them.")
 
+# --- python3-gloam
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-gloam)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# The module is compiled for one version of the interpreter, and for NumPy's arrays.
+math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_minor}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "gloam")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/python3-gloam/postinst;${PROJECT_SOURCE_DIR}/cmake/package/python3-gloam/prerm")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "image-space effects on captured G-buffers - Python module
+gloam computes ambient occlusion and other image-space effects on frames
+that renderers and engines have: depth, and normals and cameras where there
+are any, from NumPy arrays or OpenEXR files, on any OpenCL device.
+
+This package has the module gloam for Python 3, with type stubs. It needs
+neither the command nor the library.")
+
 include(CPack)
 cpack_add_component_group(command)
 cpack_add_component_group(library)
+if(GLOAM_PYTHON)
+  cpack_add_component_group(python)
+endif()

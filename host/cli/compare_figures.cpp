@@ -34,28 +34,6 @@ Json metrics_document(const Metrics& m) {
   return document;
 }
 
-Metrics pooled(const std::vector<Metrics>& views) {
-  if (views.size() == 1) return views.front();
-  Metrics all;
-  for (const Metrics& m : views) all.pixels += m.pixels;
-  for (const Metrics& m : views) {
-    const double share = double(m.pixels) / double(all.pixels);
-    all.mae += share * m.mae;
-    all.rmse += share * m.rmse * m.rmse;
-    all.bias += share * m.bias;
-    all.max = std::max(all.max, m.max);
-    all.over_1_255 += share * m.over_1_255;
-    all.over_0_05 += share * m.over_0_05;
-    all.ssim += share * m.ssim;
-    all.gmsd += share * m.gmsd;
-    if (m.flip) all.flip = all.flip.value_or(0) + share * *m.flip;
-    if (m.rse) all.rse = all.rse.value_or(0) + share * *m.rse;
-  }
-  all.rmse = std::sqrt(all.rmse);
-  if (all.rmse > 0) all.psnr = -20 * std::log10(all.rmse);
-  return all;
-}
-
 void print_heading(const PlanePair& planes, const CompareFlags& flags) {
   const std::string test = printable(flags.test), reference = printable(flags.reference);
   if (planes.test == planes.reference)

@@ -11,9 +11,6 @@ namespace gloam::cli {
 
 Json metrics_document(const Metrics& metrics);
 
-/// Metrics of several views as one: sums over all their pixels.
-Metrics pooled(const std::vector<Metrics>& views);
-
 /// "ao: ao.exr against truth.exr", or "ao_raw of ao.exr against ao of truth.exr".
 void print_heading(const PlanePair& planes, const CompareFlags& flags);
 

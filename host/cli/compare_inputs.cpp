@@ -44,38 +44,6 @@ void CompareFlags::take_plane_names() {
   }
 }
 
-const std::vector<PlanePair>& result_pairs() {
-  static const std::vector<PlanePair> pairs = {{"ao", "ao"},
-                                               {"ao_raw", "ao_raw"},
-                                               {"ao_raw", "ao"},
-                                               {"ao", "ao_raw"},
-                                               {"reflection", "reflection"},
-                                               {"bent_normal", "bent_normal"},
-                                               {"cone", "cone"},
-                                               {"hit", "hit"}};
-  return pairs;
-}
-
-std::vector<std::string> results_among(const std::vector<std::string>& planes) {
-  std::vector<std::string> results;
-  for (const PlanePair& pair : result_pairs()) {
-    if (contains(planes, pair.test)) add_new(results, pair.test);
-  }
-  return results;
-}
-
-std::vector<std::string> inputs_among(const std::vector<std::string>& planes) {
-  std::vector<std::string> inputs;
-  for (const char* plane : {"color", "normal", "mask", "outline_count", "depth"}) {
-    if (contains(planes, plane)) add_new(inputs, plane);
-  }
-  const std::vector<std::string> results = results_among(planes);
-  for (const std::string& plane : planes) {
-    if (!contains(results, plane)) add_new(inputs, plane);
-  }
-  return inputs;
-}
-
 std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked) {
   const std::vector<std::string> a = test.common_planes(), b = reference.common_planes();
   if (!asked.empty()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/options.h"
+#include "compare/plane_pairs.h"
 
 namespace gloam::cli {
 
@@ -19,21 +20,6 @@ struct CompareFlags {
   /// Treats a --plane that is a plane's name alone as --what: the plane to compare.
   void take_plane_names();
 };
-
-/// A plane of the test and the plane of the reference that it is measured against.
-struct PlanePair {
-  std::string test, reference;
-};
-
-/// Planes that techniques make, each with a plane that it can be measured against, best first. AO before a filter and AO after it
-/// may be compared.
-const std::vector<PlanePair>& result_pairs();
-
-/// Planes of a file that techniques make.
-std::vector<std::string> results_among(const std::vector<std::string>& planes);
-
-/// Planes of a file that techniques do not make, the most informative first.
-std::vector<std::string> inputs_among(const std::vector<std::string>& planes);
 
 /// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
 std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked);

@@ -67,25 +67,6 @@ std::optional<Mask> foreground(const Frame& frame, const std::string& name, cons
   return mask;
 }
 
-Plane without_confidence(Plane plane) {
-  if (plane.name == "reflection" && plane.channels.size() == 4) plane.channels.pop_back();
-  return plane;
-}
-
-std::optional<Mask> shown_pixels(const Plane& truth, const Mask& mask) {
-  if (truth.name != "reflection" || truth.channels.size() != 4) return {};
-  Mask shown = mask;
-  const Layout& layout = truth.channels[0].layout();
-  for (int y = 0; y < layout.height; ++y) {
-    for (int x = 0; x < layout.width; ++x) {
-      const size_t i = size_t(y) * size_t(layout.width) + size_t(x);
-      shown[i] = shown[i] && truth.channels[3].at(x, y) > 0.5f;
-    }
-  }
-  if (std::none_of(shown.begin(), shown.end(), [](auto m) { return m != 0; })) return {};
-  return shown;
-}
-
 /// Counts the plane that comes first. A picture needs all rows at once, and copies of them; figures need some rows and those around
 /// them.
 unsigned long long bytes_of_comparison(const CompareFlags& flags, const ReadOptions& options, const FrameFile& test,

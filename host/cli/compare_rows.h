@@ -44,12 +44,6 @@ Overlap overlap_of(const Side& test, const Side& reference);
 /// Foreground of a view of one frame; none if the frame has no depth for that view.
 std::optional<Mask> foreground(const Frame& frame, const std::string& name, const Overlap& overlap, const Rows& rows);
 
-/// A reflection without its confidence, which is not part of its look, and has another meaning in a truth.
-Plane without_confidence(Plane plane);
-
-/// Pixels whose reflected surfaces are mostly visible in the frame, according to the truth; none if the truth does not tell.
-std::optional<Mask> shown_pixels(const Plane& truth, const Mask& mask);
-
 /// Peak memory of a comparison, bytes.
 unsigned long long bytes_of_comparison(const CompareFlags& flags, const ReadOptions& options, const FrameFile& test,
                                        const FrameFile& reference);

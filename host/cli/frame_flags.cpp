@@ -4,22 +4,11 @@
 
 #include "cli/memory.h"
 #include "cli/options.h"
+#include "exr/read_words.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
 
 namespace gloam::cli {
-namespace {
-
-const Choices<DepthConvention> depth_conventions = {{"auto", DepthConvention::automatic},
-                                                    {"z", DepthConvention::z},
-                                                    {"ray", DepthConvention::ray},
-                                                    {"ndc", DepthConvention::ndc},
-                                                    {"reversed", DepthConvention::reversed}};
-const Choices<NormalSpace> normal_spaces = {
-    {"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}};
-
-}  // namespace
-
 void FrameArguments::add_to(CLI::App& app) {
   app.add_option("frame", frame, "EXR file")->required()->type_name("FRAME.exr");
   app.add_option("other_eye", other_eye, "the second eye, where FRAME.exr holds one view and this file the other")
@@ -53,7 +42,7 @@ void FrameFlags::add_to(CLI::App& app) {
   add_number(app, "--fov", fov, {1, 179}, "horizontal field of view, 1 to 179 degrees, over every other camera")
       ->type_name("DEG")
       ->group("Reading the frame");
-  add_choice(app, "--depth", depth, depth_conventions, "what depth values mean")->group("Reading the frame");
+  add_choice(app, "--depth", depth, depth_words, "what depth values mean")->group("Reading the frame");
   add_number(app, "--near", near, {0, infinity}, "near plane, scene units (for ndc and reversed)")
       ->type_name("Z")
       ->group("Reading the frame");
@@ -63,7 +52,8 @@ void FrameFlags::add_to(CLI::App& app) {
   add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background")
       ->type_name("VALUE")
       ->group("Reading the frame");
-  add_choice(app, "--normal-space", normal_space, normal_spaces, "space of the normals")->group("Reading the frame");
+  add_choice(app, "--normal-space", normal_space, normal_space_words, "space of the normals")
+      ->group("Reading the frame");
   app.add_option("--plane", planes,
                  "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
       ->type_name("PLANE=CHANNELS")

@@ -8,6 +8,7 @@
 #include "gloam/scene/scene.h"
 #include "run/device_record.h"
 #include "stress/case.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {

@@ -41,13 +41,6 @@ std::string default_in_words(const Parameter& p) {
   return is_radius(p) ? "from the frame" : ParameterValues({p}).text(p.name);
 }
 
-std::string technique_for(const std::string& name) {
-  for (const Technique& technique : registry()) {
-    if (contains(technique.default_for, name) || contains(technique.default_for, name + "_raw")) return technique.name;
-  }
-  return name;
-}
-
 Json techniques_document(const std::vector<const Technique*>& techniques) {
   Json document = Json::array();
   for (const Technique* technique : techniques) {

@@ -14,9 +14,6 @@ Json parameter_document(const Parameter& parameter);
 /// The default of a parameter for people.
 std::string default_in_words(const Parameter& parameter);
 
-/// The technique of a name. A plane's name, such as "ao", stands for the technique that makes the plane by default.
-std::string technique_for(const std::string& name);
-
 /// Everything about techniques, for programs.
 Json techniques_document(const std::vector<const Technique*>& techniques);
 /// Prints names and summaries, grouped by the planes that techniques make.

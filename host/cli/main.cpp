@@ -15,6 +15,7 @@
 #include "gloam/scene/scene.h"
 #include "run/driver.h"
 #include "run/kernel_cache.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "gloam/error.h"
+#include "run/plan_files.h"
 
 namespace gloam::cli {
 namespace {
@@ -139,25 +140,6 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
   return names;
 }
 
-std::string first_names(std::vector<std::string> names) {
-  const size_t most = 16;
-  const std::string rest = names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
-  names.resize(std::min(names.size(), most));
-  return fmt::format("{}{}", fmt::join(names, ", "), rest);
-}
-
-std::string holdings(const FrameFile& file) {
-  const std::vector<std::string> names = file.all_channels();
-  const std::string name = file.path().filename().string();
-  return names.empty() ? name + " has no channels" : fmt::format("{} has only {}", name, first_names(names));
-}
-
-std::string holdings(const FrameFiles& files) {
-  std::vector<std::string> words;
-  for (const FrameFile& file : files.files()) words.push_back(holdings(file));
-  return enumerate(words);
-}
-
 namespace {
 
 /// Adds a note for a history that no pass reads: most likely it was meant for another technique.
@@ -181,24 +163,9 @@ PlanRequest going_on(PlanRequest request, const FrameFiles& files, bool temporal
 bool reads_history(const Plan& plan) { return contains(plan.inputs, "history_depth"); }
 
 Plan plan_for(const FrameFiles& files, const PlanRequest& request) {
-  try {
-    Plan plan = make_plan(request, files.common_planes(), holdings(files));
-    check_history(plan, files);
-    return plan;
-  } catch (const MissingPlanes& missing) {
-    // If only some views lack the plane, a list of channels would confuse.
-    std::vector<std::string> wanted = missing.planes;
-    for (const auto& [plane, instead] : missing.instead) wanted.push_back(instead);
-    for (const std::string& plane : wanted) {
-      const std::string why = files.why_missing(plane);
-      if (!why.empty()) {
-        throw Error(
-            "{}: needs '{}', and in {} {}; {}", request.outputs.front(), plane, files.name(), why,
-            files.files().size() > 1 ? "give the file of the other view alone" : "--view NAME chooses another view");
-      }
-    }
-    throw;
-  }
+  Plan plan = plan_for_files(files, request);
+  check_history(plan, files);
+  return plan;
 }
 
 void check_frame_name(const std::string& path, const std::string& flag) {

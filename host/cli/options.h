@@ -12,6 +12,7 @@
 #include "cli/notes.h"
 #include "cli/technique_flags.h"
 #include "cli/typed.h"
+#include "exr/holdings.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -50,17 +51,10 @@ Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);
 /// Full channel names of the planes that a plan decodes; for two files, after the file's name: "pair_L.exr: Z".
 std::vector<std::string> decoded_channels(const std::vector<std::string>& planes, const FrameFiles& files);
 
-/// "R, G, B and 7 more": as many names as a person reads.
-std::string first_names(std::vector<std::string> names);
-
-/// "beauty.exr has only R, G, B": the contents of a file, for error messages.
-std::string holdings(const FrameFile& file);
-std::string holdings(const FrameFiles& files);
-
 /// Whether a plan reads anything of the frame before.
 bool reads_history(const Plan& plan);
 
-/// A plan for a frame. The message of `MissingPlanes` also lists the frame's channels.
+/// `plan_for_files`. Adds a note for a history that the plan does not read.
 Plan plan_for(const FrameFiles& files, const PlanRequest& request);
 
 /// A request that goes on over time if the frame has a history, or with --temporal. Adds a note where the latter begins a sequence.

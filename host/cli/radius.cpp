@@ -3,22 +3,20 @@
 #include <cmath>
 
 #include "gloam/error.h"
+#include "run/plan_files.h"
 
 namespace gloam::cli {
 namespace {
-
-constexpr double least_radius = 1e-30, most_radius = 1e30;
 
 Json number_or_inf(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
 }  // namespace
 
 std::optional<double> stated_radius(const FrameFile& file) {
-  const std::optional<double> stated = file.number_attribute("aoRadius");
-  if (!stated || (*stated >= least_radius && *stated <= most_radius)) return stated;
-  note({fmt::format("{}: aoRadius {:g} in the header is not a valid radius, and is ignored",
-                    file.path().filename().string(), *stated)});
-  return {};
+  std::vector<std::string> notes;
+  const std::optional<double> stated = gloam::stated_radius(file, notes);
+  note(notes);
+  return stated;
 }
 
 std::optional<double> stated_radius(const FrameFiles& files) { return stated_radius(files.files().front()); }

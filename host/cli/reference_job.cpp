@@ -6,44 +6,10 @@
 #include "cli/radius.h"
 #include "gloam/error.h"
 #include "gloam/scene/reflection_reference.h"
+#include "scene/falloff.h"
 
 namespace gloam::cli {
 namespace {
-
-/// The technique whose contribution is traced; null for no falloff.
-const Technique* falloff_technique(const std::string& name) {
-  if (name == "none") return nullptr;
-  std::vector<std::string> names = {"none"};
-  for (const Technique& t : registry()) {
-    if (!t.contribution) continue;
-    if (t.name == name) return &t;
-    names.push_back(t.name);
-  }
-  throw UsageError("--falloff {} is not allowed{}; {} are", name, suggestion(name, names), enumerate(names));
-}
-
-/// `settings`: those of the falloff's technique, --set hbao+.bias=0.2.
-void set_falloff(AoReferenceOptions& options, const std::string& name, const Settings& settings) {
-  const Technique* technique = falloff_technique(name);
-  options.falloff = name;
-  ParameterValues values(technique ? technique->parameters : ParameterList());
-  for (const auto& [key, value] : settings) {
-    const size_t dot = key.rfind('.');
-    if (!technique || key.substr(0, dot) != technique->name)
-      throw UsageError("--set {}: the falloff is {}; with --falloff {} it can be set", key, name, key.substr(0, dot));
-    if (key.substr(dot + 1) == "radius")
-      throw UsageError("--set {}: the radius is the reference's; give --radius", key);
-    values.set(key.substr(dot + 1), value, technique->name);
-  }
-  if (!technique) return;
-  for (const Parameter& p : technique->parameters) {
-    if (p.name == "radius") continue;  // the reference has its own radius
-    options.falloff_parameters += (options.falloff_parameters.empty() ? "" : " ") + p.name + "=" + values.text(p.name);
-  }
-  options.contribution = [contribution = technique->contribution, values](double cosine, double distance) {
-    return contribution(values, cosine, distance);
-  };
-}
 
 template <typename Options>
 Options with_tracing(Options options, const TracingOfFrame& tracing) {
@@ -51,14 +17,6 @@ Options with_tracing(Options options, const TracingOfFrame& tracing) {
   options.checkpoint = tracing.checkpoint;
   options.progress = tracing.progress;
   return options;
-}
-
-/// The radius of the flag, else of the frame's header, else of the scene, else derived from the frame.
-Radius radius_for(const ReferenceCommand& flags, const FrameFile& file, const Scene& scene, const Frame& frame) {
-  if (flags.radius) return {*flags.radius, RadiusSource::flag};
-  if (const std::optional<double> stated = stated_radius(file)) return {*stated, RadiusSource::scene};
-  if (scene.ao_radius > 0) return {scene.ao_radius, RadiusSource::scene};
-  return default_radius(frame, {});
 }
 
 ReferenceJob ao_job(ReferenceCommand& flags) {
@@ -125,7 +83,7 @@ TracedFrame trace_frame(const ReferenceCommand& flags, const ReferenceJob& job, 
   TracedFrame traced;
   traced.frame = files.read(job.reads);
   note(traced.frame.assumed);
-  if (job.has_radius) traced.radius = radius_for(flags, file, shown, traced.frame);
+  if (job.has_radius) traced.radius = radius_of_truth(flags.radius, stated_radius(file), shown, traced.frame);
   traced.truth = job.trace(scene.tracer(), traced.frame, traced.radius ? traced.radius->value : 0, tracing);
   return traced;
 }

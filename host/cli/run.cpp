@@ -10,6 +10,7 @@
 #include "cli/run_shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {

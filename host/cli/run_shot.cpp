@@ -14,6 +14,7 @@
 #include "gloam/history.h"
 #include "gloam/planes.h"
 #include "sequence/chunks.h"
+#include "sequence/history_chain.h"
 #include "sequence/pipeline.h"
 
 namespace gloam::cli {
@@ -154,13 +155,6 @@ std::vector<Turn> turns_for(const ShotFiles& shot, const ShotSettings& settings,
   return turns;
 }
 
-/// Asks for the planes from which the next frame's history is made, too.
-void ask_for_history(PlanRequest& request, const Plan& plan) {
-  for (const std::string& name : planes_for_history()) {
-    if (contains(outputs_of(find_technique(plan.technique)), name)) add_new(request.only, name);
-  }
-}
-
 }  // namespace
 
 void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
@@ -178,7 +172,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
   const OutputSettings writing = output_settings(flags, !flags.shot.as_float, first.request, first.plan);
   const std::vector<std::string> written = first.request.only;
   if (given.temporal) {
-    ask_for_history(first.request, first.plan);
+    first.request.only = with_planes_for_history(first.request.only, first.plan.technique);
     plan_again(first, carried.depth);
   }
   ShotSettings settings{.request = first.request,

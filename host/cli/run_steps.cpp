@@ -5,7 +5,6 @@
 #include "cli/memory.h"
 #include "cli/radius.h"
 #include "gloam/error.h"
-#include "gloam/stereo_consistency.h"
 
 namespace gloam::cli {
 namespace {
@@ -56,19 +55,6 @@ std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {
   if (!is_all_left) planned.plan = make_plan(planned.request, left, holds);
   return settle_radius(planned.request, planned.plan, frame, stated_radius(planned.files),
                        is_all_left ? planned.files.common_planes() : left, holds);
-}
-
-std::string warning_about_views(const Plan& plan, const Frame& frame) {
-  const auto is_of_two = [](const PlannedPass& planned) { return planned.technique->views == 2; };
-  if (!std::any_of(plan.passes.begin(), plan.passes.end(), is_of_two) || frame.views.size() != 2) return "";
-  for (const View& view : frame.views) {
-    if (!view.find("depth") || !view.camera || !view.camera->pose) return "";  // another message says so
-  }
-  if (have_surface_in_common(frame)) return "";
-  return fmt::format(
-      "the views '{}' and '{}' have no surface in common, and each gets a result of its own; do both show "
-      "one scene, each with its own camera?",
-      frame.views[0].name, frame.views[1].name);
 }
 
 void add_warning_about_history(const Frame& frame, const Frame& result, const std::string& who) {

@@ -7,6 +7,7 @@
 
 #include "cli/colour_layer.h"
 #include "cli/options.h"
+#include "gloam/compute.h"
 #include "gloam/radius.h"
 
 namespace gloam::cli {
@@ -36,9 +37,6 @@ void keep_first_output(PlannedFrame& planned, bool carries_depth);
 /// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
 /// depth. Returns the radius, if the plan has one.
 std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);
-
-/// A note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras. Else empty.
-std::string warning_about_views(const Plan& plan, const Frame& frame);
 
 /// Adds a note where a history tells nothing about a frame. `who`: "frame 7: shows next to nothing that the frame before showed", for
 /// that case.

@@ -1,10 +1,10 @@
 #include "cli/scene_flags.h"
 
 #include <filesystem>
-#include <sstream>
 
 #include "camera/camera_json.h"
 #include "gloam/error.h"
+#include "scene/names.h"
 
 namespace gloam::cli {
 namespace {
@@ -19,17 +19,6 @@ glm::dvec3 parse_point(const std::string& text, const std::string& flag) {
 
 bool is_file_name(const std::string& text) {
   return std::filesystem::path(text).extension() == ".json" || std::filesystem::is_regular_file(text);
-}
-
-const SceneCamera& named_camera(const Scene& scene, const std::string& name) {
-  if (name.empty()) return scene.cameras.front();
-  std::vector<std::string> names;
-  for (const SceneCamera& camera : scene.cameras) {
-    if (camera.name == name) return camera;
-    names.push_back(camera.name);
-  }
-  throw UsageError("--camera {}: {} has no camera of that name{}; it has {}, and a camera JSON can be given", name,
-                   scene.name, suggestion(name, names), enumerate(names));
 }
 
 }  // namespace
@@ -62,12 +51,10 @@ Settings SceneFlags::take_dotted_settings() {
 }
 
 SceneFlags scene_named_by(const std::string& attribute) {
+  const NamedScene named = scene_in_attribute(attribute);
   SceneFlags flags;
-  const size_t colon = attribute.find(": ");
-  flags.scene = attribute.substr(0, colon);
-  if (colon == std::string::npos) return flags;
-  std::istringstream rest(attribute.substr(colon + 2));
-  for (std::string item; rest >> item;) flags.settings.push_back(item);
+  flags.scene = named.name;
+  for (const auto& [name, value] : named.settings) flags.settings.push_back(name + "=" + value);
   return flags;
 }
 

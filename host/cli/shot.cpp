@@ -15,15 +15,6 @@ std::vector<FramePattern> patterns_of(const FrameArguments& inputs) {
   return patterns;
 }
 
-/// The numbers of the frames' files, each once: of one that is held several frames are read.
-std::vector<int> sources_of(const std::vector<SequenceFrame>& frames) {
-  std::vector<int> sources;
-  for (const SequenceFrame& frame : frames) {
-    if (sources.empty() || sources.back() != frame.source) sources.push_back(frame.source);
-  }
-  return sources;
-}
-
 std::string canonical_name(const fs::path& path) {
   std::error_code unknown;
   const fs::path found = fs::weakly_canonical(path, unknown);
@@ -36,45 +27,12 @@ ShotFiles::ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, cons
     : ShotFiles(patterns_of(inputs), flags, choice) {}
 
 ShotFiles::ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice)
-    : inputs_(std::move(inputs)), options_(flags.read_options()) {
-  std::vector<std::string> notes;
-  frames_ = list_frames(inputs_, choice, notes);
+    : ShotFiles(std::move(inputs), flags, choice, {}) {}
+
+ShotFiles::ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice,
+                     std::vector<std::string> notes)
+    : SequenceFiles(std::move(inputs), flags.read_options(), choice, notes) {
   note(notes);
-  if (flags.camera.empty()) return;
-  if (FramePattern::is_pattern(flags.camera))
-    cameras_.emplace(flags.camera, "--camera");
-  else
-    camera_list_ = CameraList::of_file(flags.camera, sources_of(frames_));
-}
-
-std::vector<int> ShotFiles::numbers() const {
-  std::vector<int> numbers;
-  for (const SequenceFrame& frame : frames_) numbers.push_back(frame.number);
-  return numbers;
-}
-
-std::string ShotFiles::name() const {
-  std::vector<std::string> names;
-  for (const FramePattern& pattern : inputs_) names.push_back(pattern.name());
-  return enumerate(names);
-}
-
-std::vector<std::string> ShotFiles::paths_of(const SequenceFrame& frame) const {
-  std::vector<std::string> paths;
-  for (const FramePattern& pattern : inputs_) paths.push_back(pattern.path_of(frame.source).string());
-  return paths;
-}
-
-std::string ShotFiles::camera_of(const SequenceFrame& frame) const {
-  if (cameras_) return cameras_->path_of(frame.source).string();
-  return camera_list_ ? "" : options_.camera_file.string();
-}
-
-ReadOptions ShotFiles::options_for(const SequenceFrame& frame) const {
-  ReadOptions options = options_;
-  if (cameras_) options.camera_file = cameras_->path_of(frame.source);
-  if (camera_list_) options.camera_text = camera_list_->text_of(frame.source);
-  return options;
 }
 
 void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag) {

@@ -5,44 +5,23 @@
 #include <string>
 #include <vector>
 
-#include "camera/camera_list.h"
 #include "cli/run_command.h"
 #include "gloam/frame_files.h"
 #include "gloam/frame_pattern.h"
-#include "sequence/frame_list.h"
+#include "sequence/sequence_files.h"
 
 namespace gloam::cli {
 
-/// The files of a shot's frames, and how each is read.
-class ShotFiles {
+/// `SequenceFiles` by flags. Adds its notes to those of the command.
+class ShotFiles : public SequenceFiles {
  public:
-  /// Throws UsageError and Error as `list_frames` and `CameraList` do, and UsageError for one input of two that is no pattern.
   ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice);
-  /// Of any number of patterns. Throws as above.
+  /// Of any number of patterns.
   ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice);
 
-  const std::vector<FramePattern>& inputs() const { return inputs_; }
-  const std::vector<SequenceFrame>& frames() const { return frames_; }
-  std::vector<int> numbers() const;
-  /// "shot.####.exr", or both names.
-  std::string name() const;
-
-  /// The EXR files of a frame.
-  std::vector<std::string> paths_of(const SequenceFrame& frame) const;
-  /// The camera file of a frame; empty if none is named, or one holds the cameras of all frames.
-  std::string camera_of(const SequenceFrame& frame) const;
-  /// Whether one file lists the cameras in the order of the frames, without their numbers.
-  bool cameras_are_in_order() const { return camera_list_ && camera_list_->is_in_order(); }
-  /// How a frame is read.
-  ReadOptions options_for(const SequenceFrame& frame) const;
-  FrameFiles open(const SequenceFrame& frame) const { return FrameFiles(paths_of(frame), options_for(frame)); }
-
  private:
-  std::vector<FramePattern> inputs_;
-  std::vector<SequenceFrame> frames_;
-  ReadOptions options_;
-  std::optional<FramePattern> cameras_;
-  std::optional<CameraList> camera_list_;
+  ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice,
+            std::vector<std::string> notes);
 };
 
 /// Throws UsageError for outputs that are patterns, and for a flag of shots, with one frame. `flag`: empty if none is given.

@@ -29,8 +29,7 @@ void add_frames(CLI::App& app, FrameChoice& choice) {
 }
 
 void add_missing(CLI::App& app, FrameChoice& choice) {
-  add_choice(app, "--missing", choice.missing,
-             {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}},
+  add_choice(app, "--missing", choice.missing, missing_words,
              "frames that are not there: refuse (the default), leave out, or take the nearest one before")
       ->group(group);
 }

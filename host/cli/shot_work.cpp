@@ -108,7 +108,7 @@ bool ShotWork::take_over(size_t i, InFlight& flight) {
   const int number = frame_at(i).number;
   if (turns_[i].begins || turn_before_ + 1 != i) history_.begin_anew();
   files_before_ = add_history_to(flight.making, history_.holds_any() ? files_before_ : "");
-  if (history_.holds_any() && contains(flight.plan.inputs, "motion") && frame_at(i - 1).number + 1 != number) {
+  if (history_.holds_any() && motion_leads_elsewhere(flight.plan.inputs, frame_at(i - 1).number, number)) {
     if (!gap_noted_)
       note(
           {fmt::format("frame {}: its motion leads to frame {}, which is not computed; accumulation begins anew "

@@ -42,7 +42,7 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
   app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
       ->type_name("A,B")
       ->group("Technique");
-  add_choice(app, "--resolution", resolution, {{"full", 1}, {"half", 2}, {"quarter", 4}},
+  add_choice(app, "--resolution", resolution, resolution_words,
              "estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
       ->group("Technique");
   app.add_option("--adaptive", adaptive,

@@ -9,6 +9,7 @@
 #include "cli/typed.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "run/run_words.h"
 
 namespace gloam::cli {
 
@@ -22,9 +23,6 @@ struct TechniqueFlags {
   void add_to(CLI::App& app, bool with_mask = true);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };
-
-inline const Choices<Math> math_words = {{"precise", Math::precise}, {"fast", Math::fast}};
-inline const Choices<Real> real_words = {{"float", Real::float32}, {"double", Real::float64}};
 
 /// The device, and how it computes.
 struct RunFlags {

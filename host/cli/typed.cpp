@@ -75,10 +75,6 @@ std::vector<std::string> split_list(const std::string& text, const std::string& 
   return items;
 }
 
-void refuse_word(const std::string& word, const std::string& flag, const std::vector<std::string>& words) {
-  throw UsageError("{} {} is not allowed{}; {} are", flag, word, suggestion(word, words), enumerate(words));
-}
-
 std::string type_of_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "|")); }
 
 CLI::Option* add_word(CLI::App& app, const std::string& flag, std::string& target,

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/words.h"
+
 namespace gloam::cli {
 
 /// Allowed values of a number, both ends included.
@@ -18,10 +20,6 @@ struct Range {
   Number least, most;
   bool or_infinite = false;  ///< infinity is allowed as well; of both signs if `least` is below 0
 };
-
-/// Words and the values that they stand for.
-template <typename Value>
-using Choices = std::vector<std::pair<std::string, Value>>;
 
 inline constexpr Range<int> allowed_seeds = {0, std::numeric_limits<int>::max()}, allowed_rays = {1, 1 << 24},
                             allowed_rounds = {1, 10000};
@@ -53,32 +51,6 @@ Size parse_size(const std::string& text, const std::string& flag);
 
 /// "a,b" -> a b; none of them empty.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);
-
-/// Throws UsageError for a word that is not allowed.
-[[noreturn]] void refuse_word(const std::string& word, const std::string& flag, const std::vector<std::string>& words);
-
-template <typename Value>
-std::vector<std::string> words_of(const Choices<Value>& choices) {
-  std::vector<std::string> words;
-  for (const auto& [word, value] : choices) words.push_back(word);
-  return words;
-}
-
-template <typename Value>
-Value value_of(const std::string& word, const std::string& flag, const Choices<Value>& choices) {
-  for (const auto& [name, value] : choices) {
-    if (name == word) return value;
-  }
-  refuse_word(word, flag, words_of(choices));
-}
-
-template <typename Value>
-std::string word_for(const Value& value, const Choices<Value>& choices) {
-  for (const auto& [name, known] : choices) {
-    if (known == value) return name;
-  }
-  return "";
-}
 
 // --- Flags.
 

@@ -1,13 +1,15 @@
 #include "gloam/arrays.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
 #include "camera/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "gloam/normalise.h"
 #include "gloam/planes.h"
+#include "normalise/each_row.h"
+#include "normalise/normalise.h"
 
 namespace gloam {
 namespace {
@@ -22,37 +24,59 @@ void check_size(int width, int height) {
                 longest_side, max_pixels);
 }
 
-void check_array(const std::string& name, std::span<const float> values, const Arrays& arrays, size_t components) {
+void check_array(const std::string& name, std::span<const float> values, int width, int height, size_t components) {
   if (name.empty()) throw Error("a plane without a name; give one of planes.h, such as 'depth'");
-  const size_t needed = size_t(arrays.width) * size_t(arrays.height) * components;
+  const size_t needed = size_t(width) * size_t(height) * components;
   if (values.size() != needed)
-    throw Error("plane '{}' has {} values; {} x {} pixels of {} component{} are {}", name, values.size(), arrays.width,
-                arrays.height, components, components == 1 ? "" : "s", needed);
+    throw Error("plane '{}' has {} values; {} x {} pixels of {} component{} are {}", name, values.size(), width, height,
+                components, components == 1 ? "" : "s", needed);
   if (!values.data()) throw Error("plane '{}' is a null pointer; give its {} values, or leave it out", name, needed);
 }
 
-Channel component_of(std::span<const float> values, const Layout& layout, size_t component, size_t components) {
-  Channel channel(layout);
-  const float* value = values.data() + component;
-  for (int y = 0; y < layout.height; ++y) {
-    float* row = channel.row(y);
-    for (int x = 0; x < layout.width; ++x, value += components) row[x] = *value;
-  }
-  return channel;
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  Plane plane{name, {}};
+  for (size_t i = 0; i < plane_kind(name).components.size(); ++i) plane.channels.emplace_back(layout);
+  return plane;
 }
 
+/// Copies a row of an array to that of a plane.
+void fill_row(Plane& plane, std::span<const float> values, int y) {
+  const size_t components = plane.channels.size();
+  const int width = plane.channels.front().layout().width;
+  const float* const pixels = values.data() + size_t(y) * size_t(width) * components;
+  if (components == 1) {
+    std::copy(pixels, pixels + width, plane.channels.front().row(y));
+    return;
+  }
+  if (components == 3) {
+    float *a = plane.channels[0].row(y), *b = plane.channels[1].row(y), *c = plane.channels[2].row(y);
+    for (int x = 0; x < width; ++x) {
+      a[x] = pixels[3 * x];
+      b[x] = pixels[3 * x + 1];
+      c[x] = pixels[3 * x + 2];
+    }
+    return;
+  }
+  for (size_t i = 0; i < components; ++i) {
+    float* row = plane.channels[i].row(y);
+    for (int x = 0; x < width; ++x) row[x] = pixels[size_t(x) * components + i];
+  }
+}
+
+/// Values are copied and cleaned row by row: each is then taken from memory once.
 View view_from(const Arrays& arrays) {
   View view;
   view.camera = arrays.camera;
   if (view.camera->source.empty()) view.camera->source = "memory";
   const Layout layout(arrays.width, arrays.height);
+  std::vector<std::pair<Plane*, std::span<const float>>> sources;
   for (const auto& [name, values] : arrays.planes) {
-    const size_t components = plane_kind(name).components.size();
-    check_array(name, values, arrays, components);
-    Plane plane{name, {}};
-    for (size_t i = 0; i < components; ++i) plane.channels.push_back(component_of(values, layout, i, components));
-    view.planes.emplace(name, std::move(plane));
+    check_array(name, values, arrays.width, arrays.height, plane_kind(name).components.size());
+    sources.emplace_back(&view.planes.emplace(name, empty_plane(name, layout)).first->second, values);
   }
+  normalise_while_filling(view, layout, [&](int y) {
+    for (const auto& [plane, values] : sources) fill_row(*plane, values, y);
+  });
   return view;
 }
 
@@ -70,12 +94,18 @@ Frame frame_from(const Arrays& arrays) {
   frame.display = frame.window = {0, 0, arrays.width, arrays.height};
   try {
     frame.views.push_back(view_from(arrays));
-    normalise(frame);
   } catch (const std::bad_alloc&) {
     throw Error("out of memory for {} planes of {} x {} pixels; use a smaller image", arrays.planes.size(),
                 arrays.width, arrays.height);
   }
   return frame;
+}
+
+Plane plane_from(const std::string& name, int width, int height, std::span<const float> values) {
+  check_array(name, values, width, height, plane_kind(name).components.size());
+  Plane plane = empty_plane(name, Layout(width, height));
+  for_each_row(plane.channels.front().layout(), [&](int y) { fill_row(plane, values, y); });
+  return plane;
 }
 
 std::vector<float> values_of(const Frame& frame, const std::string& plane, const std::string& view) {

@@ -12,14 +12,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Depths from here on are never surfaces: positions would leave the range of float with any camera.
 constexpr float beyond_reach = 1e20f;
 
-void clean_row(float* row, int width, float sign, const Background& background) {
-  for (int x = 0; x < width; ++x) {
-    const float raw = row[x], depth = sign * raw;
-    const bool surface = is_surface(depth, background) & (raw != background.value);
-    row[x] = surface ? depth : infinity;
-  }
-}
-
 }  // namespace
 
 Background background_of(std::optional<float> value, std::optional<double> far) {
@@ -35,8 +27,16 @@ Background background_of(std::optional<float> value, std::optional<double> far) 
   return background;
 }
 
+void clean_depth_row(float* row, int width, float sign, const Background& background) {
+  for (int x = 0; x < width; ++x) {
+    const float raw = row[x], depth = sign * raw;
+    const bool surface = is_surface(depth, background) & (raw != background.value);
+    row[x] = surface ? depth : infinity;
+  }
+}
+
 void clean_depth(Channel& depth, float sign, const Background& background) {
-  for_each_row(depth.layout(), [&](int y) { clean_row(depth.row(y), depth.layout().width, sign, background); });
+  for_each_row(depth.layout(), [&](int y) { clean_depth_row(depth.row(y), depth.layout().width, sign, background); });
 }
 
 }  // namespace gloam

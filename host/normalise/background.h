@@ -31,6 +31,8 @@ inline bool is_surface(float depth, const Background& background) {
 }
 
 /// For planar depth: sets background to +inf and applies the sign.
+void clean_depth_row(float* row, int width, float sign, const Background& background);
+/// As above, of all rows.
 void clean_depth(Channel& depth, float sign, const Background& background);
 
 }  // namespace gloam

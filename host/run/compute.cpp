@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "base/lists.h"
 #include "gloam/error.h"
-#include "gloam/radius.h"
+#include "gloam/stereo_consistency.h"
 
 namespace gloam {
 namespace {
@@ -28,14 +29,53 @@ std::optional<double> stated_radius(const Frame& frame) {
   return stated == frame.numbers.end() ? std::nullopt : std::optional(stated->second);
 }
 
+/// Whether the radius of a request's plan comes from its settings.
+bool has_radius(const PlanRequest& request, const Plan& plan) {
+  const std::optional<Radius> radius = radius_of(plan, request, RadiusSource::frame);
+  return radius && radius->from == RadiusSource::flag;
+}
+
 }  // namespace
 
-RunResult compute(const PlanRequest& request, const Frame& frame, Device& device, const RunOptions& options) {
+std::string warning_about_views(const Plan& plan, const Frame& frame) {
+  const auto is_of_two = [](const PlannedPass& planned) { return planned.technique->views == 2; };
+  if (!std::any_of(plan.passes.begin(), plan.passes.end(), is_of_two) || frame.views.size() != 2) return "";
+  for (const View& view : frame.views) {
+    if (!view.find("depth") || !view.camera || !view.camera->pose) return "";  // another message says so
+  }
+  if (have_surface_in_common(frame)) return "";
+  return fmt::format(
+      "the views '{}' and '{}' have no surface in common, and each gets a result of its own; do both show "
+      "one scene, each with its own camera?",
+      frame.views[0].name, frame.views[1].name);
+}
+
+Computation plan_on(const PlanRequest& request, const Frame& frame, const std::vector<std::string>& also) {
   check(frame);
-  const std::vector<std::string> planes = common_planes(frame);
-  PlanRequest with_radius = request;
-  if (!request.radius) with_radius.radius = default_radius(frame, stated_radius(frame)).value;
-  return run(make_plan(with_radius, planes, holdings(planes)), frame, device, options);
+  std::vector<std::string> planes = common_planes(frame);
+  const std::string holds = holdings(planes);
+  add_new(planes, also);
+  Computation computation{make_plan(request, planes, holds), {}, {}};
+  computation.radius = radius_of(computation.plan, request, RadiusSource::flag);
+  const bool is_given = request.radius || has_radius(request, computation.plan);
+  if (computation.radius && !is_given) {
+    const Radius made = default_radius(frame, stated_radius(frame));
+    PlanRequest with_radius = request;
+    with_radius.radius = made.value;
+    computation.plan = make_plan(with_radius, planes, holds);
+    computation.radius = radius_of(computation.plan, request, made.from);
+  }
+  if (computation.radius) {
+    const std::string warning = warning_about(*computation.radius, frame, cap_of(computation.plan));
+    if (!warning.empty()) computation.notes.push_back(warning);
+  }
+  if (const std::string warning = warning_about_views(computation.plan, frame); !warning.empty())
+    computation.notes.push_back(warning);
+  return computation;
+}
+
+RunResult compute(const PlanRequest& request, const Frame& frame, Device& device, const RunOptions& options) {
+  return run(plan_on(request, frame).plan, frame, device, options);
 }
 
 std::vector<float> ambient_occlusion(const Arrays& arrays, Device& device, const PlanRequest& request,

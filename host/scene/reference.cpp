@@ -104,6 +104,7 @@ AoReference ao_reference(const Tracer& tracer, const Frame& frame, const AoRefer
   rows.checkpoint = options.checkpoint;
   rows.checkpoint_seconds = options.checkpoint_seconds;
   rows.progress = options.progress;
+  rows.poll = options.poll;
   rows.trace = [&](const ViewTracer&, const Site& site, int, int, uint32_t pixel, float* value, float& noise) {
     const uint32_t seed = pixel + options.seed;
     const double a = estimator.open_share(site, hash(2 * seed)), b = estimator.open_share(site, hash(2 * seed + 1));

@@ -150,13 +150,13 @@ class RowsTracing {
     std::vector<Channel>& value = out.planes.at(options_.value).channels;
     Channel& noise = out.planes.at(options_.noise).channels[0];
     std::exception_ptr failure;  // an exception may not leave a parallel loop
-    std::atomic<bool> failed = false;
 #pragma omp parallel for schedule(dynamic, 1)
     for (int y = 0; y < frame_.height(); ++y) {
-      if (failed || row_is_done(value[0], y)) continue;
+      if (failed_ || row_is_done(value[0], y)) continue;
       try {
         Row row(value.size() + 1, std::vector<float>(size_t(frame_.width()), 0.0f));
         const long long rays = trace_row(pixels, y, row);
+        if (failed_) continue;
         const std::lock_guard<std::mutex> lock(mutex_);
         // The first component is copied last: it marks the row as done.
         for (size_t i = 1; i < value.size(); ++i) std::copy(row[i].begin(), row[i].end(), value[i].row(y));
@@ -165,7 +165,7 @@ class RowsTracing {
         finish_row(rays);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        failed = true;
+        failed_ = true;
         failure = std::current_exception();
       }
     }
@@ -173,12 +173,13 @@ class RowsTracing {
     out.planes["depth"] = view.planes.at("depth").clone();
   }
 
-  /// Returns the number of rays.
+  /// Returns the number of rays. Stops in the middle of the row where another thread has failed.
   long long trace_row(const ViewTracer& pixels, int y, Row& row) const {
     const size_t components = row.size() - 1;
     std::vector<float> value(components);
     long long rays = 0;
-    for (int x = 0; x < frame_.width(); ++x) {
+    for (int x = 0; x < frame_.width() && !failed_; ++x) {
+      if (options_.poll) options_.poll();
       value = options_.background;
       float noise = 0;
       if (!pixels.is_background_at(x, y)) {
@@ -276,6 +277,7 @@ class RowsTracing {
   std::string key_;
   std::mutex mutex_;
   bool can_save_ = true;
+  std::atomic<bool> failed_ = false;
   long long rows_done_ = 0, looked_at_ = 0, unlike_ = 0;
   Clock::time_point start_ = Clock::now(), saved_ = Clock::now();
 };

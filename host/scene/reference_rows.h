@@ -48,6 +48,7 @@ struct RowsOptions {
   std::filesystem::path checkpoint;
   double checkpoint_seconds = 15;
   std::function<void(double share_done)> progress;
+  std::function<void()> poll;
   /// Fills `value`, one number per component, and `noise` for a foreground pixel; returns the number of rays.
   std::function<long long(const ViewTracer& pixels, const Site& site, int x, int y, uint32_t seed, float* value,
                           float& noise)>

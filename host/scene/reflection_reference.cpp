@@ -200,6 +200,7 @@ Reference reflection_reference(const Tracer& tracer, const Frame& frame, const R
   rows.checkpoint = options.checkpoint;
   rows.checkpoint_seconds = options.checkpoint_seconds;
   rows.progress = options.progress;
+  rows.poll = options.poll;
   rows.trace = [&](const ViewTracer& view, const Site& site, int x, int y, uint32_t pixel, float* value, float& noise) {
     return pixels.trace(view, site, x, y, pixel, value, noise);
   };

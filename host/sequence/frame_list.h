@@ -5,12 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "gloam/frame_pattern.h"
 
 namespace gloam {
 
 /// What happens to a frame whose files are not there.
 enum class MissingFrames { error, skip, hold };
+/// Their words, for commands and the Python module.
+inline const Choices<MissingFrames> missing_words = {
+    {"error", MissingFrames::error}, {"skip", MissingFrames::skip}, {"hold", MissingFrames::hold}};
 
 /// A frame of a sequence. `source`: the number of the files it is read from; another one for a frame that is held.
 struct SequenceFrame {

@@ -2,6 +2,7 @@
 
 #include "base/lists.h"
 #include "gloam/history.h"
+#include "gloam/plan.h"
 
 namespace gloam {
 
@@ -33,6 +34,17 @@ void HistoryChain::leave_for_next(const Frame& frame, Frame& result, const std::
     if (!kept.find("depth")) kept.planes["depth"] = frame.view(view.name).find("depth")->clone();
   }
   keep_planes(result, written);
+}
+
+std::vector<std::string> with_planes_for_history(std::vector<std::string> outputs, const std::string& technique) {
+  for (const std::string& name : planes_for_history()) {
+    if (contains(outputs_of(find_technique(technique)), name)) add_new(outputs, name);
+  }
+  return outputs;
+}
+
+bool motion_leads_elsewhere(const std::vector<std::string>& inputs, int before, int number) {
+  return contains(inputs, "motion") && before + 1 != number;
 }
 
 int seed_in_sequence(int seed, int frame_number) {

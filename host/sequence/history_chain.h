@@ -30,6 +30,13 @@ class HistoryChain {
   std::string name_;
 };
 
+/// Outputs to ask of a technique for, so that each frame leaves what the next one takes over, too.
+std::vector<std::string> with_planes_for_history(std::vector<std::string> outputs, const std::string& technique);
+
+/// Whether a frame's motion leads to another frame than `before`, the number of the one that was computed before it: no history can be
+/// taken over.
+bool motion_leads_elsewhere(const std::vector<std::string>& inputs, int before, int number);
+
 /// Other samples in each frame, the same whichever process computes it.
 int seed_in_sequence(int seed, int frame_number);
 

@@ -21,7 +21,7 @@ constexpr size_t most_lines = 400;
 const std::string reason = "Long, because ";
 
 /// Folders below host/ whose files are entries of one list, and so have no header of their own.
-const std::vector<std::string> without_headers = {"cli/", "stress/cases/", "scene/built_in/"};
+const std::vector<std::string> without_headers = {"cli/", "python/", "stress/cases/", "scene/built_in/"};
 
 std::vector<std::string> lines_of(const fs::path& path) {
   std::ifstream file(path);

@@ -33,6 +33,10 @@ Camera camera_with_fov(int width, int height, double degrees);
 /// and where memory runs out.
 Frame frame_from(const Arrays& arrays);
 
+/// A plane of values as they are, in the order of `Arrays::planes`: for comparing and writing. Throws Error as `frame_from` does for an
+/// array.
+Plane plane_from(const std::string& name, int width, int height, std::span<const float> values);
+
 /// The values of a plane of a view, in the order of `Arrays::planes`. Throws Error if the frame has no such view or plane.
 std::vector<float> values_of(const Frame& frame, const std::string& plane, const std::string& view = "");
 

@@ -26,6 +26,7 @@ struct AoReferenceOptions {
   std::filesystem::path checkpoint = {};
   double checkpoint_seconds = 15;  ///< between two saves, and before the first
   std::function<void(double share_done)> progress = {};
+  std::function<void()> poll = {};  ///< called after each pixel, from any thread; what it throws ends the work
 };
 
 /// A traced reference, and figures on its quality.

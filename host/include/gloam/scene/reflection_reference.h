@@ -17,6 +17,7 @@ struct ReflectionReferenceOptions {
   std::filesystem::path checkpoint = {};  ///< as in `AoReferenceOptions`, like what follows
   double checkpoint_seconds = 15;
   std::function<void(double share_done)> progress = {};
+  std::function<void()> poll = {};
 };
 
 /// Light that the visible surfaces reflect towards the eye: two bounces. The first, on the visible surface: GGX with

@@ -1,0 +1,17 @@
+// The words by which commands and the Python module name how a frame is read.
+#pragma once
+
+#include "base/words.h"
+#include "gloam/exr.h"
+
+namespace gloam {
+
+inline const Choices<DepthConvention> depth_words = {{"auto", DepthConvention::automatic},
+                                                     {"z", DepthConvention::z},
+                                                     {"ray", DepthConvention::ray},
+                                                     {"ndc", DepthConvention::ndc},
+                                                     {"reversed", DepthConvention::reversed}};
+inline const Choices<NormalSpace> normal_space_words = {
+    {"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}};
+
+}  // namespace gloam

@@ -1,0 +1,39 @@
+// What the files of the Python module share. Each of them adds a part to the module `gloam._gloam`; what users see is gloam/__init__.py.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gloam/device.h"
+#include "gloam/error.h"
+#include "gloam/frame.h"
+
+namespace gloam::python {
+
+namespace py = pybind11;
+
+/// A frame as Python holds it. It does not change, so that threads may share it.
+struct HeldFrame {
+  Frame frame;
+  std::string name;  ///< of its file, or of what made it, for messages; may be empty
+};
+using SharedFrame = std::shared_ptr<HeldFrame>;
+
+void add_errors(py::module_& module);
+void add_camera(py::module_& module);
+void add_devices(py::module_& module);
+void add_frames(py::module_& module);
+void add_files(py::module_& module);
+void add_techniques(py::module_& module);
+void add_run(py::module_& module);
+void add_sequences(py::module_& module);
+void add_compare(py::module_& module);
+void add_scenes(py::module_& module);
+
+}  // namespace gloam::python

@@ -1,0 +1,39 @@
+// What help() says of the compiled classes and functions.
+#pragma once
+
+namespace gloam::python {
+
+inline constexpr const char* camera_help = R"(A camera: intrinsics in pixels, and where it is.
+
+A point (X, Y, -depth) of view space (right-handed, y up, looking along -z) lands at x = cx + fx * X / depth, y = cy - fy * Y / depth;
+an orthographic camera does without the division. Pixel centres are at +0.5, row 0 is on top.
+
+fx, fy: pixels per unit at depth 1 (orthographic: pixels per scene unit), above 0.  cx, cy: principal point, pixels.
+near, far: clipping planes, scene units; depth at far is background.
+camera_to_world, world_to_camera: a pose, (4, 4), a rotation and a translation in scene units; one of them, for techniques of several
+views, for sequences and for scenes.
+Raises gloam.Error for what is not finite, out of range or no rotation.)";
+
+inline constexpr const char* device_help = R"(An OpenCL device, open, with its compiled kernels.
+
+text: part of the platform's or the device's name, in any case; empty: the first GPU, else the widest CPU. Without a device, calls open the one
+that their `device` text stands for at its first use, and keep it. Threads may share a device: their work on it runs one after another; devices
+of their own run side by side.
+Raises gloam.Error, with a list of the devices, if none matches.)";
+
+inline constexpr const char* device_info_help =
+    R"(What is known of a device: platform, name, type ("cpu", "gpu" or "other"), driver, lanes (pixels per work-item
+that suit it), has_double, and memory and largest_buffer in bytes.)";
+
+inline constexpr const char* frame_help =
+    R"(Planes of one view or of several, with cameras, as gloam.read and gloam.capture make them. It does not change.
+
+frame["depth"] is an array that cannot be written to: (height, width), in place, or (height, width, components), a copy. Of several views it is a
+list of arrays, in the order of `views`. `planes` has the names, `notes` what was assumed, `attributes` and `numbers` what a file says of how
+its planes were made. Depth is in scene units, +inf on background; normals are unit, in view space.)";
+
+inline constexpr const char* devices_help =
+    R"(All devices of all platforms of OpenCL, a list of gloam.DeviceInfo. Opens none.
+Raises gloam.Error if there is no platform.)";
+
+}  // namespace gloam::python

@@ -1,0 +1,32 @@
+"""Ambient occlusion, reflections and other image-space effects on NumPy arrays and EXR files.
+
+    import gloam
+    result = gloam.run("gtao", depth=z, normal=n, camera=gloam.Camera(fx=850, fy=850, cx=960, cy=540), radius=0.5)
+    result["ao"]                # (height, width), float32, 1 open, 0 closed
+
+Arrays are float32 and C-contiguous, rows from the top: (height, width), or (height, width, components). Depth is the distance along the
+viewing axis (not along the ray) in scene units; +inf, NaN, 0 and less, 1e10 and more are background. Normals are in view space: x to the
+right, y up, z towards the eye. A radius, and every other length, is in the unit of depth.
+
+Whatever cannot be done raises `gloam.Error`, whose text is one sentence: what is wrong, the value, what is allowed. docs/python.md has the rest.
+"""
+
+from . import _gloam
+from ._compare import compare
+from ._files import Run, Sequence, read, write
+from ._gloam import Camera, Device, DeviceInfo, Error, Frame, MissingPlanes, UsageError, devices
+from ._run import Pass, Result, run
+from ._scenes import Scene, capture, reference, scenes
+from ._techniques import Parameter, Technique, techniques
+from ._words import Note
+
+__version__ = _gloam.version
+
+__all__ = [
+    "Camera", "Device", "DeviceInfo", "Error", "Frame", "MissingPlanes", "Note", "Parameter", "Pass", "Result", "Run", "Scene", "Sequence",
+    "Technique", "UsageError", "capture", "compare", "devices", "read", "reference", "run", "scenes", "techniques", "write",
+]
+
+for _public in __all__:
+    globals()[_public].__module__ = "gloam"
+del _public

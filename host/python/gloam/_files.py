@@ -1,0 +1,172 @@
+"""read, write and Sequence: frames in EXR files."""
+
+import numpy
+
+from . import _gloam, _run, _words
+from ._gloam import Frame, UsageError
+
+
+def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, background=None, normal_space=None, views=None, channels=None,
+         planes=None, as_stored=False):
+    """Reads a frame from an EXR file, and returns a gloam.Frame. What is not stated and has to be assumed is in its `notes`.
+
+    file: a path, or a list of two paths, one for each eye.
+    camera: a gloam.Camera, or the path of a camera JSON; default: the header's, else the JSON beside the file.
+    fov: horizontal field of view, degrees, over every other camera.
+    depth: what depth values mean: "auto", "z" (along the viewing axis), "ray", "ndc" or "reversed"; near, far: the clipping planes of the last two,
+        scene units.  background: the depth value that means background.  normal_space: "auto", "view" or "world".
+    views: names of the views to read.  channels: {"depth": "Layer.Z"}: channels or layers that planes are taken from, or "none".
+    planes: names of the planes to read; default: all that every view has.
+    as_stored: values as they are in the file, not clamped, replaced or made unit: for measuring.
+
+    Raises gloam.Error for a file that cannot be read, naming it.
+    """
+    words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, normal_space=normal_space, views=views,
+                           channels=channels, as_stored=as_stored)
+    paths = _run._files(file)
+    if paths is None:
+        raise UsageError(f"file is of type {type(file).__name__}; a path is allowed, or a list of two paths, one for each eye")
+    frame = _gloam.read(paths, words, _words.names("planes", planes) or [])
+    _words.note(frame.notes, stacklevel=2)
+    return frame
+
+
+def read_as_stored(file):
+    """A file for comparing: nothing is clamped or replaced."""
+    return _gloam.read([_words.path("file", file)], _words.reading(as_stored=True), [])
+
+
+def _image(planes, views=None):
+    """Arrays as a frame without cameras, their values as they are."""
+    of_views, _ = _run._of_each_view(dict(planes))
+    return _gloam.image_of_arrays(of_views, views or _run._names_of_views(None, len(of_views)))
+
+
+def image_of_result(result):
+    listed = {name: value if isinstance(value, list) else [value] for name, value in result.items()}
+    return _image(listed, result.views)
+
+
+def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
+    """Writes an EXR file, as the command `gloam` does. It is there whole or not at all.
+
+    what: a gloam.Frame; a result of gloam.run, with the depth and the camera of its frame, as `gloam run -o` writes it; or a dict of arrays by
+        the names of their planes, float32, (height, width) or (height, width, components), or lists of them.
+    camera, fov: as for gloam.run, for a dict.
+    compression: "zip", "zips", "piz", "rle" or "none", all lossless.  half: AO and other bounded planes as 16-bit floats.
+
+    Raises gloam.Error, naming the path, if it cannot be written.
+    """
+    target = _words.path("path", path)
+    compression = _words.text("compression", compression)
+    if isinstance(what, Frame):
+        _gloam.write(target, what, None, [], {}, {}, compression, bool(half))
+    elif isinstance(what, _run.Result):
+        carried = ["depth"] + (["normal"] if len(what.frame.views) == 2 else [])
+        _gloam.write(target, what.frame, image_of_result(what), carried, what.attributes, {}, compression, bool(half))
+    elif isinstance(what, dict):
+        if not what:
+            raise UsageError("write: the dict has no array; give one of arrays by the names of their planes")
+        image = _image(what)
+        cameras = None
+        if camera is not None or fov is not None:
+            of_views, several = _run._of_each_view(dict(what))
+            cameras = _run._cameras(camera, fov, of_views, several)
+        _gloam.write_image(target, image, cameras, compression, bool(half))
+    else:
+        raise UsageError(f"write: {type(what).__name__} cannot be written; a gloam.Frame, a result of gloam.run, or a dict of arrays can")
+
+
+class Sequence:
+    """The frames of a sequence, in files that are named by a pattern.
+
+    pattern: "shot.####.exr" (# is a digit, filled up with zeros) or "shot.%04d.exr"; a list of two patterns has one for each eye.
+    frames: "1001-1100", "1-99x2", "1,5,9-12", or numbers (a range, a list); default: all that are there.
+    missing: for frames that are not there: "error" (where frames are named), "skip", or "hold", the frame before.
+    The other keywords: as for gloam.read. camera may be a pattern too, or a JSON that lists the cameras of all frames.
+
+    Iterating gives a gloam.Frame for each number of `numbers`; sequence[1001] reads one frame.
+    Raises gloam.Error for a sequence without files, and for frames that are missing.
+    """
+
+    def __init__(self, pattern, *, frames=None, missing=None, camera=None, fov=None, depth=None, near=None, far=None, background=None,
+                 normal_space=None, views=None, channels=None):
+        paths = _run._files(pattern)
+        if paths is None:
+            raise UsageError(f"pattern is of type {type(pattern).__name__}; a path such as 'shot.####.exr' is allowed, or a list of two")
+        if isinstance(frames, (range, list, tuple)) or isinstance(frames, (int, numpy.integer)):
+            numbers = [frames] if isinstance(frames, (int, numpy.integer)) else list(frames)
+            frames = ",".join(str(_words.integer("frames", number)) for number in numbers)
+        self._words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, normal_space=normal_space,
+                                     views=views, channels=channels)
+        self._held = _gloam.open_sequence(paths, _words.text("frames", frames), _words.text("missing", missing), self._words)
+        self.notes = self._held.notes
+        _words.note(self.notes, stacklevel=2)
+
+    @property
+    def numbers(self):
+        return self._held.numbers
+
+    def __len__(self):
+        return len(self._held.numbers)
+
+    def __iter__(self):
+        return (self.read(number) for number in self._held.numbers)
+
+    def __getitem__(self, number):
+        return self.read(number)
+
+    def read(self, number, planes=None):
+        """Reads a frame by its number: a gloam.Frame with these planes; default: all."""
+        return self._held.read(_words.integer("number", number), self._words, _words.names("planes", planes) or [])
+
+    def run(self, technique, *, temporal=False, device=None, settings=None, **keywords):
+        """An iterator over a technique's results, a gloam.Result for each frame, with its number as `number`.
+
+        The next frame is decoded while one is computed. The keywords are those of gloam.run, without planes, camera and repeat.
+        temporal: AO and reflections become means over the frames that showed each surface, with the same bits as `gloam run --temporal`.
+        Without a radius, each frame has its own.
+        Raises gloam.Error for a frame that fails; calling next() again goes on with the frame after it.
+        """
+        options = {name: keywords.pop(name) for name in _run._OPTIONS if name in keywords}
+        if options.get("repeat") not in (None, 1):
+            raise UsageError(f"repeat {options['repeat']}: times one frame; leave it out, or run one frame alone")
+        if options.get("strips") is not None:
+            raise UsageError("strips: are for gloam.run and one frame; leave them out")
+        planes, parameters = _run.divided(keywords)
+        if planes:
+            raise UsageError(f"{_gloam.enumerate(list(planes))}: planes come with the frames; leave them out")
+        words, run_words = _run.request_words(technique, parameters, settings, options)
+        return Run(self, _gloam.run_over(self._held, self._words, words, bool(temporal), _words.device(device), run_words))
+
+    def __repr__(self):
+        return repr(self._held)
+
+
+class Run:
+    """Results of a technique on the frames of a sequence, one after another: an iterator. A frame that fails raises; whoever catches that may
+    go on with the next."""
+
+    def __init__(self, sequence, compiled):
+        self._sequence = sequence
+        self._compiled = compiled
+        self._noted = set()
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        outcome = self._compiled.next()
+        if outcome is None:
+            raise StopIteration
+        result = _run.Result(outcome, len(outcome.source.views) > 1)
+        notes = list(outcome.notes)
+        if result.radius_from == "frame":
+            notes = [text for text in notes if not text.startswith("radius: ")]
+            notes.append("radius: each frame has its own, made from its depths; radius=... gives one to all")
+        _words.note([text for text in notes if text not in self._noted], stacklevel=2)
+        self._noted.update(notes)
+        return result
+
+    def __repr__(self):
+        return f"<gloam.Run over {self._sequence!r}>"

@@ -1,0 +1,17 @@
+// The compiled part of the Python module: gloam/__init__.py is what users import.
+#include "python/bindings.h"
+
+PYBIND11_MODULE(_gloam, module) {
+  using namespace gloam::python;
+  module.attr("version") = GLOAM_VERSION;
+  add_errors(module);
+  add_camera(module);
+  add_devices(module);
+  add_frames(module);
+  add_files(module);
+  add_techniques(module);
+  add_run(module);
+  add_sequences(module);
+  add_compare(module);
+  add_scenes(module);
+}

@@ -1,0 +1,120 @@
+#include "python/requests.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/lists.h"
+#include "exr/read_words.h"
+#include "run/run_words.h"
+#include "technique/default_technique.h"
+
+namespace gloam::python {
+namespace {
+
+template <typename Value>
+Value taken(const py::dict& words, const char* name) {
+  return py::cast<Value>(words[name]);
+}
+
+/// Whether a keyword was given.
+bool has(const py::dict& words, const char* name) { return words.contains(name) && !words[name].is_none(); }
+
+std::string text(const py::dict& words, const char* name) {
+  return has(words, name) ? taken<std::string>(words, name) : std::string();
+}
+
+std::vector<std::string> names(const py::dict& words, const char* name) {
+  return has(words, name) ? taken<std::vector<std::string>>(words, name) : std::vector<std::string>();
+}
+
+template <typename Value>
+void take_choice(const py::dict& words, const char* name, const Choices<Value>& choices, Value& value) {
+  if (has(words, name)) value = value_of(taken<std::string>(words, name), name, choices);
+}
+
+/// A camera JSON without a size: the camera is in pixels of the frame.
+std::string json_of(const Camera& camera) {
+  nlohmann::json json = {
+      {"cx", camera.cx}, {"cy", camera.cy}, {"camera_type", camera.orthographic ? "ORTHO" : "PERSP"}};
+  if (camera.orthographic && camera.fx != camera.fy)
+    throw Error("camera: fx is {:g} and fy {:g}; an orthographic camera for a file has to have square pixels",
+                camera.fx, camera.fy);
+  if (camera.orthographic)
+    json["pixels_per_unit"] = camera.fx;
+  else
+    json["fx"] = camera.fx, json["fy"] = camera.fy;
+  if (camera.near) json["near"] = *camera.near;
+  if (camera.far) json["far"] = *camera.far;
+  const Pose pose = camera.pose.value_or(Pose());
+  json["camera_to_world"] = nlohmann::json::array();
+  for (int row = 0; row < 3; ++row) {
+    const glm::dvec3 axis = pose.world_to_view[row];
+    json["camera_to_world"].push_back({axis.x, axis.y, axis.z, pose.position[row]});
+  }
+  json["camera_to_world"].push_back({0, 0, 0, 1});
+  return json.dump();
+}
+
+}  // namespace
+
+PlanRequest plan_request(const py::dict& words) {
+  PlanRequest request;
+  const std::string technique = technique_for(taken<std::string>(words, "technique"));
+  find_technique(technique);
+  request.outputs = {technique};
+  request.only = names(words, "outputs");
+  request.with = names(words, "extras");
+  request.then = text(words, "filter");
+  request.preset = text(words, "preset");
+  request.settings = taken<Settings>(words, "settings");
+  request.mask = text(words, "only");
+  request.elsewhere = text(words, "elsewhere");
+  request.adaptive = text(words, "adaptive");
+  take_choice(words, "resolution", resolution_words, request.resolution);
+  return request;
+}
+
+RunOptions run_options(const py::dict& words) {
+  RunOptions options;
+  take_choice(words, "math", math_words, options.math);
+  take_choice(words, "real", real_words, options.real);
+  if (has(words, "lanes")) options.lanes = taken<int>(words, "lanes");
+  if (has(words, "seed")) options.seed = taken<int>(words, "seed");
+  if (has(words, "repeat")) options.repeat = taken<int>(words, "repeat");
+  if (options.seed < 0) throw UsageError("seed {} is not allowed; 0 and more are", options.seed);
+  return options;
+}
+
+ReadOptions read_options(const py::dict& words) {
+  ReadOptions options;
+  if (const std::optional<Camera> camera = given_camera(words)) {
+    options.camera_file = "camera";
+    options.camera_text = json_of(*camera);
+  } else {
+    options.camera_file = text(words, "camera");
+  }
+  if (has(words, "fov")) options.fov_degrees = taken<double>(words, "fov");
+  take_choice(words, "depth", depth_words, options.depth);
+  take_choice(words, "normal_space", normal_space_words, options.normal_space);
+  if (has(words, "near")) options.near = taken<double>(words, "near");
+  if (has(words, "far")) options.far = taken<double>(words, "far");
+  if (has(words, "background")) options.background = taken<float>(words, "background");
+  options.views = names(words, "views");
+  if (has(words, "channels")) options.channels = taken<std::map<std::string, std::string>>(words, "channels");
+  if (has(words, "as_stored")) options.as_stored = taken<bool>(words, "as_stored");
+  return options;
+}
+
+std::optional<Camera> given_camera(const py::dict& words) {
+  if (!has(words, "camera") || !py::isinstance<Camera>(words["camera"])) return {};
+  return taken<Camera>(words, "camera");
+}
+
+void take_camera(const std::optional<Camera>& camera, Frame& frame) {
+  if (!camera) return;
+  for (View& view : frame.views) {
+    view.camera->source = camera->source;
+    if (!camera->pose) view.camera->pose.reset();
+  }
+}
+
+}  // namespace gloam::python

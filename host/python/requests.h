@@ -1,0 +1,25 @@
+// What a call asks for, as the keywords of gloam/__init__.py say it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gloam/exr.h"
+#include "gloam/plan.h"
+#include "gloam/run.h"
+#include "python/bindings.h"
+
+namespace gloam::python {
+
+/// Throw UsageError, as the command does, for words that are not allowed.
+PlanRequest plan_request(const py::dict& words);
+RunOptions run_options(const py::dict& words);
+ReadOptions read_options(const py::dict& words);
+
+/// The camera that stands in for those of the files, if one is given as an object: `read_options` has the files read with it.
+std::optional<Camera> given_camera(const py::dict& words);
+/// Gives a frame that was read with it the camera as it was given: without a pose where it has none.
+void take_camera(const std::optional<Camera>& camera, Frame& frame);
+
+}  // namespace gloam::python

@@ -1,0 +1,99 @@
+"""Sequences: the same bits as `gloam run` on a shot, also accumulated over time."""
+
+import subprocess
+
+import numpy
+import pytest
+
+import gloam
+
+
+@pytest.fixture(scope="module")
+def shot(command, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("shot")
+    command("capture", "gallery", "-o", folder / "shot.####.exr", "--shot", "walk", "--frames", "1-6", "--size", "96x64", "--planes", "normal,motion")
+    return folder
+
+
+def test_frames_are_read_by_number(shot):
+    sequence = gloam.Sequence(shot / "shot.####.exr")
+    assert sequence.numbers == [1, 2, 3, 4, 5, 6] and len(sequence) == 6
+    frames = list(sequence)
+    assert [frame.name for frame in frames] == [f"shot.000{i}.exr" for i in range(1, 7)]
+    assert numpy.array_equal(sequence[3]["depth"], frames[2]["depth"])
+    assert sequence.read(3, ["normal"]).planes == ["normal"]
+    assert repr(sequence) == "<gloam.Sequence 'shot.####.exr', frames 1-6>"
+    assert gloam.Sequence(str(shot / "shot.%04d.exr"), frames=range(2, 6, 2)).numbers == [2, 4]
+    assert gloam.Sequence(shot / "shot.####.exr", frames="1-9x2", missing="skip").numbers == [1, 3, 5]
+
+
+@pytest.mark.parametrize("temporal", [False, True])
+def test_a_run_gives_what_the_command_gives(temporal, shot, command, tmp_path):
+    flags = ["--temporal"] if temporal else []
+    command("run", "gtao", shot / "shot.####.exr", "-o", tmp_path / "ao.####.exr", "--radius", "0.5", "--float", "--outputs", "ao,ao_raw", *flags)
+    numbers = []
+    for result in gloam.Sequence(shot / "shot.####.exr").run("gtao", radius=0.5, temporal=temporal, outputs=["ao", "ao_raw"]):
+        numbers.append(result.number)
+        stored = gloam.read(tmp_path / f"ao.000{result.number}.exr", as_stored=True)
+        for plane in ("ao", "ao_raw"):
+            assert numpy.array_equal(result[plane], stored[plane]), (result.number, plane)
+    assert numbers == [1, 2, 3, 4, 5, 6]
+
+
+def test_accumulation_goes_on_beyond_the_first_frame(shot):
+    sequence = gloam.Sequence(shot / "shot.####.exr")
+    alone, together = list(sequence.run("gtao", radius=0.5)), list(sequence.run("gtao", radius=0.5, temporal=True))
+    assert "frames" in together[3] and together[3]["frames"].max() > 2
+    assert not numpy.array_equal(alone[3]["ao_raw"], together[3]["ao_raw"])
+
+
+def test_a_technique_for_sequences_accumulates_by_itself(command, tmp_path):
+    command("capture", "gallery", "-o", tmp_path / "shot.####.exr", "--shot", "walk", "--frames", "1-3", "--size", "64x48",
+            "--planes", "normal,motion,color,roughness,reflectance")
+    command("run", "temporal-sssr", tmp_path / "shot.####.exr", "-o", tmp_path / "out.####.exr", "--float")
+    for result in gloam.Sequence(tmp_path / "shot.####.exr").run("temporal-sssr"):
+        stored = gloam.read(tmp_path / f"out.000{result.number}.exr", as_stored=True)
+        assert numpy.array_equal(result["reflection"], stored["reflection"])
+
+
+def test_a_frame_that_fails_leaves_the_others(shot, tmp_path):
+    for i in (1, 2, 3):
+        (tmp_path / f"shot.000{i}.exr").write_bytes((shot / f"shot.000{i}.exr").read_bytes()[: 3000 if i == 2 else None])
+    run = gloam.Sequence(tmp_path / "shot.####.exr").run("gtao", radius=0.5)
+    assert next(run).number == 1
+    with pytest.raises(gloam.Error, match="shot.0002.exr"):
+        next(run)
+    assert next(run).number == 3
+    with pytest.raises(StopIteration):
+        next(run)
+
+
+def test_a_radius_of_its_own_for_each_frame_is_told_once(shot):
+    import warnings
+
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        results = list(gloam.Sequence(shot / "shot.####.exr").run("gtao"))
+    # The header of a captured shot states one radius for all its frames.
+    assert {result.radius_from for result in results} == {"scene"}
+    assert [str(note.message) for note in told].count("radius: each frame has its own, made from its depths; radius=... gives one to all") == 0
+
+
+@pytest.mark.parametrize("call, sentence", [
+    (lambda s: gloam.Sequence(s / "none.####.exr"), "no file of this pattern is there"),
+    (lambda s: gloam.Sequence(s / "shot.exr"), "Sequence"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr", frames="1-9"), "are missing"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr", frames="one"), "frames one"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr", missing="skp"), "did you mean 'skip'?"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr")[17], "no frame 17; there are 1-6"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").run("gtoa"), "did you mean 'gtao'?"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").run("gtao", depth=numpy.ones((4, 4), numpy.float32)), "planes come with the frames"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").run("gtao", repeat=4), "repeat 4: times one frame"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").run("normals", temporal=True), "normals"),
+    (lambda s: next(gloam.Sequence(s / "shot.####.exr").run("sssr")), "needs 'color'"),
+    (lambda s: next(gloam.Sequence(s / "shot.####.exr").run("gtao", radus=1)), "did you mean 'radius'?"),
+])
+def test_sequences_that_cannot_be(call, sentence, shot):
+    with pytest.raises(gloam.Error) as raised:
+        call(shot)
+    assert sentence in str(raised.value) and "\n" not in str(raised.value), str(raised.value)
