@@ -42,6 +42,7 @@ class Outcome:
     folder: str = ""  # absolute
     radius: float = 0.0
     region: tuple = ()  # of the image that the user's render keeps
+    is_zooming: bool = False  # the lens differs between frames
     padding: tuple = (0, 0)  # pixels of overscan on each side
     suffixes: dict = dataclasses.field(default_factory=dict)  # of files, by view
     files: list = dataclasses.field(default_factory=list)
@@ -130,6 +131,14 @@ def captured(scene, settings, files, engine, tool, outcome):
                 first_look(settings, path, tool, outcome)
     write_cameras(files.camera, frames)
     outcome.files.append(files.camera)
+    outcome.is_zooming = len({focal_lengths(camera) for camera in frames.values()}) > 1
+    if outcome.is_zooming and settings.temporal:
+        outcome.notes.append("the lens is animated, which Blender's motion pass leaves out: the mean over frames follows cameras and depth "
+                             "in its place, and begins anew on surfaces that move by themselves")
+
+
+def focal_lengths(camera):
+    return tuple(view.get("fx", view.get("pixels_per_unit")) for view in camera.get("views", [camera]))
 
 
 def write_cameras(path, frames):
@@ -166,7 +175,7 @@ def first_look(settings, path, tool, outcome):
 def flags_of(settings, outcome):
     flags = ["--normal-space", "world", "--radius", repr(outcome.radius)]
     if settings.temporal:
-        flags.append("--temporal")
+        flags += ["--temporal", *(["--plane", "motion=none"] if outcome.is_zooming else [])]
     if settings.preset:
         flags += ["--preset", settings.preset]
     for parameter in settings.parameters:
