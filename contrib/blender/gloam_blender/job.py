@@ -39,6 +39,7 @@ class Progress:
 class Outcome:
     image: object = None
     group: object = None
+    technique: str = ""  # as gloam names it; of `ao` the one that is the default
     folder: str = ""  # absolute
     radius: float = 0.0
     region: tuple = ()  # of the image that the user's render keeps
@@ -101,7 +102,7 @@ def steps(scene, settings, outcome):
         outcome.notes.append(f"the .blend is not saved, so files are written to '{outcome.folder}'")
     yield Progress("gloam: looking at the scene", 0)
     tool = program.find(settings.program)
-    program.check_technique(tool, settings.technique, settings.preset)
+    outcome.technique = program.check_technique(tool, settings.technique, settings.preset)["name"]
     cameras.check(scene.camera)
     check_folder(outcome.folder)
     capture.check_simulations(scene, outcome.notes)
@@ -164,12 +165,12 @@ def first_look(settings, path, tool, outcome):
     """Takes the radius from the first frame where none is given, so that it stays the same over a shot, and lets gloam check
     everything that it was asked for, before the other frames are rendered."""
     found = program.ask(tool, ["info", path, "--normal-space", "world", "-q"])
-    lacks = found["lacks"].get(settings.technique)
+    lacks = found["lacks"].get(outcome.technique)
     if lacks:
-        raise Problem(f"the technique '{settings.technique}' needs {' and '.join(lacks)}, which the scene does not give; "
+        raise Problem(f"the technique '{outcome.technique}' needs {' and '.join(lacks)}, which the scene does not give; "
                       "switch Stereoscopy on (Output properties), or take another technique")
     outcome.radius = settings.radius or found["radius"]
-    program.ask(tool, ["plan", settings.technique, path, "-q", *flags_of(settings, outcome)])
+    program.ask(tool, ["plan", outcome.technique, path, "-q", *flags_of(settings, outcome)])
 
 
 def flags_of(settings, outcome):
@@ -187,7 +188,7 @@ def arguments_of(settings, files, outcome):
     number, more = four_digits(settings.frames[0]), []
     if len(settings.frames) > 1:
         number, more = "####", ["--frames", ",".join(map(str, settings.frames)), "--float"]
-    return ["run", settings.technique, files.frame(number), "-o", files.result(number), "--outputs", "ao", "--json", "-", *more,
+    return ["run", outcome.technique, files.frame(number), "-o", files.result(number), "--outputs", "ao", "--json", "-", *more,
             *flags_of(settings, outcome)]
 
 
@@ -199,7 +200,7 @@ def computed(settings, files, tool, outcome):
     try:
         while not run.is_done():
             done = min(count, len(run.lines_so_far())) if count > 1 else 0
-            yield Progress(f"gloam: {settings.technique} of frame {settings.frames[min(done, count - 1)]}",
+            yield Progress(f"gloam: {outcome.technique} of frame {settings.frames[min(done, count - 1)]}",
                            0.8 + 0.15 * done / count, is_waiting=True)
         text = run.output()
     finally:
