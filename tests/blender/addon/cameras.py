@@ -53,7 +53,8 @@ def check_view(name, view, channels, suffix):
     off = max(numpy.abs(found_x - x)[seen].max(), numpy.abs(found_y - y)[seen].max())
     wrong = numpy.abs(depth / away - 1)[seen].max()
     length = numpy.abs(numpy.linalg.norm(normal, axis=-1) - 1)[seen].max()
-    print(f"{name}{suffix}: {seen.mean():.0%} of {depth.shape[1]}x{depth.shape[0]} seen, {off:.4f} pixels off, depth {wrong:.1e}, normals {length:.1e}")
+    print(f"{name}{suffix}: {seen.mean():.0%} of {depth.shape[1]}x{depth.shape[0]} seen, "
+          f"{off:.4f} pixels off, depth {wrong:.1e}, normals {length:.1e}")
     check(f"{name}{suffix}", seen.mean() > 0.5 and off < 0.01 and wrong < 1e-5 and length < 1e-4, (off, wrong, length))
     return depth
 

@@ -1,4 +1,6 @@
-"""What cannot be done is told in one sentence, and changes nothing: blender -b --factory-startup -P refusals.py -- ADDON_FOLDER GLOAM FOLDER"""
+"""What cannot be done is told in one sentence, and changes nothing.
+
+blender -b --factory-startup -P refusals.py -- ADDON_FOLDER GLOAM FOLDER"""
 import contextlib
 import io
 import os
