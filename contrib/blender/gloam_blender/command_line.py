@@ -111,7 +111,11 @@ def run(flags):
     check_save(flags.save)
     scene = scene_of(flags.scene)
     settings, outcome = settings_of(flags, scene), job.Outcome()
+    said = ""
     for progress in job.steps(scene, settings, outcome):
+        if progress.text != said:
+            said = progress.text
+            print(f"{said} ({progress.share:.0%})", flush=True)
         if progress.is_waiting:
             time.sleep(0.02)
     for note in outcome.notes + outcome.done:
