@@ -156,6 +156,14 @@ class RenderAmbientOcclusion(bpy.types.Operator):
         context.workspace.status_text_set(f"{progress.text} ({progress.share:.0%}); Esc cancels")
         return {"RUNNING_MODAL"}
 
+    def cancel(self, _context):
+        """Blender ends the operator itself, as when another file is opened."""
+        type(self).running = False
+        try:
+            self.steps.close()
+        except ReferenceError:
+            pass  # the scene is gone, and with it what would be restored
+
     def end(self, context):
         context.window_manager.event_timer_remove(self.timer)
         context.window_manager.progress_end()
