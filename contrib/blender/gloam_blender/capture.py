@@ -31,7 +31,7 @@ def engine_for(scene, wanted, notes):
         if wanted != "CYCLES":
             notes.append(f"the engine {engine.title()} has no passes for gloam; Cycles renders them")
         engine = "CYCLES"
-    if engine in EEVEE and bpy.app.background and not has_display():
+    if engine in EEVEE and bpy.app.background and bpy.app.version < (4, 0, 0) and not has_display():  # it would end Blender
         raise Problem("EEVEE renders only where there is a display; give --engine cycles, and Cycles renders the passes")
     if engine == "CYCLES" and not hasattr(bpy.types.Scene, "cycles"):
         raise Problem("the add-on Cycles Render Engine is switched off; switch it on in Preferences > Add-ons")
@@ -133,7 +133,7 @@ class Capture:
                 layers.remove(layer)
         layer = layers[0]
         layer.use = True
-        for name in [p.identifier for p in layer.bl_rna.properties if p.identifier.startswith("use_pass_")]:
+        for name in [p.identifier for p in layer.bl_rna.properties if p.identifier.startswith("use_pass_") and not p.is_readonly]:
             set_where_there(layer, **{name: name in PASSES or name == "use_pass_position" and layer.use_pass_position})
         set_where_there(layer, use_freestyle=False)
         for group in (getattr(layer, name, None) for name in ("cycles", "eevee")):

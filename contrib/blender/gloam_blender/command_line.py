@@ -55,10 +55,11 @@ def frames(text):
 def parser():
     one = Parser(prog="blender -b SCENE.blend --python gloam_ao.py --", formatter_class=argparse.RawDescriptionHelpFormatter,
                  description="Ambient occlusion of a Blender scene by gloam: passes, cameras, gloam, image and compositor group.",
-                 epilog="example: blender -b shot.blend --python gloam_ao.py -- --technique gtao --preset high --animation --save shot_ao.blend")
+                 epilog="example: blender -b shot.blend --python gloam_ao.py -- --technique gtao --animation --save shot_ao.blend")
     one.add_argument("--technique", default="ao", metavar="NAME", help="gloam list techniques shows them; ao: the default of gloam")
     one.add_argument("--preset", default="", metavar="NAME", help="low, medium, high or ultra, where the technique has presets")
-    one.add_argument("--radius", type=radius, default=0.0, metavar="R", help="in scene units; 0 (the default): from the first frame's depths")
+    one.add_argument("--radius", type=radius, default=0.0, metavar="R",
+                     help="in Blender units; 0 (the default): from the first frame's depths")
     one.add_argument("--set", dest="parameters", action="append", default=[], type=parameter, metavar="NAME=VALUE",
                      help="a parameter of the technique (repeatable)")
     one.add_argument("--temporal", action="store_true", help="the mean over the frames of an animation that showed each surface")
@@ -110,7 +111,11 @@ def run(flags):
     check_save(flags.save)
     scene = scene_of(flags.scene)
     settings, outcome = settings_of(flags, scene), job.Outcome()
+    said = ""
     for progress in job.steps(scene, settings, outcome):
+        if progress.text != said:
+            said = progress.text
+            print(f"{said} ({progress.share:.0%})", flush=True)
         if progress.is_waiting:
             time.sleep(0.02)
     for note in outcome.notes + outcome.done:

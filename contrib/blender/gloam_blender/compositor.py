@@ -123,7 +123,8 @@ def insert(scene, layer, group, outcome):
         return
     layers = next((n for n in tree.nodes if n.bl_idname == "CompositorNodeRLayers" and n.scene in (None, scene) and n.layer == layer), None)
     if layers is None:
-        outcome.notes.append(f"the compositor has no Render Layers of '{layer}'; add the group '{group.name}' where it belongs (Add > Group)")
+        outcome.notes.append(f"the compositor has no Render Layers of '{layer}'; "
+                             f"add the group '{group.name}' where it belongs (Add > Group)")
         return
     node = tree.nodes.new("CompositorNodeGroup")
     node.node_tree = group

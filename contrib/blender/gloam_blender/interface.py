@@ -56,12 +56,13 @@ class GloamSettings(bpy.types.PropertyGroup):
     radius: bpy.props.FloatProperty(name="Radius", min=0, soft_max=10, precision=3, unit="LENGTH",
                                     description="Distance up to which occluders count; 0: from the first frame's depths")
     is_animation: bpy.props.BoolProperty(name="Animation", description="All frames from start to end; else the current frame")
-    temporal: bpy.props.BoolProperty(name="Mean over Frames", description="Less noise and flicker: each surface's mean over the frames that showed it")
+    temporal: bpy.props.BoolProperty(name="Mean over Frames",
+                                     description="Less noise and flicker: each surface's mean over the frames that showed it")
     overscan: bpy.props.FloatProperty(name="Overscan", min=0, max=50, subtype="PERCENTAGE",
                                       description="Of the image's size to render on each side, so that occluders beyond the border count")
     engine: bpy.props.EnumProperty(name="Passes by", items=(
         ("CYCLES", "Cycles", "One sample at each pixel's centre, depth as float"),
-        ("SCENE", "Scene's Engine", "EEVEE writes depth as half: contours may show")))
+        ("SCENE", "Scene's Engine", "What EEVEE alone shows or leaves out; its depth is half, and it has no motion")))
     output: bpy.props.StringProperty(name="Output", default="//gloam", subtype="DIR_PATH", options=RELATIVE,
                                      description="Folder of frames, cameras and results; // is beside the .blend")
     insert: bpy.props.BoolProperty(name="Add to Compositor", default=True,
@@ -154,6 +155,14 @@ class RenderAmbientOcclusion(bpy.types.Operator):
         context.window_manager.progress_update(100 * progress.share)
         context.workspace.status_text_set(f"{progress.text} ({progress.share:.0%}); Esc cancels")
         return {"RUNNING_MODAL"}
+
+    def cancel(self, _context):
+        """Blender ends the operator itself, as when another file is opened."""
+        type(self).running = False
+        try:
+            self.steps.close()
+        except ReferenceError:
+            pass  # the scene is gone, and with it what would be restored
 
     def end(self, context):
         context.window_manager.event_timer_remove(self.timer)

@@ -39,9 +39,11 @@ class Progress:
 class Outcome:
     image: object = None
     group: object = None
+    technique: str = ""  # as gloam names it; of `ao` the one that is the default
     folder: str = ""  # absolute
     radius: float = 0.0
     region: tuple = ()  # of the image that the user's render keeps
+    is_zooming: bool = False  # the lens differs between frames
     padding: tuple = (0, 0)  # pixels of overscan on each side
     suffixes: dict = dataclasses.field(default_factory=dict)  # of files, by view
     files: list = dataclasses.field(default_factory=list)
@@ -100,7 +102,7 @@ def steps(scene, settings, outcome):
         outcome.notes.append(f"the .blend is not saved, so files are written to '{outcome.folder}'")
     yield Progress("gloam: looking at the scene", 0)
     tool = program.find(settings.program)
-    program.check_technique(tool, settings.technique, settings.preset)
+    outcome.technique = program.check_technique(tool, settings.technique, settings.preset)["name"]
     cameras.check(scene.camera)
     check_folder(outcome.folder)
     capture.check_simulations(scene, outcome.notes)
@@ -130,6 +132,14 @@ def captured(scene, settings, files, engine, tool, outcome):
                 first_look(settings, path, tool, outcome)
     write_cameras(files.camera, frames)
     outcome.files.append(files.camera)
+    outcome.is_zooming = len({focal_lengths(camera) for camera in frames.values()}) > 1
+    if outcome.is_zooming and settings.temporal:
+        outcome.notes.append("the lens is animated, which Blender's motion pass leaves out: the mean over frames follows cameras and depth "
+                             "in its place, and begins anew on surfaces that move by themselves")
+
+
+def focal_lengths(camera):
+    return tuple(view.get("fx", view.get("pixels_per_unit")) for view in camera.get("views", [camera]))
 
 
 def write_cameras(path, frames):
@@ -155,18 +165,18 @@ def first_look(settings, path, tool, outcome):
     """Takes the radius from the first frame where none is given, so that it stays the same over a shot, and lets gloam check
     everything that it was asked for, before the other frames are rendered."""
     found = program.ask(tool, ["info", path, "--normal-space", "world", "-q"])
-    lacks = found["lacks"].get(settings.technique)
+    lacks = found["lacks"].get(outcome.technique)
     if lacks:
-        raise Problem(f"the technique '{settings.technique}' needs {' and '.join(lacks)}, which the scene does not give; "
+        raise Problem(f"the technique '{outcome.technique}' needs {' and '.join(lacks)}, which the scene does not give; "
                       "switch Stereoscopy on (Output properties), or take another technique")
     outcome.radius = settings.radius or found["radius"]
-    program.ask(tool, ["plan", settings.technique, path, "-q", *flags_of(settings, outcome)])
+    program.ask(tool, ["plan", outcome.technique, path, "-q", *flags_of(settings, outcome)])
 
 
 def flags_of(settings, outcome):
     flags = ["--normal-space", "world", "--radius", repr(outcome.radius)]
     if settings.temporal:
-        flags.append("--temporal")
+        flags += ["--temporal", *(["--plane", "motion=none"] if outcome.is_zooming else [])]
     if settings.preset:
         flags += ["--preset", settings.preset]
     for parameter in settings.parameters:
@@ -178,7 +188,7 @@ def arguments_of(settings, files, outcome):
     number, more = four_digits(settings.frames[0]), []
     if len(settings.frames) > 1:
         number, more = "####", ["--frames", ",".join(map(str, settings.frames)), "--float"]
-    return ["run", settings.technique, files.frame(number), "-o", files.result(number), "--outputs", "ao", "--json", "-", *more,
+    return ["run", outcome.technique, files.frame(number), "-o", files.result(number), "--outputs", "ao", "--json", "-", *more,
             *flags_of(settings, outcome)]
 
 
@@ -190,7 +200,7 @@ def computed(settings, files, tool, outcome):
     try:
         while not run.is_done():
             done = min(count, len(run.lines_so_far())) if count > 1 else 0
-            yield Progress(f"gloam: {settings.technique} of frame {settings.frames[min(done, count - 1)]}",
+            yield Progress(f"gloam: {outcome.technique} of frame {settings.frames[min(done, count - 1)]}",
                            0.8 + 0.15 * done / count, is_waiting=True)
         text = run.output()
     finally:

@@ -26,24 +26,35 @@ def planes_of(channels, pass_name, axes, suffix):
     return numpy.stack([channels[f"ViewLayer.{pass_name}{suffix}.{axis}"] for axis in axes], -1).astype(numpy.float64)
 
 
+def projected(view, place, size):
+    """Pixels from the top left corner, and depth, of positions in the world. size: height and width."""
+    pose = numpy.array(view["camera_to_world"])
+    place = (place - pose[:3, 3]) @ pose[:3, :3]
+    scale = numpy.array([view[key] for key in (("pixels_per_unit",) * 2 if view["camera_type"] == "ORTHO" else ("fx", "fy"))])
+    if "projection_gl" in view:
+        scale = numpy.array([view["projection_gl"][0][0] * size[1], view["projection_gl"][1][1] * size[0]]) / 2
+    away = -place[..., 2]
+    across = place[..., :2] / (away[..., None] if view["camera_type"] == "PERSP" else 1)
+    return scale[0] * across[..., 0] + view["cx"], view["cy"] - scale[1] * across[..., 1], away
+
+
+def centres(size):
+    y, x = numpy.mgrid[:size[0], :size[1]] + 0.5
+    return x, y
+
+
 def check_view(name, view, channels, suffix):
     """Each position lands on the centre of its pixel, at the depth that is written."""
     depth = planes_of(channels, "Depth", "Z", suffix)[..., 0]
     normal = planes_of(channels, "Normal", "XYZ", suffix)
-    pose = numpy.array(view["camera_to_world"])
-    place = (planes_of(channels, "Position", "XYZ", suffix) - pose[:3, 3]) @ pose[:3, :3]
-    height, width = depth.shape
-    scale = numpy.array([view[key] for key in (("pixels_per_unit",) * 2 if view["camera_type"] == "ORTHO" else ("fx", "fy"))])
-    if "projection_gl" in view:
-        scale = numpy.array([view["projection_gl"][0][0] * width, view["projection_gl"][1][1] * height]) / 2
-    if view["camera_type"] == "PERSP":
-        place = place / numpy.stack([-place[..., 2]] * 2 + [numpy.ones_like(depth)], -1)
-    y, x = numpy.mgrid[:height, :width] + 0.5
+    found_x, found_y, away = projected(view, planes_of(channels, "Position", "XYZ", suffix), depth.shape)
+    x, y = centres(depth.shape)
     seen = depth < 1e9
-    off = max(numpy.abs(scale[0] * place[..., 0] + view["cx"] - x)[seen].max(), numpy.abs(view["cy"] - scale[1] * place[..., 1] - y)[seen].max())
-    wrong = numpy.abs(depth / -place[..., 2] - 1)[seen].max()
+    off = max(numpy.abs(found_x - x)[seen].max(), numpy.abs(found_y - y)[seen].max())
+    wrong = numpy.abs(depth / away - 1)[seen].max()
     length = numpy.abs(numpy.linalg.norm(normal, axis=-1) - 1)[seen].max()
-    print(f"{name}{suffix}: {seen.mean():.0%} of {width}x{height} seen, {off:.4f} pixels off, depth {wrong:.1e}, normals {length:.1e}")
+    print(f"{name}{suffix}: {seen.mean():.0%} of {depth.shape[1]}x{depth.shape[0]} seen, "
+          f"{off:.4f} pixels off, depth {wrong:.1e}, normals {length:.1e}")
     check(f"{name}{suffix}", seen.mean() > 0.5 and off < 0.01 and wrong < 1e-5 and length < 1e-4, (off, wrong, length))
     return depth
 
@@ -64,7 +75,7 @@ def capture(name, change=None, overscan=0.0, frame=1, size=None):
     channels, views = read_channels(path), written.get("views", [written])
     depths = [check_view(name, view, channels, f".{view['view']}" if len(views) > 1 else "") for view in views]
     check(name, not size or depths[0].shape == size, depths[0].shape)
-    return channels, depths, scene
+    return channels, depths, written
 
 
 def camera_with(resolution=None, aspect=None, **values):
@@ -122,13 +133,17 @@ def cut(scene, camera):
         scene.timeline_markers.new(str(frame), frame=frame).camera = item
 
 
-def moving(scene, camera):
+def carried(scene, camera):
     scenes.animation(scene, camera)
     scenes.frame(scene, camera)
     parent = bpy.data.objects.new("rig", None)
     scene.collection.objects.link(parent)
     camera.parent = parent
     parent.rotation_euler.z = 0.1
+
+
+def zooming(scene, camera):
+    carried(scene, camera)
     camera.data.keyframe_insert("lens", frame=1)
     camera.data.lens = 80
     camera.data.keyframe_insert("lens", frame=3)
@@ -143,13 +158,14 @@ def hidden_ball(scene, _):
     scene.collection.objects.unlink(ball)
     collection.objects.link(ball)
     scene.view_layers[0].layer_collection.children["left out"].exclude = True
+    scene.view_layers.new("second")
     scene.use_nodes = True
     output = scene.node_tree.nodes.new("CompositorNodeOutputFile")
     output.base_path = os.path.join(folder, "of the compositor")
     scene.node_tree.links.new(scene.node_tree.nodes["Render Layers"].outputs["Image"], output.inputs[0])
 
 
-channels, depths, scene = capture("plain", size=(scenes.HEIGHT, scenes.WIDTH))
+channels, depths, _ = capture("plain", size=(scenes.HEIGHT, scenes.WIDTH))
 roughness = numpy.unique(channels["ViewLayer.Roughness.X"])
 check("roughness", numpy.array_equal(roughness, [0.25, 0.75]), roughness)
 check("albedo", abs(channels["ViewLayer.DiffCol.R"].max() - 0.8) < 1e-3, channels["ViewLayer.DiffCol.R"].max())
@@ -173,9 +189,18 @@ capture("stereo_tall", stereo_with("OFFAXIS", "CENTER", resolution=(120, 160)))
 capture("stereo_overscan", stereo_with("OFFAXIS", "CENTER"), overscan=0.1)
 capture("stereo_orthographic", stereo_with("TOE", "CENTER", type="ORTHO", ortho_scale=7))
 capture("own_cameras", own_cameras)
-capture("cut", cut, frame=6)
-capture("moving", moving, frame=2)
-_, (hidden,), _ = capture("hidden", hidden_ball)
+capture("cut", cut, frame=6, overscan=0.1)
+capture("zooming", zooming, frame=2)
+channels, (depth,), _ = capture("carried", carried, frame=2)
+_, _, earlier = capture("carried_before", carried, frame=1)
+# Vector: where the surface was in the frame before, y up.
+(before_x, before_y, _), (x, y) = projected(earlier, planes_of(channels, "Position", "XYZ", ""), depth.shape), centres(depth.shape)
+motion = planes_of(channels, "Vector", "XY", "")
+off = max(numpy.abs(before_x - x - motion[..., 0]).max(), numpy.abs(y - before_y - motion[..., 1]).max())
+print(f"motion up to {numpy.abs(motion).max():.1f} pixels, {off:.4f} off")
+check("motion", off < 0.01 and numpy.abs(motion).max() > 5, (off, numpy.abs(motion).max()))
+channels, (hidden,), _ = capture("hidden", hidden_ball)
+check("layers", all(name.startswith("ViewLayer.") for name in channels), list(channels))
 check("hidden", (hidden > depths[0] + 0.1).sum() > 100, "the ball is there")
 check("hidden", not os.path.exists(os.path.join(folder, "of the compositor")), "the compositor wrote files")
 scene, camera = scenes.build()

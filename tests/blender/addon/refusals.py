@@ -1,4 +1,6 @@
-"""What cannot be done is told in one sentence, and changes nothing: blender -b --factory-startup -P refusals.py -- ADDON_FOLDER GLOAM FOLDER"""
+"""What cannot be done is told in one sentence, and changes nothing.
+
+blender -b --factory-startup -P refusals.py -- ADDON_FOLDER GLOAM FOLDER"""
 import contextlib
 import io
 import os
@@ -124,6 +126,19 @@ for _ in range(3):
 steps.close()
 if state.difference(before, state.lines()):
     FAULTS.append(f"cancelled: changed {state.difference(before, state.lines())}")
+# A lens that changes, which the motion pass of Cycles does not know of.
+for is_zooming in (False, True):
+    scene, camera = scenes.build()
+    scenes.animation(scene, camera)
+    if is_zooming:
+        camera.data.keyframe_insert("lens", frame=1)
+        camera.data.lens = 80
+        camera.data.keyframe_insert("lens", frame=3)
+    outcome = job.Outcome()
+    for _ in job.steps(scene, job.Settings(frames=[1, 2], output=folder, layer="ViewLayer", program=gloam, temporal=True), outcome):
+        pass
+    if any("lens is animated" in note for note in outcome.notes) != is_zooming:
+        FAULTS.append(f"zooming {is_zooming}: notes {outcome.notes}")
 for fault in FAULTS:
     print(f"FAULT {fault}")
 sys.stdout.flush()

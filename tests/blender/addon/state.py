@@ -18,7 +18,8 @@ def value_of(struct, prop, depth):
 def text_of(struct, depth):
     if depth < 0:
         return ""
-    return "{" + ", ".join(f"{p.identifier}: {value_of(struct, p, depth)}" for p in struct.bl_rna.properties if p.identifier not in SKIPPED) + "}"
+    kept = [prop for prop in struct.bl_rna.properties if prop.identifier not in SKIPPED]
+    return "{" + ", ".join(f"{prop.identifier}: {value_of(struct, prop, depth)}" for prop in kept) + "}"
 
 
 def nodes_of(tree):
