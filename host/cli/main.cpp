@@ -158,6 +158,7 @@ int run_command(int argc, char** argv) {
       "  gloam reference ao frame.exr -o truth.exr --radius 0.5\n"
       "  gloam bench -o out/bench --frame frame.exr --truth truth.exr\n"
       "  gloam report out/bench\n"
+      "  gloam view frame.exr ao.exr\n"
       "  gloam stress hbao+\n"
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION);
@@ -174,6 +175,7 @@ int run_command(int argc, char** argv) {
   add_pick(app);
   add_auto(app);
   add_report(app);
+  add_view(app);
   add_stress(app);
   add_completion(app, settable_by);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);

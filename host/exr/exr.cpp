@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "exr/added_parts.h"
+#include "exr/attribute_texts.h"
 #include "exr/conversion.h"
 #include "exr/decode_planes.h"
 #include "exr/depth.h"
@@ -120,6 +121,10 @@ std::string FrameFile::text_attribute_of_added(const std::string& content, const
   return "";
 }
 
+std::vector<std::pair<std::string, std::string>> FrameFile::attributes() const {
+  return attribute_texts(impl_->file.headers);
+}
+
 // --- From the pixels
 
 std::string FrameFile::depth_convention() const {
@@ -151,7 +156,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
   impl_->nonfinite.clear();
   impl_->decode(frame);
   note_assumptions(file, impl_->cameras, planes, frame);
-  convert_planes(file, impl_->cameras, frame, impl_->conventions);
+  if (!file.options.unconverted) convert_planes(file, impl_->cameras, frame, impl_->conventions);
   finish_frame(file, frame);
   keep_planes(frame, planes);
   return frame;
