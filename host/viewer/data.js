@@ -96,12 +96,13 @@ function placeOf(image, reference) {
 
 // --- Differences
 
-/// The components that two planes share, as pairs of indices; all components by their order where names differ but not their number.
+/// The components that two planes share, as pairs of indices: those of one name, else all of planes of one kind, or of one component.
 function sharedComponents(a, b) {
   const names = b.components;
   const pairs = a.components.map((name, i) => [i, names.indexOf(name)]).filter(([, j]) => j >= 0);
   if (pairs.length) return pairs;
-  return a.components.length === names.length ? names.map((name, i) => [i, i]) : [];
+  const isAlike = a.components.length === names.length && (names.length === 1 || a.style === b.style);
+  return isAlike ? names.map((name, i) => [i, i]) : [];
 }
 
 /// Why there is no difference of two images; empty if there is one.
@@ -110,7 +111,7 @@ function whyNoDifference(a, b) {
   const size = (image) => image.frame.display.slice(2).map((end, i) => end - image.frame.display[i]).join(' × ');
   if (size(a) !== size(b)) return `A has ${size(a)} pixels and B ${size(b)}: there is no difference of pixels`;
   if (!sharedComponents(a.plane, b.plane).length)
-    return `A has ${many(a.channels.length, 'component')} and B ${b.channels.length}: there is no difference`;
+    return `${a.plane.name} and ${b.plane.name} have no component in common: there is no difference`;
   if ((a.left - b.left) % data.step || (a.top - b.top) % data.step)
     return 'the pixels that --scale kept of A and B lie at other places: there is no difference';
   return '';

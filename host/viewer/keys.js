@@ -21,7 +21,7 @@ const keyList = [
   ],
   ['E', 'half a stop brighter', () => stepExposure(0.5)],
   ['Shift+E', 'half a stop darker', () => stepExposure(-0.5)],
-  ['R', 'range from the values', () => byId('tones').querySelector('.wide .plain')?.click()],
+  ['R', 'range from the values', () => byId('tones').querySelector('.buttons .plain')?.click()],
   ['M', 'mark NaN, infinite and impossible values', () => changeMarks(!state.marks)],
   ['+', 'zoom in', () => zoomBy(1.5)],
   ['-', 'zoom out', () => zoomBy(1 / 1.5)],

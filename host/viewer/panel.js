@@ -75,7 +75,8 @@ function rangeButtons(image, tone) {
     set(isReversed ? Math.max(...lows) : Math.min(...lows), isReversed ? Math.min(...lows) : Math.max(...lows));
   };
   return element(
-      'div', {class: 'wide'}, button('99 %', 'From the values: all but the lowest and highest half percent (R)', auto),
+      'div', {class: 'wide buttons'},
+      button('99 %', 'From the values: all but the lowest and highest half percent (R)', auto),
       button('All', 'From the least to the greatest value', () => set(Math.min(...values()), Math.max(...values()))),
       button('0 to 1', 'From 0 to 1', () => set(0, 1)),
       button(

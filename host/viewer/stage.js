@@ -63,6 +63,21 @@ function pixelOf(image, u, v) {
 
 // --- Drawing
 
+/// Slanting lines behind an image: background is left out of it.
+function hatching() {
+  const style = getComputedStyle(stage), colour = (name) => style.getPropertyValue(name);
+  const tile = element('canvas', {width: 8, height: 8}), context = tile.getContext('2d');
+  context.fillStyle = colour('--paper');
+  context.fillRect(0, 0, 8, 8);
+  context.strokeStyle = colour('--rule');
+  for (const shift of [-8, 0, 8]) {
+    context.moveTo(shift, 8);
+    context.lineTo(shift + 8, 0);
+  }
+  context.stroke();
+  return pen.createPattern(tile, 'repeat');
+}
+
 /// Draws an image into a part of a pane. `clip`: left and right end, CSS pixels.
 function drawImage(image, pane, clip = [pane.left, pane.left + pane.width]) {
   if (!image || clip[1] <= clip[0]) return;
@@ -73,6 +88,8 @@ function drawImage(image, pane, clip = [pane.left, pane.left + pane.width]) {
   pen.beginPath();
   pen.rect(clip[0], pane.top, clip[1] - clip[0], pane.height);
   pen.clip();
+  pen.fillStyle = hatching();
+  pen.fillRect(left, top, image.width * pitch, image.height * pitch);
   // Reduced images are averaged, others show their pixels; identities cannot be averaged.
   pen.imageSmoothingEnabled = pitch * scale < 1 && image.plane.style !== 'identity';
   pen.imageSmoothingQuality = 'high';
@@ -149,6 +166,16 @@ function drawPicked(pane) {
   pen.restore();
 }
 
+/// The line between two panes.
+function drawSeam(pane) {
+  const scale = deviceScale();
+  pen.fillStyle = getComputedStyle(stage).getPropertyValue('--faint');
+  if (pane.top > 0)
+    pen.fillRect(0, Math.round(pane.top * scale), pane.width * scale, Math.ceil(scale));
+  else
+    pen.fillRect(Math.round(pane.left * scale), 0, Math.ceil(scale), pane.height * scale);
+}
+
 function drawStage() {
   const scale = deviceScale(), width = Math.round(stage.clientWidth * scale),
         height = Math.round(stage.clientHeight * scale);
@@ -167,6 +194,7 @@ function drawStage() {
       drawImage(a, pane);
       drawImage(b, other);
       drawPicked(other);
+      drawSeam(other);
       break;
     case 'difference':
     case 'absolute':

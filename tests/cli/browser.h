@@ -5,16 +5,16 @@
 
 namespace gloam::test {
 
+/// How a page is opened.
+struct Opening {
+  int width =
+      1280;  ///< of the page in pixels; it is in a frame, since a browser's window cannot be as narrow as a telephone
+  std::string address;  ///< what follows the #
+};
+
 class BrowserTest : public Cli {
  protected:
   static bool has_browser() { return std::system("command -v chromium >/dev/null") == 0; }
-
-  /// How a page is opened.
-  struct Opening {
-    int width =
-        1280;  ///< of the page in pixels; it is in a frame, since a browser's window cannot be as narrow as a telephone
-    std::string address;  ///< what follows the #
-  };
 
   /// Opens a page, runs `begin` and `script` in it, and returns the value of `result`. The page must not complain.
   nlohmann::json in_browser(const fs::path& file, const std::string& begin, const std::string& script,
