@@ -8,6 +8,7 @@
 #include "cli/browser.h"
 #include "cli/camera_facts.h"
 #include "cli/memory.h"
+#include "cli/plane_facts.h"
 #include "cli/shot_flags.h"
 #include "cli/view_files.h"
 #include "gloam/error.h"
@@ -67,6 +68,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const FrameFile& file,
   const auto add = [&](const char* name, const std::string& text) {
     if (!text.empty()) facts.emplace_back(name, text);
   };
+  add("not shown", fmt::format("{}", fmt::join(unread_channels(file), ", ")));
   if (choice.as_stored) return facts;
   add("depth in the file", file.depth_convention());
   add("normals in the file", file.normal_space().empty() ? "" : file.normal_space() + " space");
@@ -80,6 +82,8 @@ viewer::FrameTexts texts_of(const FrameFile& file, const ViewedFrame& frame, con
   for (const std::string& view : file.views())
     if (const std::optional<Camera> camera = file.camera(view))
       texts.cameras.emplace_back(view, camera_line(camera_document(*camera, file.display())));
+  for (const PlaneSource& source : file.planes())
+    texts.windows[{source.view, source.plane}] = file.data_window(source.plane, source.view);
   texts.facts = facts_of(file, choice);
   texts.attributes = file.attributes();
   return texts;

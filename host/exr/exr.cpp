@@ -86,6 +86,13 @@ FrameFile::FrameFile(FrameFile&&) noexcept = default;
 const fs::path& FrameFile::path() const { return impl_->file.path; }
 Window FrameFile::display() const { return impl_->file.display; }
 Window FrameFile::window() const { return impl_->file.window; }
+
+Window FrameFile::data_window(const std::string& plane, const std::string& view) const {
+  const PlaneSource* source = impl_->file.source(plane, view);
+  if (!source || source->channels.empty()) return window();
+  return window_of(box_of(impl_->file.headers.of_part(source->channels.front().part).dataWindow()));
+}
+
 const std::vector<std::string>& FrameFile::views() const { return impl_->file.names.views; }
 bool FrameFile::view_is_assumed() const { return impl_->file.names.view_is_assumed; }
 const std::vector<PlaneSource>& FrameFile::planes() const { return impl_->file.names.planes; }

@@ -13,8 +13,14 @@ function element(tag, attributes, ...children) {
   return made;
 }
 
+/// A button that is pressed or not.
+function pressButton(text, pressed, action, more = {}) {
+  return element('button', {type: 'button', 'aria-pressed': String(pressed), onclick: action, ...more}, text);
+}
+
 const byId = (id) => document.getElementById(id);
 const is = (value) => value !== null && value !== undefined;
+const unique = (items) => [...new Set(items)];
 
 /// Three significant digits, as people write them: 0.197, 12.4, 1320, 2.1e−6.
 function figure(value) {

@@ -119,7 +119,7 @@ function wipePane(image, reference, name, state) {
   const stage = element(
       'div', {class: 'stage wipe'}, element('img', {class: 'image', src: image.url, alt: name}),
       element('img', {class: 'truth', src: reference.url, alt: 'truth'}), element('div', {class: 'divider'}),
-      element('span', {class: 'name left'}, name), element('span', {class: 'name right'}, 'truth'));
+      element('span', {class: 'name-tag left'}, name), element('span', {class: 'name-tag right'}, 'truth'));
   const slider = element('input', {
     type: 'range',
     class: 'slider',

@@ -1,9 +1,5 @@
 // The controls above and below the stage: what A and B are, how they are shown, zoom, frames.
 
-function pressButton(text, pressed, action, more = {}) {
-  return element('button', {type: 'button', 'aria-pressed': String(pressed), onclick: action, ...more}, text);
-}
-
 function chooser(label, className, choices, chosen, action) {
   const select = element(
       'select', {'aria-label': label, class: className, title: label},
@@ -137,7 +133,7 @@ function renderNames() {
                          name('a'));
   const stacked = state.mode === 'beside' && panes()[1].top > 0;
   byId('name-b').style.top = stacked ? panes()[1].top + 8 + 'px' : '';
-  byId('name-b').className = stacked ? 'name left' : 'name right';
+  byId('name-b').className = stacked ? 'name-tag left' : 'name-tag right';
   show('name-b', state.mode === 'wipe' || state.mode === 'beside' ? name('b') : '');
 }
 

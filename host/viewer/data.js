@@ -74,16 +74,28 @@ function imageOf(side) {
   const view = frame && frame.views.find((each) => each.name === side.view);
   const plane = view && view.planes.find((each) => each.name === side.plane);
   if (!plane) return Promise.resolve(null);
-  const [width, height] = frame.size;
+  const [width, height] = plane.size;
   const key = [side.file, frame.number, side.view, side.plane].join('|');
   const bytes = width * height * 4 * (plane.channels.length + 1);
   return keptOr(key, bytes, async () => {
     const channels = await Promise.all(
         plane.channels.map(async (channel) => unpacked(await inflated(channel.data), width, height, channel.half)));
-    const background = plane.has_background && is(view.background) ? await inflated(view.background) : null;
-    const left = frame.window[0] - frame.display[0], top = frame.window[1] - frame.display[1];
-    return {width, height, left, top, plane, channels, background, frame, key};
+    const whole = plane.has_background && is(view.background) ? await inflated(view.background) : null;
+    const background = whole && cutOut(whole, frame.size[0], plane);
+    const [left, top] = [0, 1].map((i) => frame.window[i] - frame.display[i] + plane.corner[i]);
+    const rangeKey = side.file + '|' + side.plane;
+    return {width, height, left, top, plane, channels, background, frame, key, rangeKey};
   });
+}
+
+/// The part of the frame's background that a plane covers: data windows may be smaller than the frame.
+function cutOut(whole, wholeWidth, plane) {
+  const [width, height] = plane.size, [left, top] = plane.corner.map((at) => Math.floor(at / data.step));
+  if (width === wholeWidth && width * height === whole.length) return whole;
+  const part = new Uint8Array(width * height);
+  for (let y = 0; y < height; ++y)
+    part.set(whole.subarray((top + y) * wholeWidth + left, (top + y) * wholeWidth + left + width), y * width);
+  return part;
 }
 
 /// Where images lie: `pitch` is the distance of pixels, `left` and `top` the corner, in pixels of A's file. B's display window
@@ -146,7 +158,18 @@ function differenceOf(a, b, isAbsolute) {
       never_negative: false,
     };
     const {width, height, left, top, frame} = a;
-    return {width, height, left, top, plane, channels, background, frame, key: 'difference', figures: null};
+    return {
+      width,
+      height,
+      left,
+      top,
+      plane,
+      channels,
+      background,
+      frame,
+      rangeKey: plane.name + a.rangeKey + b.rangeKey,
+      figures: null
+    };
   });
 }
 

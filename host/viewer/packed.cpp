@@ -45,17 +45,17 @@ Bits folded(Bits difference) {
 
 /// The planes of bytes, the lowest first. `Value`: float or half.
 template <typename Value>
-std::vector<unsigned char> byte_planes(const Channel& channel, const Layout& size, int step, ChannelFacts& facts) {
+std::vector<unsigned char> byte_planes(const Channel& channel, const Grid& grid, ChannelFacts& facts) {
   using Bits = decltype(bits_of(Value(0.0f)));
-  const size_t pixels = size_t(size.width) * size_t(size.height);
+  const size_t pixels = grid.pixels();
   std::vector<unsigned char> bytes(pixels * sizeof(Bits));
   Bits above = 0;
   size_t i = 0;
-  for (int y = 0; y < size.height; ++y) {
-    const float* row = channel.row(y * step);
+  for (int y = 0; y < grid.height; ++y) {
+    const float* row = channel.row(grid.y0 + y * grid.step) + grid.x0;
     Bits before = above;
-    for (int x = 0; x < size.width; ++x, ++i) {
-      const Value value = Value(row[x * step]);
+    for (int x = 0; x < grid.width; ++x, ++i) {
+      const Value value = Value(row[x * grid.step]);
       count(float(value), facts);
       const Bits bits = bits_of(value), difference = folded(Bits(bits - before));
       for (size_t k = 0; k < sizeof(Bits); ++k) bytes[k * pixels + i] = (unsigned char)(difference >> (8 * k));
@@ -66,15 +66,45 @@ std::vector<unsigned char> byte_planes(const Channel& channel, const Layout& siz
   return bytes;
 }
 
+/// A zlib stream in base64.
+std::string deflated(const std::vector<unsigned char>& bytes) {
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(compression_level), libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::string stream(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+  stream.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), stream.data(), stream.size()));
+  return page::base64(stream);
+}
+
+/// From the corner of `whole` to the first pixel taken at or after `start`, and how many there are before `end`.
+std::pair<int, int> taken(int start, int end, int step) {
+  const int first = (start + step - 1) / step * step;
+  return first < end ? std::pair(first, (end - first + step - 1) / step) : std::pair(start, 1);
+}
+
 }  // namespace
 
-Packed packed(const Channel& channel, int step, bool half) {
-  const Layout size = reduced(channel.layout(), step);
+Grid grid_of(const Window& part, const Window& whole, int step) {
+  const auto [x0, width] = taken(part.x0 - whole.x0, part.x1 - whole.x0, step);
+  const auto [y0, height] = taken(part.y0 - whole.y0, part.y1 - whole.y0, step);
+  return {x0, y0, width, height, step};
+}
+
+Packed packed(const Channel& channel, const Grid& grid, bool half) {
   Packed result;
   result.is_half = half;
-  result.text = deflated(half ? byte_planes<Imath::half>(channel, size, step, result.facts)
-                              : byte_planes<float>(channel, size, step, result.facts));
+  result.text = deflated(half ? byte_planes<Imath::half>(channel, grid, result.facts)
+                              : byte_planes<float>(channel, grid, result.facts));
   return result;
+}
+
+std::string packed_background(const Channel& depth, const Grid& grid) {
+  std::vector<unsigned char> bytes(grid.pixels());
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    const int x = int(i) % grid.width, y = int(i) / grid.width;
+    bytes[i] = is_background(depth.at(grid.x0 + x * grid.step, grid.y0 + y * grid.step)) ? 1 : 0;
+  }
+  return deflated(bytes);
 }
 
 bool fits_half(const Channel& channel) {
@@ -84,15 +114,6 @@ bool fits_half(const Channel& channel) {
       if (size >= first_beyond_half && !std::isinf(size)) return false;
     }
   return true;
-}
-
-std::string deflated(const std::vector<unsigned char>& bytes) {
-  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-      libdeflate_alloc_compressor(compression_level), libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  std::string stream(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  stream.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), stream.data(), stream.size()));
-  return page::base64(stream);
 }
 
 }  // namespace gloam::viewer

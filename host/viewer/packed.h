@@ -25,25 +25,23 @@ struct Packed {
   ChannelFacts facts;  ///< of the values that are packed
 };
 
-/// Every `step`-th pixel of every `step`-th row, beginning with the first. `half`: rounded to half.
-Packed packed(const Channel& channel, int step, bool half);
+/// The pixels that are taken of a channel: every `step`-th of every `step`-th row.
+struct Grid {
+  int x0 = 0, y0 = 0;  ///< the first pixel
+  int width = 0, height = 0, step = 1;
+  size_t pixels() const { return size_t(width) * size_t(height); }
+};
+
+/// The pixels of `whole` that are multiples of `step` from its corner and lie in `part`; the first one of `part` if there is none.
+Grid grid_of(const Window& part, const Window& whole, int step);
+
+/// `half`: rounded to half.
+Packed packed(const Channel& channel, const Grid& grid, bool half);
 
 /// Whether a channel may be rounded to half: no finite value is beyond its range.
 bool fits_half(const Channel& channel);
 
-/// The same of pixels that are 0 or 1, one byte each. `is_one(x, y)` is asked of the pixels taken.
-template <typename IsOne>
-std::string packed_mask(const Layout& layout, int step, const IsOne& is_one);
-
-/// A zlib stream in base64.
-std::string deflated(const std::vector<unsigned char>& bytes);
-
-template <typename IsOne>
-std::string packed_mask(const Layout& layout, int step, const IsOne& is_one) {
-  std::vector<unsigned char> bytes;
-  for (int y = 0; y < layout.height; y += step)
-    for (int x = 0; x < layout.width; x += step) bytes.push_back(is_one(x, y) ? 1 : 0);
-  return deflated(bytes);
-}
+/// Pixels that are background, 1, and others, 0, one byte each, as a zlib stream in base64.
+std::string packed_background(const Channel& depth, const Grid& grid);
 
 }  // namespace gloam::viewer

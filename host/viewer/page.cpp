@@ -108,8 +108,9 @@ PageWriter::PageWriter(NewFile& out, PageOptions options)
 
 void PageWriter::append(const std::string& text) {
   bytes_ += text.size();
-  if (bytes_ > most_page_bytes)
-    throw Error("the page would be larger than {}, which browsers do not open; {}", memory_in_words(most_page_bytes),
+  if (bytes_ > most_page_bytes || text.size() > most_element_bytes)
+    throw Error("the page would be larger than browsers open ({} in all and {} for one channel); {}",
+                memory_in_words(most_page_bytes), memory_in_words(most_element_bytes),
                 "--planes, --frames and --views take fewer images, --half and --scale make them smaller");
   out_.append(text);
 }
@@ -123,24 +124,27 @@ void PageWriter::begin_file(const std::string& name, bool is_shot) {
   files_.push_back({{"name", printable(name)}, {"shot", is_shot}, {"frames", Json::array()}});
 }
 
-Json PageWriter::put_plane(const View& view, const Plane& plane, const std::string& file) {
+Json PageWriter::put_plane(const Frame& frame, const View& view, const Plane& plane, const FrameTexts& texts) {
   const Tile tile = tile_of(view, plane);
   const PlaneKind kind = plane_kind(plane.name);
   bool half = options_.half && tile.style != PictureStyle::identity;
   if (half && !std::all_of(plane.channels.begin(), plane.channels.end(), fits_half)) {
     half = false;
-    add_new(notes_,
-            fmt::format("--half: {} of {} has values beyond the range of half, and stays float", plane.name, file));
+    add_new(notes_, fmt::format("--half: {} of {} has values beyond the range of half, and stays float", plane.name,
+                                texts.name));
   }
+  const auto window = texts.windows.find({view.name, plane.name});
+  const Grid grid = grid_of(window == texts.windows.end() ? frame.window : window->second, frame.window, options_.step);
   std::vector<Packed> channels(plane.channels.size());
   cv::parallel_for_(cv::Range(0, int(channels.size())), [&](const cv::Range& part) {
-    for (int i = part.start; i < part.end; ++i)
-      channels[size_t(i)] = packed(plane.channels[size_t(i)], options_.step, half);
+    for (int i = part.start; i < part.end; ++i) channels[size_t(i)] = packed(plane.channels[size_t(i)], grid, half);
   });
   Json list = Json::array();
   for (const Packed& channel : channels) list.push_back(json(channel, put(channel.text)));
   return {{"name", printable(plane.name)},
           {"style", name_of(tile.style)},
+          {"corner", {grid.x0, grid.y0}},
+          {"size", {grid.width, grid.height}},
           {"help", kind.help},
           {"components", components_of(plane)},
           {"has_background", tile.background != nullptr},
@@ -148,16 +152,14 @@ Json PageWriter::put_plane(const View& view, const Plane& plane, const std::stri
           {"channels", list}};
 }
 
-Json PageWriter::put_view(const View& view, const std::vector<std::string>& planes, const FrameTexts& texts) {
+Json PageWriter::put_view(const Frame& frame, const View& view, const std::vector<std::string>& planes,
+                          const FrameTexts& texts) {
   Json list = Json::array(), background = nullptr;
   for (const std::string& name : planes)
-    if (const Plane* plane = view.find(name)) list.push_back(put_plane(view, *plane, texts.name));
+    if (const Plane* plane = view.find(name)) list.push_back(put_plane(frame, view, *plane, texts));
   const Plane* depth = view.find("depth");
-  if (depth && !depth->channels.empty()) {
-    const Channel& values = depth->channels[0];
-    background =
-        put(packed_mask(values.layout(), options_.step, [&](int x, int y) { return is_background(values.at(x, y)); }));
-  }
+  if (depth && !depth->channels.empty())
+    background = put(packed_background(depth->channels[0], grid_of(frame.window, frame.window, options_.step)));
   std::string camera;
   for (const auto& [name, words] : texts.cameras)
     if (name == view.name) camera = printable(words);
@@ -165,14 +167,14 @@ Json PageWriter::put_view(const View& view, const std::vector<std::string>& plan
 }
 
 void PageWriter::add(const Frame& frame, const std::vector<std::string>& planes, const FrameTexts& texts) {
+  const Grid whole = grid_of(frame.window, frame.window, options_.step);
   Json views = Json::array();
-  for (const View& view : frame.views) views.push_back(put_view(view, planes, texts));
-  const Layout size = reduced(Layout(frame.width(), frame.height()), options_.step);
+  for (const View& view : frame.views) views.push_back(put_view(frame, view, planes, texts));
   files_.back()["frames"].push_back({{"name", printable(texts.name)},
                                      {"number", texts.number ? Json(*texts.number) : Json(nullptr)},
                                      {"display", json(frame.display)},
                                      {"window", json(frame.window)},
-                                     {"size", {size.width, size.height}},
+                                     {"size", {whole.width, whole.height}},
                                      {"pixel_aspect", frame.pixel_aspect},
                                      {"facts", pairs(texts.facts)},
                                      {"notes", frame.assumed},

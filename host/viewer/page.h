@@ -1,6 +1,7 @@
 // The viewer: planes of frames in one self-contained HTML page, with every value as the file has it.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -26,10 +27,14 @@ struct FrameTexts {
   std::vector<std::pair<std::string, std::string>> cameras;     ///< view, camera in words
   std::vector<std::pair<std::string, std::string>> facts;       ///< "depth": "ray", ...
   std::vector<std::pair<std::string, std::string>> attributes;  ///< of the header
+  /// By view and plane: the part of the frame's window that the file has; the page has no values elsewhere.
+  std::map<std::pair<std::string, std::string>, Window> windows;
 };
 
 /// Pages beyond this are refused: browsers fail on them.
 inline constexpr unsigned long long most_page_bytes = 1ull << 30;
+/// The longest text that they hold, with some room.
+inline constexpr unsigned long long most_element_bytes = 500ull << 20;
 /// From here on opening the page takes long.
 inline constexpr unsigned long long large_page_bytes = 150ull << 20;
 
@@ -42,7 +47,7 @@ class PageWriter {
   /// Begins a file of one frame, or of a shot. `name`: as shown.
   void begin_file(const std::string& name, bool is_shot);
   /// Adds a frame to the last file. `planes`: those to show, in this order; the depth, if the frame has it, also tells the
-  /// background. Throws Error if the page becomes larger than `most_page_bytes`.
+  /// background. Throws Error if the page becomes larger than browsers open.
   void add(const Frame& frame, const std::vector<std::string>& planes, const FrameTexts& texts);
   /// Writes the end of the page.
   void finish();
@@ -55,8 +60,9 @@ class PageWriter {
   void append(const std::string& text);
   /// Writes data into an element of its own and returns its number.
   int put(const std::string& text);
-  nlohmann::ordered_json put_plane(const View& view, const Plane& plane, const std::string& file);
-  nlohmann::ordered_json put_view(const View& view, const std::vector<std::string>& planes, const FrameTexts& texts);
+  nlohmann::ordered_json put_plane(const Frame& frame, const View& view, const Plane& plane, const FrameTexts& texts);
+  nlohmann::ordered_json put_view(const Frame& frame, const View& view, const std::vector<std::string>& planes,
+                                  const FrameTexts& texts);
 
   NewFile& out_;
   PageOptions options_;

@@ -69,8 +69,7 @@ function rangeButtons(image, tone) {
   const auto = () => {
     const found = {...toneNow(image), low: null, high: null};
     const list = found.channel === 'all' ? image.channels.slice(0, 3) : [scalarsOf(image, found.channel)];
-    const ranges =
-        list.map((each) => autoRange(image, each, found.channel === 'all' ? {...found, map: 'grey'} : found));
+    const ranges = list.map((each) => rangeOf(image, each, found.channel === 'all' ? {...found, map: 'grey'} : found));
     const isReversed = ranges[0][0] > ranges[0][1], lows = ranges.flat();
     set(isReversed ? Math.max(...lows) : Math.min(...lows), isReversed ? Math.min(...lows) : Math.max(...lows));
   };
@@ -88,6 +87,12 @@ function rangeButtons(image, tone) {
       }));
 }
 
+/// One component of vectors has no direction to make a hue of.
+function mapFor(channel, map) {
+  if (channel === 'all') return {map: null};
+  return map === 'wheel' ? {map: 'viridis'} : {};
+}
+
 function toneControls(image) {
   const tone = toneNow(image), plane = image.plane, row = (label, control) => [element('label', {}, label), control];
   const isMapped = tone.channel !== 'all' && tone.map !== 'identity', hasRange = tone.map !== 'identity';
@@ -96,8 +101,7 @@ function toneControls(image) {
   if (choices.length > 1)
     parts.push(row('Shows', chooser('Component', '', choices, tone.channel, (value) => {
                      const channel = choices.map(([each]) => each).find((each) => String(each) === value);
-                     const map = channel !== 'all' && ['wheel'].includes(tone.map) ? 'viridis' : null;
-                     changeTone(image, {channel, low: null, high: null, ...(map ? {map} : {})});
+                     changeTone(image, {channel, low: null, high: null, ...mapFor(channel, tone.map)});
                    })));
   if (hasRange) {
     parts.push(row('Exposure', exposureControl(image, tone)));
@@ -151,33 +155,25 @@ function countsOf(image) {
   return counts;
 }
 
+function countRow([colour, name, count]) {
+  const style = colour ? `background:rgb(${colour.join(',')})` : null;
+  const chip = colour === undefined ? null : element('span', {class: colour ? 'chip' : 'chip hatched', style});
+  return [element('dt', {}, chip, name), element('dd', {}, many(count, name === 'background' ? 'pixel' : 'value'))];
+}
+
+function countList(image, name) {
+  const counts = countsOf(image), none = image.plane.never_negative ? ', none is negative.' : '.';
+  return [
+    element('h2', {}, 'Marked in ' + name),
+    counts.length ? element('dl', {class: 'facts'}, counts.map(countRow)) :
+                    element('p', {class: 'remark'}, 'All values are finite' + none)
+  ];
+}
+
 function renderCounts() {
-  const images = (needsBoth(state.mode) ? [shown.a, shown.b] : [
-                   shown[state.mode]
-                 ]).filter((image) => image && image.plane.channels[0].data !== undefined);
-  const parts = images.map((image, i) => {
-    const counts = countsOf(image), title = (needsBoth(state.mode) ? 'AB'[i] + ', ' : '') + image.plane.name;
-    return [
-      element('h2', {}, 'Marked in ' + title),
-      counts.length ? element(
-                          'dl', {class: 'facts'},
-                          counts.map(
-                              ([colour, name, count]) =>
-                                  [element(
-                                       'dt', {}, colour === undefined ? null : element('span', {
-                                         class: colour ? 'chip' : 'chip hatched',
-                                         style: colour ? `background:rgb(${colour.join(',')})` : null
-                                       }),
-                                       name),
-                                   element(
-                                       'dd', {},
-                                       count.toLocaleString('en').replace(/,/g, '\u202f') + ' ' +
-                                           (name === 'background' ? 'pixels' : 'values'))])) :
-                      element(
-                          'p', {class: 'remark'},
-                          'All values are finite' + (image.plane.never_negative ? ', none is negative.' : '.'))
-    ];
-  });
+  const both = needsBoth(state.mode), sides = (both ? ['a', 'b'] : [state.mode]).filter((side) => shown[side]);
+  const parts =
+      sides.map((side) => countList(shown[side], (both ? side.toUpperCase() + ', ' : '') + shown[side].plane.name));
   const box = element(
       'label', {class: 'check'}, element('input', {
         type: 'checkbox',
@@ -258,7 +254,7 @@ function renderAbout() {
   const isSameFrame = sides.length > 1 && state.a.file === state.b.file;
   const words = [
     data.values, data.half ? 'Values are rounded to half.' : '',
-    data.step > 1 ? `Every ${data.step}th pixel of every ${data.step}th row is here.` : '', sizesInWords(sides)
+    data.step > 1 ? `Of ${data.step} × ${data.step} pixels one is here.` : '', sizesInWords(sides)
   ].filter(Boolean);
   byId('about').replaceChildren(
       ...(isSameFrame ? ['a'] : sides).flatMap(aboutSide).filter(is), element('p', {class: 'remark'}, words.join(' ')));

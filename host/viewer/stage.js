@@ -18,11 +18,11 @@ function panes() {
   return [{left: 0, top: 0, width: width / 2, height}, {left: width / 2, top: 0, width: width / 2, height}];
 }
 
-/// The rectangle that A's image covers, in pixels of its file: {left, top, width, height}.
+/// The rectangle of A's frame, its display window and data outside it, in pixels of its file: {left, top, width, height}.
 function extent() {
-  const image = shown.reference;
-  if (!image) return {left: 0, top: 0, width: 1, height: 1};
-  return {left: image.left, top: image.top, width: image.width * data.step, height: image.height * data.step};
+  if (!shown.reference) return {left: 0, top: 0, width: 1, height: 1};
+  const {window: [x0, y0, x1, y1], display} = shown.reference.frame;
+  return {left: x0 - display[0], top: y0 - display[1], width: x1 - x0, height: y1 - y0};
 }
 
 function fittingZoom() {
@@ -150,6 +150,23 @@ function drawValues(image, at, clip, pane) {
   }
 }
 
+/// A line around A's display window, where data lie elsewhere.
+function drawDisplay(pane) {
+  const image = shown.reference;
+  if (!image) return;
+  const [x0, y0, x1, y1] = image.frame.display, scale = deviceScale(), {zoom} = looking();
+  const isFilled = !image.left && !image.top && Math.abs(image.width * data.step - (x1 - x0)) < data.step &&
+      Math.abs(image.height * data.step - (y1 - y0)) < data.step;
+  if (isFilled) return;
+  const [left, top] = placeIn(pane, 0, 0);
+  pen.save();
+  pen.scale(scale, scale);
+  pen.strokeStyle = getComputedStyle(stage).getPropertyValue('--faint');
+  pen.setLineDash([4, 4]);
+  pen.strokeRect(left, top, (x1 - x0) * zoom, (y1 - y0) * zoom);
+  pen.restore();
+}
+
 /// A frame around the pixel whose values stay shown.
 function drawPicked(pane) {
   if (!state.picked) return;
@@ -206,6 +223,7 @@ function drawStage() {
     default:
       drawImage(state.mode === 'b' ? b : a, pane);
   }
+  drawDisplay(pane);
   drawPicked(pane);
   renderDivider();
   renderZoom();

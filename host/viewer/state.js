@@ -24,7 +24,6 @@ const state = {
 
 // --- Files, frames, views, planes
 
-const unique = (items) => [...new Set(items)];
 const frameNumbers =
     unique(files.flatMap((file) => (file.shot ? file.frames.map((frame) => frame.number) : []))).sort((a, b) => a - b);
 

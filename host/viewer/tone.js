@@ -101,12 +101,8 @@ function roundedUp(value) {
   return short((factor <= 1 ? 1 : factor <= 2 ? 2 : factor <= 5 ? 5 : 10) * power);
 }
 
-/// The range by itself: nearly all values. Of depths the nearest is the end, which is bright; of both signs 0 is in the middle.
-function autoRange(image, values, tone) {
-  image.ranges = image.ranges || new Map();
-  const key = tone.channel + tone.map + tone.transfer;
-  const known = image.ranges.get(key);
-  if (known && known.values === values) return known.range;
+/// The range of values: nearly all of them. Of depths the nearest is the end, which is bright; of both signs 0 is in the middle.
+function rangeOf(image, values, tone) {
   let [low, high] = percentilesOf(image, values, [0.005, 0.995]);
   if (low === null) [low, high] = [0, 1];
   if (tone.map === 'differences' || (image.plane.style === 'difference' && tone.channel === 'all')) {
@@ -118,8 +114,22 @@ function autoRange(image, values, tone) {
     [low, high] = [high, low];
   }
   if (low === high) [low, high] = [low - 0.5, high + 0.5];
-  image.ranges.set(key, {values, range: [low, high]});
   return [low, high];
+}
+
+const keptRanges = new Map();
+
+/// The range by itself. It stays as it was found first, so that colours mean the same in all frames and views of a file, and in B
+/// what they mean in A. `part`: of several components.
+function autoRange(image, tone, part) {
+  const isLikeA = shown.a && toneKey(shown.a) === toneKey(image) && shown.a.channels.length === image.channels.length;
+  const source = isLikeA ? shown.a : image;
+  const ofA = toneKey(image) === state.a.plane ? state.a.file + '|' + state.a.plane : image.rangeKey;
+  const key = [ofA, tone.channel, tone.map, tone.transfer, part].join('|');
+  const values = () =>
+      (is(part) ? source.channels[part] : scalarsOf(source, tone.channel === 'all' ? 'length' : tone.channel));
+  if (!keptRanges.has(key)) keptRanges.set(key, rangeOf(source, values(), tone));
+  return keptRanges.get(key);
 }
 
 /// The tone of an image: {channel, exposure, low, high, isAuto, map, transfer}. Of `all` components low and high are lists where the
@@ -130,9 +140,8 @@ function toneNow(image) {
     tone.channel = toneOfKind(image.plane).channel;
   tone.isAuto = !is(tone.low) || !is(tone.high);
   if (tone.channel === 'all' && tone.map !== 'wheel') {
-    const parts = image.channels.slice(0, 3);
     if (!tone.isAuto) return tone;
-    const ranges = parts.map((values) => autoRange(image, values, {...tone, channel: 'all', map: 'grey'}));
+    const ranges = image.channels.slice(0, 3).map((unused, part) => autoRange(image, {...tone, map: 'grey'}, part));
     if (image.plane.style === 'difference') {
       const widest = Math.max(...ranges.map(([, high]) => high));
       return {...tone, low: -widest, high: widest};
@@ -140,8 +149,7 @@ function toneNow(image) {
     if (image.plane.style === 'absolute') return {...tone, low: 0, high: Math.max(...ranges.map(([, high]) => high))};
     return {...tone, low: ranges.map(([low]) => low), high: ranges.map(([, high]) => high)};
   }
-  if (tone.isAuto)
-    [tone.low, tone.high] = autoRange(image, scalarsOf(image, tone.channel === 'all' ? 'length' : tone.channel), tone);
+  if (tone.isAuto) [tone.low, tone.high] = autoRange(image, tone);
   return tone;
 }
 

@@ -30,6 +30,7 @@ let hovered = null;  // [u, v], point of A's image under the pointer
 /// Without a point, the values of the picked pixel are shown again.
 function hover(u, v) {
   hovered = is(u) ? [u, v] : null;
+  byId('values').setAttribute('aria-live', 'off');
   renderValues();
 }
 
@@ -59,6 +60,7 @@ function movePicked(dx, dy) {
   const over = (at, start, size) => Math.min(0, start + size - margin - at) + Math.max(0, start + margin - at);
   if (state.zoom !== null) moveBy(over(x, pane.left, pane.width), over(y, pane.top, pane.height));
   hovered = null;
+  byId('values').setAttribute('aria-live', 'polite');
   keepAddress();
   renderValues();
   redraw();

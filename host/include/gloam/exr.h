@@ -80,6 +80,9 @@ class FrameFile {
   Window display() const;
   /// Union of the display window and all data windows that hold known planes.
   Window window() const;
+  /// The pixels of `window` that the file has of a view's plane; elsewhere `read` gives the plane's value outside (planes.h). All of
+  /// `window` for a layer beyond the end of a view's stack.
+  Window data_window(const std::string& plane, const std::string& view) const;
   /// The selected views in the options' order; without a selection all, in file order; one empty name if the file names none.
   const std::vector<std::string>& views() const;
   /// Known planes of the selected views.
