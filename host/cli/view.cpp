@@ -137,7 +137,7 @@ unsigned long long write_page(const ViewCommand& flags, const std::vector<Viewed
   });
   if (bytes > viewer::large_page_bytes)
     note({fmt::format(
-        "the page has {}: a browser takes long to open it; --planes, --frames and --views take fewer images, "
+        "the page has {}: a browser takes seconds to open it, and as much memory; --planes, --frames and --views take fewer images, "
         "--half and --scale make them smaller",
         memory_in_words(bytes))});
   return bytes;

@@ -80,7 +80,8 @@ void choose_planes(ViewedFile& file, const Names& asked) {
     if (!frame.planes.empty()) continue;
     throw Error("{}: {}", frame.path,
                 there.empty()
-                    ? "has no plane that gloam knows; " + holdings(FrameFile(frame.path, frame.options))
+                    ? "has no plane that gloam knows; " + holdings(FrameFile(frame.path, frame.options)) +
+                          "; --plane mask=CHANNEL shows one as a plane"
                     : fmt::format("has none of --planes {}; it has {}", fmt::join(asked, ","), first_names(there)));
   }
 }

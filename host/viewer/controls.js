@@ -131,6 +131,8 @@ function renderNames() {
       single           ? name(single) :
           isDifference ? (state.mode === 'absolute' ? '|A \u2212 B|' : 'A \u2212 B') :
                          name('a'));
+  byId('name-a').style.maxWidth =
+      state.mode === 'wipe' || (state.mode === 'beside' && panes()[1].left > 0) ? '' : '94%';
   const stacked = state.mode === 'beside' && panes()[1].top > 0;
   byId('name-b').style.top = stacked ? panes()[1].top + 8 + 'px' : '';
   byId('name-b').className = stacked ? 'name-tag left' : 'name-tag right';

@@ -108,12 +108,13 @@ function placeOf(image, reference) {
 
 // --- Differences
 
-/// The components that two planes share, as pairs of indices: those of one name, else all of planes of one kind, or of one component.
+/// The components that two planes share, as pairs of indices: those of one name, else all of planes of one kind.
 function sharedComponents(a, b) {
   const names = b.components;
-  const pairs = a.components.map((name, i) => [i, names.indexOf(name)]).filter(([, j]) => j >= 0);
+  const pairs = a.components.map((name, i) => [i, name ? names.indexOf(name) : -1]).filter(([, j]) => j >= 0);
   if (pairs.length) return pairs;
-  const isAlike = a.components.length === names.length && (names.length === 1 || a.style === b.style);
+  const areFigures = [a, b].every((plane) => plane.style === 'share' || plane.style === 'scalar');
+  const isAlike = a.components.length === names.length && (areFigures || a.style === b.style);
   return isAlike ? names.map((name, i) => [i, i]) : [];
 }
 

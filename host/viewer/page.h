@@ -35,7 +35,7 @@ struct FrameTexts {
 inline constexpr unsigned long long most_page_bytes = 1ull << 30;
 /// The longest text that they hold, with some room.
 inline constexpr unsigned long long most_element_bytes = 500ull << 20;
-/// From here on opening the page takes long.
+/// From here on opening the page takes seconds.
 inline constexpr unsigned long long large_page_bytes = 150ull << 20;
 
 /// Writes a page frame by frame, so that one frame is in memory at a time.
