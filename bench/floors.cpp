@@ -27,24 +27,34 @@ KernelFrame kernel_frame(const Frame& frame) {
           frame.views[0].camera->orthographic ? 1.0f : 0.0f};
 }
 
-std::string options(const Device& device) {
-  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1",
-                     device.info().lanes, directions, steps);
+std::string options(int lanes) {
+  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1", lanes,
+                     directions, steps);
+}
+
+KernelText gather_text(int lanes) {
+  return {flatten("shared/sampling/fan.h") + gather_floor_cl, options(lanes), "gather_floor"};
+}
+
+KernelText copy_text(int lanes) {
+  return {flatten("shared/lanes/load.h") + copy_floor_cl, options(lanes), "copy_floor"};
 }
 
 }  // namespace
 
-Floor::Floor(Device& device, const Frame& frame, const char* header, const char* text, const char* kernel)
-    : kernel_(build(device, flatten(header) + text, options(device), kernel)), device_(device) {
+std::vector<KernelText> floor_texts(int lanes) { return {gather_text(lanes), copy_text(lanes)}; }
+
+Floor::Floor(Device& device, const Frame& frame, const KernelText& text)
+    : kernel_(build(device, text.text, text.options, text.kernel)), device_(device) {
   const KernelFrame argument = kernel_frame(frame);
   kernel_.setArg(0, argument);
-  global_ = cl::NDRange(size_t(argument.pitch / device.info().lanes), size_t(argument.height));
+  global_ = cl::NDRange(size_t(argument.pitch / device.info().tuning.lanes), size_t(argument.height));
 }
 
 double Floor::run() { return launch(device_, kernel_, global_); }
 
 GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params)
-    : Floor(device, frame, "shared/sampling/fan.h", gather_floor_cl, "gather_floor") {
+    : Floor(device, frame, gather_text(device.info().tuning.lanes)) {
   kernel_.setArg(1, params.radius);
   kernel_.setArg(2, params.max_reach);
   kernel_.setArg(3, planes.depth);
@@ -52,7 +62,7 @@ GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& plane
 }
 
 CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)
-    : Floor(device, frame, "shared/lanes/load.h", copy_floor_cl, "copy_floor") {
+    : Floor(device, frame, copy_text(device.info().tuning.lanes)) {
   kernel_.setArg(1, planes.depth);
   kernel_.setArg(2, planes.result().buffer);
 }

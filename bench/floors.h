@@ -6,13 +6,16 @@
 
 namespace gloam::bench {
 
+/// Their kernels as they are compiled.
+std::vector<KernelText> floor_texts(int lanes);
+
 /// A kernel of bench/ on gloam's lanes.
 class Floor {
  public:
   double run();  ///< milliseconds
 
  protected:
-  Floor(Device& device, const Frame& frame, const char* header, const char* text, const char* kernel);
+  Floor(Device& device, const Frame& frame, const KernelText& text);
   cl::Kernel kernel_;
 
  private:

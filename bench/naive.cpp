@@ -69,6 +69,16 @@ const std::vector<NaiveKernel>& naive_kernels() {
   return kernels;
 }
 
+std::vector<KernelText> naive_texts() {
+  std::vector<KernelText> texts;
+  const Settings any{.directions = 4, .steps = 4, .columns = 4, .rows = 4};
+  for (const NaiveKernel& naive : naive_kernels()) {
+    for (const Counts counts : {Counts::at_run_time, Counts::unrolled})
+      texts.push_back({std::string(naive_cl) + naive.text, options(any, counts), naive.kernel});
+  }
+  return texts;
+}
+
 const NaiveKernel* naive_kernel_for(const PlannedPass& planned) {
   const auto computes_the_same = [&](const NaiveKernel& kernel) {
     const Technique& technique = *planned.technique;

@@ -28,6 +28,9 @@ struct NaiveKernel {
 
 const std::vector<NaiveKernel>& naive_kernels();
 
+/// All of them as they are compiled, with their counts as arguments and unrolled.
+std::vector<KernelText> naive_texts();
+
 /// Null if there is no kernel that computes the same with the technique's settings.
 const NaiveKernel* naive_kernel_for(const PlannedPass& planned);
 

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "gloam/frame.h"
 #include "run/device_impl.h"
@@ -44,6 +45,12 @@ class DevicePlanes {
   Device& device_;
   Layout layout_;
   std::deque<ResultPlane> results_;
+};
+
+/// A kernel of a baseline as it is compiled.
+struct KernelText {
+  std::string text, options;
+  const char* kernel;
 };
 
 /// Builds a kernel from text. Throws Error with the compiler's log.

@@ -1,5 +1,5 @@
 # Contents of `cmake --install`, and of the Debian packages. Component `runtime` is the command with its pages and completions
-# (zsh's are `zsh`, since packages have another folder for them), `development` the libraries, headers and package files.
+# (zsh's are `zsh`, since packages have another folder for them) and the add-on for Blender, `development` the libraries, headers and package files.
 #
 # The libraries are static: a C++ interface of plain structs has no stable ABI before 1.0, and kernels, techniques and scenes are
 # linked in as data, so that a program that uses gloam needs none of its files.
@@ -80,4 +80,5 @@ add_custom_target(completion ALL DEPENDS ${completion}/gloam ${completion}/_gloa
 install(FILES ${completion}/gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
 install(FILES ${completion}/_gloam DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT zsh)
 
+include(${PROJECT_SOURCE_DIR}/cmake/blender.cmake)
 include(${PROJECT_SOURCE_DIR}/cmake/package.cmake)

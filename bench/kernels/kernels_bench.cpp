@@ -98,7 +98,7 @@ void add_benchmark(const Plan& plan, const std::string& pass, const Frame& frame
 
 void add_benchmarks(const Technique& technique, Frame& frame, Device& device, float radius) {
   std::vector<int> widths = {1};
-  if (device.info().lanes != 1) widths.push_back(device.info().lanes);
+  if (device.info().tuning.lanes != 1) widths.push_back(device.info().tuning.lanes);
   for (const int layers : layer_counts(technique)) {
     const std::optional<Plan> plan = plan_alone(technique, radius, layers);
     if (!plan) continue;

@@ -132,16 +132,19 @@ class Temporary {
 
   int descriptor() const { return descriptor_; }
 
-  /// Writes the file to the disk and renames it to `target`. A crash after this leaves it whole.
-  void finish(const fs::path& target) {
+  /// Writes the file to the disk and renames it to `target`. A crash after this leaves it whole, unless it is a cache's.
+  void finish(const fs::path& target, FileFor file_for) {
+    const bool is_for_user = file_for == FileFor::user;
     // Some file systems cannot sync, and report that.
-    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) throw Error("{}", std::strerror(errno));
+    if (is_for_user && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+      throw Error("{}", std::strerror(errno));
     // A network file system may report a failed write only here.
     if (::close(std::exchange(descriptor_, -1)) != 0) throw Error("{}", std::strerror(errno));
-    if (slot_) slot_->moving.store(true);
+    if (slot_) slot_->moving.store(is_for_user);
     renamed_ = ::rename(path_.c_str(), target.c_str()) == 0;
     if (!renamed_ && leaving.load()) wait_for_the_end();
     if (!renamed_) throw Error("{}", std::strerror(errno));
+    if (!is_for_user) return;
     files_written.fetch_add(1);
     sync_folder(target.parent_path());
   }
@@ -266,7 +269,7 @@ void NewFile::append(std::string_view bytes) {
   }
 }
 
-void write_atomically(const fs::path& path, const std::function<void(NewFile&)>& write) {
+void write_atomically(const fs::path& path, const std::function<void(NewFile&)>& write, FileFor file_for) {
   if (path.empty()) throw Error("an empty path cannot be written");
   const fs::path target = resolved(path);
   check_target(path, target);
@@ -277,7 +280,7 @@ void write_atomically(const fs::path& path, const std::function<void(NewFile&)>&
     if (replaces) ::fchmod(temporary.descriptor(), mode);
     NewFile file(temporary.descriptor());
     write(file);
-    temporary.finish(target);
+    temporary.finish(target, file_for);
   } catch (const std::exception& error) {
     std::string cause = error.what();
     for (char& c : cause)

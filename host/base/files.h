@@ -23,11 +23,16 @@ class NewFile {
   int descriptor_;
 };
 
+/// Whose file it is: one for the user is written through to the disk, and counts among the files that an interrupted command tells of;
+/// one of a cache is neither.
+enum class FileFor { user, cache };
+
 /// Calls `write` on a new file in the folder of `path`, writes it to the disk, and renames it to `path`. The new file has a random
 /// name, created exclusively, so that no other process has it, on any machine that shares the folder. It gets the permissions of
 /// the file that it replaces. A symbolic link is written through, even if its target is missing. On any error, and on SIGHUP,
 /// SIGINT or SIGTERM, the new file is removed and `path` is left as it was. Throws Error naming `path`.
-void write_atomically(const std::filesystem::path& path, const std::function<void(NewFile&)>& write);
+void write_atomically(const std::filesystem::path& path, const std::function<void(NewFile&)>& write,
+                      FileFor file_for = FileFor::user);
 
 /// Removes files that `write_atomically` left in a folder when its process was killed, and returns their number. Those of running
 /// processes are locked and stay; on a network file system also those of other machines.

@@ -60,4 +60,10 @@ std::optional<CameraList> CameraList::of_file(const fs::path& file, const std::v
   return cameras;
 }
 
+std::optional<std::string> camera_text_of_frame(const fs::path& file, int frame) {
+  const json document = read_list(file);
+  if (!document.is_object() || !document.contains("frames") || !document["frames"].is_object()) return {};
+  return CameraList::of_file(file, {frame})->text_of(frame);
+}
+
 }  // namespace gloam

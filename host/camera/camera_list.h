@@ -29,4 +29,8 @@ class CameraList {
   std::map<int, std::string> texts_;
 };
 
+/// The text of the camera of one frame, from a JSON with a camera for each frame by number; none if the file is another JSON. Throws
+/// Error naming the file if it cannot be read, or has no camera for the frame.
+std::optional<std::string> camera_text_of_frame(const std::filesystem::path& file, int frame);
+
 }  // namespace gloam

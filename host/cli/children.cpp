@@ -37,16 +37,37 @@ struct Pipe {
   }
 };
 
-pid_t spawn(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err) {
-  std::vector<char*> argv = {const_cast<char*>("gloam")};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+/// This process's environment with changes, as "NAME=value".
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& changes) {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry; ++entry) {
+    const std::string text = *entry;
+    if (changes.count(text.substr(0, text.find('='))) == 0) all.push_back(text);
+  }
+  for (const auto& [name, value] : changes) all.push_back(name + "=" + value);
+  return all;
+}
+
+/// Pointers to texts, and a null pointer at the end.
+std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+pid_t spawn(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& changes,
+            const Pipe& out, const Pipe& err) {
+  std::vector<char*> argv = pointers_to(arguments);
+  argv.insert(argv.begin(), const_cast<char*>("gloam"));
+  const std::vector<std::string> environment = environment_with(changes);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, out.to, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.to, STDERR_FILENO);
   pid_t child = 0;
-  const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+  const int failed =
+      posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv.data(), pointers_to(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   if (failed) throw Error("cannot start a child process: {}", std::strerror(failed));
   return child;
@@ -82,9 +103,10 @@ ChildEnd ended(pid_t child, bool was_killed, double patience) {
 }  // namespace
 
 ChildEnd run_child(const std::vector<std::string>& arguments, double patience,
-                   const std::function<void(const std::string&)>& line) {
+                   const std::function<void(const std::string&)>& line,
+                   const std::map<std::string, std::string>& changes) {
   Pipe out, err;
-  const pid_t child = spawn(arguments, out, err);
+  const pid_t child = spawn(arguments, changes, out, err);
   Pipe::close_end(out.to);
   Pipe::close_end(err.to);
   std::string text, said;

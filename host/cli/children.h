@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ struct ChildEnd {
 };
 
 /// Runs this program with other arguments, as a child. Calls `line` with each line of the child's standard output; kills the child
-/// if it has written no line for `patience` seconds. May be called from several threads.
+/// if it has written no line for `patience` seconds. `changes`: variables that the child's environment has in addition, or with other
+/// values. May be called from several threads.
 ChildEnd run_child(const std::vector<std::string>& arguments, double patience,
-                   const std::function<void(const std::string&)>& line);
+                   const std::function<void(const std::string&)>& line,
+                   const std::map<std::string, std::string>& changes = {});
 
 }  // namespace gloam::cli

@@ -1,10 +1,9 @@
 // gloam info FRAME.exr: contents, assumptions, and the techniques that can run or lack something.
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 
-#include "cli/camera_facts.h"
+#include "cli/info_cameras.h"
 #include "cli/info_shot.h"
 #include "cli/info_views.h"
 #include "cli/memory.h"
@@ -215,6 +214,13 @@ void print_written(const std::vector<std::string>& pictures) {
   for (const std::string& picture : pictures) fmt::print("wrote {}\n", printable(picture));
 }
 
+void print_lines_for_blender(const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  fmt::print(
+      "\nIf Blender rendered the frame, these lines in its Python console write the camera beside the frame:\n\n");
+  for (const std::string& line : lines) fmt::print("{}\n", line);
+}
+
 void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   const std::string &path = flags.frame, &picture = flags.picture;
   ReadOptions options = flags.frame_flags.read_options();
@@ -235,13 +241,6 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   const std::vector<PlaneFacts> facts = picture.empty() ? facts_by_rows(file, frame) : facts_of(file, frame);
   file.verify();
 
-  Json cameras = Json::object(), first;
-  for (const std::string& view : file.views()) {
-    const std::optional<Camera> camera = file.camera(view);
-    if (!camera) continue;
-    cameras[view] = camera_document(*camera, file.display());
-    if (first.is_null()) first = cameras[view];
-  }
   const Abilities abilities = abilities_of(file, frame);
   const auto text = [](const std::string& value) { return value.empty() ? Json() : Json(value); };
   const std::optional<double> share = background_share(frame);
@@ -252,8 +251,11 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"window", {window.x0, window.y0, window.x1, window.y1}},
                    {"views", views},
                    {"planes", planes_document(facts)},
-                   {"camera", first},
-                   {"cameras", cameras},
+                   {"camera", Json()},
+                   {"cameras", Json()},
+                   {"camera_from", Json()},
+                   {"camera_residual_pixels", Json()},
+                   {"camera_residual_pixels_99", Json()},
                    {"depth_convention", text(file.depth_convention())},
                    {"normal_space", text(file.normal_space())},
                    {"background_share", share ? Json(*share) : Json()},
@@ -262,6 +264,9 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"lacks", abilities.lacks},
                    {"unread", unread_channels(file)},
                    {"memory_bytes", memory}};
+  add_cameras(file, flags.frame_flags, document);
+  const std::vector<std::string> for_blender = lines_for_blender(file);
+  if (!for_blender.empty()) document["camera_lines"] = for_blender;
   const Radius suggested = default_radius(frame, stated_radius(file));
   const RadiusReport radius(suggested, frame, {});
   if (pixels_at_median_depth(frame)) radius.add_to(document);
@@ -271,6 +276,7 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   if (flags.json.only_json()) return;
   print_info(file, facts, document, frame.assumed, abilities, flags.lacks);
   if (pixels_at_median_depth(frame)) radius.print();
+  print_lines_for_blender(for_blender);
   print_written(pictures);
 }
 

@@ -33,7 +33,8 @@ std::string camera_sources(const FrameFile& file) {
 FrameRow row_of(int frame, const std::filesystem::path& path, const ReadOptions& options) {
   FrameRow row{frame, path, {}, {}, {}, {}, {}};
   try {
-    const FrameFile file(path, options);
+    FrameFile file(path, options);
+    file.fit_cameras();
     row.size = fmt::format("{}x{}", file.display().width(), file.display().height());
     if (file.views() != std::vector<std::string>{""}) row.views = file.views();
     for (const PlaneSource& plane : file.planes()) add_new(row.planes, plane.plane);

@@ -6,6 +6,7 @@
 #include "gloam/device.h"
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
+#include "run/device_record.h"
 #include "stress/case.h"
 
 namespace gloam::cli {
@@ -26,21 +27,32 @@ void list_techniques(const std::string& name, const JsonFlag& json, bool markdow
   print_technique(*wanted.front(), names);
 }
 
+/// What `gloam doctor` found, in a few words.
+std::string verdict_of(const std::optional<DeviceRecord>& record) {
+  if (!record) return "not examined";
+  return fmt::format("{} ({}{})", record->held ? "holds" : "does not hold", record->day,
+                     record->kernels == hash_of_kernels() ? "" : ", with other kernels");
+}
+
 void list_devices_command(const JsonFlag& json) {
   Json document = Json::array();
-  std::vector<std::vector<std::string>> rows = {{"platform", "device", "type", "double", "lanes", "memory"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"platform", "device", "type", "double", "lanes", "memory", "gloam doctor"}};
   for (const DeviceInfo& d : list_devices()) {
+    const std::optional<DeviceRecord> record = find_record(d);
     document.push_back({{"platform", d.platform},
                         {"device", d.name},
                         {"type", d.type},
-                        {"lanes", d.lanes},
+                        {"lanes", d.tuning.lanes},
                         {"double", d.has_double},
-                        {"memory", d.memory}});
-    rows.push_back({d.platform, d.name, d.type, d.has_double ? "yes" : "no", std::to_string(d.lanes),
-                    fmt::format("{} MiB", d.memory >> 20)});
+                        {"memory", d.memory},
+                        {"held", record ? Json(record->held) : Json()},
+                        {"examined", record ? Json(record->day) : Json()}});
+    rows.push_back({d.platform, d.name, d.type, d.has_double ? "yes" : "no", std::to_string(d.tuning.lanes),
+                    fmt::format("{} MiB", d.memory >> 20), verdict_of(record)});
   }
   json.write(document);
-  if (!json.only_json()) print_table(rows, 4);
+  if (!json.only_json()) print_table(rows, 6);
 }
 
 void list_scenes(const JsonFlag& json) {

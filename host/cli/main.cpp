@@ -14,6 +14,7 @@
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
 #include "run/driver.h"
+#include "run/kernel_cache.h"
 
 namespace gloam::cli {
 namespace {
@@ -177,6 +178,7 @@ int run_command(int argc, char** argv) {
   add_report(app);
   add_view(app);
   add_stress(app);
+  add_doctor(app);
   add_completion(app, settable_by);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);
   // Prints help for a person who looks for the commands. The exit status is that of wrong usage, as git's is not 0 either: a script
@@ -220,6 +222,7 @@ static int status_of_command(int argc, char** argv) {
     if (argc > 1 && std::strcmp(argv[1], "stress") != 0) gloam::restart_where_the_driver_dies(argv);
     const int status = gloam::cli::run_command(argc, argv);
     if (const std::string kept = gloam::keep_kernels_made_anew(); !kept.empty()) gloam::cli::note({kept});
+    if (const std::string damaged = gloam::damaged_kernels_note(); !damaged.empty()) gloam::cli::note({damaged});
     gloam::cli::print_notes();
     if (std::fflush(stdout) != 0) return failed("standard output: cannot be written", 1);
     return status;

@@ -96,5 +96,6 @@ void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
 void add_view(CLI::App& app);
 void add_stress(CLI::App& app);
+void add_doctor(CLI::App& app);
 
 }  // namespace gloam::cli

@@ -83,6 +83,8 @@ void RunFlags::add_to(CLI::App& app) {
       ->group("Device");
   add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item")
       ->group("Device");
+  app.add_flag("--no-tuning", no_tuning, "lanes and groups as for any device of its kind, not as gloam doctor measured")
+      ->group("Device");
   add_choice(app, "--math", math, math_words, "precise: the same bits at every lane width; default fast")
       ->group("Device");
   add_choice(app, "--real", real, real_words, "what kernels compute in; default float")->group("Device");
@@ -97,6 +99,7 @@ void RunFlags::add_to(CLI::App& app) {
 RunOptions RunFlags::run_options() const {
   RunOptions options;
   options.lanes = lanes;
+  options.use_measured_tuning = !no_tuning;
   options.math = math;
   options.real = real;
   options.seed = seed.value_or(options.seed);

@@ -30,6 +30,7 @@ inline const Choices<Real> real_words = {{"float", Real::float32}, {"double", Re
 struct RunFlags {
   std::string device;
   int lanes = 0, repeat = 1;
+  bool no_tuning = false;
   Math math = Math::fast;
   Real real = Real::float32;
   std::optional<int> seed;

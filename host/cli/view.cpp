@@ -6,7 +6,7 @@
 #include "base/files.h"
 #include "base/memory.h"
 #include "cli/browser.h"
-#include "cli/camera_facts.h"
+#include "cli/info_cameras.h"
 #include "cli/memory.h"
 #include "cli/plane_facts.h"
 #include "cli/shot_flags.h"
@@ -79,9 +79,9 @@ viewer::FrameTexts texts_of(const FrameFile& file, const ViewedFrame& frame, con
   viewer::FrameTexts texts;
   texts.name = file.path().filename().string();
   texts.number = frame.number;
-  for (const std::string& view : file.views())
-    if (const std::optional<Camera> camera = file.camera(view))
-      texts.cameras.emplace_back(view, camera_line(camera_document(*camera, file.display())));
+  Json cameras;
+  add_cameras(file, choice.frame_flags, cameras);
+  for (const auto& [view, camera] : cameras["cameras"].items()) texts.cameras.emplace_back(view, camera_line(camera));
   for (const PlaneSource& source : file.planes())
     texts.windows[{source.view, source.plane}] = file.data_window(source.plane, source.view);
   texts.facts = facts_of(file, choice);
@@ -136,10 +136,11 @@ unsigned long long write_page(const ViewCommand& flags, const std::vector<Viewed
     bytes = page.bytes();
   });
   if (bytes > viewer::large_page_bytes)
-    note({fmt::format(
-        "the page has {}: a browser takes seconds to open it, and as much memory; --planes, --frames and --views take fewer images, "
-        "--half and --scale make them smaller",
-        memory_in_words(bytes))});
+    note(
+        {fmt::format("the page has {}: a browser takes seconds to open it, and as much memory; --planes, --frames and "
+                     "--views take fewer images, "
+                     "--half and --scale make them smaller",
+                     memory_in_words(bytes))});
   return bytes;
 }
 

@@ -46,10 +46,11 @@ ViewedFile file_of(const ViewChoice& choice, size_t place) {
   return file;
 }
 
-/// Planes of any view, results first.
-Names planes_in(const FrameFile& file) {
+/// Planes of any view, results first. A depth that would be made of positions is not in the file as stored.
+Names planes_in(const FrameFile& file, bool as_stored) {
   Names all, sorted;
-  for (const PlaneSource& source : file.planes()) add_new(all, source.plane);
+  for (const PlaneSource& source : file.planes())
+    if (!as_stored || source.said != DeclaredConvention::made_of_positions) add_new(all, source.plane);
   add_new(sorted, results_among(all));
   add_new(sorted, inputs_among(all));
   return sorted;
@@ -121,7 +122,8 @@ std::vector<ViewedFile> viewed_files(const ViewChoice& choice) {
   Names all;
   for (size_t i = 0; i < choice.files.size(); ++i) {
     ViewedFile file = file_of(choice, i);
-    for (ViewedFrame& frame : file.frames) frame.planes = planes_in(FrameFile(frame.path, frame.options));
+    for (ViewedFrame& frame : file.frames)
+      frame.planes = planes_in(FrameFile(frame.path, frame.options), choice.as_stored);
     add_new(all, file.planes());
     files.push_back(std::move(file));
   }
@@ -139,7 +141,7 @@ std::vector<ViewedFile> viewed_files(const ViewChoice& choice) {
 Names planes_to_read(const ViewedFrame& frame, const FrameFile& file) {
   Names planes = frame.planes;
   for (const PlaneSource& source : file.planes())
-    if (source.plane == "depth") add_new(planes, "depth");
+    if (source.plane == "depth" && !frame.options.unconverted) add_new(planes, "depth");
   return planes;
 }
 

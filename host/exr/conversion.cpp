@@ -12,7 +12,12 @@ namespace gloam {
 namespace {
 
 /// Positions are in the world, and of no use without a pose.
-void drop_positions_without_pose(View& view, Frame& frame) {
+void drop_positions_without_pose(const FileCameras& cameras, View& view, Frame& frame) {
+  const auto findings = cameras.positions.find(view.name);
+  if (findings != cameras.positions.end() && findings->second.in_camera_space) {
+    view.planes.erase("position");  // a note says so
+    return;
+  }
   if (view.camera->pose || view.planes.erase("position") == 0) return;
   add_new(frame.assumed, "positions: not used, since the camera's pose is unknown (--camera gives it)");
 }
@@ -55,10 +60,10 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
   for (View& view : frame.views) {
     assume_missing_camera(file, cameras, view, frame);
     has_background |= has_named_background(file, view);
-    conventions.take(convert_depth(file, view, frame));
+    conventions.take(convert_depth(file, cameras, view, frame));
     conventions.take(convert_normals(file, view, frame));
     check_reflectance(file, view, frame);
-    if (!file.options.as_stored) drop_positions_without_pose(view, frame);
+    if (!file.options.as_stored) drop_positions_without_pose(cameras, view, frame);
   }
   if (!has_background) note_missing_background(file, frame);
 }

@@ -1,8 +1,10 @@
 #include "exr/depth.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/lists.h"
+#include "exr/depth_of_positions.h"
 #include "exr/errors.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -25,9 +27,60 @@ bool all_background(const Channel& depth) {
   return true;
 }
 
+bool is_window_depth(DepthConvention convention) {
+  return convention == DepthConvention::ndc || convention == DepthConvention::reversed;
+}
+
+/// What positions tell of a depth; `unknown` where they tell nothing, or are not asked.
+DepthRelation relation_to_positions(const ExrFile& file, const FileCameras& cameras, const View& view) {
+  const auto found = cameras.positions.find(view.name);
+  if (found == cameras.positions.end() || is_window_depth(file.options.depth)) return {};
+  return found->second.depth;
+}
+
+/// Takes the convention that the positions show, unless a flag states one. Returns whether they show any.
+bool take_shown_depth(const PlaneSource& depth, const DepthRelation& relation, ReadOptions& options,
+                      std::vector<std::string>& assumed) {
+  const std::string& name = depth.channels.front().name;
+  const bool is_free = options.depth == DepthConvention::automatic;
+  if (relation.kind == DepthRelation::unknown) return false;
+  if (relation.kind == DepthRelation::neither) {
+    if (is_free)
+      add_new(assumed,
+              fmt::format("depth: '{}' is neither the planar distance of the positions nor their distance along the "
+                          "ray (--depth)",
+                          name));
+    return false;
+  }
+  const bool is_ray = relation.kind == DepthRelation::along_ray;
+  const DepthConvention shown = is_ray ? DepthConvention::ray : DepthConvention::z;
+  const char* words = is_ray ? "the distance along the ray" : "the planar distance";
+  if (!is_free && options.depth != shown)
+    add_new(assumed, fmt::format("depth: --depth overrules the positions, by which '{}' is {}", name, words));
+  if (!is_free) return true;
+  if (is_ray || depth.said == DeclaredConvention::ray_distance)
+    add_new(assumed, fmt::format("depth: '{}' is {}, as the positions show", name, words));
+  options.depth = shown;
+  return true;
+}
+
+/// Brings depth to the units of the positions, and so of the camera's place.
+void scale_to_positions(const PlaneSource& source, double scale, Channel& depth, std::vector<std::string>& assumed) {
+  if (std::abs(scale - 1) <= 0.01) return;
+  for (int y = 0; y < depth.layout().height; ++y)
+    for (float* z = depth.row(y); z != depth.row(y) + depth.layout().width; ++z) *z = float(*z / scale);
+  add_new(
+      assumed,
+      fmt::format("depth: '{}' is {:.6g} times as long as the positions say: it is divided by that, and lengths are "
+                  "in the units of the positions",
+                  source.channels.front().name, scale));
+}
+
 /// The options, with the file's declared convention in place of `automatic`.
-ReadOptions with_declared_depth(const ExrFile& file, const PlaneSource& depth, std::vector<std::string>& assumed) {
+ReadOptions with_declared_depth(const ExrFile& file, const PlaneSource& depth, const DepthRelation& relation,
+                                std::vector<std::string>& assumed) {
   ReadOptions options = file.options;
+  if (take_shown_depth(depth, relation, options, assumed)) return options;
   if (options.depth != DepthConvention::automatic) return options;
   if (depth.said == DeclaredConvention::planar || file.headers.has("gloamOrigin")) options.depth = DepthConvention::z;
   if (depth.said == DeclaredConvention::ray_distance) {
@@ -46,6 +99,7 @@ std::string declared_depth_convention(const ExrFile& file) {
   const std::vector<PlaneSource>& planes = file.names.planes;
   const auto depth = std::find_if(planes.begin(), planes.end(), [](const auto& p) { return p.plane == "depth"; });
   if (depth == planes.end()) return "";
+  if (depth->said == DeclaredConvention::made_of_positions) return "z";
   switch (file.options.depth) {
     case DepthConvention::ray:
       return "ray";
@@ -62,19 +116,27 @@ std::string declared_depth_convention(const ExrFile& file) {
 
 bool has_named_background(const ExrFile& file, const View& view) {
   const Plane* depth = view.find("depth");
-  return depth && file.options.background && holds(depth->channels.front(), *file.options.background);
+  return depth && file.options.background && !is_made_of_positions(file, view.name) &&
+         holds(depth->channels.front(), *file.options.background);
 }
 
-std::string convert_depth(const ExrFile& file, View& view, Frame& frame) {
+std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View& view, Frame& frame) {
   const auto found = view.planes.find("depth");
   if (found == view.planes.end()) return "";
+  if (is_made_of_positions(file, view.name)) {
+    make_depth(file, cameras.positions.at(view.name), view, frame);
+    return "z";
+  }
   Channel& depth = found->second.channels.front();
-  const ReadOptions options = with_declared_depth(file, *file.source("depth", view.name), frame.assumed);
+  const PlaneSource& source = *file.source("depth", view.name);
+  const DepthRelation relation = relation_to_positions(file, cameras, view);
+  const ReadOptions options = with_declared_depth(file, source, relation, frame.assumed);
   const Plane* alpha = view.find("alpha");
   std::vector<std::string> notes;
   const std::string convention = named(file.path, [&] {
     return to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, file.window, *view.camera, options, notes);
   });
+  scale_to_positions(source, relation.scale, depth, notes);
   if (all_background(depth))
     notes.push_back(fmt::format("depth: no pixel{} has a usable depth; all of it is background",
                                 view.name.empty() ? "" : " of view '" + view.name + "'"));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "exr/file.h"
+#include "exr/file_cameras.h"
 #include "gloam/frame.h"
 
 namespace gloam {
@@ -14,9 +15,9 @@ std::string declared_depth_convention(const ExrFile& file);
 /// Whether any stored depth of a view is the value of --background.
 bool has_named_background(const ExrFile& file, const View& view);
 
-/// Brings a view's depth to planar view-space z, and notes assumptions. Returns the convention (normalise/depth.h); empty
+/// Brings a view's depth to planar view-space z, in the units of the positions if they tell, and notes assumptions. Returns the convention (normalise/depth.h); empty
 /// without depth.
-std::string convert_depth(const ExrFile& file, View& view, Frame& frame);
+std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View& view, Frame& frame);
 
 /// Adds the note for a frame without any pixel of the depth that --background names.
 void note_missing_background(const ExrFile& file, Frame& frame);

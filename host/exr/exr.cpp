@@ -16,6 +16,7 @@
 #include "exr/file.h"
 #include "exr/file_cameras.h"
 #include "exr/memory.h"
+#include "exr/position_cameras.h"
 #include "exr/rows.h"
 #include "exr/stream.h"
 #include "exr/validation.h"
@@ -24,10 +25,25 @@
 #include "exr/write.h"
 #include "exr/written_header.h"
 #include "gloam/error.h"
+#include "gloam/planes.h"
 
 namespace gloam {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Planes that are converted with a camera, or dropped without one.
+bool needs_camera(const std::string& plane) {
+  return plane == "depth" || plane == "position" || plane_kind(plane).meaning == PlaneKind::unit_vector;
+}
+
+bool is_plane(const ExrFile& file, const std::string& name) {
+  return std::any_of(file.names.planes.begin(), file.names.planes.end(),
+                     [&](const PlaneSource& source) { return source.plane == name; });
+}
+
+}  // namespace
 
 struct FrameFile::Impl {
   ExrFile file;
@@ -40,6 +56,26 @@ struct FrameFile::Impl {
   void find_cameras(const std::optional<EyeOfPair>& eye) {
     cameras = gloam::find_cameras(file, eye);
     camera_notes.insert(camera_notes.end(), cameras.notes.begin(), cameras.notes.end());
+  }
+
+  bool is_settled = false;  ///< positions have been looked at
+
+  void settle() {
+    if (std::exchange(is_settled, true) || !has_positions(file)) return;
+    const size_t before = cameras.notes.size();
+    settle_by_positions(file, cameras);
+    camera_notes.insert(camera_notes.end(), cameras.notes.begin() + std::ptrdiff_t(before), cameras.notes.end());
+  }
+
+  /// Throws Error if a depth asked for was to be made from positions and cannot be.
+  void settle_for(const std::vector<std::string>& planes) {
+    if (std::none_of(planes.begin(), planes.end(), needs_camera)) return;
+    const bool had_depth = is_plane(file, "depth");
+    settle();
+    if (!had_depth || !contains(planes, "depth") || is_plane(file, "depth") || file.options.only_looks) return;
+    throw Error("{}: has no depth, and none can be made from its positions: {}; --camera FILE gives the camera",
+                file.path.string(),
+                cameras.why_not_fitted.empty() ? "none is one" : cameras.why_not_fitted.begin()->second);
   }
 
   void decode(Frame& frame) {
@@ -70,6 +106,7 @@ void FrameFile::become(const Eye& eye) {
   if (file.names.view_is_assumed && contains(file.headers.listed_views(), eye.name)) choose_view(file, eye.name);
   set_window(file, box_of(eye.window));
   impl_->find_cameras(EyeOfPair{eye.name, eye.other});
+  if (!impl_->cameras.has_pose(views().front())) impl_->settle();
   if (impl_->cameras.has_pose(views().front())) return;
   const std::string& misfit = impl_->cameras.json_misfit;
   throw Error(
@@ -115,6 +152,14 @@ std::optional<Camera> FrameFile::camera(const std::string& view) const {
   return found == impl_->cameras.cameras.end() ? std::nullopt : std::optional(found->second);
 }
 
+void FrameFile::fit_cameras() { impl_->settle(); }
+
+std::optional<FrameFile::CameraResidual> FrameFile::camera_residual(const std::string& view) const {
+  const auto found = impl_->cameras.positions.find(view);
+  if (found == impl_->cameras.positions.end()) return {};
+  return CameraResidual{found->second.median, found->second.percentile_99, found->second.is_fitted};
+}
+
 std::optional<double> FrameFile::number_attribute(const std::string& name) const {
   return impl_->file.headers.number(name);
 }
@@ -158,6 +203,7 @@ void FrameFile::verify() {
 // --- Reading
 
 Frame FrameFile::read(const std::vector<std::string>& planes) {
+  impl_->settle_for(planes);
   const ExrFile& file = impl_->file;
   Frame frame = allocate_planes(file, impl_->cameras, planes_to_decode(planes), file.window);
   impl_->nonfinite.clear();
@@ -170,6 +216,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
 }
 
 Frame FrameFile::survey(const std::vector<std::string>& planes) {
+  impl_->settle_for(planes);
   const ExrFile& file = impl_->file;
   Frame whole = allocate_planes(file, impl_->cameras, planes_surveyed_whole(planes), file.window);
   impl_->nonfinite.clear();

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 
+#include "exr/depth_of_positions.h"
 #include "exr/errors.h"
 #include "exr/validation.h"
 #include "exr/view_planes.h"
@@ -39,10 +40,12 @@ void find_planes(ExrFile& file) {
     file.names =
         name_planes(file.headers.channels(), file.headers.listed_views(), {file.options.views, file.options.channels});
   });
+  add_depth_of_positions(file);
   // Mitsuba's depth is the length of the ray, whatever name the user gave the channel.
   if (file.headers.text("generatedBy").find("Mitsuba") == std::string::npos) return;
   for (PlaneSource& plane : file.names.planes)
-    if (plane.plane == "depth") plane.said = DeclaredConvention::ray_distance;
+    if (plane.plane == "depth" && plane.said != DeclaredConvention::made_of_positions)
+      plane.said = DeclaredConvention::ray_distance;
 }
 
 void find_pixel_aspect(ExrFile& file) {

@@ -15,7 +15,7 @@ namespace {
 class Search {
  public:
   Search(const ExrFile& file, const std::optional<EyeOfPair>& eye)
-      : file_(file), options_(file.options), eye_(eye), headers_(file.headers, file.display) {}
+      : file_(file), options_(file.options), eye_(eye), headers_(file.headers, file.display, file.pixel_aspect) {}
 
   FileCameras all() {
     for (const std::string& view : file_.names.views) add(view);
@@ -27,6 +27,7 @@ class Search {
     std::optional<Pose> pose;
     std::optional<Camera> camera = by_header(view, pose);
     if (!camera) camera = by_json(view);
+    if (!camera) camera = lens_by_header(view);
     if (camera && pose) camera->pose = pose;
     if (options_.fov_degrees) camera = by_field_of_view(camera, pose);
     if (!camera && pose) found_.poses.emplace(view, *pose);
@@ -49,6 +50,16 @@ class Search {
           if (!camera) pose = headers_.pose(view, found_.notes);
         });
       });
+    });
+    return camera;
+  }
+
+  /// A header that tells the lens and not the place: after a JSON, which tells both.
+  std::optional<Camera> lens_by_header(const std::string& view) {
+    std::optional<Camera> camera;
+    if (has_camera_flag()) return camera;
+    passing_over(options_.fov_degrees || options_.only_looks, [&] {
+      named(file_.path, [&] { guarded(file_.path, [&] { camera = headers_.lens(view, found_.notes); }); });
     });
     return camera;
   }

@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "camera/camera_json.h"
+#include "camera/camera_list.h"
 #include "camera/camera_search.h"
 #include "exr/errors.h"
 #include "gloam/display_json.h"
@@ -33,6 +34,16 @@ std::map<std::string, Camera> cameras_of_display(const fs::path& json, const Win
   return {of_modules.begin(), of_modules.end()};
 }
 
+/// The number of a frame of a shot: the last digits of its file's name. None without digits, or with more than a number has.
+std::optional<int> frame_number(const fs::path& frame) {
+  const std::string stem = frame.stem().string();
+  const size_t last = stem.find_last_of("0123456789");
+  if (last == std::string::npos) return {};
+  const size_t first = stem.find_last_not_of("0123456789", last) + 1;
+  if (last - first >= 9) return {};
+  return std::stoi(stem.substr(first, last + 1 - first));
+}
+
 }  // namespace
 
 const Camera* JsonCameras::find(const std::string& view, const std::vector<std::string>& wanted) const {
@@ -46,9 +57,12 @@ JsonCameras read_json_cameras(const JsonRequest& request, std::vector<std::strin
   const bool is_asked_for = !request.json.empty();
   const std::optional<fs::path> json = is_asked_for ? request.json : find_camera_file(request.frame, &notes);
   if (!json) return {};
-  if (!request.text.empty()) {
+  std::string text = request.text;
+  if (const auto number = frame_number(request.frame); text.empty() && number)
+    text = camera_text_of_frame(*json, *number).value_or("");
+  if (!text.empty()) {
     const std::string name = json->filename().string();
-    return {name, cameras_of(json_of_text(request.text, json->string()), *json, request.display, notes),
+    return {name, cameras_of(json_of_text(text, json->string()), *json, request.display, notes),
             request.eye.has_value()};
   }
   JsonCameras found{json->filename().string(), {}, is_shared_by_eyes(request, *json)};

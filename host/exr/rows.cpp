@@ -74,7 +74,7 @@ bool convert_depths(const ExrFile& file, const FileCameras& cameras, Survey& sur
   for (View& view : survey.frame.views) {
     assume_missing_camera(file, cameras, view, survey.frame);
     has_background |= has_named_background(file, view);
-    survey.conventions.take(convert_depth(file, view, survey.frame));
+    survey.conventions.take(convert_depth(file, cameras, view, survey.frame));
     view.planes.erase("alpha");
   }
   return has_background;

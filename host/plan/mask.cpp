@@ -175,6 +175,10 @@ void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& technique
       throw UsageError("--only: restricts techniques that read one view, and {} reads two; leave --only out",
                        technique->name);
   }
+  const auto makes_mask = [&](const Technique* technique) { return contains(technique->writes, plan.mask); };
+  if (std::all_of(techniques.begin(), techniques.end(), makes_mask))
+    throw UsageError("--only: {} makes '{}' itself and cannot be restricted by it; leave --only out", plan.technique,
+                     plan.mask);
   if (elsewhere && looks_into_key_views(plan))
     throw UsageError("--elsewhere {}: views reuse results of one technique only (reuse=on); leave one of the two out",
                      elsewhere->name);

@@ -13,8 +13,11 @@
 
 #include "gloam/error.h"
 #include "run/device_impl.h"
+#include "run/device_record.h"
 #include "run/driver.h"
+#include "run/kept_folders.h"
 #include "run/kernel_sources.h"
+#include "run/known_devices.h"
 
 namespace gloam {
 namespace {
@@ -29,14 +32,6 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Vector width that pays off: PoCL compiles vectors to vector registers; every other CPU implementation vectorises across
-/// work-items by itself, and GPUs do so in hardware.
-int suitable_lanes(const cl::Device& device, const std::string& platform) {
-  if (!(device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) || platform != "Portable Computing Language") return 1;
-  const unsigned width = device.getInfo<CL_DEVICE_PREFERRED_VECTOR_WIDTH_FLOAT>();
-  return width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-}
-
 DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   DeviceInfo info;
   info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
@@ -44,7 +39,13 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
   const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
   info.type = type & CL_DEVICE_TYPE_GPU ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "other";
-  info.lanes = suitable_lanes(device, info.platform);
+  const KnownDevice known = known_device(info, int(device.getInfo<CL_DEVICE_PREFERRED_VECTOR_WIDTH_FLOAT>()));
+  info.usual = info.tuning = known.tuning;
+  info.keeps_kernels = known.keeps_kernels;
+  if (const std::optional<DeviceRecord> record = find_record(info); record && record->tuning) {
+    info.tuning = *record->tuning;
+    info.measured = record->day;
+  }
   const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
   info.shares_memory = info.type == "cpu";
@@ -60,33 +61,6 @@ struct Found {
   cl::Device device;
   DeviceInfo info;
 };
-
-/// Whether PoCL can keep its kernels below this folder, which is made if it is missing.
-bool usable(const std::filesystem::path& folder) {
-  std::error_code unknown;
-  std::filesystem::create_directories(folder, unknown);
-  std::string probe = (folder / ".gloam-XXXXXX").string();  // root may write anywhere, by the permissions
-  return mkdtemp(probe.data()) && rmdir(probe.c_str()) == 0;
-}
-
-/// A folder into which nobody else can have put kernels.
-std::filesystem::path own_temporary_folder() {
-  std::error_code unset;  // TMPDIR may name a missing folder
-  std::filesystem::path base = std::filesystem::temp_directory_path(unset);
-  if (unset || !usable(base)) base = "/tmp";
-  const std::filesystem::path folder = base / fmt::format("gloam-kernels-{}", getuid());
-  mkdir(folder.c_str(), 0700);
-  struct stat facts;
-  const bool ours = lstat(folder.c_str(), &facts) == 0 && S_ISDIR(facts.st_mode) && facts.st_uid == getuid() &&
-                    (facts.st_mode & 077) == 0;
-  if (ours) return folder;
-  std::string pattern = (base / "gloam-kernels-XXXXXX").string();
-  if (!mkdtemp(pattern.data()))
-    throw Error(
-        "no folder to keep compiled kernels in: {}: {}; set POCL_CACHE_DIR or HOME to a folder that can be written",
-        base.string(), std::strerror(errno));
-  return pattern;
-}
 
 /// The reason why an installed driver gives no platform; empty if none is installed. The loader does not report it.
 std::string why_no_platform() {
@@ -162,8 +136,9 @@ const Found& choose_device(const std::vector<Found>& found, const std::string& t
   for (const Found& f : found) {
     if (f.info.type == "gpu") return f;
   }
-  const auto widest = std::max_element(found.begin(), found.end(),
-                                       [](const Found& a, const Found& b) { return a.info.lanes < b.info.lanes; });
+  const auto widest = std::max_element(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return a.info.usual.lanes < b.info.usual.lanes;
+  });
   return *widest;
 }
 
@@ -175,21 +150,6 @@ std::string short_log(std::string log) {
 }
 
 }  // namespace
-
-void give_pocl_a_folder() {
-  // PoCL uses the first of these that is set; it aborts if that one is empty.
-  for (const auto& [name, below] :
-       {std::pair("POCL_CACHE_DIR", ""), std::pair("XDG_CACHE_HOME", ""), std::pair("HOME", ".cache")}) {
-    const char* folder = std::getenv(name);
-    if (folder && *folder == '\0')
-      unsetenv(name);
-    else if (folder && usable(std::filesystem::path(folder) / below))
-      return;
-    else if (folder)
-      break;
-  }
-  setenv("POCL_CACHE_DIR", own_temporary_folder().c_str(), 1);
-}
 
 std::vector<DeviceInfo> list_devices() {
   std::vector<DeviceInfo> infos;
@@ -238,6 +198,8 @@ Device::Device(const std::string& text) : impl_(std::make_unique<Impl>()) {
     impl_->device = chosen.device;
     impl_->context = cl::Context(chosen.device);
     impl_->queue = cl::CommandQueue(impl_->context, chosen.device, cl::QueueProperties::Profiling);
+    if (!chosen.info.keeps_kernels && !cache_folder().folder.empty())
+      impl_->cache = KernelCache(cache_folder().folder / "kernels");
   } catch (const cl::Error& error) {
     throw Error("device {}: {} ({})", label(chosen.info), error.what(), cl_error_name(error.err()));
   }
@@ -253,12 +215,44 @@ Device::Impl& Device::impl() {
 
 const DeviceInfo& Device::info() const { return const_cast<Device*>(this)->impl().info; }
 
+/// What a compiled program depends on.
+std::string Device::Impl::key_of(const std::string& source, const std::string& options) const {
+  return fmt::format("{}\n{}\n{}\n{}\n{}", info.platform, info.name, info.driver, options, source);
+}
+
+/// The kept program; none if there is none that the driver takes.
+std::unique_ptr<cl::Program> Device::Impl::kept_program(const std::string& key, const std::string& options) {
+  const std::optional<std::string> binary = cache.find(key);
+  if (!binary) return nullptr;
+  try {
+    const std::vector<unsigned char> bytes(binary->begin(), binary->end());
+    auto program =
+        std::make_unique<cl::Program>(context, std::vector<cl::Device>{device}, cl::Program::Binaries{bytes});
+    program->build({device}, options.c_str());
+    return program;
+  } catch (const cl::Error&) {
+    cache.remove(key);
+    return nullptr;
+  }
+}
+
+void Device::Impl::keep(const std::string& key, const cl::Program& program) const {
+  try {
+    const std::vector<std::vector<unsigned char>> binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+    if (!binaries.empty()) cache.keep(key, std::string(binaries.front().begin(), binaries.front().end()));
+  } catch (const cl::Error&) {  // a driver that gives none: the next process compiles again
+  }
+}
+
 cl::Program& Device::Impl::program(const std::string& source, const std::string& kernel, const std::string& options) {
-  const std::string key = source + " " + kernel + " " + options;
-  const auto known = programs.find(key);
+  const std::string name = source + " " + kernel + " " + options;
+  const auto known = programs.find(name);
   if (known != programs.end()) return known->second;
   const DriverAtWork driver;
-  auto built = std::make_unique<cl::Program>(context, with_one_kernel(flatten(source), kernel));
+  const std::string text = with_one_kernel(flatten(source), kernel), key = key_of(text, options);
+  std::unique_ptr<cl::Program> built = kept_program(key, options);
+  if (built) return programs.emplace(name, std::move(*built)).first->second;
+  built = std::make_unique<cl::Program>(context, text);
   try {
     built->build({device}, options.c_str());
   } catch (const cl::Error& error) {
@@ -270,7 +264,8 @@ cl::Program& Device::Impl::program(const std::string& source, const std::string&
     restart_without_kept_kernels();
     throw Error("kernels/{} cannot be compiled on {}: {}{}", source, label(info), error.what(), memory_limit());
   }
-  return programs.emplace(key, std::move(*built)).first->second;
+  if (!info.keeps_kernels) keep(key, *built);
+  return programs.emplace(name, std::move(*built)).first->second;
 }
 
 }  // namespace gloam

@@ -3,10 +3,12 @@
 
 #include <CL/opencl.hpp>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 
 #include "gloam/device.h"
+#include "run/kernel_cache.h"
 
 namespace gloam {
 
@@ -21,8 +23,15 @@ struct Device::Impl {
   cl::CommandQueue queue;
   std::map<std::string, cl::Program> programs;  ///< by source file, kernel and build options
 
+  KernelCache cache;  ///< compiled kernels on disk; none where the driver keeps its own
+
   /// The built program of a kernel of a file. Throws Error with the build log.
   cl::Program& program(const std::string& source, const std::string& kernel, const std::string& options);
+
+ private:
+  std::string key_of(const std::string& source, const std::string& options) const;
+  std::unique_ptr<cl::Program> kept_program(const std::string& key, const std::string& options);
+  void keep(const std::string& key, const cl::Program& program) const;
 };
 
 }  // namespace gloam

@@ -190,7 +190,8 @@ std::string keep_kernels_made_anew() {
   failed.clear();
   for (const auto& entry : fs::directory_iterator(made))
     fs::rename(entry.path(), fs::path(left) / entry.path().filename(), failed);
-  return fmt::format("the compiled kernels in {} were damaged: the OpenCL driver ended the program; they were {}", left,
+  return fmt::format("the compiled kernels in {} were damaged: {}; they were {}", left,
+                     before().signal ? "the OpenCL driver ended the program" : "the OpenCL driver could not use them",
                      failed ? "not used, and cannot be replaced; delete that folder" : "compiled anew");
 }
 

@@ -7,18 +7,6 @@
 namespace gloam {
 namespace {
 
-std::string build_options(const PlannedPass& planned, const Device::Impl& device, const RunOptions& options,
-                          int lanes) {
-  std::string text = fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D LANES={}", lanes);
-  if (options.math == Math::fast) text += " -D MATH_FAST=1";
-  if (options.math == Math::precise && device.info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
-  if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
-  if (options.gathers_only) text += " -D GATHERS_ONLY=1";
-  if (const std::string& type = planned.technique->parameters.type; !type.empty()) text += " -D Params=" + type;
-  for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
-  return text;
-}
-
 /// The kernel's own argument names; empty if the driver does not report them.
 std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
   std::vector<std::string> names;
@@ -36,15 +24,30 @@ std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
 
 }  // namespace
 
-int lanes_for(const DeviceInfo& info, const RunOptions& options) {
-  if (options.lanes != 0) return options.lanes;
-  return options.real == Real::float64 && info.lanes > 4 ? info.lanes / 2 : info.lanes;
+Tuning tuning_for(const DeviceInfo& info, const RunOptions& options) {
+  Tuning tuning = options.use_measured_tuning ? info.tuning : info.usual;
+  if (options.real == Real::float64 && tuning.lanes > 4) tuning.lanes /= 2;
+  if (options.lanes != 0) tuning.lanes = options.lanes;
+  if (options.group != 0) tuning.group = options.group;
+  return tuning;
+}
+
+std::string build_options(const PlannedPass& planned, const DeviceInfo& info, const RunOptions& options, int lanes) {
+  std::string text = fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D LANES={}", lanes);
+  if (options.math == Math::fast) text += " -D MATH_FAST=1";
+  if (options.math == Math::precise && info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
+  if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
+  if (options.gathers_only) text += " -D GATHERS_ONLY=1";
+  if (const std::string& type = planned.technique->parameters.type; !type.empty()) text += " -D Params=" + type;
+  for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
+  return text;
 }
 
 cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
                         const RunOptions& options, int lanes) {
   const std::string& source = source_of(*planned.technique, planned.pass);
-  cl::Program& program = device.program(source, planned.pass.kernel, build_options(planned, device, options, lanes));
+  cl::Program& program =
+      device.program(source, planned.pass.kernel, build_options(planned, device.info, options, lanes));
   cl::Kernel kernel;
   try {
     kernel = cl::Kernel(program, planned.pass.kernel.c_str());

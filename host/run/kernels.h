@@ -7,8 +7,11 @@
 
 namespace gloam {
 
-/// Pixels per work-item: as the options state, else what suits the device.
-int lanes_for(const DeviceInfo& info, const RunOptions& options);
+/// Lanes and group size: as the options state, else what suits the device.
+Tuning tuning_for(const DeviceInfo& info, const RunOptions& options);
+
+/// What the compiler is told of a pass's kernel.
+std::string build_options(const PlannedPass& planned, const DeviceInfo& info, const RunOptions& options, int lanes);
 
 /// Builds a pass's kernel. Throws Error for a missing kernel, for build errors (with the log), and for arguments that differ from
 /// the pass's.

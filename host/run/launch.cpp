@@ -13,12 +13,12 @@ size_t largest_divisor(size_t number, size_t most) {
 
 /// Work-group size. A CPU driver recompiles a kernel for every size, and by itself chooses a size per image size, for small
 /// images the whole image: that costs seconds, and what each work-item keeps overflows the stack. So one size serves all small
-/// images, and few serve large ones. Other devices choose for themselves.
-cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows) {
-  if (info.type != "cpu") return cl::NullRange;
-  constexpr size_t few_items = 1 << 14, most_per_group = 16;
-  if (columns * rows < few_items) return cl::NDRange(1, 1);
-  const size_t width = largest_divisor(columns, most_per_group);
+/// images, and few serve large ones. `most_per_group`: 0 lets the driver choose, as on other devices.
+cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows, size_t most_per_group) {
+  if (most_per_group == 0) return cl::NullRange;
+  constexpr size_t few_items = 1 << 14, widest = 32;
+  if (info.type == "cpu" && columns * rows < few_items) return cl::NDRange(1, 1);
+  const size_t width = largest_divisor(columns, std::min(most_per_group, widest));
   return cl::NDRange(width, largest_divisor(rows, most_per_group / width));
 }
 
@@ -27,17 +27,17 @@ cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows) {
 /// slower. Passes that stream lose as much by it, and other devices do not need it.
 size_t columns_of_strip(const DeviceInfo& info, const Pass& pass, size_t columns, const cl::NDRange& group, int lanes) {
   constexpr size_t pixels = 480;  // half to twice as many are as fast
-  if (info.type != "cpu" || !pass.footprint.is_wide) return columns;
+  if (info.type != "cpu" || !pass.footprint.is_wide || group.dimensions() == 0) return columns;
   return group[0] * std::max(size_t(1), pixels / (group[0] * size_t(lanes)));
 }
 
 }  // namespace
 
-double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, int lanes) {
+double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning) {
   const auto start = std::chrono::steady_clock::now();
-  const size_t columns = size_t(layout.pitch / lanes), rows = size_t(layout.height);
-  const cl::NDRange group = group_size(device.info, columns, rows);
-  const size_t strip = columns_of_strip(device.info, pass, columns, group, lanes);
+  const size_t columns = size_t(layout.pitch / tuning.lanes), rows = size_t(layout.height);
+  const cl::NDRange group = group_size(device.info, columns, rows, size_t(tuning.group));
+  const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
   cl::Event first, last;
   for (size_t from = 0; from < columns; from += strip)
     device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(from, 0), cl::NDRange(std::min(strip, columns - from), rows),

@@ -9,6 +9,6 @@ namespace gloam {
 
 /// Runs a pass's kernel on an image of this layout and waits for its end. Returns the launch's time in milliseconds, by its
 /// events, or by the wall clock if the device has no timestamps.
-double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, int lanes);
+double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning);
 
 }  // namespace gloam

@@ -44,7 +44,7 @@ void prepare(const Plan& plan, Device& device, const RunOptions& options) {
   const DriverAtWork driver;
   const Layouts layouts(plan, Layout(1, 1));
   for (const PlannedPass& planned : plan.passes)
-    build_kernel(planned, layouts, impl, options, lanes_for(impl.info, options));
+    build_kernel(planned, layouts, impl, options, tuning_for(impl.info, options).lanes);
 }
 
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {
@@ -54,7 +54,7 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   const Layout layout(frame.width(), frame.height());
   check(plan, layout, frame.views.size(), device, options);
   RunResult result;
-  result.lanes = lanes_for(impl.info, options);
+  result.lanes = tuning_for(impl.info, options).lanes;
   result.device_bytes = device_bytes(plan, layout, frame.views.size());
   result.frame.display = frame.display;
   result.frame.window = frame.window;

@@ -115,7 +115,8 @@ void count_listed(const Plan& plan, ViewOnDevice& target, std::map<std::string, 
 }
 
 /// Runs pass `k` of a target once. `counts`: its time is kept.
-void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl& device, int lanes, bool counts) {
+void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl& device, const Tuning& tuning,
+                 bool counts) {
   const PlannedPass& planned = plan.passes[target.passes[k]];
   try {
     constexpr cl_int nothing = 0;
@@ -124,7 +125,7 @@ void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl&
         device.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
     }
     const double ms =
-        launch(device, target.kernels[k], planned.pass, reduced(target.layout, planned.pass.scale), lanes);
+        launch(device, target.kernels[k], planned.pass, reduced(target.layout, planned.pass.scale), tuning);
     if (counts) target.times[k].ms.push_back(ms);
   } catch (const cl::Error& error) {
     throw Error("{} on {}: {} ({})", planned.label(), device.info.name, error.what(), cl_error_name(error.err()));
@@ -146,21 +147,21 @@ void collect(const Plan& plan, ViewOnDevice& target, RunResult& result) {
 
 /// Runs views that are on the device together.
 void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
-               const RunOptions& options, int lanes, RunResult& result, Counted& counted) {
+               const RunOptions& options, const Tuning& tuning, RunResult& result, Counted& counted) {
   std::vector<ViewOnDevice> targets;
   for (const View* view : views) targets.push_back(view_on_device(plan, frame, *view, device));
-  add_kernels(plan, targets, device, options, lanes);
+  add_kernels(plan, targets, device, options, tuning.lanes);
   size_t launches = 0, done = 0;
   for (const ViewOnDevice& target : targets) launches += target.kernels.size();
   const int warm_ups = options.repeat > 1 ? 1 : 0;
   for (int i = -warm_ups; i < options.repeat; ++i) {
     for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) {
-      launch_once(plan, target, k, device, lanes, i >= 0);
+      launch_once(plan, target, k, device, tuning, i >= 0);
       if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
     });
   }
   for (ViewOnDevice& target : targets) {
-    count(plan, target, lanes, false, counted);
+    count(plan, target, tuning.lanes, false, counted);
     collect(plan, target, result);
   }
 }
@@ -170,12 +171,12 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
 class KeyViewsRun {
  public:
   KeyViewsRun(const Plan& plan, const Frame& frame, int spacing, Device::Impl& device, const RunOptions& options,
-              int lanes, Counted& counted)
+              const Tuning& tuning, Counted& counted)
       : plan_(plan),
         frame_(frame),
         device_(device),
         options_(options),
-        lanes_(lanes),
+        tuning_(tuning),
         counted_(counted),
         roles_(key_view_roles(int(frame.views.size()), spacing)),
         results_(frame.views.size()) {
@@ -223,16 +224,16 @@ class KeyViewsRun {
 
   void compute(ViewOnDevice& target, const OtherViews& others) {
     for (size_t k = 0; k < plan_.passes.size(); ++k) {
-      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, lanes_);
+      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, tuning_.lanes);
     }
     const int warm_ups = options_.repeat > 1 ? 1 : 0;
     for (int i = -warm_ups; i < options_.repeat; ++i) {
       for (size_t k = 0; k < target.kernels.size(); ++k) {
-        launch_once(plan_, target, k, device_, lanes_, i >= 0);
+        launch_once(plan_, target, k, device_, tuning_, i >= 0);
         if (options_.progress) options_.progress(++done_, launches_ * (options_.repeat + warm_ups));
       }
     }
-    count(plan_, target, lanes_, target.is_key_view, counted_);
+    count(plan_, target, tuning_.lanes, target.is_key_view, counted_);
   }
 
   void release_before(size_t end) {
@@ -246,7 +247,8 @@ class KeyViewsRun {
   const Frame& frame_;
   Device::Impl& device_;
   const RunOptions& options_;
-  int lanes_, launches_ = 0, done_ = 0;  // launches_: per repeat
+  const Tuning tuning_;
+  int launches_ = 0, done_ = 0;  // launches_: per repeat
   Counted& counted_;
   std::vector<KeyViewRole> roles_;
   std::vector<RunResult> results_;       // view by view
@@ -258,13 +260,13 @@ class KeyViewsRun {
 void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, const RunOptions& options,
                    RunResult& result, Counted& counted) {
   if (const int spacing = key_view_spacing(plan, frame.views.size()); spacing > 1) {
-    KeyViewsRun(plan, frame, spacing, device, options, result.lanes, counted).run(result);
+    KeyViewsRun(plan, frame, spacing, device, options, tuning_for(device.info, options), counted).run(result);
     return;
   }
   std::vector<std::vector<const View*>> groups(needs_two_views(plan) ? 1 : frame.views.size());
   for (size_t i = 0; i < frame.views.size(); ++i) groups[std::min(i, groups.size() - 1)].push_back(&frame.views[i]);
   for (const std::vector<const View*>& views : groups)
-    run_views(plan, frame, views, device, options, result.lanes, result, counted);
+    run_views(plan, frame, views, device, options, tuning_for(device.info, options), result, counted);
 }
 
 }  // namespace gloam

@@ -77,7 +77,7 @@ std::string text_of(const Settings& settings) {
 std::string exact(double value) { return std::isinf(value) ? "inf" : fmt::format("{:.17g}", value); }
 
 std::vector<int> usual_lanes(const Device& device) {
-  const int own = device.info().lanes;
+  const int own = device.info().tuning.lanes;
   return own == 1 ? std::vector<int>{1} : std::vector<int>{1, own};
 }
 
@@ -85,10 +85,14 @@ Plan plan_for(const Technique& technique, Frame& frame, const Settings& settings
   PlanRequest request;
   request.outputs = {technique.name};
   request.settings = settings;
+  return plan_for(request, frame);
+}
+
+Plan plan_for(const PlanRequest& request, Frame& frame) {
   for (;;) {
     try {
       Plan plan = make_plan(request, plane_names(frame), "the rest is invented");
-      if (technique.views > int(frame.views.size())) add_second_view(frame);
+      if (find_technique(request.outputs.front()).views > int(frame.views.size())) add_second_view(frame);
       return plan;
     } catch (const MissingPlanes& missing) {
       for (const std::string& plane : missing.planes) invent_plane(frame, plane);

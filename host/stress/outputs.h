@@ -25,6 +25,8 @@ std::vector<int> usual_lanes(const Device& device);
 /// The plan for all outputs of a technique, from the planes of the frame. Planes that no technique makes are invented (frames.h)
 /// and added to the frame, and a second view if the technique needs two.
 Plan plan_for(const Technique& technique, Frame& frame, const Settings& settings = {});
+/// The same for a request; its first output is a technique.
+Plan plan_for(const PlanRequest& request, Frame& frame);
 
 /// Plans and runs; returns the outputs.
 Frame outputs_of(const Technique& technique, Frame& frame, const Settings& settings, const RunOptions& options,

@@ -123,12 +123,13 @@ static inline real obscurance_near(Frame frame, Params params, DepthLayers layer
   real sum = depth;
   FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) sum += behind.next;
   return sum;
-#endif
+#else
   real largest = obscurance(towards_depth(frame, r, x, y, depth), r.normal, params, falloff);
   FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) {
     largest = larger(obscurance(towards_depth(frame, r, x, y, behind.next), r.normal, params, falloff), largest);
   }
   return largest;
+#endif
 }
 
 static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params, DepthLayers layers,

@@ -81,11 +81,12 @@ static inline real cone_of(OpenDirections d) {
 
 // Zero on background.
 static inline void store_bent_normal(OpenDirections d, Receiver r, PLANE_OUT x, PLANE_OUT y, PLANE_OUT z) {
-  const real3 bent = bent_normal_of(d, r.normal);
-  const real there = choose(r.point.background, (real)(0), (real)(1));
-  store(bent.x * there, x, r.here);
-  store(bent.y * there, y, r.here);
-  store(bent.z * there, z, r.here);
+  // Chosen, not multiplied by 0: a negative number times 0 is -0.
+  const real3 nothing = make3((real)(0), (real)(0), (real)(0));
+  const real3 bent = choose3(r.point.background, nothing, bent_normal_of(d, r.normal));
+  store(bent.x, x, r.here);
+  store(bent.y, y, r.here);
+  store(bent.z, z, r.here);
 }
 
 #endif

@@ -68,7 +68,7 @@ static inline void take_closed_direction(OpenDirections* open, Receiver r, Surfa
   const real e = -(surface.normal.x * x + surface.normal.y * y) * inverse_away;
   const real3 tangent = make3(x + p.ray_x * e, y + p.ray_y * e, -e);
   const real square = larger(dot3(tangent, tangent), (real)(1e-30f));
-  const real width = (scalar)(6.28318530717959 / DIRECTIONS) * (pixel_x * pixel_y * inverse_away / square);
+  const real width = ((scalar)6.28318530717959 / DIRECTIONS) * (pixel_x * pixel_y * inverse_away / square);
   const mask is_open = horizon.height <= lowest;
   const real sine = choose(is_open, (real)(0), SINE_OF_HEIGHT(larger(horizon.height, (real)(0))));
   take_closed_wedge(open, scale3(tangent, inverse_sqrt(square)), surface.normal, sine, width);

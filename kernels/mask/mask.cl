@@ -83,7 +83,7 @@ static inline natural words_at(WANTED row, Frame f, int k) {
   return number >= 0 && number < words_of_row(f) ? ((global const uint*)row)[k] : 0u;
 #else
   const natural words = JOIN(vload, LANES)(0, (global const uint*)row + k);
-  return (number >= 0) & (number < words_of_row(f)) ? words : (natural)(0);
+  return ((number >= 0) & (number < words_of_row(f))) ? words : (natural)(0);
 #endif
 }
 

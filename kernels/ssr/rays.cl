@@ -16,12 +16,12 @@ static inline real3 ray_of(Reflector s, Noise noise, int k, real* density) {
   // The rays of a pixel follow the R2 sequence (Roberts 2018).
   const real u = noise.shift + k * (scalar)0.7548776662, turn = noise.turn + k * (scalar)0.5698402910;
   real3 h = visible_normal(s.to_eye, s.alpha, u - floor(u), turn - floor(turn));
-  const mask is_mirror = s.is_mirror | (MASK_ALONE ? EVERY_LANE : (mask)(0));
+  const mask is_mirror = s.is_mirror | EVERY_LANE_IF(MASK_ALONE);
   h = choose3(is_mirror, make3((real)(0), (real)(0), (real)(1)), h);
   const real vh = 2 * dot3(s.to_eye, h);
   const real3 l = make3(vh * h.x - s.to_eye.x, vh * h.y - s.to_eye.y, vh * h.z - s.to_eye.z);
   const real per_angle = reflected_density(s.alpha, s.to_eye, h, hidden_per_seen(s.alpha, s.to_eye));
-  *density = choose(is_mirror, choose(s.reflects & (mask)(k == 0 ? EVERY_LANE : (mask)(0)), REAL_INFINITY, (real)(0)),
+  *density = choose(is_mirror, choose(s.reflects & EVERY_LANE_IF(k == 0), REAL_INFINITY, (real)(0)),
                     choose(s.reflects & (l.z > (scalar)1e-4f), per_angle, (real)(0)));
   return exactly_normalised(out_of_frame(s, l));
 }
@@ -40,18 +40,18 @@ kernel void ssr_rays(Frame frame, Params params, PLANE depth, PLANE normal_x, PL
                                    reflectance_g, reflectance_b);
   const Noise noise = noise_at(FIRST_X + IOTA, ROW_Y, frame.seed);
 #if MASKED
-  const int is_skipped = !ANY(wanted_in_row(wanted, frame));
+  const mask is_wanted = wanted_in_row(wanted, frame);
 #else
-  const int is_skipped = 0;
+  const mask is_wanted = EVERY_LANE;
 #endif
   for (int k = 0; k < RAYS; ++k) {
     real density = 0;
-    if (!is_skipped && ANY(s.reflects)) {
+    if (ANY(s.reflects & is_wanted)) {
       const real3 direction = ray_of(s, noise, k, &density);
       store(direction.x, layer_of_out(ray_x, frame, k), here);
       store(direction.y, layer_of_out(ray_y, frame, k), here);
       store(direction.z, layer_of_out(ray_z, frame, k), here);
-      density = choose(s.roughness <= params.max_roughness, density, (real)(0));
+      density = choose(is_wanted & (s.roughness <= params.max_roughness), density, (real)(0));
       append_pixels(list, here + k * floats_of_layer(frame), density > 0);
     }
     store(density, layer_of_out(ray_density, frame, k), here);

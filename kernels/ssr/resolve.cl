@@ -174,7 +174,7 @@ kernel void ssr_resolve(Frame frame,
       seen.confidence = load(layer_of(ray_confidence, frame, k), there);
       if (i > 0) seen.direction = towards_met(s, v, seen.direction, seen.length);
       // A mirror's own ray has no density: any weight serves.
-      const mask is_own = s.is_mirror & (i == 0 ? EVERY_LANE : (mask)(0));
+      const mask is_own = s.is_mirror & EVERY_LANE_IF(i == 0);
       seen.density =
           choose(is_own & (seen.density > 0), (real)(1), choose(isinf(seen.density), (real)(0), seen.density));
       take_ray(&sum, s, seen, counts);

@@ -17,7 +17,7 @@ kernel void moving_tiles(Frame frame, Frame other, Params params, PLANE moved, P
   for (int dy = -1; dy < TILE; ++dy) {
     const int y = ROW_Y * TILE + dy;
     const int row = index_of(other, 0, clamp(y, 0, other.height - 1));
-    const mask is_row_inside = y >= 0 && y < other.height ? EVERY_LANE : (mask)(0);
+    const mask is_row_inside = EVERY_LANE_IF(y >= 0 && y < other.height);
     mask left = (mask)(0);
     for (int dx = -1; dx < TILE; ++dx) {
       const integer column = clamp(first + dx, (integer)(0), (integer)(other.width - 1));

@@ -35,6 +35,31 @@ TEST_F(CaptureCli, Kitchen) {
   EXPECT_LT(figures["rmse"], 0.21);  // a white image has 0.272
 }
 
+/// With the camera JSON out of reach, the camera is fitted to the positions: the same camera, and the same AO.
+TEST_F(CaptureCli, CamerasFittedToPositionsAreThoseOfTheJson) {
+  const std::map<std::string, std::string> jsons = {{"garden_compositor_file_output", "garden"},
+                                                    {"garden_lens_shift", "garden_lens_shift"},
+                                                    {"garden_ortho", "garden_ortho"},
+                                                    {"kitchen_all_passes_small", "kitchen_all_passes_small"}};
+  for (const auto& [frame, json] : jsons) {
+    fs::copy_file(captures / "variants" / (frame + ".exr"), path("frame.exr"), fs::copy_options::overwrite_existing);
+    const fs::path camera = captures / "variants" / (json + ".camera.json");
+    const Json fit = gloam({"info", path("frame.exr"), "--json", "-"}).json();
+    const Json known = gloam({"info", path("frame.exr"), "--camera", camera, "--json", "-"}).json();
+    EXPECT_EQ(fit["camera_from"], "fit") << frame;
+    EXPECT_LT(fit["camera_residual_pixels"], 1e-3) << frame;
+    EXPECT_LT(known["camera_residual_pixels"], 0.01) << frame;
+    EXPECT_NEAR(double(fit["camera"]["fx"]) / double(known["camera"]["fx"]), 1, 1e-5) << frame;
+    EXPECT_EQ(fit["normal_space"], "world") << frame;
+    for (const auto& [out, flags] : {std::pair("fit.exr", Arguments{}), {"known.exr", Arguments{"--camera", camera}}}) {
+      Arguments run = {"run", "gtao", path("frame.exr"), "-o", path(out), "--radius", "0.3"};
+      run.insert(run.end(), flags.begin(), flags.end());
+      ASSERT_EQ(gloam(run).status, 0) << frame;
+    }
+    EXPECT_LT(compare(path("fit.exr"), path("known.exr"))["rmse"], 1e-4) << frame;
+  }
+}
+
 TEST_F(CaptureCli, ARadiusOtherThanTheTruthsIsSaid) {
   const fs::path truth = captures / "kitchen/kitchen_ao_ref.exr";
   ASSERT_EQ(

@@ -217,8 +217,35 @@ TEST_F(Shot, CamerasOfEachFrame) {
   const Result result = run({"--camera", file("cam.####.json")});
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("1 of 3 frames failed: 2"), std::string::npos) << result.err;
-  expect_refused({"run", "hbao+", file("shot.0001.exr"), "-o", file("one.exr"), "--camera", file("list.json")}, 1,
+  // One frame by itself takes its camera from the list by its number, and a name without a number has none there.
+  const std::string one = file("one.exr");
+  ASSERT_EQ(gloam({"run", "hbao+", file("shot.0001.exr"), "-o", one, "--camera", file("list.json")}).err.find("frames"),
+            std::string::npos);
+  EXPECT_NEAR(FrameFile(one, {}).camera("")->fx, 51, 1e-3);
+  expect_refused({"run", "hbao+", file("shot.0001.exr"), "-o", one, "--camera", file("order.json")}, 1,
                  {"holds a camera for each frame"});
+  fs::copy(path("shot.0001.exr"), path("still.exr"));
+  expect_refused({"run", "hbao+", file("still.exr"), "-o", one, "--camera", file("list.json")}, 1,
+                 {"holds a camera for each frame"});
+}
+
+TEST_F(Shot, ListOfCamerasIsFoundBesideTheFrames) {
+  for (const int number : {1, 2, 3}) {
+    Frame frame = frame_of(number);
+    frame.views[0].camera.reset();
+    write_frame(path(numbered("shot", number)), frame);
+  }
+  const auto write_list = [&](const std::string& third) {
+    std::ofstream(path("shot.camera.json")) << fmt::format(R"({{"frames": {{"1": {}, "2": {}, "{}": {}}}}})",
+                                                           camera_json(51), camera_json(52), third, camera_json(53));
+  };
+  write_list("3");
+  ASSERT_EQ(run({}).status, 0);
+  for (const int number : {1, 2, 3})
+    EXPECT_NEAR(FrameFile(path(numbered("ao", number)), {}).camera("")->fx, 50 + number, 1e-3) << number;
+  EXPECT_NEAR(gloam({"info", file("shot.0002.exr"), "--json", "-"}).json()["camera"]["fx"].get<double>(), 52, 1e-3);
+  write_list("4");
+  expect_refused({"run", "hbao+", file("shot.0003.exr"), "-o", file("one.exr")}, 1, {"has no camera for frame 3"});
 }
 
 TEST_F(Shot, TwoEyesInTwoFiles) {

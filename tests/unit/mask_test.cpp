@@ -102,6 +102,9 @@ TEST(Mask, WhatCannotBeIsSaidInOneLine) {
             "--only: normals has no pass that a mask can restrict; leave --only out");
   EXPECT_EQ(message({.outputs = {"stereo-ao"}, .mask = "corner-mask"}),
             "--only: restricts techniques that read one view, and stereo-ao reads two; leave --only out");
+  EXPECT_EQ(
+      message({.outputs = {"reflection-mask"}, .mask = "corner-mask"}, {"depth", "normal", "roughness", "reflectance"}),
+      "--only: reflection-mask makes 'mask' itself and cannot be restricted by it; leave --only out");
 }
 
 // --- What comes out
@@ -118,6 +121,23 @@ void add_mask(Frame& frame) {
         if ((x - x0) * (x - x0) + (y - y0) * (y - y0) <= radius * radius) mask.at(x, y) = 0.5f;
       }
     }
+  }
+}
+
+/// What is left out lies in rows of lanes with what is wanted, or does not: that must not show.
+TEST(Mask, GivesTheSameBitsAtEveryLaneWidth) {
+  for (const char* name : {"gtao", "sssr"}) {
+    const Technique& technique = find_technique(name);
+    Frame frame = shoot(perspective(65, 9), room());
+    plan_for(technique, frame);  // adds invented planes
+    plane_of(frame, "mask").channels[0].at(32, 4) = 1;
+    const Plan plan =
+        make_plan({.outputs = {name}, .with = technique.extras, .settings = few_samples(technique), .mask = "mask"},
+                  plane_names(frame), "the frame has not");
+    const auto with_lanes = [&](int lanes) {
+      return std::move(run(plan, frame, device(), {.math = Math::precise, .lanes = lanes}).frame);
+    };
+    EXPECT_TRUE(same_bits(with_lanes(16), with_lanes(1))) << name;
   }
 }
 

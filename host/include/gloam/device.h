@@ -7,10 +7,19 @@
 
 namespace gloam {
 
+/// How an image is laid out over the work-items of a device. It changes times, and in fast mathematics the last bits.
+struct Tuning {
+  int lanes = 1;  ///< pixels per work-item: the float vector width on PoCL's CPUs
+  int group = 0;  ///< most work-items per work-group; 0: the driver chooses
+};
+
 struct DeviceInfo {
   std::string platform, name, type;  ///< type: "cpu", "gpu" or "other"
   std::string driver;
-  int lanes = 1;  ///< pixels per work-item that suit the device: its float vector width on PoCL's CPUs
+  Tuning tuning;               ///< as `gloam doctor` measured on this device and driver, else `usual`
+  Tuning usual;                ///< of devices of this kind (data/devices.json)
+  std::string measured;        ///< the day of that measurement, "2026-05-17"; empty: there is none
+  bool keeps_kernels = false;  ///< the driver keeps compiled kernels on disk by itself
   bool has_double = false;
   bool shares_memory = false;                         ///< host memory can be used in place
   bool has_timestamps = false;                        ///< events give the duration of a launch

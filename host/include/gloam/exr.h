@@ -54,7 +54,16 @@ struct ChannelSource {
 };
 
 /// The convention that a channel's name declares for its values.
-enum class DeclaredConvention { nothing, planar, ray_distance, world_space, view_space, unsure_motion };
+/// `made_of_positions`: a depth whose channels are those of the positions, from which `read` makes it.
+enum class DeclaredConvention {
+  nothing,
+  planar,
+  ray_distance,
+  world_space,
+  view_space,
+  unsure_motion,
+  made_of_positions
+};
 
 /// A plane that can be decoded.
 struct PlaneSource {
@@ -98,8 +107,18 @@ class FrameFile {
   const std::vector<std::string>& camera_notes() const;
   /// All channels of the file, for messages.
   std::vector<std::string> all_channels() const;
-  /// The camera of a view; none if flags, header and JSON give none.
+  /// The camera of a view; none if flags, header and JSON give none, and none has been fitted to positions.
   std::optional<Camera> camera(const std::string& view) const;
+  /// Fits cameras and poses that nothing else gives to the positions of the file, if it has any, and compares the others with them.
+  /// Decodes a few rows, once. `read` and `survey` do so by themselves where they need cameras. Throws Error for a damaged file.
+  void fit_cameras();
+  /// Distance in the image of the positions from their pixels, in pixels.
+  struct CameraResidual {
+    double median = 0, percentile_99 = 0;
+    bool is_fitted = false;  ///< the camera, or its pose, was fitted to the positions
+  };
+  /// None without positions or without a camera, and before cameras were compared with the positions.
+  std::optional<CameraResidual> camera_residual(const std::string& view) const;
   /// A float or double attribute of the header ("aoRadius"); none if absent.
   std::optional<double> number_attribute(const std::string& name) const;
   /// A text attribute of the header ("aoDefinition"); empty if absent.

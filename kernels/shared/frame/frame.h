@@ -7,7 +7,7 @@
 // Floats before the first and after the last row of every plane.
 #define FRAME_GUARD 64
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 #include "shared/lanes/lanes.h"
 #define FRAME_SCALAR scalar
 #define FRAME_NAME Frame
@@ -30,7 +30,7 @@ typedef struct {
   FRAME_SCALAR translation[3];
 } NEIGHBOUR_NAME;
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 typedef char frame_size_check[sizeof(Frame) == 16 + 6 * sizeof(scalar) ? 1 : -1];
 typedef char neighbour_size_check[sizeof(Neighbour) == sizeof(Frame) + 12 * sizeof(scalar) ? 1 : -1];
 #endif

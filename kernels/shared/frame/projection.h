@@ -6,7 +6,7 @@
 #ifndef GLOAM_PROJECTION_H
 #define GLOAM_PROJECTION_H
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 #include "shared/frame/camera.h"
 #include "shared/sampling/sample.h"
 #define PROJECTION_SCALAR scalar
@@ -40,7 +40,7 @@ typedef struct {
 
 #endif
 
-#if defined(__OPENCL_VERSION__) && !defined(GLOAM_PROJECTION_FUNCTIONS)
+#if defined(__OPENCL_C_VERSION__) && !defined(GLOAM_PROJECTION_FUNCTIONS)
 #define GLOAM_PROJECTION_FUNCTIONS
 
 typedef char projection_size_check[sizeof(Projection) == 8 + 74 * sizeof(scalar) ? 1 : -1];

@@ -2,7 +2,7 @@
 #ifndef GLOAM_HASH_H
 #define GLOAM_HASH_H
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 #include "shared/lanes/lanes.h"
 #define SHARED_FUNCTION static inline
 #else
@@ -20,7 +20,7 @@ SHARED_FUNCTION natural hash_of(natural h) {
   return h ^ (h >> 16);
 }
 
-#ifndef __OPENCL_VERSION__
+#ifndef __OPENCL_C_VERSION__
 }  // namespace gloam
 #endif
 #endif

@@ -64,6 +64,8 @@ typedef N_LANES(float) stored;  // what planes hold, whatever `real` is
 #endif
 
 #define EVERY_LANE ((mask)(LANES == 1 ? 1 : -1))
+// All lanes or none. (`condition ? EVERY_LANE : (mask)(0)` chooses vectors by a scalar, which SPIR-V 1.0 cannot.)
+#define EVERY_LANE_IF(condition) ((mask)((condition) ? (LANES == 1 ? 1 : -1) : 0))
 
 #if LANES > 1
 // Whether a mask holds for any lane, in one instruction; `any` takes lanes one by one on CPUs.

@@ -22,7 +22,7 @@
 #define PARAM_STORED_file int
 #define PARAM_ONE(...) +1
 
-#ifdef __OPENCL_VERSION__
+#ifdef __OPENCL_C_VERSION__
 
 #define PARAM_FIELD(type, name, ...) PARAM_STORED_##type name;
 #define PARAMS(Type, LIST) \

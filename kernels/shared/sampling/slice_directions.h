@@ -13,7 +13,8 @@
 // (draw_slice). `sign`: of the side.
 static inline void take_closed_side(OpenDirections* open, Surface surface, Slice slice, real inverse_density,
                                     const Side* side, scalar sign) {
-  const real wedge = inverse_density * (scalar)(3.14159265358979 * 3.14159265358979 / (BENT_STEPS * DIRECTIONS));
+  // pi^2 / BENT_STEPS in one literal: devices without double take each literal as a float, and round a product of two otherwise.
+  const real wedge = inverse_density * ((scalar)0.308425137534042 / DIRECTIONS);
   // Half a step, pi / 64, then whole ones, pi / 32.
   scalar cosine = (scalar)0.9987954562, sine = (scalar)0.0490676743;
   for (int k = 0; k < BENT_STEPS; ++k) {

@@ -11,7 +11,7 @@
 
 #include "shared/lanes/hash.h"
 
-#ifndef __OPENCL_VERSION__
+#ifndef __OPENCL_C_VERSION__
 namespace gloam {
 #endif
 
@@ -59,7 +59,7 @@ SHARED_FUNCTION natural hashed_bit(natural hash, natural sample, natural alpha) 
   return (u - alpha) >> 31;
 }
 
-#ifndef __OPENCL_VERSION__
+#ifndef __OPENCL_C_VERSION__
 }  // namespace gloam
 #endif
 #endif

@@ -1,0 +1,97 @@
+#include "run/device_record.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "base/hash.h"
+#include "run/kept_folders.h"
+#include "run/kernel_sources.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string key_of(const DeviceInfo& info) { return info.platform + "; " + info.name + "; " + info.driver; }
+
+/// Empty if nothing can be kept.
+fs::path path_of(const DeviceInfo& info) {
+  if (cache_folder().folder.empty()) return {};
+  return cache_folder().folder / "devices" / fmt::format("{:016x}.json", hash_of(key_of(info)));
+}
+
+Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
+
+std::optional<double> number_of(const Json& document, const char* name) {
+  if (!document.at(name).is_number()) return {};
+  return document.at(name).get<double>();
+}
+
+Json document_of(const DeviceInfo& info, const DeviceRecord& record) {
+  Json tuning;
+  if (record.tuning) tuning = {{"lanes", record.tuning->lanes}, {"group", record.tuning->group}};
+  return {{"device", key_of(info)},
+          {"day", record.day},
+          {"kernels", record.kernels},
+          {"held", record.held},
+          {"failures", record.failures},
+          {"tuning", tuning},
+          {"cold_ms", number_or_null(record.cold_ms)},
+          {"warm_ms", number_or_null(record.warm_ms)}};
+}
+
+/// The tuning, if kernels can run with it.
+std::optional<Tuning> tuning_in(const Json& document) {
+  if (!document.at("tuning").is_object()) return {};
+  const Tuning tuning{document.at("tuning").at("lanes"), document.at("tuning").at("group")};
+  const bool is_possible = (tuning.lanes == 1 || tuning.lanes == 4 || tuning.lanes == 8 || tuning.lanes == 16) &&
+                           tuning.group >= 0 && tuning.group <= 1024;
+  return is_possible ? std::optional(tuning) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
+  const fs::path path = path_of(info);
+  if (path.empty()) return {};
+  std::ifstream in(path);
+  if (!in) return {};
+  try {
+    const Json document = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
+    if (document.at("device") != key_of(info)) return {};
+    DeviceRecord record;
+    record.held = document.at("held");
+    record.day = document.at("day");
+    record.kernels = document.at("kernels");
+    record.failures = document.at("failures").get<std::vector<std::string>>();
+    record.tuning = tuning_in(document);
+    record.cold_ms = number_of(document, "cold_ms");
+    record.warm_ms = number_of(document, "warm_ms");
+    return record;
+  } catch (const Json::exception&) {
+    return {};
+  }
+}
+
+void keep_record(const DeviceInfo& info, const DeviceRecord& record) {
+  const fs::path path = path_of(info);
+  if (path.empty()) throw Error("the result cannot be kept: {}", cache_folder().why_elsewhere);
+  std::error_code failed;
+  fs::create_directories(path.parent_path(), failed);
+  const std::string text = document_of(info, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  write_atomically(
+      path, [&](NewFile& file) { file.append(text); }, FileFor::cache);
+}
+
+std::string hash_of_kernels() {
+  uint64_t hash = hash_of("");
+  for (const auto& [file, text] : kernel_sources()) hash = hash_of(text, hash_of(file, hash));
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace gloam

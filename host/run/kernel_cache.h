@@ -1,0 +1,39 @@
+// Compiled kernels on disk, for drivers that do not keep them by themselves.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace gloam {
+
+/// A folder with one file for each compiled program. A file names what it was compiled from and for, and holds a hash of the
+/// program, so that a stale or damaged file is noticed before a driver gets it. Threads and processes may share a folder.
+class KernelCache {
+ public:
+  /// An empty path: nothing is found and nothing is kept.
+  explicit KernelCache(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
+
+  /// The program kept under a key: the source, the options, the device and its driver. A file that is damaged, or another key's,
+  /// is removed, and counts as damaged.
+  std::optional<std::string> find(const std::string& key) const;
+  /// Keeps a program. Does nothing where it cannot be written: kept programs save time and nothing else.
+  void keep(const std::string& key, const std::string& program) const;
+  /// Removes a program that the driver does not take; it counts as damaged.
+  void remove(const std::string& key) const;
+
+  struct Check {
+    int kept = 0, damaged = 0;
+  };
+  /// Reads all files, and removes those that are damaged.
+  Check check() const;
+
+ private:
+  std::filesystem::path path_of(const std::string& key) const;
+  std::filesystem::path folder_;
+};
+
+/// How many kept programs this process found damaged, in one sentence; empty: none.
+std::string damaged_kernels_note();
+
+}  // namespace gloam

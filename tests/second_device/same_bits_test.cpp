@@ -1,0 +1,49 @@
+// Every kernel on a second OpenCL, Rusticl on llvmpipe: with precise mathematics it gives the bits of the usual device.
+#include <gtest/gtest.h>
+
+#include "support/kernel_runs.h"
+#include "support/long.h"
+#include "support/techniques.h"
+#include "support/unoptimised.h"
+
+namespace gloam::test {
+namespace {
+
+constexpr const char* second = "llvmpipe";
+
+/// Small, since compiling takes a hundred times as long; not a multiple of any number of lanes.
+const Coverage coverage{.width = 65, .height = 9, .every_setting = is_long_run()};
+
+const bool is_unoptimised = leave_unoptimised({""});
+
+void expect_same_bits(const std::vector<KernelRun>& runs) {
+  for (const KernelRun& each : runs) {
+    const RunOptions options{.math = Math::precise};
+    const Frame here = std::move(run(each.plan, each.frame, device(), options).frame);
+    const Frame there = std::move(run(each.plan, each.frame, device(second), options).frame);
+    const Difference d = difference(here, there);
+    EXPECT_TRUE(same_bits(here, there)) << each.what << ": " << d.place.view << " " << d.place.plane << " ("
+                                        << d.place.x << ", " << d.place.y << ") " << d.place.holds << " on " << second;
+  }
+}
+
+#define ONLY_WITH_SECOND_DEVICE() \
+  if (!has_device(second)) GTEST_SKIP() << "no OpenCL device " << second << "; Debian's mesa-opencl-icd brings one"
+
+class SecondDevice : public testing::TestWithParam<std::string> {};
+
+TEST_P(SecondDevice, GivesTheSameBits) {
+  ONLY_WITH_SECOND_DEVICE();
+  expect_same_bits(runs_of(find_technique(GetParam()), coverage));
+}
+
+TEST(Plans, GiveTheSameBits) {
+  ONLY_WITH_SECOND_DEVICE();
+  expect_same_bits(runs_of_plans(coverage));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SecondDevice, testing::ValuesIn(technique_names()),
+                         [](const testing::TestParamInfo<std::string>& info) { return identifier(info.param); });
+
+}  // namespace
+}  // namespace gloam::test
