@@ -102,18 +102,6 @@ std::string types_of(const PlaneSource& source) {
   return types;
 }
 
-/// Channels that belong to no plane.
-std::vector<std::string> unread_channels(const FrameFile& file) {
-  std::vector<std::string> read, unread;
-  for (const PlaneSource& source : file.planes()) {
-    for (const ChannelSource& channel : source.channels) read.push_back(channel.name);
-  }
-  for (const std::string& channel : file.all_channels()) {
-    if (!contains(read, channel)) unread.push_back(channel);
-  }
-  return unread;
-}
-
 /// "peel (10 techniques), roughness (4)": those that most techniques lack come first.
 std::string most_wanted(const std::map<std::string, int>& lacking) {
   std::vector<std::pair<std::string, int>> sorted(lacking.begin(), lacking.end());

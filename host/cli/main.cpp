@@ -160,6 +160,7 @@ int run_command(int argc, char** argv) {
       "  gloam reference ao frame.exr -o truth.exr --radius 0.5\n"
       "  gloam bench -o out/bench --frame frame.exr --truth truth.exr\n"
       "  gloam report out/bench\n"
+      "  gloam view frame.exr ao.exr\n"
       "  gloam stress hbao+\n"
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION);
@@ -176,6 +177,7 @@ int run_command(int argc, char** argv) {
   add_pick(app);
   add_auto(app);
   add_report(app);
+  add_view(app);
   add_stress(app);
   add_doctor(app);
   add_completion(app, settable_by);

@@ -39,6 +39,9 @@ struct JsonFlag {
 /// or if it is a folder or a device itself. Empty paths are ignored.
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
+/// "1 file", "3 files"
+std::string counted(size_t count, const char* what);
+
 /// A word quoted for a shell.
 std::string quoted(const std::string& word);
 
@@ -85,6 +88,7 @@ void add_bench(CLI::App& app);
 void add_pick(CLI::App& app);
 void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
+void add_view(CLI::App& app);
 void add_stress(CLI::App& app);
 void add_doctor(CLI::App& app);
 

@@ -81,4 +81,15 @@ std::vector<PlaneFacts> facts_by_rows(FrameFile& file, const Frame& frame) {
   return results(sums, file);
 }
 
+std::vector<std::string> unread_channels(const FrameFile& file) {
+  std::vector<std::string> read, unread;
+  for (const PlaneSource& source : file.planes()) {
+    for (const ChannelSource& channel : source.channels) read.push_back(channel.name);
+  }
+  for (const std::string& channel : file.all_channels()) {
+    if (!contains(read, channel)) unread.push_back(channel);
+  }
+  return unread;
+}
+
 }  // namespace gloam::cli

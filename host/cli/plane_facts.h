@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "gloam/exr.h"
@@ -20,5 +21,8 @@ std::vector<PlaneFacts> facts_of(const FrameFile& file, const Frame& frame);
 
 /// As `facts_of`, for a frame that was surveyed with all planes: decodes them a few rows at a time.
 std::vector<PlaneFacts> facts_by_rows(FrameFile& file, const Frame& frame);
+
+/// Channels that belong to no plane.
+std::vector<std::string> unread_channels(const FrameFile& file);
 
 }  // namespace gloam::cli

@@ -48,10 +48,6 @@ Json document_of(const report::Measurements& measurements, const std::string& pa
   return {{"report", path}, {"scenes", scenes}, {"classes", classes}};
 }
 
-std::string counted(size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 // --- For a browser
 
 void write_page(const ReportCommand& flags) {

@@ -69,7 +69,7 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
 }
 
 void finish_frame(const ExrFile& file, Frame& frame) {
-  normalise_planes(frame, file.options.background, file.options.as_stored);
+  if (!file.options.unconverted) normalise_planes(frame, file.options.background, file.options.as_stored);
   for (std::string& sentence : frame.assumed) sentence = printable(sentence);
 }
 

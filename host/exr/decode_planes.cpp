@@ -84,8 +84,8 @@ void decode_planes(const ExrFile& file, Frame& frame) {
     guarded(file.path,
             [&, part = part, &decoding = decoding] { decode_part(*file.parts, part, decoding, frame.window); });
   }
-  for_each_channel(file, frame, [](const ChannelSource& source, Channel& channel, const PlaneSource&) {
-    if (source.scale != 1) scale_image(channel, source.scale);
+  for_each_channel(file, frame, [&](const ChannelSource& source, Channel& channel, const PlaneSource&) {
+    if (source.scale != 1 && !file.options.unconverted) scale_image(channel, source.scale);
   });
 }
 

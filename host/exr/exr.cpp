@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "exr/added_parts.h"
+#include "exr/attribute_texts.h"
 #include "exr/conversion.h"
 #include "exr/decode_planes.h"
 #include "exr/depth.h"
@@ -122,6 +123,13 @@ FrameFile::FrameFile(FrameFile&&) noexcept = default;
 const fs::path& FrameFile::path() const { return impl_->file.path; }
 Window FrameFile::display() const { return impl_->file.display; }
 Window FrameFile::window() const { return impl_->file.window; }
+
+Window FrameFile::data_window(const std::string& plane, const std::string& view) const {
+  const PlaneSource* source = impl_->file.source(plane, view);
+  if (!source || source->channels.empty()) return window();
+  return window_of(box_of(impl_->file.headers.of_part(source->channels.front().part).dataWindow()));
+}
+
 const std::vector<std::string>& FrameFile::views() const { return impl_->file.names.views; }
 bool FrameFile::view_is_assumed() const { return impl_->file.names.view_is_assumed; }
 const std::vector<PlaneSource>& FrameFile::planes() const { return impl_->file.names.planes; }
@@ -165,6 +173,10 @@ std::string FrameFile::text_attribute_of_added(const std::string& content, const
   return "";
 }
 
+std::vector<std::pair<std::string, std::string>> FrameFile::attributes() const {
+  return attribute_texts(impl_->file.headers);
+}
+
 // --- From the pixels
 
 std::string FrameFile::depth_convention() const {
@@ -197,7 +209,7 @@ Frame FrameFile::read(const std::vector<std::string>& planes) {
   impl_->nonfinite.clear();
   impl_->decode(frame);
   note_assumptions(file, impl_->cameras, planes, frame);
-  convert_planes(file, impl_->cameras, frame, impl_->conventions);
+  if (!file.options.unconverted) convert_planes(file, impl_->cameras, frame, impl_->conventions);
   finish_frame(file, frame);
   keep_planes(frame, planes);
   return frame;

@@ -17,10 +17,6 @@ function renderHead() {
           .map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, String(value)))));
 }
 
-function pressButton(text, pressed, action) {
-  return element('button', {type: 'button', 'aria-pressed': String(pressed), onclick: action}, text);
-}
-
 function renderScenes() {
   const parts = [];
   for (const name of unique(data.scenes.map((scene) => scene.class))) {

@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "gloam/error.h"
+#include "page/html.h"
 #include "picture/picture.h"
 #include "report/embedded.h"
 #include "report/pictures.h"
@@ -19,18 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // --- Pictures
-
-std::string base64(const std::string& bytes) {
-  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? (unsigned char)bytes[i + k] : 0);
-    for (size_t k = 0; k < 4; ++k) text += k <= bytes.size() - i ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 /// Averages over areas; transparent pixels do not count.
 cv::Mat reduced(const cv::Mat& grey_alpha, int width) {
@@ -86,7 +75,7 @@ class Pictures {
  private:
   /// Stores a picture as text that the browser ignores until the picture is asked for: 200 of them cost nothing at loading.
   void put_text(const std::string& attributes, const std::string& png) {
-    html_ += fmt::format("<script type=\"text/plain\" {}>{}</script>\n", attributes, base64(png));
+    html_ += fmt::format("<script type=\"text/plain\" {}>{}</script>\n", attributes, page::base64(png));
   }
 
   void put(const cv::Mat& grey_alpha, int number) {
@@ -234,47 +223,20 @@ Json data_of(const Measurements& m, const Pictures& pictures) {
   return data;
 }
 
-// --- The document
-
-/// JSON for a script element: no text in it can end the element.
-std::string script_text(const Json& data) {
-  std::string text;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
-
-/// The template with each "@@name@@" replaced. The inserted text is not searched again: it may hold anything.
-std::string filled(const std::string& page, const std::map<std::string, std::string>& parts) {
-  std::string text;
-  size_t at = 0;
-  while (true) {
-    const size_t open = page.find("@@", at);
-    if (open == std::string::npos) break;
-    const size_t close = page.find("@@", open + 2);
-    text += page.substr(at, open - at) + parts.at(page.substr(open + 2, close - open - 2));
-    at = close + 2;
-  }
-  return text + page.substr(at);
-}
-
 }  // namespace
 
 Page make_page(const Measurements& measurements, const fs::path& folder, const PageOptions& options) {
-  Page page;
+  Page made;
   Pictures pictures;
   for (const Scene& scene : measurements.scenes) pictures.add(scene.truth_image);
   for (const Row& row : measurements.rows) pictures.add(row.image);
-  pictures.embed(folder, options, page);
-  std::map<std::string, std::string> parts = embedded_files();
-  parts["data"] = script_text(data_of(measurements, pictures));
+  pictures.embed(folder, options, made);
+  page::Parts parts = page::shared_parts();
+  parts.insert(embedded_files().begin(), embedded_files().end());
+  parts["data"] = page::script_text(data_of(measurements, pictures));
   parts["pictures"] = pictures.html();
-  page.html = filled(parts.at("report.html"), parts);
-  return page;
+  made.html = page::filled(parts.at("report.html"), parts);
+  return made;
 }
 
 }  // namespace gloam::report

@@ -46,17 +46,6 @@ function pictureOf(grey, alpha) {
   };
 }
 
-/// Blue below zero, orange above, the colour of the page at zero.
-const differenceColours = () =>
-    (matchMedia('(prefers-color-scheme: dark)').matches ?
-         {below: [96, 165, 250], zero: [24, 26, 29], above: [251, 146, 60]} :
-         {below: [24, 90, 189], zero: [250, 249, 246], above: [200, 80, 10]});
-
-function mixed(colours, t) {
-  const end = t < 0 ? colours.below : colours.above, share = Math.min(1, Math.abs(t));
-  return colours.zero.map((zero, i) => Math.round(zero + (end[i] - zero) * share));
-}
-
 /// Paints image - truth; `range`: the difference (0 to 1) that has the full colour.
 function paintDifference(canvas, image, truth, range) {
   canvas.width = image.width;
@@ -130,7 +119,7 @@ function wipePane(image, reference, name, state) {
   const stage = element(
       'div', {class: 'stage wipe'}, element('img', {class: 'image', src: image.url, alt: name}),
       element('img', {class: 'truth', src: reference.url, alt: 'truth'}), element('div', {class: 'divider'}),
-      element('span', {class: 'name left'}, name), element('span', {class: 'name right'}, 'truth'));
+      element('span', {class: 'name-tag left'}, name), element('span', {class: 'name-tag right'}, 'truth'));
   const slider = element('input', {
     type: 'range',
     class: 'slider',

@@ -14,7 +14,6 @@ const steps = [
 
 const keyOf = (row) => JSON.stringify([row.technique, row.preset, row.variant]);
 const nameOf = (row) => [row.technique, row.preset, row.variant && '(' + row.variant + ')'].filter(Boolean).join(' ');
-const unique = (items) => [...new Set(items)];
 
 const techniques = unique(data.rows.map((row) => row.technique));
 const presetsOf = new Map(techniques.map(

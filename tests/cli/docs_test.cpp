@@ -45,8 +45,8 @@ TEST_F(Docs, CommandThatMeasuresAShotWorks) {
   const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/benchmarking.md");
   const std::string command = between(between(page.substr(page.find("## A sequence")), "```\n", "```"), "", "\n");
   ASSERT_EQ(command.rfind("gloam bench -o out/walk --sequence ", 0), 0u) << command;
-  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && {}", folder.string(),
-                                           fs::path(program).parent_path().string(), command);
+  const std::string prepared =
+      fmt::format("cd {} && PATH={}:$PATH && {}", folder.string(), fs::path(program).parent_path().string(), command);
   ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0) << slurp(path("log"));
   EXPECT_EQ(nlohmann::json::parse(slurp(path("out/walk/bench.json")))["sequence"]["frames"].size(), 4u);
 }
@@ -81,6 +81,17 @@ TEST_F(Docs, CommandsOfThePageOnSeveralMachinesAreDivided) {
     const std::string text = slurp(path(file));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), count) << file;
   }
+}
+
+TEST_F(Docs, CommandsOfThePageOnLookingAtFramesWork) {
+  const std::string page = slurp(fs::path(GLOAM_SOURCE_DIR) / "docs/view.md");
+  const std::string commands = between(page, "```\n", "```");
+  ASSERT_EQ(std::count(commands.begin(), commands.end(), '\n'), 5) << commands;
+  const std::string prepared = fmt::format("cd {} && PATH={}:$PATH && set -e\n{}", folder.string(),
+                                           fs::path(program).parent_path().string(), commands);
+  ASSERT_EQ(std::system(("(" + prepared + ") >" + path("log").string() + " 2>&1").c_str()), 0)
+      << commands << slurp(path("log"));
+  for (const char* file : {"frame.view.html", "look.html"}) EXPECT_TRUE(fs::exists(path(file))) << file;
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "cli/gloam_process.h"
+#include "cli/browser.h"
 #include "picture/picture.h"
 
 namespace gloam::test {
@@ -60,16 +60,7 @@ int count_of(const std::string& text, const std::string& word) {
   return count;
 }
 
-std::string lines_with(const std::string& text, const std::string& word) {
-  std::istringstream stream(text);
-  std::string found;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.find(word) != std::string::npos) found += line + "\n";
-  }
-  return found;
-}
-
-class Report : public Cli {
+class Report : public BrowserTest {
  protected:
   void SetUp() override {
     Cli::SetUp();
@@ -88,61 +79,13 @@ class Report : public Cli {
     return gloam(arguments);
   }
 
-  /// Opens the page, runs `script` in it once it is drawn, and returns the value of `result`. `width`: of the page in pixels; the
-  /// page is in a frame, since a browser's window cannot be as narrow as a telephone.
+  /// Opens the page, runs `script` in it once it is drawn, and returns the value of `result`. `width`: of the page in pixels.
   Json in_browser(const std::string& script, int width = 1280) const {
-    std::string page = slurp(path("out/report.html"));
-    const size_t start = page.find("<script"), end = page.rfind("</body>");
-    const std::string watch =
-        "<script>const problems = []; addEventListener('error', (e) => problems.push(e.message));"
-        "addEventListener('unhandledrejection', (e) => problems.push(String(e.reason)));"
-        "addEventListener('securitypolicyviolation', (e) => problems.push('asked for ' + e.blockedURI));</script>\n";
-    const std::string run =
-        "<script>const wait = (ms) => new Promise((done) => setTimeout(done, ms));"
-        "const until = async (holds) => { for (let i = 0; i < 400 && !holds(); ++i) await wait(25);"
-        " if (!holds()) problems.push('never came: ' + holds); };"
+    const std::string begin =
         "const points = () => [...document.querySelectorAll('#scatter .point_marks path')];"
         "const ofShot = (chart) => [...document.querySelectorAll(`#sequence-${chart} .point_marks path`)];"
-        "const click = (e, more) => e.dispatchEvent(new MouseEvent('click', {bubbles: true, ...more}));"
-        "(async () => { const result = {}; try { await until(() => points().length + ofShot('error').length > 0);" +
-        script +
-        "} catch (e) { problems.push(String(e)); } result.problems = problems; parent.postMessage(result, '*'); })();"
-        "</script>\n";
-    page.insert(end, run).insert(start, watch);
-    write_text("watched.html", page);
-    // While a document is still being written, the browser does not end before the page has answered.
-    write_text("frame.html",
-               "<!DOCTYPE html><iframe id='open'></iframe><script>const open = "
-               "document.getElementById('open').contentDocument; open.open();"
-               "addEventListener('message', (e) => { document.body.append('RESULT' + "
-               "encodeURIComponent(JSON.stringify(e.data)) + 'END'); open.close(); });"
-               "</script><iframe src='watched.html' style='border:0;height:900px;width:" +
-                   std::to_string(width) + "px'></iframe>");
-    const std::string command =
-        "timeout 50 chromium --headless --no-sandbox --disable-gpu --window-size=1400,1000 "
-        "--enable-logging=stderr --v=0 --dump-dom --user-data-dir='" +
-        path("profile").string() + "' 'file://" + path("frame.html").string() + "' >'" + path("dom").string() +
-        "' 2>'" + path("log").string() + "'";
-    EXPECT_EQ(std::system(command.c_str()), 0) << lines_with(slurp(path("log")), "CONSOLE");
-    EXPECT_EQ(lines_with(slurp(path("log")), "CONSOLE"), "");
-    const std::string dom = slurp(path("dom"));
-    const size_t from = dom.find("RESULT%"), to = dom.find("END", from);
-    if (from == std::string::npos) {
-      ADD_FAILURE() << "the page said nothing";
-      return Json::object();
-    }
-    std::string text;
-    for (size_t i = from + 6; i < to; ++i) {
-      if (dom[i] != '%') {
-        text += dom[i];
-        continue;
-      }
-      text += char(std::stoi(dom.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    }
-    const Json result = Json::parse(text);
-    EXPECT_EQ(result["problems"], Json::array());
-    return result;
+        "await until(() => points().length + ofShot('error').length > 0);";
+    return BrowserTest::in_browser(path("out/report.html"), begin, script, {width, ""});
   }
 };
 
@@ -150,8 +93,7 @@ class Report : public Cli {
 class ReportInBrowser : public Report {
  protected:
   void SetUp() override {
-    if (std::system("command -v chromium >/dev/null") != 0)
-      GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
+    if (!has_browser()) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
     Report::SetUp();
     ASSERT_EQ(report().status, 0);
   }
@@ -205,7 +147,7 @@ TEST_F(Report, ReducesPicturesByAveragingWhatIsThere) {
     return fs::file_size(path("out/report.html"));
   };
   EXPECT_LT(size("8"), size("0"));
-  if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
+  if (!has_browser()) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
   ASSERT_EQ(report({"--picture-width", "16"}).status, 0);
   const Json result = in_browser(
       "const p = await loadPicture(data.rows[0].picture); result.size = [p.width, p.height];"

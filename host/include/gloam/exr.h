@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gloam/frame.h"
@@ -34,6 +35,9 @@ struct ReadOptions {
   /// Keeps values as in the file: only depth and the space of normals are converted; nothing is clamped, replaced or made unit. For
   /// measuring, which must see what a technique wrote.
   bool as_stored = false;
+  /// Converts nothing at all, depth and normals neither: what the file has, for a person to see. No plane is left out, and the
+  /// background is not recognised. `survey` does not take it.
+  bool unconverted = false;
   /// Largest frame accepted, in pixels; a power of two. Set it lower for files from untrusted sources, whose headers may overstate
   /// their size.
   long long most_pixels = max_pixels;
@@ -85,6 +89,9 @@ class FrameFile {
   Window display() const;
   /// Union of the display window and all data windows that hold known planes.
   Window window() const;
+  /// The pixels of `window` that the file has of a view's plane; elsewhere `read` gives the plane's value outside (planes.h). All of
+  /// `window` for a layer beyond the end of a view's stack.
+  Window data_window(const std::string& plane, const std::string& view) const;
   /// The selected views in the options' order; without a selection all, in file order; one empty name if the file names none.
   const std::vector<std::string>& views() const;
   /// Known planes of the selected views.
@@ -118,6 +125,8 @@ class FrameFile {
   std::string text_attribute(const std::string& name) const;
   /// The same of the first part that `write_copy` added for `content` (exr_copy.h); empty if there is none.
   std::string text_attribute_of_added(const std::string& content, const std::string& name) const;
+  /// Names and values of all attributes of the headers, in words; those of further parts begin with the part's name.
+  std::vector<std::pair<std::string, std::string>> attributes() const;
 
   /// Decodes the named planes of all selected views and brings them to gloam's conventions: depth to planar view-space z, scene
   /// units, with +inf background; normals to unit view space. A plane that a view lacks is skipped; a layer beyond the end of a
