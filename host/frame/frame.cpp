@@ -69,6 +69,17 @@ const View& Frame::view(const std::string& name) const {
 
 View& Frame::view(const std::string& name) { return const_cast<View&>(std::as_const(*this).view(name)); }
 
+std::vector<std::string> common_planes(const Frame& frame) {
+  std::vector<std::string> names;
+  if (frame.views.empty()) return names;
+  for (const auto& [name, unused] : frame.views.front().planes) {
+    const bool all_have = std::all_of(frame.views.begin(), frame.views.end(),
+                                      [&name = name](const View& view) { return view.find(name); });
+    if (all_have) names.push_back(name);
+  }
+  return names;
+}
+
 void keep_planes(Frame& frame, const std::vector<std::string>& planes) {
   for (View& view : frame.views)
     std::erase_if(view.planes, [&](const auto& plane) { return !contains(planes, plane.first); });

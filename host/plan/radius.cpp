@@ -88,6 +88,11 @@ std::optional<double> radius_made_from(const Frame& frame) {
   return std::clamp(radius, 1e-30, 1e30);
 }
 
+std::optional<double> stated_radius(const Frame& frame) {
+  const auto stated = frame.numbers.find("aoRadius");
+  return stated == frame.numbers.end() ? std::nullopt : std::optional(stated->second);
+}
+
 Radius default_radius(const Frame& frame, std::optional<double> stated) {
   if (stated) return {*stated, RadiusSource::scene};
   return {radius_made_from(frame).value_or(1), RadiusSource::frame};

@@ -139,16 +139,6 @@ std::string in_words(const HeldFrame& held) {
 
 }  // namespace
 
-std::vector<std::string> common_planes(const Frame& frame) {
-  std::vector<std::string> names;
-  for (const auto& [name, unused] : frame.views.front().planes) {
-    const bool all_have = std::all_of(frame.views.begin(), frame.views.end(),
-                                      [&name = name](const View& view) { return view.find(name); });
-    if (all_have) names.push_back(name);
-  }
-  return names;
-}
-
 std::vector<std::string> view_names(const Frame& frame) {
   std::vector<std::string> names;
   for (const View& view : frame.views) names.push_back(view.name);

@@ -8,9 +8,6 @@
 
 namespace gloam::python {
 
-/// The planes that every view has, in order.
-std::vector<std::string> common_planes(const Frame& frame);
-
 /// The names of a frame's views.
 std::vector<std::string> view_names(const Frame& frame);
 

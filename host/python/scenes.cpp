@@ -167,10 +167,7 @@ void check_radius(std::optional<double> radius, bool has_falloff) {
 Reference trace_ao(const HeldScene& scene, const Frame& frame, std::optional<double> given,
                    AoReferenceOptions options) {
   check_radius(given, bool(options.contribution));
-  const auto stated = frame.numbers.find("aoRadius");
-  options.radius = radius_of_truth(given, stated == frame.numbers.end() ? std::nullopt : std::optional(stated->second),
-                                   scene.scene(), frame)
-                       .value;
+  options.radius = radius_of_truth(given, stated_radius(frame), scene.scene(), frame).value;
   return ao_reference(scene.tracer(), frame, options);
 }
 

@@ -9,24 +9,8 @@
 namespace gloam {
 namespace {
 
-std::vector<std::string> common_planes(const Frame& frame) {
-  std::vector<std::string> names;
-  if (frame.views.empty()) return names;
-  for (const auto& [name, unused] : frame.views.front().planes) {
-    const bool all_have = std::all_of(frame.views.begin(), frame.views.end(),
-                                      [&name = name](const View& view) { return view.find(name); });
-    if (all_have) names.push_back(name);
-  }
-  return names;
-}
-
 std::string holdings(const std::vector<std::string>& planes) {
   return planes.empty() ? "the frame has no plane" : "the frame has only " + enumerate(planes);
-}
-
-std::optional<double> stated_radius(const Frame& frame) {
-  const auto stated = frame.numbers.find("aoRadius");
-  return stated == frame.numbers.end() ? std::nullopt : std::optional(stated->second);
 }
 
 /// Whether the radius of a request's plan comes from its settings.

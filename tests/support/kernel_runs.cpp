@@ -48,14 +48,8 @@ std::vector<Settings> settings_of(const Technique& technique, Frame& frame) {
 /// A plan from the planes that a frame has; those that it lacks are invented.
 KernelRun planned(const std::string& what, const Frame& frame, const PlanRequest& request) {
   KernelRun run{.what = request.outputs.front() + ", " + what, .frame = clone(frame), .plan = {}};
-  for (;;) {
-    try {
-      run.plan = make_plan(request, plane_names(run.frame), "the rest is invented");
-      return run;
-    } catch (const MissingPlanes& missing) {
-      for (const std::string& plane : missing.planes) invent_plane(run.frame, plane);
-    }
-  }
+  run.plan = plan_for(request, run.frame);
+  return run;
 }
 
 /// Adds a run, unless the technique refuses what is asked for.

@@ -103,6 +103,9 @@ struct Frame {
   const View& view(const std::string& name) const;
 };
 
+/// The planes that every view has, in order; none of a frame without views.
+std::vector<std::string> common_planes(const Frame& frame);
+
 /// Removes all other planes from every view.
 void keep_planes(Frame& frame, const std::vector<std::string>& planes);
 

@@ -37,6 +37,9 @@ std::optional<double> pixels_at_median_depth(const Frame& frame);
 /// `pixels_at_median_depth`.
 std::optional<double> radius_made_from(const Frame& frame);
 
+/// The radius that a frame's header states (`aoRadius`), scene units.
+std::optional<double> stated_radius(const Frame& frame);
+
 /// `stated`: the radius in the frame's header or of its scene, if any. A frame without a surface gets a radius of 1, which has no
 /// effect.
 Radius default_radius(const Frame& frame, std::optional<double> stated);
