@@ -4,11 +4,13 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include "gloam/error.h"
@@ -101,6 +103,20 @@ ChildEnd ended(pid_t child, bool was_killed, double patience) {
 }
 
 }  // namespace
+
+std::string last_line_of(const ChildEnd& end) {
+  std::string said = end.said;
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  said.erase(0, said.rfind('\n') + 1);
+  return said.starts_with("gloam: ") ? said.substr(7) : said;
+}
+
+void say_to_parent(const nlohmann::ordered_json& line) {
+  fmt::print("\n{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+void end_with_parent() { prctl(PR_SET_PDEATHSIG, SIGTERM); }
 
 ChildEnd run_child(const std::vector<std::string>& arguments, double patience,
                    const std::function<void(const std::string&)>& line,

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,15 @@ struct ChildEnd {
   std::string ended_by;  ///< "signal 11 (Segmentation fault)", "no sign of life for 600 s"; empty if it exited
   std::string said;      ///< output on standard error
 };
+
+/// The last line that a child said, without the program's name: why it failed. Empty if it said nothing.
+std::string last_line_of(const ChildEnd& end);
+
+/// In a child: writes a line of JSON for the parent, a line of its own even after an incomplete one of a driver.
+void say_to_parent(const nlohmann::ordered_json& line);
+
+/// In a child: ends with the parent.
+void end_with_parent();
 
 /// Runs this program with other arguments, as a child. Calls `line` with each line of the child's standard output; kills the child
 /// if it has written no line for `patience` seconds. `changes`: variables that the child's environment has in addition, or with other

@@ -1,6 +1,5 @@
 // gloam doctor: whether devices compute what they should, and how they do it fastest
 #include <algorithm>
-#include <cctype>
 #include <memory>
 
 #include "cli/doctor_child.h"
@@ -17,23 +16,6 @@ struct DoctorFlags {
   bool again = false, child = false;
   JsonFlag json;
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
-
-/// The devices whose name or platform contains a text; all if it is empty.
-std::vector<DeviceInfo> devices_named(const std::string& text) {
-  std::vector<DeviceInfo> named;
-  std::vector<std::string> labels;
-  for (const DeviceInfo& info : list_devices()) {
-    labels.push_back("'" + info.platform + ": " + info.name + "'");
-    if (lower(labels.back()).find(lower(text)) != std::string::npos) named.push_back(info);
-  }
-  if (named.empty()) throw Error("no device matches '{}'; there are {} (gloam list devices)", text, enumerate(labels));
-  return named;
-}
 
 std::string in_words(const Tuning& tuning) {
   return fmt::format("{} {}, {}", tuning.lanes, tuning.lanes == 1 ? "lane" : "lanes",
@@ -57,11 +39,12 @@ void print(const Diagnosis& diagnosis) {
   fmt::print("{} ({}, driver {})\n  {}\n", info.name, info.platform, info.driver, verdict_of(diagnosis));
   for (const std::string& failure : record.failures) fmt::print("  FAILED: {}\n", failure);
   if (record.tuning) {
-    fmt::print("  fastest: {}", in_words(*record.tuning));
-    for (const auto& [tuning, ms] : diagnosis.timed)
-      fmt::print("{}{} {:.2f} ms", &ms == &diagnosis.timed.front().second ? " (measured now: " : "; ", in_words(tuning),
-                 ms);
-    fmt::print("{}\n", diagnosis.timed.empty() ? " (measured before; --again measures anew)" : ")");
+    std::vector<std::string> times;
+    for (const doctor::Timed& one : diagnosis.timed)
+      times.push_back(fmt::format("{} {:.2f} ms", in_words(one.tuning), one.ms));
+    fmt::print("  fastest: {} ({})\n", in_words(*record.tuning),
+               times.empty() ? "measured before; --again measures anew"
+                             : fmt::format("measured now: {}", fmt::join(times, "; ")));
   }
   if (record.cold_ms && record.warm_ms)
     fmt::print("  start to the first image: {:.0f} ms where nothing is compiled yet, {:.0f} ms afterwards\n",
@@ -81,8 +64,8 @@ Json document_of(const Diagnosis& diagnosis) {
                      {"held", test.held},
                      {"same_bits", test.same_bits},
                      {"why", test.why}});
-  for (const auto& [one, ms] : diagnosis.timed)
-    timed.push_back({{"lanes", one.lanes}, {"group", one.group}, {"ms", ms}});
+  for (const doctor::Timed& one : diagnosis.timed)
+    timed.push_back({{"lanes", one.tuning.lanes}, {"group", one.tuning.group}, {"ms", one.ms}});
   return {{"device", diagnosis.info.name},
           {"platform", diagnosis.info.platform},
           {"driver", diagnosis.info.driver},
@@ -108,11 +91,11 @@ std::vector<std::string> notes_on_cache() {
   else if (!cache.why_elsewhere.empty())
     notes.push_back(fmt::format("{}: what is kept goes to {}; set GLOAM_CACHE_DIR to a folder that lasts",
                                 cache.why_elsewhere, cache.folder.string()));
-  if (cache.folder.empty()) return notes;
-  const KernelCache::Check check = KernelCache(cache.folder / "kernels").check();
+  const KernelCache kernels = own_kernel_cache();
+  const KernelCache::Check check = kernels.check();
   if (check.damaged > 0)
     notes.push_back(fmt::format("{} of {} compiled kernels in {} were damaged, and have been removed", check.damaged,
-                                check.kept + check.damaged, (cache.folder / "kernels").string()));
+                                check.kept + check.damaged, kernels.folder().string()));
   return notes;
 }
 
@@ -128,7 +111,7 @@ void keep(Diagnosis& diagnosis) {
 void run_doctor(const DoctorFlags& flags) {
   if (flags.child) return examine_device_here(flags.device, flags.again);
   check_paths({}, {{"--json", flags.json.file()}});
-  const std::vector<DeviceInfo> devices = devices_named(flags.device);
+  const std::vector<DeviceInfo> devices = list_devices(flags.device);
   note(notes_on_cache());
   const std::function<void(int, int)> bar = progress_bar();
   constexpr int steps = 60;  // of a device: tests and rounds of measuring

@@ -1,9 +1,7 @@
 #include "cli/doctor_child.h"
 
-#include <sys/prctl.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -26,14 +24,6 @@ namespace fs = std::filesystem;
 constexpr double patience = 120;  ///< seconds without a sign of life; compiling one kernel takes a few
 
 const std::string& table() { return data_files().at("self_test.json"); }
-
-/// Part of the command line that names exactly this device.
-std::string label_of(const DeviceInfo& info) { return info.platform + ": " + info.name; }
-
-void say(const Json& line) {
-  fmt::print("\n{}\n", line.dump(-1, ' ', false, Json::error_handler_t::replace));
-  std::fflush(stdout);
-}
 
 /// A folder for what a start takes, removed at the end.
 class TemporaryFolder {
@@ -102,13 +92,6 @@ std::string today() {
   return fmt::format("{:04}-{:02}-{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
 }
 
-/// The last line that a child said, without the program's name.
-std::string last_line(std::string said) {
-  while (!said.empty() && said.back() == '\n') said.pop_back();
-  said.erase(0, said.rfind('\n') + 1);
-  return said.starts_with("gloam: ") ? said.substr(7) : said;
-}
-
 /// Takes over what a child wrote.
 void take(const std::string& text, Diagnosis& diagnosis) {
   const Json line = Json::parse(text, nullptr, false);
@@ -136,7 +119,7 @@ void judge(const ChildEnd& end, size_t tests, Diagnosis& diagnosis) {
   if (!end.ended_by.empty())
     record.failures.push_back(fmt::format("the driver ended the program {}: {}", after, end.ended_by));
   else if (end.status != 0)
-    record.failures.push_back(fmt::format("{} {}", last_line(end.said), after));
+    record.failures.push_back(fmt::format("{} {}", last_line_of(end), after));
   record.held = record.failures.empty();
   for (size_t at = end.said.find("note: "); at != std::string::npos; at = end.said.find("note: ", at + 1))
     diagnosis.notes.push_back(end.said.substr(at + 6, end.said.find('\n', at) - at - 6));
@@ -145,19 +128,18 @@ void judge(const ChildEnd& end, size_t tests, Diagnosis& diagnosis) {
 }  // namespace
 
 void examine_device_here(const std::string& name, bool measures) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  end_with_parent();
   Device device(name);
-  say({{"device", device.info().name}});
+  say_to_parent({{"device", device.info().name}});
   bool all_held = true;
-  for (const doctor::SelfTest& test : doctor::self_tests(table())) {
-    if (test.options.real == Real::float64 && !device.info().has_double) continue;
+  for (const doctor::SelfTest& test : doctor::self_tests(table(), device.info())) {
     const doctor::Outcome outcome = doctor::examine(test, device);
     all_held = all_held && outcome.held;
-    say({{"kind", test.kind},
-         {"technique", test.request.outputs.front()},
-         {"held", outcome.held},
-         {"same_bits", outcome.same_bits},
-         {"why", outcome.why}});
+    say_to_parent({{"kind", test.kind},
+                   {"technique", test.request.outputs.front()},
+                   {"held", outcome.held},
+                   {"same_bits", outcome.same_bits},
+                   {"why", outcome.why}});
   }
   if (!all_held) {
     // The driver's kept kernels may be damaged: once more without them. If that does not help, they are as good as new ones.
@@ -166,12 +148,12 @@ void examine_device_here(const std::string& name, bool measures) {
   }
   if (!measures) return;
   const doctor::Measurement measured = doctor::measure_tuning(doctor::measured_technique(table()), device, [] {
-    say({{"goes_on", true}});
+    say_to_parent({{"goes_on", true}});
   });
   Json timed = Json::array();
   for (const doctor::Timed& one : measured.timed)
     timed.push_back({{"lanes", one.tuning.lanes}, {"group", one.tuning.group}, {"ms", one.ms}});
-  say({{"best", {{"lanes", measured.best.lanes}, {"group", measured.best.group}}}, {"timed", timed}});
+  say_to_parent({{"best", {{"lanes", measured.best.lanes}, {"group", measured.best.group}}}, {"timed", timed}});
 }
 
 Diagnosis diagnose(const DeviceInfo& info, bool again, const std::function<void()>& goes_on) {
@@ -183,9 +165,7 @@ Diagnosis diagnose(const DeviceInfo& info, bool again, const std::function<void(
   DeviceRecord& record = diagnosis.record;
   record.day = today(), record.kernels = hash_of_kernels();
   if (!measures) record.tuning = before->tuning, record.cold_ms = before->cold_ms, record.warm_ms = before->warm_ms;
-  size_t tests = 0;
-  for (const doctor::SelfTest& test : doctor::self_tests(table()))
-    tests += test.options.real == Real::float32 || info.has_double;
+  const size_t tests = doctor::self_tests(table(), info).size();
   std::vector<std::string> arguments = {"doctor", "--child", "--device", label_of(info)};
   if (measures) arguments.push_back("--again");
   const ChildEnd end = run_child(arguments, patience, [&](const std::string& line) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/options.h"
+#include "doctor/measure.h"
 #include "gloam/device.h"
 #include "run/device_record.h"
 
@@ -25,7 +26,7 @@ struct Diagnosis {
   DeviceRecord record;
   std::vector<std::string> lacks;  ///< what the device cannot do, and what follows from that
   std::vector<std::string> notes;
-  std::vector<std::pair<Tuning, double>> timed;  ///< milliseconds, the fastest first; empty: not measured this time
+  std::vector<doctor::Timed> timed;  ///< the fastest first; empty: not measured this time
 };
 
 /// In the parent: examines a device. Lane width, group size and starts are measured where no earlier record of the same kernels has

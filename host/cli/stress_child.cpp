@@ -1,8 +1,5 @@
 #include "cli/stress_child.h"
 
-#include <sys/prctl.h>
-
-#include <csignal>
 #include <cstdlib>
 #include <memory>
 
@@ -27,7 +24,7 @@ OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
     others.names.push_back(info.name + ", " + info.platform);
     try {
       // By both: a platform has several devices, and one device has the same name on several platforms.
-      others.opened.push_back(std::make_unique<Device>(info.platform + ": " + info.name));
+      others.opened.push_back(std::make_unique<Device>(label_of(info)));
     } catch (const Error& error) {
       others.names.back() += fmt::format(" (not compared: {})", error.what());
     }
@@ -39,23 +36,16 @@ OtherDevices other_devices(const DeviceInfo& own, const std::string& text) {
   return others;
 }
 
-/// Writes a line of its own, even after an incomplete line of a driver.
-void say(const stress::Json& line) {
-  fmt::print("\n{}\n", line.dump(-1, ' ', false, stress::Json::error_handler_t::replace));
-  std::fflush(stdout);
-}
-
-/// The message of an ordinary failure, without the program's name.
-std::string why(std::string said) {
-  while (!said.empty() && said.back() == '\n') said.pop_back();
-  said.erase(0, said.rfind('\n') + 1);
-  return said.starts_with("gloam: ") ? said.substr(7) : said.empty() ? "it ended without a message" : said;
+/// Why a child failed.
+std::string why(const ChildEnd& end) {
+  const std::string said = last_line_of(end);
+  return said.empty() ? "it ended without a message" : said;
 }
 
 }  // namespace
 
 void examine_here(const StressCommand& flags) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  end_with_parent();
   setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // a second implementation for CPUs, if it is installed
   const StressRequest request = request_of(flags);
   Device device(flags.device);
@@ -68,14 +58,14 @@ void examine_here(const StressCommand& flags) {
                           .trial = request.trial,
                           .folder = flags.out};
   for (const auto& other : others.opened) subject.others.push_back(other.get());
-  say({{"device", device.info().name},
-       {"driver", device.info().platform + " " + device.info().driver},
-       {"against", others.names}});
+  say_to_parent({{"device", device.info().name},
+                 {"driver", device.info().platform + " " + device.info().driver},
+                 {"against", others.names}});
   for (const int number : request.cases) {
     subject.begins = [&](int trial, const std::string& conditions) {
-      say({{"case", number}, {"trial", trial}, {"conditions", conditions}});
+      say_to_parent({{"case", number}, {"trial", trial}, {"conditions", conditions}});
     };
-    say({{"result", document_of(examine(stress::find_case(number), subject))}});
+    say_to_parent({{"result", document_of(examine(stress::find_case(number), subject))}});
   }
 }
 
@@ -88,12 +78,12 @@ void Examination::run() {
     const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
     if (left_.empty()) return;  // all results have arrived, however the child ended
     if (end.ended_by.empty() && trial_ == 0) {
-      if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end.said));
-      throw Error("{}", why(end.said));
+      if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end));
+      throw Error("{}", why(end));
     }
     stress::CaseResult broken{.technique = technique_, .number = case_, .trials = trial_, .broken_on = conditions_};
     broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
-                                end.ended_by.empty() ? why(end.said) : "ended by " + end.ended_by);
+                                end.ended_by.empty() ? why(end) : "ended by " + end.ended_by);
     results.push_back(broken);
     std::erase(left_, case_);
   }

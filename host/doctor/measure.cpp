@@ -1,7 +1,6 @@
 #include "doctor/measure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -64,11 +63,10 @@ const Candidate& best_of(const std::vector<Candidate>& candidates) {
 
 /// The usual number of lanes, and those next to it: what is further off has never been the fastest, and takes long to compile.
 std::vector<Tuning> lane_candidates(const Tuning& usual) {
-  constexpr std::array all_lanes = {1, 4, 8, 16};
-  const auto at = std::find(all_lanes.begin(), all_lanes.end(), usual.lanes);
+  const auto at = std::find(lane_widths.begin(), lane_widths.end(), usual.lanes);
   std::vector<Tuning> all = {usual};
-  if (at != all_lanes.begin()) all.push_back({*(at - 1), usual.group});
-  if (at != all_lanes.end() && at + 1 != all_lanes.end()) all.push_back({*(at + 1), usual.group});
+  if (at != lane_widths.begin()) all.push_back({*(at - 1), usual.group});
+  if (at != lane_widths.end() && at + 1 != lane_widths.end()) all.push_back({*(at + 1), usual.group});
   return all;
 }
 

@@ -151,6 +151,12 @@ std::vector<SelfTest> self_tests(const std::string& table) {
   }
 }
 
+std::vector<SelfTest> self_tests(const std::string& table, const DeviceInfo& info) {
+  std::vector<SelfTest> tests = self_tests(table);
+  if (!info.has_double) std::erase_if(tests, [](const SelfTest& test) { return test.options.real == Real::float64; });
+  return tests;
+}
+
 std::string measured_technique(const std::string& table) { return parsed(table).value("measured", ""); }
 
 Outcome examine(const SelfTest& test, Device& device) {

@@ -23,6 +23,8 @@ struct SelfTest {
 
 /// The tests of a table. Throws Error for a table that cannot be read.
 std::vector<SelfTest> self_tests(const std::string& table);
+/// Those that a device can run.
+std::vector<SelfTest> self_tests(const std::string& table, const DeviceInfo& info);
 
 /// The technique whose raw AO is timed. Throws as `self_tests` does.
 std::string measured_technique(const std::string& table);

@@ -106,13 +106,12 @@ void check_memory(const Plan& plan, const Layout& layout, size_t views, const De
 }
 
 void check_options(const Plan& plan, const DeviceInfo& info, const RunOptions& options) {
-  constexpr std::array lanes = {0, 1, 4, 8, 16};
-  if (std::find(lanes.begin(), lanes.end(), options.lanes) == lanes.end())
+  if (options.lanes != 0 && !std::count(lane_widths.begin(), lane_widths.end(), options.lanes))
     throw UsageError("{}: {} lanes are not allowed; 1, 4, 8 and 16 are, and 0 for what suits the device",
                      plan.technique, options.lanes);
-  if (options.group < 0 || options.group > 1024)
-    throw UsageError("{}: work-groups of {} are not allowed; 1 to 1024 work-items are, and 0 for what suits the device",
-                     plan.technique, options.group);
+  if (options.group < 0 || options.group > most_per_group)
+    throw UsageError("{}: work-groups of {} are not allowed; 1 to {} work-items are, and 0 for what suits the device",
+                     plan.technique, options.group, most_per_group);
   if (options.repeat < 1)
     throw UsageError("{}: {} runs are not allowed; 1 and more are", plan.technique, options.repeat);
   if (options.real == Real::float64 && !info.has_double) {

@@ -42,10 +42,8 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   const KnownDevice known = known_device(info, int(device.getInfo<CL_DEVICE_PREFERRED_VECTOR_WIDTH_FLOAT>()));
   info.usual = info.tuning = known.tuning;
   info.keeps_kernels = known.keeps_kernels;
-  if (const std::optional<DeviceRecord> record = find_record(info); record && record->tuning) {
+  if (const std::optional<DeviceRecord> record = find_record(info); record && record->tuning)
     info.tuning = *record->tuning;
-    info.measured = record->day;
-  }
   const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
   info.shares_memory = info.type == "cpu";
@@ -121,18 +119,22 @@ std::vector<Found> find_devices() {
   return found;
 }
 
-std::string label(const DeviceInfo& info) { return fmt::format("'{}: {}'", info.platform, info.name); }
+/// Those whose label contains a text. Throws Error, with a list of all, if there is none.
+std::vector<const Found*> matching(const std::vector<Found>& found, const std::string& text) {
+  std::vector<const Found*> matches;
+  std::vector<std::string> labels;
+  for (const Found& f : found) {
+    labels.push_back("'" + label_of(f.info) + "'");
+    if (lower(labels.back()).find(lower(text)) != std::string::npos) matches.push_back(&f);
+  }
+  if (matches.empty())
+    throw Error("no device matches '{}'; there are {} (gloam list devices)", text, enumerate(labels));
+  return matches;
+}
 
 /// The first GPU, else the first CPU whose vectors gloam can use, else the first device.
 const Found& choose_device(const std::vector<Found>& found, const std::string& text) {
-  if (!text.empty()) {
-    std::vector<std::string> labels;
-    for (const Found& f : found) {
-      if (lower(label(f.info)).find(lower(text)) != std::string::npos) return f;
-      labels.push_back(label(f.info));
-    }
-    throw Error("no device matches '{}'; there are {} (gloam list devices)", text, enumerate(labels));
-  }
+  if (!text.empty()) return *matching(found, text).front();
   for (const Found& f : found) {
     if (f.info.type == "gpu") return f;
   }
@@ -151,11 +153,14 @@ std::string short_log(std::string log) {
 
 }  // namespace
 
-std::vector<DeviceInfo> list_devices() {
+std::vector<DeviceInfo> list_devices(const std::string& text) {
+  const std::vector<Found> found = find_devices();
   std::vector<DeviceInfo> infos;
-  for (const Found& f : find_devices()) infos.push_back(f.info);
+  for (const Found* f : matching(found, text)) infos.push_back(f->info);
   return infos;
 }
+
+std::string label_of(const DeviceInfo& info) { return info.platform + ": " + info.name; }
 
 std::string cl_error_name(int code) {
   static const std::map<int, std::string> names = {
@@ -198,10 +203,9 @@ Device::Device(const std::string& text) : impl_(std::make_unique<Impl>()) {
     impl_->device = chosen.device;
     impl_->context = cl::Context(chosen.device);
     impl_->queue = cl::CommandQueue(impl_->context, chosen.device, cl::QueueProperties::Profiling);
-    if (!chosen.info.keeps_kernels && !cache_folder().folder.empty())
-      impl_->cache = KernelCache(cache_folder().folder / "kernels");
+    if (!chosen.info.keeps_kernels) impl_->cache = own_kernel_cache();
   } catch (const cl::Error& error) {
-    throw Error("device {}: {} ({})", label(chosen.info), error.what(), cl_error_name(error.err()));
+    throw Error("device {}: {} ({})", "'" + label_of(chosen.info) + "'", error.what(), cl_error_name(error.err()));
   }
 }
 
@@ -256,13 +260,14 @@ cl::Program& Device::Impl::program(const std::string& source, const std::string&
   try {
     built->build({device}, options.c_str());
   } catch (const cl::Error& error) {
-    throw Error("kernels/{} does not build on {} with {} ({}): {}", source, label(info), options,
+    throw Error("kernels/{} does not build on {} with {} ({}): {}", source, "'" + label_of(info) + "'", options,
                 cl_error_name(error.err()), short_log(built->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device)));
   } catch (const std::exception& error) {
     // PoCL's compiler has thrown through PoCL, whose locks stay taken: releasing the program would wait for ever.
     built.release();
     restart_without_kept_kernels();
-    throw Error("kernels/{} cannot be compiled on {}: {}{}", source, label(info), error.what(), memory_limit());
+    throw Error("kernels/{} cannot be compiled on {}: {}{}", source, "'" + label_of(info) + "'", error.what(),
+                memory_limit());
   }
   if (!info.keeps_kernels) keep(key, *built);
   return programs.emplace(name, std::move(*built)).first->second;

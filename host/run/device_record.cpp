@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -49,8 +50,8 @@ Json document_of(const DeviceInfo& info, const DeviceRecord& record) {
 std::optional<Tuning> tuning_in(const Json& document) {
   if (!document.at("tuning").is_object()) return {};
   const Tuning tuning{document.at("tuning").at("lanes"), document.at("tuning").at("group")};
-  const bool is_possible = (tuning.lanes == 1 || tuning.lanes == 4 || tuning.lanes == 8 || tuning.lanes == 16) &&
-                           tuning.group >= 0 && tuning.group <= 1024;
+  const bool is_possible = std::count(lane_widths.begin(), lane_widths.end(), tuning.lanes) && tuning.group >= 0 &&
+                           tuning.group <= most_per_group;
   return is_possible ? std::optional(tuning) : std::nullopt;
 }
 

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "gloam/error.h"
+#include "run/kept_folders.h"
 
 namespace gloam {
 namespace {
@@ -127,6 +128,11 @@ KernelCache::Check KernelCache::check() const {
     }
   }
   return result;
+}
+
+KernelCache own_kernel_cache() {
+  const fs::path& folder = cache_folder().folder;
+  return KernelCache(folder.empty() ? folder : folder / "kernels");
 }
 
 std::string damaged_kernels_note() {

@@ -28,10 +28,15 @@ class KernelCache {
   /// Reads all files, and removes those that are damaged.
   Check check() const;
 
+  const std::filesystem::path& folder() const { return folder_; }
+
  private:
   std::filesystem::path path_of(const std::string& key) const;
   std::filesystem::path folder_;
 };
+
+/// That of this user, below `cache_folder`.
+KernelCache own_kernel_cache();
 
 /// How many kept programs this process found damaged, in one sentence; empty: none.
 std::string damaged_kernels_note();

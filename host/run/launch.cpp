@@ -13,13 +13,13 @@ size_t largest_divisor(size_t number, size_t most) {
 
 /// Work-group size. A CPU driver recompiles a kernel for every size, and by itself chooses a size per image size, for small
 /// images the whole image: that costs seconds, and what each work-item keeps overflows the stack. So one size serves all small
-/// images, and few serve large ones. `most_per_group`: 0 lets the driver choose, as on other devices.
-cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows, size_t most_per_group) {
-  if (most_per_group == 0) return cl::NullRange;
+/// images, and few serve large ones. `most`: 0 lets the driver choose, as on other devices.
+cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows, size_t most) {
+  if (most == 0) return cl::NullRange;
   constexpr size_t few_items = 1 << 14, widest = 32;
   if (info.type == "cpu" && columns * rows < few_items) return cl::NDRange(1, 1);
-  const size_t width = largest_divisor(columns, std::min(most_per_group, widest));
-  return cl::NDRange(width, largest_divisor(rows, most_per_group / width));
+  const size_t width = largest_divisor(columns, std::min(most, widest));
+  return cl::NDRange(width, largest_divisor(rows, most / width));
 }
 
 /// Work-items per row of a strip, a multiple of the group's. For passes with a wide footprint a CPU computes the image strip by

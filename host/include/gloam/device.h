@@ -1,6 +1,7 @@
 // OpenCL devices: how to find one, and what a run needs to know about it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,6 @@ struct DeviceInfo {
   std::string driver;
   Tuning tuning;               ///< as `gloam doctor` measured on this device and driver, else `usual`
   Tuning usual;                ///< of devices of this kind (data/devices.json)
-  std::string measured;        ///< the day of that measurement, "2026-05-17"; empty: there is none
   bool keeps_kernels = false;  ///< the driver keeps compiled kernels on disk by itself
   bool has_double = false;
   bool shares_memory = false;                         ///< host memory can be used in place
@@ -31,8 +31,16 @@ struct DeviceInfo {
 /// without one it finds no device. Sets the environment: call it before any thread is started.
 void give_pocl_a_folder();
 
-/// All devices of all platforms. Throws Error if there is no platform (and says how to install one).
-std::vector<DeviceInfo> list_devices();
+/// The devices of all platforms; `text`: those whose platform or name contains it, in any case. Throws Error if there is no platform
+/// (and says how to install one), and, with a list of the devices, if none matches.
+std::vector<DeviceInfo> list_devices(const std::string& text = "");
+
+/// Text that names a device among all: its platform and its name.
+std::string label_of(const DeviceInfo& info);
+
+/// Numbers of pixels per work-item for which there are kernels, and the most work-items per work-group.
+inline constexpr std::array lane_widths = {1, 4, 8, 16};
+inline constexpr int most_per_group = 1024;
 
 /// An open device with its queue and its compiled programs. A kernel is compiled when it is first needed, and kept. Move-only.
 /// Threads may share a device; their work on it runs one after another. Different devices run side by side.
