@@ -225,7 +225,8 @@ static int status_of_command(int argc, char** argv) {
     if (const std::string kept = gloam::keep_kernels_made_anew(); !kept.empty()) gloam::cli::note({kept});
     if (const std::string damaged = gloam::damaged_kernels_note(); !damaged.empty()) gloam::cli::note({damaged});
     gloam::cli::print_notes();
-    if (std::fflush(stdout) != 0) return failed("standard output: cannot be written", 1);
+    // Of more than a buffer the last write may succeed, or have nothing left to write, after an earlier one has failed.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return failed("standard output: cannot be written", 1);
     return status;
   } catch (const gloam::Error& error) {
     return failed(error.what(), error.exit_status());

@@ -149,6 +149,8 @@ TEST_F(Cli, ClosedStreams) {
   EXPECT_EQ(WEXITSTATUS(std::system((command + "info /none.exr 2>/dev/full").c_str())), 1);
   EXPECT_EQ(WEXITSTATUS(std::system((command + "info " + loggia + " >/dev/full 2>/dev/null").c_str())), 1);
   EXPECT_EQ(WEXITSTATUS(std::system((command + "info " + loggia + " --json - >/dev/full 2>/dev/null").c_str())), 1);
+  // More than a buffer holds: the write that fails is not the last one.
+  EXPECT_EQ(WEXITSTATUS(std::system((command + "list techniques --json - >/dev/full 2>/dev/null").c_str())), 1);
 }
 
 TEST_F(Cli, WithoutAHomeADeviceIsStillFound) {
