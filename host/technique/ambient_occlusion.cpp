@@ -1,24 +1,29 @@
 #include "technique/ambient_occlusion.h"
 
+#include "gloam/planes.h"
+
 namespace gloam {
 namespace {
 
 Pass bilateral_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows) {
+  const int components = int(plane_kind(to).components.size());
   return {.name = name,
-          .kernel = "bilateral",
+          .kernel = components == 1 ? "bilateral" : "bilateral_color",
           .reads = {{"source", from}, "depth", "normal"},
           .writes = {{"result", to}},
-          .defines = {{"COLUMNS", columns}, {"ROWS", rows}},
+          .defines = {{"COLUMNS", columns}, {"ROWS", rows}, {"COMPONENTS", components}},
           .footprint = {.columns = columns, .rows = rows},
           .can_skip = true};
 }
 
 }  // namespace
 
-std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& result) {
-  if (is_square) return {bilateral_pass("square", "ao_raw", result, half_width, half_width)};
-  return {bilateral_pass("horizontal", "ao_raw", "ao_filtered_across", half_width, 0),
-          bilateral_pass("vertical", "ao_filtered_across", result, 0, half_width)};
+std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& source,
+                                   const std::string& result) {
+  if (is_square) return {bilateral_pass("square", source, result, half_width, half_width)};
+  const std::string between = result + "@across";
+  return {bilateral_pass("horizontal", source, between, half_width, 0),
+          bilateral_pass("vertical", between, result, 0, half_width)};
 }
 
 Technique ambient_occlusion(std::string name, std::string summary, std::string paper, std::string source) {

@@ -43,9 +43,10 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, Defines def
           .can_skip = true};
 }
 
-/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from "ao_raw" to `result`: one pass along rows and one along
-/// columns, or one pass over a square. `half_width`: taps on either side, pixels.
-std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& result);
+/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from `source` to `result`, planes of one component or colours: one
+/// pass along rows and one along columns, or one pass over a square. `half_width`: taps on either side, pixels.
+std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& source,
+                                   const std::string& result);
 
 /// A variant of a technique with every layer of the peeled depth as an occluder: "dp-" before its name; its estimate also reads
 /// the stack `occluders`.

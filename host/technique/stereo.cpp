@@ -118,8 +118,8 @@ Technique over_two_eyes(Technique mono, ParameterList parameters,
 }
 
 std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
-  if (filter == Filter::mono) return bilateral_passes(taps, false, "ao");
-  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, "ao_of_one_eye");
+  if (filter == Filter::mono) return bilateral_passes(taps, false, "ao_raw", "ao");
+  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, "ao_raw", "ao_of_one_eye");
   keep_weights(passes);
   passes.push_back(blend(passes.back()));
   return passes;

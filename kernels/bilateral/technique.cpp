@@ -4,23 +4,31 @@
 namespace gloam::techniques {
 namespace {
 
-std::vector<Pass> passes(const BilateralParams& p) {
-  return bilateral_passes(p.half_width, p.form == BilateralParams::form_values::square, "ao");
+std::vector<Pass> filter(const BilateralParams& p, const std::string& source, const std::string& result) {
+  return bilateral_passes(p.half_width, p.form == BilateralParams::form_values::square, source, result);
+}
+
+std::vector<Pass> ao_passes(const BilateralParams& p) { return filter(p, "ao_raw", "ao"); }
+std::vector<Pass> color_passes(const BilateralParams& p) { return filter(p, "indirect_raw", "indirect"); }
+
+Technique row(std::string name, std::string summary, const std::string& source, std::string result) {
+  return {.name = std::move(name),
+          .summary = std::move(summary),
+          .paper = "Petschnigg et al. 2004; Pham, van Vliet 2005",
+          .source = "bilateral/bilateral.cl",
+          .reads = {source, "depth", "normal"},
+          .writes = {std::move(result)},
+          .parameters = BilateralParams::table()};
 }
 
 }  // namespace
 
 std::vector<Technique> bilateral() {
-  return {{
-      .name = "bilateral",
-      .summary = "filter for raw AO that keeps depth edges and creases",
-      .paper = "Petschnigg et al. 2004; Pham, van Vliet 2005",
-      .source = "bilateral/bilateral.cl",
-      .reads = {"ao_raw", "depth", "normal"},
-      .writes = {"ao"},
-      .parameters = BilateralParams::table(),
-      .passes = passes_of(passes),
-  }};
+  Technique ao = row("bilateral", "filter for raw AO that keeps depth edges and creases", "ao_raw", "ao");
+  ao.passes = passes_of(ao_passes);
+  Technique color = row("bilateral-color", "the same filter for raw indirect light", "indirect_raw", "indirect");
+  color.passes = passes_of(color_passes);
+  return {std::move(ao), std::move(color)};
 }
 
 }  // namespace gloam::techniques

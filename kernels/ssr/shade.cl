@@ -13,12 +13,9 @@
 #include "ssr/params.h"
 #include "ssr/ray.h"
 
-// Colour clamped to radiance that sums can hold.
-static inline real radiance_of(real color) { return clamp(color, (real)(0), (real)(1e20f)); }
-
 static inline real3 gather_radiance(PLANE r, PLANE g, PLANE b, integer i) {
   const real3 c = gather3(r, g, b, i);
-  return make3(radiance_of(c.x), radiance_of(c.y), radiance_of(c.z));
+  return make3(kept_radiance(c.x), kept_radiance(c.y), kept_radiance(c.z));
 }
 
 // The planes of an eye's image.

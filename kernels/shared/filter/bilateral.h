@@ -12,21 +12,49 @@ static inline scalar window_at(int k, int taps) {
   return (1 - t * t) * (1 - t * t);
 }
 
+// Values that are filtered alike: 1, or the components of a colour.
+#ifndef COMPONENTS
+#define COMPONENTS 1
+#endif
+
 typedef struct {
-  real sum, weights;
+  global const float* planes[COMPONENTS];
+} Sources;
+
+static inline Sources one_source(PLANE source) {
+  Sources s;
+  s.planes[0] = source;
+  return s;
+}
+
+// Light is kept to what sums can hold.
+static inline real source_at(Sources sources, int component, int i) {
+  const real value = load(sources.planes[component], i);
+#if COMPONENTS == 1
+  return value;
+#else
+  return kept_radiance(value);
+#endif
+}
+
+typedef struct {
+  real sums[COMPONENTS], weights;
 } Taps;
 
-static inline void add_tap(Taps* taps, real weight, mask counts, real value) {
+static inline void add_tap(Taps* taps, real weight, mask counts, Sources sources, int there) {
   const real counted = choose(counts, weight, (real)(0));
-  taps->sum = multiply_add(counted, value, taps->sum);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c)
+    taps->sums[c] = multiply_add(counted, source_at(sources, c, there), taps->sums[c]);
   taps->weights += counted;
 }
 
 // Sums over the taps around each pixel of a row that begins at `here`. The pixel itself has weight 1.
-static inline Taps taps_around(Frame frame, TangentPlane plane, integer x, int y, int here, PLANE source, PLANE depth,
-                               PLANE normal_x, PLANE normal_y, PLANE normal_z) {
+static inline Taps taps_around(Frame frame, TangentPlane plane, integer x, int y, int here, Sources sources,
+                               PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z) {
   Taps taps;
-  taps.sum = load(source, here);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) taps.sums[c] = source_at(sources, c, here);
   taps.weights = (real)(1);
 #if COLUMNS == 0
 #pragma unroll
@@ -44,7 +72,7 @@ static inline Taps taps_around(Frame frame, TangentPlane plane, integer x, int y
           window_at(i, COLUMNS) * window_at(j, ROWS) *
           same_surface(plane, frame, step, load(depth, there), load3(normal_x, normal_y, normal_z, there));
       const mask in_row = COLUMNS == 0 ? EVERY_LANE : to_mask(to_natural(x + i) < (natural)((uint)frame.width));
-      add_tap(&taps, weight, in_row, load(source, there));
+      add_tap(&taps, weight, in_row, sources, there);
     }
   }
   return taps;

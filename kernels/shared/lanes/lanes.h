@@ -120,6 +120,8 @@ static inline real lane_of(real v, integer from) {
 // Per lane: m ? a : b.
 static inline real choose(mask m, real a, real b) { return m ? a : b; }
 
+static inline integer choose_integer(mask m, integer a, integer b) { return integer_of(m) ? a : b; }
+
 // The smaller and the larger of two, defined for infinities too (OpenCL 1.2 leaves min and max undefined there). If the first
 // is NaN, the result is the second.
 static inline real smaller(real a, real b) { return a < b ? a : b; }

@@ -87,46 +87,60 @@ static inline void scatter(real value, PLANE_OUT plane, integer i) {
 #endif
 }
 
-// Values of two planes stored side by side, pixel by pixel. `pairs`: where the first pixel's pair lies.
-static inline void gather_pair(global const float* pairs, integer i, real* first, real* second) {
+// The bits of two planes stored side by side, pixel by pixel. `pairs`: where the first pixel's pair lies.
+static inline void gather_bit_pair(global const float* pairs, integer i, natural* first, natural* second) {
 #if LANES == 1
-  *first = to_real(pairs[2 * i]);
-  *second = to_real(pairs[2 * i + 1]);
+  global const uint* p = (global const uint*)pairs;
+  *first = p[2 * i];
+  *second = p[2 * i + 1];
 #else
   // One gather of 64 bits instead of two of 32.
   global const long* p = (global const long*)pairs;
 #if LANES == 4
-  const float8 v = as_float8((long4)(p[i.s0], p[i.s1], p[i.s2], p[i.s3]));
-  *first = to_real(v.even);
-  *second = to_real(v.odd);
+  const uint8 v = as_uint8((long4)(p[i.s0], p[i.s1], p[i.s2], p[i.s3]));
+  *first = v.even;
+  *second = v.odd;
 #elif LANES == 8
-  const float16 v = as_float16((long8)(p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7]));
-  *first = to_real(v.even);
-  *second = to_real(v.odd);
+  const uint16 v = as_uint16((long8)(p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7]));
+  *first = v.even;
+  *second = v.odd;
 #else
-  const float16 v = as_float16((long8)(p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7]));
-  const float16 w = as_float16((long8)(p[i.s8], p[i.s9], p[i.sa], p[i.sb], p[i.sc], p[i.sd], p[i.se], p[i.sf]));
-  *first = to_real((float16)(v.even, w.even));
-  *second = to_real((float16)(v.odd, w.odd));
+  const uint16 v = as_uint16((long8)(p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7]));
+  const uint16 w = as_uint16((long8)(p[i.s8], p[i.s9], p[i.sa], p[i.sb], p[i.sc], p[i.sd], p[i.se], p[i.sf]));
+  *first = (natural)(v.even, w.even);
+  *second = (natural)(v.odd, w.odd);
 #endif
 #endif
 }
 
-// Writes the pairs of the row of pixels from index `i` on.
-static inline void store_pair(real first, real second, global float* pairs, int i) {
+// As gather_bit_pair, of floats.
+static inline void gather_pair(global const float* pairs, integer i, real* first, real* second) {
+  natural a, b;
+  gather_bit_pair(pairs, i, &a, &b);
+  *first = to_real(as_stored(a));
+  *second = to_real(as_stored(b));
+}
+
+// Writes the pairs of bits of the row of pixels from index `i` on.
+static inline void store_bit_pair(natural first, natural second, global float* pairs, int i) {
 #if LANES == 1
-  pairs[2 * i] = to_stored(first);
-  pairs[2 * i + 1] = to_stored(second);
+  global uint* p = (global uint*)pairs;
+  p[2 * i] = first;
+  p[2 * i + 1] = second;
 #else
-  const stored a = to_stored(first), b = to_stored(second);
-  JOIN(float, LANES) low, high;
-  low.even = a.lo;
-  low.odd = b.lo;
-  high.even = a.hi;
-  high.odd = b.hi;
-  JOIN(vstore, LANES)(low, 0, pairs + 2 * i);
-  JOIN(vstore, LANES)(high, 0, pairs + 2 * i + LANES);
+  natural low, high;
+  low.even = first.lo;
+  low.odd = second.lo;
+  high.even = first.hi;
+  high.odd = second.hi;
+  JOIN(vstore, LANES)(as_stored(low), 0, pairs + 2 * i);
+  JOIN(vstore, LANES)(as_stored(high), 0, pairs + 2 * i + LANES);
 #endif
+}
+
+// As store_bit_pair, of floats.
+static inline void store_pair(real first, real second, global float* pairs, int i) {
+  store_bit_pair(as_natural(to_stored(first)), as_natural(to_stored(second)), pairs, i);
 }
 
 // As store_pair, for four planes side by side.

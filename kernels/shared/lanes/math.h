@@ -37,6 +37,9 @@ static inline real multiply_add(real a, real b, real c) {
 #endif
 }
 
+// Radiance that sums can hold: negative values and NaN count as 0.
+static inline real kept_radiance(real color) { return smaller(larger(color, (real)(0)), (real)(1e20f)); }
+
 static inline real fused_dot3(real3 a, real3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
 
 // 2 / sqrt(x) for x > 0; the factor 2 saves the fast mode a multiplication. Fast: one lane uses the device's own. Several lanes

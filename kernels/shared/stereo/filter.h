@@ -32,9 +32,9 @@ kernel void bilateral_weighted(Frame frame, Params params, PLANE source, SOURCE_
   const TangentPlane plane =
       tangent_plane_at(frame, to_real(x), (real)(y), z, load3(normal_x, normal_y, normal_z, here),
                        params.depth_tolerance * params.radius, params.normal_tolerance);
-  const Taps taps = taps_around(frame, plane, x, y, here, source, depth, normal_x, normal_y, normal_z);
+  const Taps taps = taps_around(frame, plane, x, y, here, one_source(source), depth, normal_x, normal_y, normal_z);
   const mask is_surface = !is_background(z);
-  store(choose(is_surface, taps.sum / taps.weights, (real)(1)), result, here);
+  store(choose(is_surface, taps.sums[0] / taps.weights, (real)(1)), result, here);
 #if WITH_SOURCE_WEIGHTS
   const real before = load(source_weights, here);
 #else
