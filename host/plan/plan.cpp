@@ -18,10 +18,19 @@
 namespace gloam {
 namespace {
 
-/// Adds the extras that are asked for to a pass's outputs.
-void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
+/// The outputs, and what techniques of the plan read: the planes for which extras are made.
+std::vector<std::string> planes_in_use(const std::vector<std::string>& outputs, const Techniques& techniques) {
+  std::vector<std::string> planes = outputs;
+  for (const Technique* technique : techniques) {
+    for (const std::string& plane : technique->reads) add_new(planes, plane);
+  }
+  return planes;
+}
+
+/// Adds the extras that are in use to a pass's outputs.
+void add_extras(Pass& pass, const std::vector<std::string>& in_use) {
   for (const Binding& extra : pass.extras) {
-    if (!contains(outputs, extra.plane) && !contains(outputs, extra.argument)) continue;
+    if (!contains(in_use, extra.plane) && !contains(in_use, extra.argument)) continue;
     pass.writes.push_back(extra);
     pass.defines.emplace_back("WITH_" + upper_case(extra.argument), 1);
   }
@@ -143,11 +152,12 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (is_reduced) walk.order.push_back(&resampling());
   const Technique* restricted = mask.empty() || asked_for.empty() ? nullptr : asked_for.front();
   const std::vector<ParameterValues> values = values_of(request, walk.order, plan.technique, restricted, mask);
+  const std::vector<std::string> in_use = planes_in_use(wanted.outputs, walk.order);
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
       // What completes an extra of two estimates runs once, after both.
       if (pass.writes.empty() && walk.order[i] == elsewhere) continue;
-      add_extras(pass, wanted.outputs);
+      add_extras(pass, in_use);
       if (pass.writes.empty()) continue;
       add_optional_reads(pass, plan.inputs);
       define_layers(pass, plan, *walk.order[i]);

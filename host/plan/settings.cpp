@@ -7,6 +7,7 @@
 #include "gloam/radius.h"
 #include "plan/resample.h"
 #include "plan/temporal.h"
+#include "plan/wanted.h"
 
 namespace gloam {
 namespace {
@@ -67,7 +68,7 @@ void set_default_radius(double radius, const Techniques& order, std::vector<Para
 void set_followers(const Techniques& order, std::vector<ParameterValues>& values) {
   for (const Technique* technique : order) {
     for (size_t i = 0; i < order.size(); ++i) {
-      if (order[i]->name != technique->then) continue;
+      if (order[i]->name != technique->then && !filters_extra_of(*order[i], *technique)) continue;
       for (const auto& [name, value] : technique->then_with) values[i].set(name, value, order[i]->name);
     }
   }

@@ -39,6 +39,12 @@ std::ptrdiff_t followed_by_default(const Technique& technique) {
 
 }  // namespace
 
+bool filters_extra_of(const Technique& filter, const Technique& technique) {
+  return followed_by_default(filter) > 0 &&
+         std::any_of(filter.reads.begin(), filter.reads.end(),
+                     [&](const std::string& plane) { return contains(technique.extras, plane); });
+}
+
 const Technique* maker_of(const std::string& plane, const Technique* asking, const Techniques& makers) {
   for (const Technique* t : makers) {
     if (t != asking && makes(*t, plane)) return t;
@@ -78,6 +84,14 @@ const Technique& follower_named(const std::string& name, const Technique& techni
   fitting.push_back("none");
   throw UsageError("--filter {}: is no filter for {}{}; there are {}", name, technique.name,
                    follower ? "" : suggestion(name, fitting), enumerate(fitting));
+}
+
+/// The filter for a plane that is made from an extra of a technique: `bilateral` for `ao`, where `ao_raw` is an extra. nullptr: none.
+const Technique* filter_for(const std::string& plane, const Technique& technique) {
+  for (const Technique& t : registry()) {
+    if (contains(t.writes, plane) && filters_extra_of(t, technique)) return &t;
+  }
+  return nullptr;
 }
 
 /// Adds a technique asked for, and its follower: its own, or the one that the request names.
@@ -126,8 +140,13 @@ bool is_extra(const Wanted& wanted, const std::string& plane) {
 
 void want_extra(Wanted& wanted, const std::string& plane) {
   std::vector<std::string> known;
-  for (const Technique* maker : wanted.makers) {
+  const Techniques makers = wanted.makers;
+  for (const Technique* maker : makers) {
     for (const std::string& extra : maker->extras) add_new(known, extra);
+    if (const Technique* filter = filter_for(plane, *maker)) {
+      wanted.makers.push_back(filter);
+      add_new(known, plane);
+    }
   }
   if (!contains(known, plane)) {
     throw UsageError("--with {}: {} does not make it{}; {}", plane, wanted.makers.front()->name,

@@ -33,4 +33,7 @@ const Technique* want_elsewhere(const PlanRequest& request, const Wanted& wanted
 /// asks. Null if nothing makes it.
 const Technique* maker_of(const std::string& plane, const Technique* asking, const Techniques& makers);
 
+/// Whether a technique is the filter that others leave an image to, and reads an extra of this one.
+bool filters_extra_of(const Technique& filter, const Technique& technique);
+
 }  // namespace gloam
