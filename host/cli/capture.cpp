@@ -115,6 +115,7 @@ CaptureOptions options_of(const CaptureCommand& flags) {
   if (flags.size) std::tie(options.width, options.height) = *flags.size;
   options.planes = planes_of(flags);
   options.peel = flags.peel;
+  options.peel_light = flags.peel_light;
   options.stochastic = stochastic_of(flags);
   options.second_view = second_view_of(flags);
   options.stereo = stereo_of(flags);
@@ -138,6 +139,7 @@ std::optional<double> radius_of_first_frame(const CaptureCommand& flags, const C
                       .views;
   options.planes.clear();
   options.peel = options.stochastic.samples = 0;
+  options.peel_light = false;
   return radius_made_from(capture(tracer, options).frame);
 }
 
@@ -197,6 +199,8 @@ void add_capture(CLI::App& app) {
   command->add_option("--planes", flags->planes, "these planes and depth only: " + enumerate(capture_planes()))
       ->type_name("A,B");
   add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64")->type_name("N");
+  command->add_flag("--peel-light", flags->peel_light,
+                    "with --peel: also colour and normal of each layer, for light from hidden surfaces (dp-indirect)");
   add_number(*command, "--stochastic", flags->stochastic, {1, 16},
              "samples of a stochastic depth map of all surfaces, 1 to 16")
       ->type_name("S");

@@ -17,6 +17,7 @@ struct CaptureCommand {
   std::string display, modules;
   std::optional<Size> size;
   int peel = 0;
+  bool peel_light = false;
   std::optional<int> stochastic, stochastic_seed;
   std::optional<double> alpha, view2, stereo, convergence, outlines, outline_angle;
   std::optional<OutlineMethod> outline_method;

@@ -11,8 +11,8 @@ namespace {
 /// The meaning of a positive and a negative bias, in words.
 std::string bias_words(double bias, const std::string& plane) {
   if (std::abs(bias) < 5e-6) return "";
-  const PlaneKind::Meaning meaning = plane_kind(plane).meaning;
-  const bool light = meaning == PlaneKind::unit_interval || plane == "color" || plane == "reflection";
+  const PlaneKind kind = plane_kind(plane);
+  const bool light = kind.meaning == PlaneKind::unit_interval || kind.components.front() == "r";
   return bias > 0 ? (light ? "  (too bright)" : "  (too high)") : (light ? "  (too dark)" : "  (too low)");
 }
 

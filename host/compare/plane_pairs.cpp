@@ -14,6 +14,9 @@ const std::vector<PlanePair>& result_pairs() {
                                                {"ao_raw", "ao"},
                                                {"ao", "ao_raw"},
                                                {"reflection", "reflection"},
+                                               {"indirect", "indirect"},
+                                               {"indirect_raw", "indirect_raw"},
+                                               {"indirect_raw", "indirect"},
                                                {"bent_normal", "bent_normal"},
                                                {"cone", "cone"},
                                                {"hit", "hit"}};

@@ -1,6 +1,7 @@
 #include "exr/channel_names.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -31,14 +32,20 @@ void note(NamedPlanes& named, const std::string& plane, const std::string& sente
   if (std::find(notes.begin(), notes.end(), sentence) == notes.end()) notes.push_back(sentence);
 }
 
-/// Adds the depth layers of a gloam file: peel.00.Z, stochastic.00.Z.
-void add_depth_layers(NamedPlanes& named, const std::vector<Layer>& layers, const std::string& view) {
+/// Adds the layers of a gloam file: peel.00.Z, stochastic.00.Z, peel_color.00.R.
+void add_stack_layers(NamedPlanes& named, const std::vector<Layer>& layers, const std::string& view) {
+  std::map<std::string, std::string> planes;  // by channel
+  for (const StackKind& stack : stack_kinds()) {
+    for (int number = 0; number < 100; ++number)
+      planes[lower(layer_name(stack.group, number) + "." + stack.component)] = layer_name(stack.name, number);
+  }
   std::set<std::string> seen;
   for (const Layer& layer : layers) {
-    const std::string name = lower(layer.path);
-    const auto z = layer.components.find("z");
-    if (!stack_layer(name) || z == layer.components.end() || !seen.insert(name).second) continue;
-    named.planes.push_back(source_of(name, view, {&layer, {z->second}, own, DeclaredConvention::nothing, 1}));
+    for (const auto& [component, channel] : layer.components) {
+      const auto plane = planes.find(lower(layer.path) + "." + component);
+      if (plane == planes.end() || !seen.insert(plane->second).second) continue;
+      named.planes.push_back(source_of(plane->second, view, {&layer, {channel}, own, DeclaredConvention::nothing, 1}));
+    }
   }
 }
 
@@ -104,7 +111,7 @@ void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std:
            fmt::format("motion: '{}' taken as pixels, current to previous frame, y down", shown(*best)));
     named.planes.push_back(source_of(kind.name, view, *best));
   }
-  add_depth_layers(named, layers, view);
+  add_stack_layers(named, layers, view);
 }
 
 }  // namespace

@@ -153,6 +153,8 @@ const std::vector<Spelling>& spellings() {
       {"bent_normal", "bent", "x,y,z", own},
       {"bent_normal", "bentnormal", xyz, generic},
       {"cone", "*", "cone", own},
+      {"indirect", "indirect", "r,g,b", own},
+      {"indirect_raw", "indirectraw", "r,g,b", own},
       {"reflection", "reflection", "r,g,b,a", own},
       {"reflection_raw", "reflectionraw", "r,g,b,a", own},
       {"frames", "", "frames", own},

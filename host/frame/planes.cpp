@@ -48,6 +48,10 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("ao_raw", {""}, {"AO_raw"}, 1, K::unit_interval, "ambient occlusion before filtering"),
       kind("ao_error", {""}, {"AO_error"}, 0, K::unit_interval, "expected absolute error of `ao`"),
       kind("ao_noise", {""}, {"AO_noise"}, 0, K::value, "estimated error of a ray-traced AO"),
+      kind("indirect", {"r", "g", "b"}, {"indirect.R", "indirect.G", "indirect.B"}, 0, K::value,
+           "light from surfaces near by: irradiance / pi, before the albedo of the surface that it reaches"),
+      kind("indirect_raw", {"r", "g", "b"}, {"indirect_raw.R", "indirect_raw.G", "indirect_raw.B"}, 0, K::value,
+           "indirect light before filtering"),
       kind("bent_normal", {"x", "y", "z"}, {"bent.X", "bent.Y", "bent.Z"}, 0, K::unit_vector,
            "mean unoccluded direction, view space"),
       kind(
@@ -79,17 +83,38 @@ PlaneKind plane_kind(std::string_view name) {
   for (const PlaneKind& known : plane_kinds())
     if (known.name == name) return known;
   const std::string own(name);
-  if (stack_layer(name)) return kind(own, {""}, {own + ".Z"}, inf, PlaneKind::view_depth, "one depth layer");
-  if (is_stack(name)) return kind(own, {""}, {}, inf, PlaneKind::view_depth, "all depth layers of a kind");
+  if (const std::optional<StackLayer> layer = stack_layer(name)) {
+    const StackKind& stack = stack_kind(layer->stack);
+    return kind(own, {""}, {layer_name(stack.group, layer->number) + "." + stack.component}, stack.outside,
+                stack.meaning, "one layer of several");
+  }
+  if (is_stack(name)) {
+    const StackKind& stack = stack_kind(name);
+    return kind(own, {""}, {}, stack.outside, stack.meaning, "all layers of a kind");
+  }
   return kind(own, {""}, {own}, 0, PlaneKind::value, "");
 }
 
 const std::vector<StackKind>& stack_kinds() {
-  static const std::vector<StackKind> kinds = {
-      {"peel", "all surfaces under the pixel centre, front to back", "gloam capture --peel N"},
-      {"stochastic", "stochastic depth: each layer is the nearest of a random choice of surfaces",
-       "gloam capture --stochastic S"},
-  };
+  static const std::vector<StackKind> kinds = [] {
+    std::vector<StackKind> all = {
+        {"peel", "peel", "Z", "all surfaces under the pixel centre, front to back", "gloam capture --peel N", inf,
+         PlaneKind::view_depth},
+        {"stochastic", "stochastic", "Z", "stochastic depth: each layer is the nearest of a random choice of surfaces",
+         "gloam capture --stochastic S", inf, PlaneKind::view_depth},
+    };
+    const char* const source = "gloam capture --peel N --peel-light";
+    for (const char* component : {"R", "G", "B"})
+      all.push_back({std::string("peel_color_") + char(std::tolower(*component)), "peel_color", component,
+                     "scene-linear radiance of the surfaces under the pixel centre, on the side of peel_normal", source,
+                     0, PlaneKind::value});
+    for (const char* component : {"X", "Y", "Z"})
+      all.push_back({std::string("peel_normal_") + char(std::tolower(*component)), "peel_normal", component,
+                     "normals of the surfaces under the pixel centre, view space; of a hidden back face on the side "
+                     "away from the eye",
+                     source, 0, PlaneKind::value});
+    return all;
+  }();
   return kinds;
 }
 

@@ -94,6 +94,7 @@ CaptureOptions options_from(const py::dict& words) {
   options.height = py::cast<int>(words["height"]);
   options.planes = words["planes"].is_none() ? default_planes() : py::cast<std::vector<std::string>>(words["planes"]);
   options.peel = py::cast<int>(words["peel"]);
+  options.peel_light = py::cast<bool>(words["peel_light"]);
   options.stochastic.samples = py::cast<int>(words["stochastic"]);
   if (const auto stereo = py::cast<std::optional<double>>(words["stereo"]))
     options.stereo = StereoRig{.interpupillary_distance = *stereo,

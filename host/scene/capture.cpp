@@ -95,7 +95,7 @@ class Capturer {
     target_.depth->at(x, y) = float(first.distance);
     put(target_.normal, x, y, glm::normalize(view_.camera.pose->world_to_view * first.normal));
     material(x, y, first, seed);
-    layers(x, y, surfaces);
+    layers(x, y, surfaces, seed);
     if (target_.instance) target_.instance->at(x, y) = float(first.mesh + 1);
     const dvec3 world = first.position + tracer_.scene().origin;
     put(target_.position, x, y, world - view_.camera.pose->position);
@@ -116,7 +116,21 @@ class Capturer {
     if (target_.color[0]) put(target_.color, x, y, radiance(tracer_, surface, seed));
   }
 
-  void layers(int x, int y, const std::vector<Surface>& surfaces) const {
+  /// Light and normals of all surfaces. Of a hidden back face the other side: the outside of what it closes.
+  void peel_light(int x, int y, const std::vector<Surface>& surfaces, uint32_t seed) const {
+    for (size_t i = 0; i < std::min(target_.peel_color.size(), surfaces.size()); ++i) {
+      Surface surface = surfaces[i];
+      if (i > 0 && surface.back_face) {
+        surface.normal = -surface.normal;
+        surface.facing = -surface.facing;
+      }
+      put(target_.peel_color[i], x, y, radiance(tracer_, surface, seed));
+      put(target_.peel_normal[i], x, y, glm::normalize(view_.camera.pose->world_to_view * surface.normal));
+    }
+  }
+
+  void layers(int x, int y, const std::vector<Surface>& surfaces, uint32_t seed) const {
+    peel_light(x, y, surfaces, seed);
     if (target_.peel_count) target_.peel_count->at(x, y) = float(surfaces.size());
     for (size_t i = 0; i < std::min(target_.peel.size(), surfaces.size()); ++i)
       target_.peel[i]->at(x, y) = float(surfaces[i].distance);

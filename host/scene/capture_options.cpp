@@ -47,6 +47,8 @@ void check_options(const CaptureOptions& options) {
     throw UsageError("a capture of {}x{} pixels has none; give a size such as 1920x1080", options.width,
                      options.height);
   if (options.peel < 0 || options.peel > 64) throw UsageError("{} layers cannot be peeled; 0 to 64 can", options.peel);
+  if (options.peel_light && options.peel == 0)
+    throw UsageError("light of layers is captured with layers; give their number too (--peel 8)");
   for (const std::string& plane : options.planes) {
     if (contains(capture_planes(), plane)) continue;
     throw UsageError("plane '{}' cannot be captured{}; {} can, and layers by their number", plane,

@@ -46,6 +46,17 @@ CaptureTarget capture_target(View& view, const CaptureOptions& options, const La
   if (options.peel > 0) target.peel_count = add_channel(view, "peel_count", layout);
   if (options.outlines) target.outline_count = add_channel(view, "outline_count", layout);
   for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, layer_name("peel", i), layout));
+  const auto layer_of = [&](const std::string& plane, int number) {
+    std::array<Channel*, 3> channels;
+    const char* const components = plane == "peel_color" ? "rgb" : "xyz";
+    for (size_t i = 0; i < 3; ++i)
+      channels[i] = add_channel(view, layer_name(plane + "_" + components[i], number), layout);
+    return channels;
+  };
+  for (int i = 0; options.peel_light && i < options.peel; ++i) {
+    target.peel_color.push_back(layer_of("peel_color", i));
+    target.peel_normal.push_back(layer_of("peel_normal", i));
+  }
   for (int i = 0; i < options.stochastic.samples; ++i)
     target.stochastic.push_back(add_channel(view, layer_name("stochastic", i), layout));
   return target;

@@ -1,7 +1,9 @@
 // The planes of a view that a capture fills.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "gloam/scene/capture.h"
@@ -15,16 +17,17 @@ struct CaptureTarget {
   Channel *roughness = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr,
           *outline_count = nullptr;
   std::vector<Channel*> peel, stochastic;
+  std::vector<std::array<Channel*, 3>> peel_color, peel_normal;
 };
 
 /// Adds the planes that are asked for to the view, filled with the value of pixels without a surface.
 CaptureTarget capture_target(View& view, const CaptureOptions& options, const Layout& layout);
 
 /// Stores a vector; does nothing if the channels are not captured.
-template <size_t n, typename Vector>
-void put(Channel* const (&channels)[n], int x, int y, const Vector& value) {
+template <typename Channels, typename Vector>
+void put(const Channels& channels, int x, int y, const Vector& value) {
   if (!channels[0]) return;
-  for (size_t i = 0; i < n; ++i) channels[i]->at(x, y) = float(value[int(i)]);
+  for (size_t i = 0; i < std::size(channels); ++i) channels[i]->at(x, y) = float(value[int(i)]);
 }
 
 }  // namespace gloam

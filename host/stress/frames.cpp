@@ -40,6 +40,13 @@ float invented_value(const PlaneKind& kind, const Frame& frame, const View& view
     const Plane* normal = view.find("normal");
     return normal ? normal->channels[size_t(component)].at(x, y) : component == 2 ? 1.0f : 0.0f;
   }
+  // Layers send light as the surface in front of them does.
+  const std::optional<StackLayer> layer = stack_layer(kind.name);
+  if (layer && layer->stack.starts_with("peel_normal_")) {
+    const Plane* normal = view.find("normal");
+    const size_t own = size_t(layer->stack.back() - 'x');
+    return normal ? normal->channels[own].at(x, y) : own == 2 ? 1.0f : 0.0f;
+  }
   if (kind.name == "position") {
     const EyeRay ray = ray_through(shot_of(frame, view), x + 0.5, y + 0.5);
     return is_background(depth) ? 0 : float((ray.origin + double(depth) * ray.direction)[component]);

@@ -17,12 +17,21 @@
   SLICE_PARAMS(P)         \
   P(float, thickness, 0.4f, 0, INFINITY, "radii", "how far an occluder reaches behind its visible front")
 
+// RAYS of light.h.
+#define INDIRECT_PARAMS(P) \
+  BITMASK_PARAMS(P)        \
+  P(int, rays, 2, 1, 4, "", "directions on each side of a slice in which light is looked for")
+
 #define SD_GTAO_PARAMS(P) \
   GTAO_PARAMS(P)          \
   STOCHASTIC_PARAMS(P)
 
 #define SD_BITMASK_PARAMS(P) \
   BITMASK_PARAMS(P)          \
+  STOCHASTIC_PARAMS(P)
+
+#define SD_INDIRECT_PARAMS(P) \
+  INDIRECT_PARAMS(P)          \
   STOCHASTIC_PARAMS(P)
 
 #define STEREO_GTAO_PARAMS(P) \
@@ -35,6 +44,8 @@
 
 PARAMS(GtaoParams, GTAO_PARAMS)
 PARAMS(BitmaskParams, BITMASK_PARAMS)
+PARAMS(IndirectParams, INDIRECT_PARAMS)
+PARAMS(SdIndirectParams, SD_INDIRECT_PARAMS)
 PARAMS(SdGtaoParams, SD_GTAO_PARAMS)
 PARAMS(SdBitmaskParams, SD_BITMASK_PARAMS)
 PARAMS(StereoGtaoParams, STEREO_GTAO_PARAMS)

@@ -23,6 +23,54 @@ Pass bitmask_pass(const Params& p) {
   return estimate_of(p, {{"BITMASK", 1}});
 }
 
+template <typename Params>
+Pass indirect_pass(const Params& p) {
+  Pass estimate = estimate_of(p, {{"BITMASK", 1}, {"LIGHT", 1}, {"RAYS", p.rays}});
+  estimate.kernel = "indirect_estimate";
+  estimate.source = "gtao/indirect.cl";
+  estimate.writes = {"indirect_raw"};
+  estimate.extras = {"ao_raw", "bent_normal", "cone"};
+  return estimate;
+}
+
+/// What each pixel sends, two numbers side by side.
+Binding sources() { return {"sources", "indirect_sources", 2}; }
+
+Pass pack_pass(const Defines& defines) {
+  return {.name = "sources",
+          .kernel = "pack_sources",
+          .source = "gtao/indirect.cl",
+          .reads = {"normal", "color"},
+          .writes = {sources()},
+          .defines = defines};
+}
+
+std::vector<Pass> indirect_passes(const IndirectParams& p) {
+  Pass estimate = indirect_pass(p);
+  estimate.reads.push_back(sources());
+  return {pack_pass(estimate.defines), std::move(estimate)};
+}
+
+/// Hidden depths close sectors and send nothing.
+std::vector<Pass> sd_indirect_passes(const SdIndirectParams& p) {
+  Pass estimate = indirect_pass(p);
+  estimate.reads.push_back(sources());
+  std::vector<Pass> passes = behind_depth(std::move(estimate), p);
+  passes.insert(passes.begin(), pack_pass(passes.back().defines));
+  return passes;
+}
+
+/// Every peeled layer sends its own light, which is read as it is.
+std::vector<Pass> dp_indirect_passes(const IndirectParams& p) {
+  Pass estimate = indirect_pass(p);
+  estimate.reads.push_back({"occluders", "peel"});
+  for (const char* component : {"r", "g", "b"})
+    estimate.reads.push_back({std::string("light_") + component, std::string("peel_color_") + component});
+  for (const char* component : {"x", "y", "z"})
+    estimate.reads.push_back({std::string("light_normal_") + component, std::string("peel_normal_") + component});
+  return {std::move(estimate)};
+}
+
 std::vector<Pass> gtao_passes(const GtaoParams& p) { return {gtao_pass(p)}; }
 std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {bitmask_pass(p)}; }
 std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return behind_depth(gtao_pass(p), p); }
@@ -61,13 +109,38 @@ Technique bitmask_over_depth() {
   return t;
 }
 
+Technique indirect_over_depth() {
+  Technique t = row("indirect", "light that surfaces near by send, from sectors in slices; ambient occlusion beside it",
+                    "Therrien, Levesque, Gilet 2023");
+  t.reads = {"depth", "normal", "color"};
+  t.writes = {"indirect_raw"};
+  t.outputs = {"indirect", "indirect_raw"};
+  t.then = "bilateral-color";
+  t.extras = {"ao_raw", "bent_normal", "cone"};
+  t.parameters = IndirectParams::table();
+  t.passes = passes_of(indirect_passes);
+  return t;
+}
+
+Technique indirect_over_layers() {
+  Technique t = over_peeled_layers(indirect_over_depth());
+  t.reads = {"depth", "normal", "peel"};
+  for (const char* light : {"color_r", "color_g", "color_b", "normal_x", "normal_y", "normal_z"})
+    t.reads.push_back(std::string("peel_") + light);
+  t.passes = passes_of(dp_indirect_passes);
+  return t;
+}
+
 }  // namespace
 
 std::vector<Technique> gtao() {
   return {gtao_over_depth(),
           bitmask_over_depth(),
+          indirect_over_depth(),
           over_peeled_layers(gtao_over_depth()),
           over_peeled_layers(bitmask_over_depth()),
+          indirect_over_layers(),
+          over_stochastic_depth(indirect_over_depth(), SdIndirectParams::table(), passes_of(sd_indirect_passes)),
           over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
           over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
           over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),

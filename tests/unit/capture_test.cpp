@@ -55,6 +55,35 @@ float value(const Frame& frame, const std::string& plane, int x, int y, size_t c
   return frame.views[0].planes.at(plane).channels[component].at(x, y);
 }
 
+TEST(Capture, LightOfLayers) {
+  const Scene scene = boxes();
+  const Tracer tracer(scene);
+  CaptureOptions options;
+  options.width = 65, options.height = 33;
+  options.planes = {"normal", "color"};
+  options.peel = 3;
+  options.peel_light = true;
+  options.views = {{"", camera_for(scene.cameras[0], 65, 33), {}}};
+  const Frame frame = capture(tracer, options).frame;
+  const auto light = [&](const std::string& stack, int layer, int x, int y) {
+    return value(frame, layer_name(stack, layer), x, y);
+  };
+  for (int y = 0; y < 33; ++y) {
+    for (int x = 0; x < 65; ++x) {
+      if (value(frame, "peel_count", x, y) == 0) continue;
+      EXPECT_EQ(light("peel_color_r", 0, x, y), value(frame, "color", x, y, 0));
+      EXPECT_EQ(light("peel_normal_z", 0, x, y), value(frame, "normal", x, y, 2));
+    }
+  }
+  // The back of the first box faces away from the eye, the front of the second, of gold and so black, faces the eye.
+  EXPECT_NEAR(light("peel_normal_z", 1, 32, 16), -1, 1e-5);
+  EXPECT_NEAR(light("peel_normal_z", 2, 32, 16), 1, 1e-5);
+  EXPECT_GT(light("peel_color_r", 1, 32, 16), 0.05);
+  EXPECT_EQ(light("peel_color_r", 2, 32, 16), 0);
+  options.peel = 0;
+  EXPECT_THROW(capture(tracer, options), UsageError);
+}
+
 TEST(Capture, LayersBackFacesAndInstances) {
   const Scene scene = boxes();
   const Frame frame = captured(scene, camera_for(scene.cameras[0], 65, 33), 65, 33, 8).frame;

@@ -26,12 +26,17 @@ const std::vector<PlaneKind>& plane_kinds();
 /// technique needs no entry here.
 PlaneKind plane_kind(std::string_view name);
 
-/// Depth layers of one meaning that a kernel reads as one argument. In a frame each layer is a plane of its own: "peel.00",
-/// "peel.01", ... A technique reads the stack: "peel".
+/// Layers of one meaning that a kernel reads as one argument. In a frame each layer is a plane of its own, of one component:
+/// "peel.00", "peel.01", ... A technique reads the stack: "peel".
 struct StackKind {
-  std::string name;    ///< "peel"
+  std::string name;  ///< "peel", "peel_color_r"
+  std::string
+      group;  ///< its layers' channels: "peel" with component "Z": "peel.00.Z"; "peel_color" with "R": "peel_color.00.R"
+  std::string component;
   std::string help;    ///< meaning of its layers
   std::string source;  ///< for messages: what makes one ("gloam capture --peel N")
+  float outside;       ///< value outside the image and of layers that are not there
+  PlaneKind::Meaning meaning;
 };
 
 const std::vector<StackKind>& stack_kinds();

@@ -18,7 +18,8 @@ namespace {
 // --- Row 4
 
 bool points_aside(const std::string& plane) {
-  return plane_kind(plane).meaning == PlaneKind::unit_vector || plane == "position" || plane == "motion";
+  return plane_kind(plane).meaning == PlaneKind::unit_vector || plane == "position" || plane == "motion" ||
+         plane.starts_with("peel_normal_x.");
 }
 
 Camera mirrored(Camera camera, const Window& window) {

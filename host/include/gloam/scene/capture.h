@@ -32,7 +32,8 @@ struct CaptureOptions {
   int width = 1920, height = 1080;
   std::vector<std::string> planes = {};  ///< names of `capture_planes()`; depth is always captured
   int peel = 0;                          ///< depth layers per pixel, 0 to 64: planes peel.00 ... and peel_count
-  StochasticOptions stochastic = {};     ///< of every view
+  bool peel_light = false;  ///< also colour and normal of each layer: planes peel_color_r.00 ... peel_normal_z.00 ...
+  StochasticOptions stochastic = {};   ///< of every view
   const Outlines* outlines = nullptr;  ///< outlines of the tracer's scene, for plane outline_count; null: no such plane
   std::vector<CaptureView> views = {};
   /// The tracer's scene in the frame before, of the same meshes with vertices in other places, for the motion of objects; null: only

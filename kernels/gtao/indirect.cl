@@ -1,0 +1,72 @@
+// Light that surfaces near by send to each pixel: indirect light by the sectors of slices (Therrien, Levesque, Gilet 2023). A sector
+// gets the radiance of the first sample that covers it:
+//   indirect = mean over slices of the sum over samples of (share of the slice's cosine-weighted mass that the sample covers first)
+//              * radiance of the sample, where its surface faces the pixel
+// Sectors of equal cosine-weighted mass hold the receiver's cosine; the solid angle that a sample covers holds the sender's.
+//
+// in : depth      view-space z, scene units, +inf = background
+//      normal     unit, view space
+//      color      radiance that leaves each pixel, the same in every direction
+//      occluders  further depth layers (layers.h); light_r ... light_normal_z  their radiance and normals. Without these, and of
+//                 stochastic depths, hidden surfaces close sectors and send nothing
+// out: indirect_raw  irradiance / pi, in the unit of color, unfiltered; 0 on background
+//      ao_raw        as bitmask makes it, to the last bit (WITH_AO_RAW)
+//      bent_normal, cone  as bitmask makes them (WITH_BENT_NORMAL, WITH_CONE)
+// -D as gtao.cl, with LIGHT
+#include "gtao/closed_slices.h"
+
+kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE color_r,
+                         PLANE color_g, PLANE color_b, PLANE_OUT sources) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  store_light_source(load3(color_r, color_g, color_b, here), load3(normal_x, normal_y, normal_z, here), sources, here);
+}
+
+#ifdef LIGHT_R_LAYERS
+#define SOURCES_ARGUMENT                                                                                      \
+  OCCLUDERS_ARGUMENT PLANE light_r, PLANE light_g, PLANE light_b, PLANE light_normal_x, PLANE light_normal_y, \
+      PLANE light_normal_z,
+#define LIGHT_SOURCES \
+  { light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z }
+#else
+#define SOURCES_ARGUMENT PLANE sources, OCCLUDERS_ARGUMENT
+#define LIGHT_SOURCES \
+  { sources }
+#endif
+#if WITH_AO_RAW
+#define AO_RAW_ARGUMENT , PLANE_OUT ao_raw
+#define STORE_AO_RAW(open, r) store_open(open, r, ao_raw);
+#define STORE_NO_AO_RAW store((real)(1), ao_raw, here);
+#else
+#define AO_RAW_ARGUMENT
+#define STORE_AO_RAW(open, r)
+#define STORE_NO_AO_RAW
+#endif
+
+static inline void store_light(real3 light, mask counts, PLANE_OUT r, PLANE_OUT g, PLANE_OUT b, int here) {
+  store(choose(counts, light.x, (real)(0)), r, here);
+  store(choose(counts, light.y, (real)(0)), g, here);
+  store(choose(counts, light.z, (real)(0)), b, here);
+}
+
+kernel void indirect_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                              SOURCES_ARGUMENT WANTED_ARGUMENT PLANE_OUT indirect_raw_r, PLANE_OUT indirect_raw_g,
+                              PLANE_OUT indirect_raw_b AO_RAW_ARGUMENT OPEN_DIRECTIONS_ARGUMENTS) {
+  SKIP_UNWANTED(frame, store((real)(0), indirect_raw_r, here); store((real)(0), indirect_raw_g, here);
+                store((real)(0), indirect_raw_b, here); STORE_NO_AO_RAW STORE_NO_DIRECTIONS)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  leave_out(&r, is_wanted);
+  OpenDirections directions = whole_hemisphere(r.normal);
+  real open = 1;
+  real3 light = make3((real)(0), (real)(0), (real)(0));
+  if (ANY(!r.point.background)) {
+    Search search = search_of(params, r);
+    const LightSources light_sources = LIGHT_SOURCES;
+    search.sources = light_sources;
+    const Reach widest = longer(r.reach, search.surface.length);
+    LOOK_AROUND(open, frame, r, widest, open_share(frame, params, layers, search, within, &directions, &light))
+  }
+  store_light(light, !r.point.background, indirect_raw_r, indirect_raw_g, indirect_raw_b, r.here);
+  STORE_AO_RAW(open, r)
+  STORE_OPEN_DIRECTIONS(directions, r)
+}
