@@ -142,6 +142,7 @@ std::vector<std::string> declared_arguments(const PlannedPass& planned, const La
   if (planned.pass.projects) names.push_back("projections");
   if (!planned.technique->parameters.empty()) names.push_back("params");
   for (const auto& [argument, unused] : planned.pass.tables) names.push_back(argument);
+  for (const auto& [argument, unused] : planned.pass.view_tables) names.push_back(argument);
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
       for (const std::string& component : plane_kind(binding.plane).components) {
@@ -168,6 +169,7 @@ void set_arguments(cl::Kernel& kernel, const Plan& plan, const PlannedPass& plan
   if (planned.pass.projects) set_numbers(projections_of(device, plan, planned, target, others, options));
   if (planned.values.size() > 0) kernel.setArg(index++, planned.values.size(), planned.values.bytes());
   for (const auto& [unused, table] : planned.pass.tables) set_numbers(constants(device, table));
+  for (const auto& [unused, table_of] : planned.pass.view_tables) set_numbers(constants(device, table_of(target.view)));
   for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
     for (const Binding& binding : *list) {
       ViewOnDevice& from = others.of(binding) ? *others.of(binding) : target;

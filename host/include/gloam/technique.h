@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "gloam/frame.h"
 #include "gloam/parameters.h"
 
 namespace gloam {
@@ -76,7 +77,7 @@ struct Footprint {
 };
 
 /// One kernel launch. Kernel arguments: (Frame frame, Frame other, Neighbour neighbour, projections, Params params, tables...,
-/// reads..., writes...). `params` is left out if the technique has no parameters. `other`, the frame of planes of a second
+/// view_tables..., reads..., writes...). `params` is left out if the technique has no parameters. `other`, the frame of planes of a second
 /// resolution, is passed only if such planes are bound; `neighbour` (frame.h) only if planes of the other view or of the frame
 /// before are bound. If the camera of the frame before is unknown, the neighbour sees nothing.
 struct Pass {
@@ -104,6 +105,9 @@ struct Pass {
   bool projects = false;
   /// Tables of numbers that the kernel reads, the same for all pixels, by argument.
   std::vector<std::pair<std::string, std::vector<float>>> tables;
+  /// Tables that depend on the view, by argument, after the others: what lies in the world, as the view's camera sees it. The function
+  /// gets the view with its camera, and throws Error where the view lacks what it needs (a pose).
+  std::vector<std::pair<std::string, std::function<std::vector<float>(const View&)>>> view_tables;
   /// Both of two views get the same value where both see a surface; upsampling must keep that.
   bool views_agree = false;
   /// Gives each pixel the value of its cell in the one plane read, which has a lower resolution.
