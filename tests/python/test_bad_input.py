@@ -109,6 +109,9 @@ def test_names_are_suggested_as_the_command_does(depth, camera, frame, command, 
         said = command("run", flags[0], tmp_path / "frame.exr", "-o", tmp_path / "out.exr", *flags[1:], status=2)
         assert said.strip().endswith(str(raised.value)), (said, str(raised.value))
     refused(lambda: gloam.run("gtao", depth=depth, nromal=depth, camera=camera), "no plane 'nromal' (did you mean 'normal'?)")
+    for wrong, right in (("presett", "preset"), ("outputt", "outputs"), ("devcie", "device"), ("resolutoin", "resolution")):
+        refused(lambda: gloam.run("gtao", depth=depth, camera=camera, **{wrong: "high"}),
+                f"no keyword '{wrong}' (did you mean '{right}'?); there are preset, ", gloam.UsageError)
     refused(lambda: gloam.run("gtao", depth=depth, camera=camera, math="fsat"), "did you mean 'fast'?", gloam.UsageError)
     refused(lambda: gloam.run("gtao", depth=depth, camera=camera, resolution="haf"), "did you mean 'half'?", ValueError)
     assert issubclass(gloam.UsageError, ValueError) and issubclass(gloam.Error, RuntimeError)
