@@ -43,6 +43,8 @@ def refused(call, sentence, kind=gloam.Error):
     (lambda z: z[::-1], "is not C-contiguous"),
     (lambda z: z[:, 1:], "is not C-contiguous"),
     (lambda z: numpy.broadcast_to(numpy.float32(5), (90, 150)), "is not C-contiguous"),
+    (lambda z: numpy.frombuffer(b"x" + z.tobytes(), numpy.float32, offset=1).reshape(z.shape),
+     "plane 'depth' does not begin at a multiple of 4 bytes in memory; copy it: array.copy()"),
     (lambda z: z.ravel(), "plane 'depth' has the shape (13500,); (height, width) is allowed"),
     (lambda z: z[:, :, None], "has the shape (90, 150, 1); (height, width) is allowed"),
     (lambda z: z[:0], "1 to 65536 pixels each way are allowed"),
