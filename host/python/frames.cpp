@@ -152,21 +152,10 @@ std::vector<std::string> view_names(const Frame& frame) {
 }
 
 Frame copy_of(const Frame& frame, const std::vector<std::string>& planes) {
-  Frame copy;
-  copy.display = frame.display;
-  copy.window = frame.window;
-  copy.pixel_aspect = frame.pixel_aspect;
-  copy.attributes = frame.attributes;
-  copy.numbers = frame.numbers;
-  copy.assumed = frame.assumed;
-  for (const View& view : frame.views) {
-    View& to = copy.views.emplace_back();
-    to.name = view.name;
-    to.camera = view.camera;
-    to.camera_before = view.camera_before;
-    to.origin = view.origin;
+  Frame copy = without_planes(frame);
+  for (size_t i = 0; i < frame.views.size(); ++i) {
     for (const std::string& plane : planes) {
-      if (const Plane* found = view.find(plane)) to.planes[plane] = found->clone();
+      if (const Plane* found = frame.views[i].find(plane)) copy.views[i].planes[plane] = found->clone();
     }
   }
   return copy;
