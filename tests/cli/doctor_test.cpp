@@ -105,6 +105,17 @@ TEST_F(Doctor, MeasuredLanesAreUsed) {
   EXPECT_TRUE(listed()["held"].is_null());
 }
 
+/// What suits one kernel may be more than a device, or another kernel, takes.
+TEST_F(Doctor, GroupsAreNoLargerThanADeviceTakes) {
+  const auto run_to = [&](const char* name, const std::map<std::string, std::string>& more) {
+    const Result result = gloam({"run", "gtao", loggia, "-o", path(name).string(), "--math", "precise", "--lanes", "1"},
+                                environment(more));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return slurp(path(name));
+  };
+  EXPECT_TRUE(run_to("usual.exr", {}) == run_to("small.exr", {{"POCL_MAX_WORK_GROUP_SIZE", "4"}}));
+}
+
 /// A damaged constant crashes nothing: only the self-tests notice it.
 TEST_F(Doctor, WrongBytesInTheDriversKernelsAreNoticedAndReplaced) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
