@@ -116,6 +116,20 @@ TEST_F(Doctor, GroupsAreNoLargerThanADeviceTakes) {
   EXPECT_TRUE(run_to("usual.exr", {}) == run_to("small.exr", {{"POCL_MAX_WORK_GROUP_SIZE", "4"}}));
 }
 
+/// Wherever a device can be chosen, what doctor measured can be left aside.
+TEST_F(Doctor, EveryCommandThatComputesTakesNoTuning) {
+  for (const char* command : {"run", "auto", "bench", "pick", "stress"}) {
+    const std::string help = gloam({command, "--help"}).out;
+    EXPECT_NE(help.find("--device"), std::string::npos) << command;
+    EXPECT_NE(help.find("--no-tuning"), std::string::npos) << command;
+  }
+  const Result picked = gloam({"pick", loggia, "--budget", "10s", "--techniques", "ssao", "--rays", "32", "--rounds",
+                               "1", "--no-tuning", "--json", "-"},
+                              environment());
+  ASSERT_EQ(picked.status, 0) << picked.err;
+  EXPECT_NE(picked.json()["command"].get<std::string>().find(" --no-tuning"), std::string::npos) << picked.out;
+}
+
 /// A damaged constant crashes nothing: only the self-tests notice it.
 TEST_F(Doctor, WrongBytesInTheDriversKernelsAreNoticedAndReplaced) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
