@@ -201,11 +201,14 @@ TEST_F(Doctor, SecondDeviceHasItsKernelsKeptByGloam) {
     std::ofstream(file, std::ios::binary) << bytes;
   };
   damage(kernels[0]);
+  const fs::path half_written = path("cache/kernels/.gloam-0123456789abcdef01234567");  // by a process that was killed
+  std::ofstream(half_written) << "gloam compiled";
   const Result mended = run_to("mended.exr");
   EXPECT_EQ(mended.status, 0) << mended.err;
   EXPECT_NE(mended.err.find("note: 1 compiled kernel in gloam's cache folder was damaged"), std::string::npos)
       << mended.err;
   EXPECT_TRUE(slurp(path("mended.exr")) == slurp(path("cold.exr")));
+  EXPECT_FALSE(fs::exists(half_written));
   EXPECT_EQ(run_to("after.exr").err.find("damaged"), std::string::npos);
 
   fs::copy_file(kernels[1], kernels[2], fs::copy_options::overwrite_existing);  // whole, but of another kernel
