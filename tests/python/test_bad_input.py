@@ -57,6 +57,11 @@ def test_arrays(change, sentence, depth, camera):
     refused(lambda: gloam.run("gtao", depth=change(depth), camera=camera, radius=0.5), sentence)
 
 
+@pytest.mark.parametrize("mask", ["ao", "ao_raw"])
+def test_a_mask_that_the_technique_makes(mask, depth, camera):
+    refused(lambda: gloam.run("gtao", depth=depth, camera=camera, only=mask), f"gtao makes '{mask}' itself", gloam.UsageError)
+
+
 def test_planes_of_two_sizes(depth, camera):
     refused(lambda: gloam.run("gtao", depth=depth, normal=numpy.zeros((90, 140, 3), numpy.float32), camera=camera),
             "plane 'normal' is 140 x 90 pixels, and 'depth' is 150 x 90")
