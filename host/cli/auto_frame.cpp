@@ -133,18 +133,6 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
   return found;
 }
 
-/// The frame's views, without planes.
-Frame without_planes(const Frame& frame) {
-  Frame out;
-  out.display = frame.display;
-  out.window = frame.window;
-  out.pixel_aspect = frame.pixel_aspect;
-  out.assumed = frame.assumed;
-  for (const View& view : frame.views)
-    out.views.push_back({.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}});
-  return out;
-}
-
 }  // namespace
 
 AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, bool explains) {

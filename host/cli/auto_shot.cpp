@@ -89,11 +89,11 @@ class Tally {
 /// The steps of a frame, for a `Pipeline`.
 class AutoShotWork {
  public:
-  AutoShotWork(const ShotFiles& files, const AutoShotSettings& settings, const std::string& device, ShotReport& report,
+  AutoShotWork(const ShotFiles& files, const AutoShotSettings& settings, const DeviceFlags& device, ShotReport& report,
                std::function<void()> stop)
       : files_(files),
         settings_(settings),
-        device_(device),
+        device_(device.open()),
         report_(report),
         steps_(files, report, std::move(stop)),
         flights_(files.frames().size()) {}
@@ -237,7 +237,7 @@ void run_auto_on_shot(const AutoCommand& flags) {
   const ShotStart start(outputs, shot.numbers());
   ShotReport report(shot.frames().size(), flags.json);
   Pipeline* running = nullptr;
-  AutoShotWork work(shot, settings, flags.run_flags.device, report, [&] { running->stop(); });
+  AutoShotWork work(shot, settings, flags.run_flags, report, [&] { running->stop(); });
   Pipeline pipeline(shot.frames().size(), memory.size,
                     {[&](size_t i) { return work.decode(i); }, [&](size_t i) { return work.compute(i); },
                      [&](size_t i) { return work.write(i); }});

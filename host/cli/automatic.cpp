@@ -104,7 +104,7 @@ void run_on_one_frame(const AutoCommand& flags) {
       flags.frame_flags, planned.files.name(), flags.run_flags.device,
       [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory); },
       "crop or shrink the frame, ask for --resolution half, or for one view (--view)");
-  Device device(flags.run_flags.device);
+  Device device = flags.run_flags.open();
   Frame frame = planned.files.read(planned.planes);
   note(frame.assumed);
   const Radius made = default_radius(frame, stated_radius(planned.files));

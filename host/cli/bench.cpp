@@ -127,13 +127,13 @@ void bench_command(const BenchCommand& flags) {
   check_flags(flags);
   if (flags.chunks > 0) return print_chunks(flags);
   if (!flags.paper.empty()) {
-    bench_paper({flags.paper, flags.folder, flags.device, flags.size, flags.rays, flags.rounds}, flags.json);
+    bench_paper({flags.paper, flags.folder, flags, flags.size, flags.rays, flags.rounds}, flags.json);
     return;
   }
   if (!make_openmp_wait_passively())
     note({"OMP_WAIT_POLICY=passive could not be set: threads of the native loop may take time from the others"});
   Measurement result;
-  Device device(flags.device);
+  Device device = flags.open();
   const BenchOptions options = options_of(flags, device.info(), result);
   if (!flags.sequence.empty())
     return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
@@ -237,8 +237,7 @@ void add_bench(CLI::App& app) {
   command->add_flag("--no-checks", flags->no_checks,
                     "leave out what changes with the resolution and what bare planes read");
   command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
-  command->add_option("--device", flags->device, "part of a device's or platform's name (gloam list devices)")
-      ->type_name("TEXT");
+  flags->DeviceFlags::add_to(*command);
   CLI::Option* paper =
       command
           ->add_option("--paper", flags->paper,
@@ -246,7 +245,8 @@ void add_bench(CLI::App& app) {
           ->type_name("NAME");
   add_chunk_flags(*command, flags->chunks, flags->print, "the scenes, and named techniques,", "Several machines");
   flags->frame_flags.add_to(*command);
-  const std::vector<std::string> shared = {"--output", "--size", "--rounds", "--rays", "--device", "--help", "--paper"};
+  const std::vector<std::string> shared = {"--output", "--size",      "--rounds", "--rays",
+                                           "--device", "--no-tuning", "--help",   "--paper"};
   for (CLI::Option* option : command->get_options()) {
     if (!contains(shared, option->get_name())) option->excludes(paper);
   }

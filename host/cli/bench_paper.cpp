@@ -34,7 +34,7 @@ std::vector<std::string> paper_names() {
 
 void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   const Paper& paper = find_paper(flags.paper);
-  Device device(flags.device);
+  Device device = flags.device.open();
   PaperOptions options{.folder = flags.folder,
                        .width = paper.width,
                        .height = paper.height,

@@ -10,7 +10,8 @@
 namespace gloam::cli {
 
 struct PaperFlags {
-  std::string paper, folder, device;
+  std::string paper, folder;
+  DeviceFlags device;
   std::optional<Size> size;
   std::optional<int> rays;
   int rounds = 0;

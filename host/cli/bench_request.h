@@ -13,9 +13,9 @@
 namespace gloam::cli {
 
 /// The flags as given.
-struct BenchCommand {
+struct BenchCommand : DeviceFlags {
   std::vector<std::string> truths;
-  std::string paper, folder, techniques, scenes, presets, frame, sequence, device, variants;
+  std::string paper, folder, techniques, scenes, presets, frame, sequence, variants;
   std::vector<std::string> sweeps;
   std::optional<Size> size;
   std::optional<int> rays;

@@ -47,9 +47,20 @@ const CLI::App* command_of(CLI::App& app, int argc, char** argv) {
   return found.empty() ? nullptr : found.front();
 }
 
+/// Throws UsageError for a switch with a value, such as --quick=5, which would mean --quick.
+void check_switch(const CLI::App* command, const std::string& argument) {
+  const size_t equals = argument.find('=');
+  if (!command || argument.rfind("--", 0) != 0 || equals == std::string::npos) return;
+  const std::string flag = argument.substr(0, equals);
+  const CLI::Option* option = command->get_option_no_throw(flag);
+  if (option && option->get_items_expected_max() == 0)
+    throw UsageError("{} is not allowed: {} takes no value; write {}, or leave it out", argument, flag, flag);
+}
+
 /// Every parameter is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
 std::vector<std::string> with_parameter_flags(CLI::App& app, int argc, char** argv) {
-  const std::set<std::string> names = settable_by(command_of(app, argc, argv));
+  const CLI::App* const command = command_of(app, argc, argv);
+  const std::set<std::string> names = settable_by(command);
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -57,6 +68,7 @@ std::vector<std::string> with_parameter_flags(CLI::App& app, int argc, char** ar
     if (argument.empty())
       throw UsageError("argument {} is empty{}; give it a value or leave it out", i,
                        i > 1 ? fmt::format(" (after '{}')", argv[i - 1]) : "");
+    check_switch(command, argument);
     const size_t equals = argument.find('=');
     std::string name =
         argument.rfind("--", 0) == 0 ? argument.substr(2, equals == std::string::npos ? equals : equals - 2) : "";

@@ -10,6 +10,7 @@
 #include "base/statistics.h"
 #include "gloam/error.h"
 #include "run/plan_files.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {
@@ -156,6 +157,9 @@ void check_history(const Plan& plan, const FrameFiles& files) {
 }  // namespace
 
 PlanRequest going_on(PlanRequest request, const FrameFiles& files, bool temporal) {
+  // Accumulation is of a technique: a name of planes, such as ao, stands for their default one, as for gloam run.
+  if ((temporal || files.history()) && request.outputs.size() == 1)
+    request.outputs = {technique_for(request.outputs.front())};
   const bool can = request.outputs.size() == 1 && contains(technique_names(), request.outputs.front()) &&
                    can_accumulate(find_technique(request.outputs.front()));
   request.temporal = temporal || (files.history() && can);

@@ -20,9 +20,9 @@ namespace {
 
 using namespace gloam::bench;
 
-struct PickCommand {
+struct PickCommand : DeviceFlags {
   std::vector<std::string> truths;
-  std::string frame, techniques, device;
+  std::string frame, techniques;
   std::optional<double> budget, error, radius;  ///< budget: milliseconds
   PickBy by = PickBy::rmse;
   int rays = 256, rounds = 9;
@@ -93,8 +93,7 @@ std::string run_line(const PickCommand& flags, const Variation& v) {
   if (!v.preset.empty()) line += " --preset " + v.preset;
   if (ParameterValues(v.technique->parameters).has("radius")) line += fmt::format(" --radius {}", float(v.radius));
   if (v.resolution > 1) line += " --resolution " + v.variant;
-  if (!flags.device.empty()) line += " --device " + quoted(flags.device);
-  return line + reading_flags(*flags.app);
+  return line + flags.as_text() + reading_flags(*flags.app);
 }
 
 Json entry_of(const Choice& choice) {
@@ -169,7 +168,7 @@ SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& f
 void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
   const ScratchFolder scratch;
   const SceneOptions scene = truths_in(scratch.path(), flags);
-  Device device(flags.device);
+  Device device = flags.open();
   const SequenceBenchFlags sequence{.sequence = flags.frame,
                                     .truths = flags.truths,
                                     .folder = scratch.path(),
@@ -193,7 +192,7 @@ void pick_command(const PickCommand& flags) {
   check_paths(inputs, {{"--json", flags.json.file()}});
   const ScratchFolder scratch;
   const SceneOptions scene = truths_in(scratch.path(), flags);
-  Device device(flags.device);
+  Device device = flags.open();
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, scene);
   const RadiusReport radius = report_of(subject, options.techniques);
   Picked picked = pick(subject, options, device);
@@ -244,8 +243,7 @@ void add_pick(CLI::App& app) {
       ->type_name("N");
   add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9")
       ->type_name("N");
-  command->add_option("--device", flags->device, "part of a device's or platform's name (gloam list devices)")
-      ->type_name("TEXT");
+  flags->DeviceFlags::add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(

@@ -5,6 +5,7 @@
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/radius.h"
+#include "run/checks.h"
 
 namespace gloam::cli {
 namespace {
@@ -63,6 +64,7 @@ void add_plan(CLI::App& app) {
     request = going_on(std::move(request), files, flags->technique.temporal);
     if (request.temporal && !files.history()) files.expect_history();
     Plan plan = plan_for(files, request);
+    check_number_of_views(plan, files.views().size());
     planned_memory(flags->frame_flags, files.name(), process_bytes + bytes_to_read(files, {"depth"}),
                    "crop or shrink the frame");
     const std::vector<std::string> decoded = decoded_channels(plan.inputs, files);

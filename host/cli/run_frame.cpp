@@ -154,7 +154,7 @@ std::future<Device> start_device(const RunFlags& flags, const PlannedFrame& plan
   return std::async(std::launch::async,
                     [&flags, &checked, plan = planned.plan, options, layout, views = planned.files.views().size()] {
                       try {
-                        Device device(flags.device);
+                        Device device = flags.open();
                         check(plan, layout, views, device, options);
                         checked.set_value();
                         prepare(plan, device, options);

@@ -105,9 +105,9 @@ ShotMemory memory_for(const RunCommand& flags, const PlannedFrame& first) {
 /// Opens the device and compiles while the first frames are decoded.
 std::future<Device> start_device(const RunCommand& flags, const PlannedFrame& first, const RunOptions& options) {
   const Layout layout(first.files.window().width(), first.files.window().height());
-  return std::async(std::launch::async, [name = flags.run_flags.device, plan = first.plan, options, layout,
+  return std::async(std::launch::async, [flags = DeviceFlags(flags.run_flags), plan = first.plan, options, layout,
                                          views = first.files.views().size()] {
-    Device device(name);
+    Device device = flags.open();
     check(plan, layout, views, device, options);
     prepare(plan, device, options);
     return device;

@@ -97,8 +97,7 @@ void gather(const StressRequest& request, const ResultsByTechnique& known, Stres
 
 /// The device flags to repeat a trial: a device asked for by name, and the devices compared with.
 std::string device_flags(const StressCommand& flags) {
-  return (flags.device.empty() ? "" : " --device " + quoted(flags.device)) +
-         (flags.against == "all" ? "" : " --against " + quoted(flags.against));
+  return flags.as_text() + (flags.against == "all" ? "" : " --against " + quoted(flags.against));
 }
 
 /// Examines all techniques, several at a time. An ordinary error of one of them, such as a missing device, ends all. The file of
@@ -253,8 +252,7 @@ void add_stress(CLI::App& app) {
   add_number(*command, "--frames", flags->frames, {1, 1000000000}, "random frames of case 1 (quick 60, else 1000)")
       ->type_name("N");
   add_number(*command, "--seed", flags->seed, allowed_seeds, "of the random frames (1)")->type_name("N");
-  command->add_option("--device", flags->device, "part of the device's or platform's name (gloam list devices)")
-      ->type_name("TEXT");
+  flags->DeviceFlags::add_to(*command);
   command->add_option("--against", flags->against, "devices to compare with: part of a name, all, or none")
       ->capture_default_str();
   add_number(*command, "--jobs", flags->jobs, {1, 1024}, "techniques at a time (as many as there are cores)")

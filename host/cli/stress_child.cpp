@@ -48,7 +48,7 @@ void examine_here(const StressCommand& flags) {
   end_with_parent();
   setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // a second implementation for CPUs, if it is installed
   const StressRequest request = request_of(flags);
-  Device device(flags.device);
+  Device device = flags.open();
   const auto others = other_devices(device.info(), flags.against);
   stress::Subject subject{.technique = &find_technique(request.techniques.front()),
                           .device = &device,
@@ -104,6 +104,7 @@ std::vector<std::string> Examination::arguments() const {
   add("--device", flags_.device);
   add("-o", flags_.out);
   if (flags_.quick) all.push_back("--quick");
+  if (flags_.no_tuning) all.push_back("--no-tuning");
   return all;
 }
 

@@ -10,8 +10,8 @@
 
 namespace gloam::cli {
 
-struct StressCommand {
-  std::string technique, cases, device, against = "all", out, markdown;
+struct StressCommand : DeviceFlags {
+  std::string technique, cases, against = "all", out, markdown;
   std::optional<int> trial, frames, seed, jobs;
   double patience = 600;  ///< seconds
   std::vector<std::string> from;

@@ -77,13 +77,23 @@ PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) con
   return request;
 }
 
-void RunFlags::add_to(CLI::App& app) {
+void DeviceFlags::add_to(CLI::App& app, const std::string& group) {
   app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")
       ->type_name("TEXT")
-      ->group("Device");
-  add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item")
-      ->group("Device");
+      ->group(group);
   app.add_flag("--no-tuning", no_tuning, "lanes and groups as for any device of its kind, not as gloam doctor measured")
+      ->group(group);
+}
+
+Device DeviceFlags::open() const { return Device(device, !no_tuning); }
+
+std::string DeviceFlags::as_text() const {
+  return (device.empty() ? "" : " --device " + quoted(device)) + (no_tuning ? " --no-tuning" : "");
+}
+
+void RunFlags::add_to(CLI::App& app) {
+  DeviceFlags::add_to(app, "Device");
+  add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item")
       ->group("Device");
   add_choice(app, "--math", math, math_words, "precise: the same bits at every lane width; default fast")
       ->group("Device");
@@ -99,7 +109,6 @@ void RunFlags::add_to(CLI::App& app) {
 RunOptions RunFlags::run_options() const {
   RunOptions options;
   options.lanes = lanes;
-  options.use_measured_tuning = !no_tuning;
   options.math = math;
   options.real = real;
   options.seed = seed.value_or(options.seed);

@@ -24,11 +24,19 @@ struct TechniqueFlags {
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };
 
-/// The device, and how it computes.
-struct RunFlags {
+/// The device that computes.
+struct DeviceFlags {
   std::string device;
-  int lanes = 0, repeat = 1;
   bool no_tuning = false;
+  void add_to(CLI::App& app, const std::string& group = "Options");
+  Device open() const;
+  /// The flags again, with a space before each, for a command line that is told.
+  std::string as_text() const;
+};
+
+/// The device, and how it computes.
+struct RunFlags : DeviceFlags {
+  int lanes = 0, repeat = 1;
   Math math = Math::fast;
   Real real = Real::float32;
   std::optional<int> seed;

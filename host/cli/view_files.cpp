@@ -1,7 +1,9 @@
 #include "cli/view_files.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "cli/compare_inputs.h"
 #include "cli/memory.h"
@@ -32,7 +34,7 @@ ReadOptions options_of(const ReadOptions& options, size_t place, const std::stri
 ViewedFile file_of(const ViewChoice& choice, size_t place) {
   const std::string& path = choice.files[place];
   const ReadOptions options = read_options(choice);
-  if (!FramePattern::is_pattern(path)) return {path, false, {{path, {}, options_of(options, place, path), {}}}};
+  if (!FramePattern::is_pattern(path)) return {path, false, {{path, {}, options_of(options, place, path), {}, {}, 0}}};
   const ShotFiles shot({FramePattern(path, "FILE")}, choice.frame_flags, choice.frames);
   ViewedFile file{path, true, {}};
   for (const SequenceFrame& frame : shot.frames()) {
@@ -41,7 +43,7 @@ ViewedFile file_of(const ViewChoice& choice, size_t place) {
     const ReadOptions cameras = shot.options_for(frame);
     own.camera_file = cameras.camera_file;
     own.camera_text = cameras.camera_text;
-    file.frames.push_back({of_frame, frame.number, options_of(own, place, of_frame), {}});
+    file.frames.push_back({of_frame, frame.number, options_of(own, place, of_frame), {}, {}, 0});
   }
   return file;
 }
@@ -62,6 +64,34 @@ bool is_asked(const std::string& plane, const Names& asked) {
   return asked.empty() || contains(asked, plane) || (layer && contains(asked, layer->stack));
 }
 
+Names asked_of(const Names& planes, const Names& asked) {
+  Names some;
+  std::copy_if(planes.begin(), planes.end(), std::back_inserter(some),
+               [&](const std::string& plane) { return is_asked(plane, asked); });
+  return some;
+}
+
+Names with_depth(Names planes, const ReadOptions& options, const FrameFile& file) {
+  for (const PlaneSource& source : file.planes())
+    if (source.plane == "depth" && !options.unconverted) add_new(planes, "depth");
+  return planes;
+}
+
+/// A plane's bytes, what they are packed into, and that as text, of four channels at once.
+unsigned long long bytes_at_peak(const FrameFile& file, const Names& planes) {
+  const unsigned long long channel =
+      4ull * (unsigned long long)file.window().width() * (unsigned long long)file.window().height();
+  return file.bytes_to_read(planes) + 4 * 3 * channel;
+}
+
+/// Fills in what the headers of a frame's file say.
+void look_at(ViewedFrame& frame, const ViewChoice& choice) {
+  const FrameFile file(frame.path, frame.options);
+  frame.planes = planes_in(file, choice.as_stored);
+  frame.bytes = bytes_at_peak(file, with_depth(asked_of(frame.planes, choice.planes), frame.options, file));
+  if (frame.planes.empty()) frame.holdings = gloam::holdings(file);
+}
+
 /// Throws UsageError for a plane that no file has.
 void check_asked(const ViewChoice& choice, const Names& all) {
   for (const std::string& asked : choice.planes) {
@@ -76,13 +106,11 @@ void check_asked(const ViewChoice& choice, const Names& all) {
 /// Keeps the planes asked for.
 void choose_planes(ViewedFile& file, const Names& asked) {
   for (ViewedFrame& frame : file.frames) {
-    const Names there = frame.planes;
-    std::erase_if(frame.planes, [&](const std::string& plane) { return !is_asked(plane, asked); });
+    const Names there = std::exchange(frame.planes, asked_of(frame.planes, asked));
     if (!frame.planes.empty()) continue;
     throw Error("{}: {}", frame.path,
                 there.empty()
-                    ? "has no plane that gloam knows; " + holdings(FrameFile(frame.path, frame.options)) +
-                          "; --plane mask=CHANNEL shows one as a plane"
+                    ? "has no plane that gloam knows; " + frame.holdings + "; --plane mask=CHANNEL shows one as a plane"
                     : fmt::format("has none of --planes {}; it has {}", fmt::join(asked, ","), first_names(there)));
   }
 }
@@ -122,8 +150,7 @@ std::vector<ViewedFile> viewed_files(const ViewChoice& choice) {
   Names all;
   for (size_t i = 0; i < choice.files.size(); ++i) {
     ViewedFile file = file_of(choice, i);
-    for (ViewedFrame& frame : file.frames)
-      frame.planes = planes_in(FrameFile(frame.path, frame.options), choice.as_stored);
+    for (ViewedFrame& frame : file.frames) look_at(frame, choice);
     add_new(all, file.planes());
     files.push_back(std::move(file));
   }
@@ -139,23 +166,13 @@ std::vector<ViewedFile> viewed_files(const ViewChoice& choice) {
 }
 
 Names planes_to_read(const ViewedFrame& frame, const FrameFile& file) {
-  Names planes = frame.planes;
-  for (const PlaneSource& source : file.planes())
-    if (source.plane == "depth" && !frame.options.unconverted) add_new(planes, "depth");
-  return planes;
+  return with_depth(frame.planes, frame.options, file);
 }
 
 unsigned long long bytes_to_view(const std::vector<ViewedFile>& files) {
   unsigned long long most = 0;
-  for (const ViewedFile& file : files) {
-    for (const ViewedFrame& frame : file.frames) {
-      const FrameFile opened(frame.path, frame.options);
-      // A plane's bytes, what they are packed into, and that as text, of four channels at once.
-      const unsigned long long channel =
-          4ull * (unsigned long long)opened.window().width() * (unsigned long long)opened.window().height();
-      most = std::max(most, opened.bytes_to_read(planes_to_read(frame, opened)) + 4 * 3 * channel);
-    }
-  }
+  for (const ViewedFile& file : files)
+    for (const ViewedFrame& frame : file.frames) most = std::max(most, frame.bytes);
   return process_bytes + most;
 }
 

@@ -16,6 +16,8 @@ struct ViewedFrame {
   std::optional<int> number;  ///< of a shot's frame
   ReadOptions options;
   std::vector<std::string> planes;  ///< those to show, in order
+  std::string holdings;             ///< what it has, where none of that can be shown
+  unsigned long long bytes = 0;     ///< of memory at the peak of reading and packing it
 };
 
 /// One argument of the command.
@@ -34,7 +36,7 @@ struct ViewChoice {
   bool as_stored = false, as_read = false;
 };
 
-/// Opens every file and reads its headers. The first planes of a file are results that the other files have too, then others of them.
+/// Opens every file once and reads its headers. The first planes of a file are results that the other files have too, then others of them.
 /// Throws UsageError for a plane that no file has, and for --frames without a shot; Error for files that are missing or cannot be
 /// read, and for one without any plane to show.
 std::vector<ViewedFile> viewed_files(const ViewChoice& choice);

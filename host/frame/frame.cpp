@@ -69,6 +69,26 @@ const View& Frame::view(const std::string& name) const {
 
 View& Frame::view(const std::string& name) { return const_cast<View&>(std::as_const(*this).view(name)); }
 
+View without_planes(const View& view) {
+  return {.name = view.name,
+          .camera = view.camera,
+          .camera_before = view.camera_before,
+          .origin = view.origin,
+          .planes = {}};
+}
+
+Frame without_planes(const Frame& frame) {
+  Frame copy{.display = frame.display,
+             .window = frame.window,
+             .views = {},
+             .pixel_aspect = frame.pixel_aspect,
+             .attributes = frame.attributes,
+             .numbers = frame.numbers,
+             .assumed = frame.assumed};
+  for (const View& view : frame.views) copy.views.push_back(without_planes(view));
+  return copy;
+}
+
 std::vector<std::string> common_planes(const Frame& frame) {
   std::vector<std::string> names;
   if (frame.views.empty()) return names;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/lists.h"
 #include "gloam/planes.h"
@@ -49,6 +50,24 @@ class Restriction {
 
   bool has_work() const {
     return std::find(is_restricted_.begin(), is_restricted_.end(), true) != is_restricted_.end();
+  }
+
+  /// Whether the mask is made of what it would restrict (gtao --only ao).
+  bool is_of_what_it_restricts() const {
+    // Planes that it is made of, each with the pass that reads it: later passes may write another plane of the same name.
+    std::vector<std::pair<std::string, size_t>> made_of = {{plan_.mask, plan_.passes.size()}};
+    for (size_t k = 0; k < made_of.size(); ++k) {
+      const auto [plane, reader] = made_of[k];  // a copy: more are added
+      for (size_t i = 0; i < reader && !contains(plan_.inputs, plane); ++i) {
+        if (!writes(plan_.passes[i].pass, plane)) continue;
+        if (is_restricted_[i]) return true;
+        for (const Binding& read : plan_.passes[i].pass.reads) {
+          const std::pair found(read.plane, i);
+          if (std::find(made_of.begin(), made_of.end(), found) == made_of.end()) made_of.push_back(found);
+        }
+      }
+    }
+    return false;
   }
 
   void rewrite() {
@@ -132,6 +151,11 @@ class Restriction {
                                {{"REACH_X", by.columns}, {"REACH_Y", by.rows}}, scale));
   }
 
+  static bool writes(const Pass& pass, const std::string& plane) {
+    return std::any_of(pass.writes.begin(), pass.writes.end(),
+                       [&](const Binding& written) { return written.plane == plane; });
+  }
+
   const Plan& plan_;
   const Technique* elsewhere_;
   std::string source_;
@@ -175,14 +199,14 @@ void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& technique
       throw UsageError("--only: restricts techniques that read one view, and {} reads two; leave --only out",
                        technique->name);
   }
+  Restriction restriction(plan, techniques, elsewhere);
   const auto makes_mask = [&](const Technique* technique) { return contains(technique->writes, plan.mask); };
-  if (std::all_of(techniques.begin(), techniques.end(), makes_mask))
+  if (std::all_of(techniques.begin(), techniques.end(), makes_mask) || restriction.is_of_what_it_restricts())
     throw UsageError("--only: {} makes '{}' itself and cannot be restricted by it; leave --only out", plan.technique,
                      plan.mask);
   if (elsewhere && looks_into_key_views(plan))
     throw UsageError("--elsewhere {}: views reuse results of one technique only (reuse=on); leave one of the two out",
                      elsewhere->name);
-  Restriction restriction(plan, techniques, elsewhere);
   if (!restriction.has_work())
     throw UsageError("--only: {} has no pass that a mask can restrict; leave --only out", plan.technique);
   restriction.rewrite();

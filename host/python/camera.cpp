@@ -68,12 +68,26 @@ void check_clipping(const Camera& camera) {
     throw Error("camera: far is {:g}; more than near, {:g}, is allowed", *camera.far, *camera.near);
 }
 
-Camera camera_from(double fx, double fy, double cx, double cy, bool orthographic, std::optional<double> near,
-                   std::optional<double> far, const py::object& camera_to_world, const py::object& world_to_camera) {
+double number(const char* name, const py::object& value) {
+  const double number = py::isinstance<py::bool_>(value) ? -1 : PyFloat_AsDouble(value.ptr());
+  if (!py::isinstance<py::bool_>(value) && !PyErr_Occurred()) return number;
+  PyErr_Clear();
+  throw UsageError("camera: {} is of type {}; a number is allowed", name,
+                   py::cast<std::string>(py::type::of(value).attr("__name__")));
+}
+
+std::optional<double> number_or_none(const char* name, const py::object& value) {
+  return value.is_none() ? std::nullopt : std::optional(number(name, value));
+}
+
+Camera camera_from(const py::object& fx, const py::object& fy, const py::object& cx, const py::object& cy,
+                   bool orthographic, const py::object& near, const py::object& far, const py::object& camera_to_world,
+                   const py::object& world_to_camera) {
   Camera camera;
   camera.orthographic = orthographic;
-  camera.fx = fx, camera.fy = fy, camera.cx = cx, camera.cy = cy;
-  camera.near = near, camera.far = far;
+  camera.fx = number("fx", fx), camera.fy = number("fy", fy);
+  camera.cx = number("cx", cx), camera.cy = number("cy", cy);
+  camera.near = number_or_none("near", near), camera.far = number_or_none("far", far);
   camera.pose = pose_from(camera_to_world, world_to_camera);
   camera.source = "memory";
   check(camera);

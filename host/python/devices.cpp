@@ -52,7 +52,11 @@ void add_devices(py::module_& module) {
       .def("__repr__", [](const DeviceInfo& info) { return fmt::format("<gloam.DeviceInfo {}>", in_words(info)); });
   py::class_<Device, std::shared_ptr<Device>> device(module, "Device", device_help);
   device
-      .def(py::init([](const std::string& text) {
+      .def(py::init([](const py::object& given) {
+             if (!py::isinstance<py::str>(given))
+               throw UsageError("device is of type {}; a text is allowed, part of a name of gloam.devices()",
+                                py::cast<std::string>(py::type::of(given).attr("__name__")));
+             const auto text = py::cast<std::string>(given);
              return without_lock([&](Interrupts&) { return std::make_shared<Device>(text); });
            }),
            py::arg("text") = "")

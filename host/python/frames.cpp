@@ -101,6 +101,12 @@ SharedFrame image_of_arrays(const std::vector<py::dict>& planes, const std::vect
   });
 }
 
+/// Whether a view has the plane, or, of a layer, any layer of its stack: a stack is replaced as a whole.
+bool takes_place_of(const View& view, const std::string& name) {
+  const std::optional<StackLayer> layer = stack_layer(name);
+  return view.find(name) || (layer && view.find(layer_name(layer->stack, 0)));
+}
+
 /// A copy of a frame in which these planes join its own, or take their place. `planes`: for each view, arrays by name.
 SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& planes) {
   const SharedFrame more = image_of_arrays(planes, view_names(held.frame));
@@ -110,7 +116,7 @@ SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& plan
                 image.width(), image.height(), held.frame.width(), held.frame.height());
   return without_lock([&](Interrupts&) {
     std::vector<std::string> kept = common_planes(held.frame);
-    std::erase_if(kept, [&](const std::string& name) { return image.views.front().find(name); });
+    std::erase_if(kept, [&](const std::string& name) { return takes_place_of(image.views.front(), name); });
     auto joined = std::make_shared<HeldFrame>(HeldFrame{copy_of(held.frame, kept), held.name});
     for (size_t i = 0; i < image.views.size(); ++i) joined->frame.views[i].planes.merge(more->frame.views[i].planes);
     normalise(joined->frame);
@@ -146,21 +152,10 @@ std::vector<std::string> view_names(const Frame& frame) {
 }
 
 Frame copy_of(const Frame& frame, const std::vector<std::string>& planes) {
-  Frame copy;
-  copy.display = frame.display;
-  copy.window = frame.window;
-  copy.pixel_aspect = frame.pixel_aspect;
-  copy.attributes = frame.attributes;
-  copy.numbers = frame.numbers;
-  copy.assumed = frame.assumed;
-  for (const View& view : frame.views) {
-    View& to = copy.views.emplace_back();
-    to.name = view.name;
-    to.camera = view.camera;
-    to.camera_before = view.camera_before;
-    to.origin = view.origin;
+  Frame copy = without_planes(frame);
+  for (size_t i = 0; i < frame.views.size(); ++i) {
     for (const std::string& plane : planes) {
-      if (const Plane* found = view.find(plane)) to.planes[plane] = found->clone();
+      if (const Plane* found = frame.views[i].find(plane)) copy.views[i].planes[plane] = found->clone();
     }
   }
   return copy;

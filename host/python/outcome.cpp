@@ -41,6 +41,7 @@ void take_planes(Frame&& result, const std::vector<std::string>& written, Outcom
 std::vector<std::string> written_planes(const Plan& plan, const Frame& result) {
   std::vector<std::string> names;
   for (const std::string& output : plan.outputs) add_new(names, output);
+  if (result.views.empty()) return names;
   for (const auto& [name, unused] : result.views.front().planes) add_new(names, name);
   return names;
 }

@@ -1,6 +1,7 @@
 #include "python/planes.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "gloam/planes.h"
 #include "normalise/each_row.h"
@@ -35,6 +36,8 @@ py::array float_array(const std::string& what, const py::handle& value) {
         "{} is not C-contiguous (shape {}, strides {}); its rows have to follow one another in memory: "
         "numpy.ascontiguousarray(array)",
         what, shape_in_words(array), py::cast<std::string>(py::str(array.attr("strides"))));
+  if (reinterpret_cast<std::uintptr_t>(array.data()) % alignof(float) != 0)
+    throw Error("{} does not begin at a multiple of {} bytes in memory; copy it: array.copy()", what, alignof(float));
   return array;
 }
 

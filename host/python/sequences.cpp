@@ -1,5 +1,6 @@
 // gloam.Sequence: the frames of a sequence, and runs over them.
 #include <future>
+#include <mutex>
 
 #include "base/lists.h"
 #include "gloam/frame_numbers.h"
@@ -73,14 +74,17 @@ class SequenceRun {
     }
   }
 
-  /// None after the last frame.
+  /// None after the last frame. Threads may share a run: each gets a frame of its own.
   std::optional<Outcome> next() {
-    while (turn_ < turns_.size()) {
-      const size_t turn = turn_++;  // whoever catches the error of a frame may go on with the next one
-      Outcome outcome = without_lock([&](Interrupts& interrupts) { return compute(turn, interrupts); });
-      if (turns_[turn].is_written) return outcome;
-    }
-    return {};
+    return without_lock([&](Interrupts& interrupts) -> std::optional<Outcome> {
+      const std::lock_guard alone(busy_);  // taken without the interpreter's lock, which whoever holds it may need
+      while (turn_ < turns_.size()) {
+        const size_t turn = turn_++;  // whoever catches the error of a frame may go on with the next one
+        Outcome outcome = compute(turn, interrupts);
+        if (turns_[turn].is_written) return outcome;
+      }
+      return {};
+    });
   }
 
   size_t frames() const { return sequence_->files.frames().size(); }
@@ -136,6 +140,7 @@ class SequenceRun {
   PlanRequest request_;
   const RunOptions options_;
   const std::shared_ptr<Device> device_;
+  std::mutex busy_;  ///< held while a frame is computed
   std::vector<std::string> written_;
   std::vector<Turn> turns_;
   size_t turn_ = 0;

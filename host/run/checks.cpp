@@ -15,14 +15,6 @@ namespace {
 
 std::string mebibytes(unsigned long long bytes) { return fmt::format("{} MiB", (bytes + (1 << 20) - 1) >> 20); }
 
-void check_two_views(const Plan& plan, const Frame& frame) {
-  if (frame.views.size() != 2)
-    throw Error(
-        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo IPD makes one, "
-        "--views A,B takes two of more",
-        plan.technique, frame.views.size());
-}
-
 /// Checks the poses of views that read one another.
 void check_poses(const Plan& plan, const Frame& frame) {
   for (const View& view : frame.views) {
@@ -119,6 +111,14 @@ void check_options(const Plan& plan, const DeviceInfo& info, const RunOptions& o
   }
 }
 
+void check_number_of_views(const Plan& plan, size_t views) {
+  if (needs_two_views(plan) && views != 2)
+    throw Error(
+        "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo IPD makes one, "
+        "--views A,B takes two of more",
+        plan.technique, views);
+}
+
 void check_views(const Plan& plan, const Frame& frame) {
   check_window(frame);
   for (const View& view : frame.views) {
@@ -126,7 +126,7 @@ void check_views(const Plan& plan, const Frame& frame) {
     check(*view.camera);
   }
   check_projections(plan, frame);
-  if (needs_two_views(plan)) check_two_views(plan, frame);
+  check_number_of_views(plan, frame.views.size());
   if (needs_two_views(plan) || key_view_spacing(plan, frame.views.size()) > 1) check_poses(plan, frame);
 }
 

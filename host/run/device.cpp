@@ -132,8 +132,11 @@ std::vector<const Found*> matching(const std::vector<Found>& found, const std::s
   return matches;
 }
 
-/// The first GPU, else the first CPU whose vectors gloam can use, else the first device.
+/// That of the label, else the first with the text; without one the first GPU, else the first CPU whose vectors gloam can use, else the first device.
 const Found& choose_device(const std::vector<Found>& found, const std::string& text) {
+  for (const Found& f : found) {
+    if (!text.empty() && label_of(f.info) == text) return f;
+  }
   if (!text.empty()) return *matching(found, text).front();
   for (const Found& f : found) {
     if (f.info.type == "gpu") return f;
@@ -194,12 +197,13 @@ std::string cl_error_name(int code) {
   return found == names.end() ? fmt::format("OpenCL error {}", code) : found->second;
 }
 
-Device::Device(const std::string& text) : impl_(std::make_unique<Impl>()) {
+Device::Device(const std::string& text, bool uses_measured_tuning) : impl_(std::make_unique<Impl>()) {
   const std::vector<Found> found = find_devices();
   const Found& chosen = choose_device(found, text);
   const DriverAtWork driver;
   try {
     impl_->info = chosen.info;
+    if (!uses_measured_tuning) impl_->info.tuning = impl_->info.usual;
     impl_->device = chosen.device;
     impl_->context = cl::Context(chosen.device);
     impl_->queue = cl::CommandQueue(impl_->context, chosen.device, cl::QueueProperties::Profiling);

@@ -62,8 +62,9 @@ std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
   return all;
 }
 
-/// Removes the oldest files until the others take no more than `most_bytes`.
+/// Removes what killed processes left half written, and the oldest files until the others take no more than `most_bytes`.
 void prune(const fs::path& folder) {
+  remove_leftovers(folder);
   struct File {
     fs::file_time_type written;
     std::uintmax_t bytes;

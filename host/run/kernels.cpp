@@ -25,7 +25,7 @@ std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
 }  // namespace
 
 Tuning tuning_for(const DeviceInfo& info, const RunOptions& options) {
-  Tuning tuning = options.use_measured_tuning ? info.tuning : info.usual;
+  Tuning tuning = info.tuning;
   if (options.real == Real::float64 && tuning.lanes > 4) tuning.lanes /= 2;
   if (options.lanes != 0) tuning.lanes = options.lanes;
   if (options.group != 0) tuning.group = options.group;

@@ -31,12 +31,18 @@ size_t columns_of_strip(const DeviceInfo& info, const Pass& pass, size_t columns
   return group[0] * std::max(size_t(1), pixels / (group[0] * size_t(lanes)));
 }
 
+/// The tuning's group, or less where a device, or a kernel with many registers, takes no more: what was the fastest for one kernel may
+/// be too much for another.
+size_t most_per_group_of(const cl::Kernel& kernel, const Device::Impl& device, const Tuning& tuning) {
+  return std::min(size_t(tuning.group), kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.device));
+}
+
 }  // namespace
 
 double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning) {
   const auto start = std::chrono::steady_clock::now();
   const size_t columns = size_t(layout.pitch / tuning.lanes), rows = size_t(layout.height);
-  const cl::NDRange group = group_size(device.info, columns, rows, size_t(tuning.group));
+  const cl::NDRange group = group_size(device.info, columns, rows, most_per_group_of(kernel, device, tuning));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
   cl::Event first, last;
   for (size_t from = 0; from < columns; from += strip)

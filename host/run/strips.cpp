@@ -83,16 +83,11 @@ bool fits(const Plan& plan, const Frame& frame, const DeviceInfo& device, int ro
 }
 
 Frame rows_of(const Plan& plan, const Frame& frame, int first, int last) {
-  Frame part;
-  part.display = frame.display;
+  Frame part = without_planes(frame);
   part.window = {frame.window.x0, frame.window.y0 + first, frame.window.x1, frame.window.y0 + last};
-  part.pixel_aspect = frame.pixel_aspect;
   const Layout layout(frame.width(), last - first);
   for (const View& view : frame.views) {
-    View& to = part.views.emplace_back();
-    to.name = view.name;
-    to.camera = view.camera;
-    to.origin = view.origin;
+    View& to = part.view(view.name);
     for (const auto& [name, plane] : view.planes) {
       if (!contains(plan.inputs, name)) continue;
       Plane& copy = to.planes[name];
@@ -157,24 +152,20 @@ RunResult run_in_strips(const Plan& plan, const Frame& frame, Device& device, co
                         const Strips& strips) {
   if (!strips.why_not.empty()) throw Error("{}: cannot be computed in strips: {}", plan.technique, strips.why_not);
   RunResult whole;
-  whole.frame.display = frame.display;
-  whole.frame.window = frame.window;
-  whole.frame.pixel_aspect = frame.pixel_aspect;
-  for (const View& view : frame.views) {
-    View& to = whole.frame.views.emplace_back();
-    to.name = view.name;
-    to.camera = view.camera;
-    to.origin = view.origin;
-  }
   const Layout layout(frame.width(), frame.height());
   for (int first = 0; first < frame.height(); first += strips.rows) {
     const int last = std::min(first + strips.rows, frame.height());
     const int from = std::max(first - strips.margin, 0), to = std::min(last + strips.margin, frame.height());
     const RunResult strip = run(plan, rows_of(plan, frame, from, to), device, options);
+    if (first == 0) {
+      whole.frame = without_planes(strip.frame);
+      whole.frame.window = frame.window;
+    }
     add(strip, from, first, last, layout, whole);
     whole.lanes = strip.lanes;
     whole.device_bytes = std::max(whole.device_bytes, strip.device_bytes);
     whole.skipped_share += strip.skipped_share * (last - first) / frame.height();
+    whole.rest_share += strip.rest_share * (last - first) / frame.height();
   }
   return whole;
 }

@@ -134,10 +134,8 @@ void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl&
 
 /// Adds a view's planes and times to the result.
 void collect(const Plan& plan, ViewOnDevice& target, RunResult& result) {
-  View out{.name = target.view.name,
-           .camera = target.view.camera,
-           .origin = position_origin(target.view, !contains(plan.inputs, "position")),
-           .planes = {}};
+  View out = without_planes(target.view);
+  out.origin = position_origin(target.view, !contains(plan.inputs, "position"));
   count_listed(plan, target, result.listed);
   download(plan, target, out);
   // A view that is only read by others has no result of its own.

@@ -101,10 +101,7 @@ class RowsTracing {
     result_.frame.assumed = frame.assumed;
     const Layout layout(frame.width(), frame.height());
     for (const View& view : frame.views) {
-      View& out = result_.frame.views.emplace_back();
-      out.name = view.name;
-      out.camera = view.camera;
-      out.origin = view.origin;
+      View& out = result_.frame.views.emplace_back(without_planes(view));
       for (const std::string& name : {options.value, options.noise}) {
         Plane& plane = out.planes[name];
         plane.name = name;

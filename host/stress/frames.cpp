@@ -193,13 +193,9 @@ std::vector<std::string> plane_names(const Frame& frame) {
 }
 
 Frame clone(const Frame& frame) {
-  Frame copy;
-  copy.display = frame.display;
-  copy.window = frame.window;
-  copy.assumed = frame.assumed;
-  for (const View& view : frame.views) {
-    copy.views.push_back({view.name, view.camera, view.camera_before, view.origin, {}});
-    for (const auto& [name, plane] : view.planes) copy.views.back().planes.emplace(name, plane.clone());
+  Frame copy = without_planes(frame);
+  for (size_t i = 0; i < frame.views.size(); ++i) {
+    for (const auto& [name, plane] : frame.views[i].planes) copy.views[i].planes.emplace(name, plane.clone());
   }
   return copy;
 }

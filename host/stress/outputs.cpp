@@ -35,7 +35,8 @@ void add_second_view(Frame& frame) {
   View& first = frame.views.front();
   if (first.name.empty()) first.name = "first";
   if (!first.camera->pose) first.camera->pose = Pose{};
-  View second{.name = "second", .camera = first.camera, .origin = first.origin, .planes = {}};
+  View second = without_planes(first);
+  second.name = "second";
   for (const auto& [name, plane] : first.planes) second.planes.emplace(name, plane.clone());
   frame.views.push_back(std::move(second));
 }

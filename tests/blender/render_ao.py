@@ -5,10 +5,14 @@ blender -b --factory-startup --python-exit-code 1 -P render_ao.py -- SCENE.obj C
 The OBJ holds triangles only and is taken in its own axes. The camera JSON is as docs/gbuffer.md has it.
 """
 import json
+import os
 import sys
 
 import bpy
 import mathutils
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import cycles_ao  # noqa: E402
 
 
 def read_obj(path):
@@ -49,18 +53,10 @@ def main(scene_file, camera_file, radius, samples, seed, out):
     scene.world = bpy.data.worlds.new("world")
     scene.world.light_settings.distance = float(radius)
     scene.render.engine = "CYCLES"
-    scene.cycles.samples = int(samples)
+    cycles_ao.set_up(scene, samples)
     scene.cycles.seed = int(seed)
-    scene.cycles.use_adaptive_sampling = False
-    scene.cycles.use_denoising = False
-    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
-    scene.cycles.filter_width = 0.01
-    scene.view_layers[0].use_pass_ambient_occlusion = True
-    scene.view_layers[0].use_pass_z = True
     scene.render.resolution_x, scene.render.resolution_y = camera["width"], camera["height"]
     scene.render.resolution_percentage = 100
-    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
-    scene.render.image_settings.color_depth = "32"
     scene.render.filepath = out
     bpy.ops.render.render(write_still=True)
 

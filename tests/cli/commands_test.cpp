@@ -251,6 +251,14 @@ TEST_F(Cli, APlaneCanBePlannedAsTheTechniqueThatMakesIt) {
   EXPECT_EQ(passes_of(gloam({"plan", "ao,hbao+", loggia, "--json", "-"}).json())[0], "hbao+/estimate");
 }
 
+TEST_F(Cli, APlanForTwoViewsIsRefusedAsTheRunIs) {
+  const Result planned = gloam({"plan", "stereo-gtao", loggia}),
+               ran = gloam({"run", "stereo-gtao", loggia, "-o", path("ao.exr")});
+  EXPECT_EQ(planned.status, 1);
+  EXPECT_EQ(planned.err, ran.err);
+  EXPECT_NE(planned.err.find("needs a frame of two views, and this one has 1"), std::string::npos) << planned.err;
+}
+
 TEST_F(Cli, ADepthOnlyFrameWorks) {
   write_frame(path("frame.exr"), small_frame(32, 24, {"depth"}));
   const Result result = gloam({"run", "hbao+", path("frame.exr"), "-o", path("ao.exr"), "--json", "-"});

@@ -44,5 +44,20 @@ TEST_F(DefaultTechnique, TakesTheFlagsOfTheTechnique) {
   EXPECT_EQ(slurp(path("a.exr")), slurp(path("b.exr")));
 }
 
+TEST_F(DefaultTechnique, IsPlannedOverTimeAsItRuns) {
+  const Arguments flags = {loggia, "--temporal", "--json", "-"};
+  const auto with = [&](Arguments words) {
+    words.insert(words.end(), flags.begin(), flags.end());
+    return words;
+  };
+  const Result planned = gloam(with({"plan", "ao"}));
+  ASSERT_EQ(planned.status, 0) << planned.err;
+  EXPECT_EQ(planned.json().at("passes"), gloam(with({"plan", "evidence"})).json().at("passes"));
+  const Json ran = gloam(with({"run", "ao", "-o", path("ao.exr").string()})).json();
+  ASSERT_EQ(planned.json().at("passes").size(), ran.at("passes").size());
+  for (size_t i = 0; i < ran.at("passes").size(); ++i)
+    EXPECT_EQ(planned.json().at("passes")[i].at("name"), ran.at("passes")[i].at("name"));
+}
+
 }  // namespace
 }  // namespace gloam::test

@@ -105,6 +105,31 @@ TEST_F(Doctor, MeasuredLanesAreUsed) {
   EXPECT_TRUE(listed()["held"].is_null());
 }
 
+/// What suits one kernel may be more than a device, or another kernel, takes.
+TEST_F(Doctor, GroupsAreNoLargerThanADeviceTakes) {
+  const auto run_to = [&](const char* name, const std::map<std::string, std::string>& more) {
+    const Result result = gloam({"run", "gtao", loggia, "-o", path(name).string(), "--math", "precise", "--lanes", "1"},
+                                environment(more));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return slurp(path(name));
+  };
+  EXPECT_TRUE(run_to("usual.exr", {}) == run_to("small.exr", {{"POCL_MAX_WORK_GROUP_SIZE", "4"}}));
+}
+
+/// Wherever a device can be chosen, what doctor measured can be left aside.
+TEST_F(Doctor, EveryCommandThatComputesTakesNoTuning) {
+  for (const char* command : {"run", "auto", "bench", "pick", "stress"}) {
+    const std::string help = gloam({command, "--help"}).out;
+    EXPECT_NE(help.find("--device"), std::string::npos) << command;
+    EXPECT_NE(help.find("--no-tuning"), std::string::npos) << command;
+  }
+  const Result picked = gloam({"pick", loggia, "--budget", "10s", "--techniques", "ssao", "--rays", "32", "--rounds",
+                               "1", "--no-tuning", "--json", "-"},
+                              environment());
+  ASSERT_EQ(picked.status, 0) << picked.err;
+  EXPECT_NE(picked.json()["command"].get<std::string>().find(" --no-tuning"), std::string::npos) << picked.out;
+}
+
 /// A damaged constant crashes nothing: only the self-tests notice it.
 TEST_F(Doctor, WrongBytesInTheDriversKernelsAreNoticedAndReplaced) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -176,11 +201,14 @@ TEST_F(Doctor, SecondDeviceHasItsKernelsKeptByGloam) {
     std::ofstream(file, std::ios::binary) << bytes;
   };
   damage(kernels[0]);
+  const fs::path half_written = path("cache/kernels/.gloam-0123456789abcdef01234567");  // by a process that was killed
+  std::ofstream(half_written) << "gloam compiled";
   const Result mended = run_to("mended.exr");
   EXPECT_EQ(mended.status, 0) << mended.err;
   EXPECT_NE(mended.err.find("note: 1 compiled kernel in gloam's cache folder was damaged"), std::string::npos)
       << mended.err;
   EXPECT_TRUE(slurp(path("mended.exr")) == slurp(path("cold.exr")));
+  EXPECT_FALSE(fs::exists(half_written));
   EXPECT_EQ(run_to("after.exr").err.find("damaged"), std::string::npos);
 
   fs::copy_file(kernels[1], kernels[2], fs::copy_options::overwrite_existing);  // whole, but of another kernel

@@ -123,6 +123,22 @@ TEST_P(TypedFlags, AreCompletedWithTheWordsThatTheyTake) {
   }
 }
 
+/// "--quick=5" would be "--quick", and "--quick=0" nothing.
+TEST_P(TypedFlags, TakeNoValueWhereTheyAreSwitches) {
+  int count = 0;
+  for (const std::string& flag : said_by("switches", GetParam())) {
+    if (flag.rfind("--", 0) != 0) continue;
+    ++count;
+    for (const char* value : {"=5", "=0", "=false", "="}) {
+      const Result result = gloam({GetParam(), flag + value});
+      EXPECT_EQ(result.status, 2) << flag << value;
+      EXPECT_EQ(result.err, fmt::format("gloam: {}{} is not allowed: {} takes no value; write {}, or leave it out\n",
+                                        flag, value, flag, flag));
+    }
+  }
+  EXPECT_GT(count, 0) << "--help and --quiet at least";
+}
+
 TEST_P(TypedFlags, LeaveHelpToThoseWhoAskForIt) {
   for (const std::string& flag : checked_flags()) {
     const Result result = gloam({GetParam(), flag, "abc", "--help"});
@@ -132,7 +148,7 @@ TEST_P(TypedFlags, LeaveHelpToThoseWhoAskForIt) {
 }
 
 const char* const commands[] = {"info",  "run",  "compare", "plan",   "list", "capture", "reference",
-                                "bench", "pick", "auto",    "report", "view", "stress", "doctor"};
+                                "bench", "pick", "auto",    "report", "view", "stress",  "doctor"};
 
 INSTANTIATE_TEST_SUITE_P(Commands, TypedFlags, ::testing::ValuesIn(commands),
                          [](const auto& info) { return std::string(info.param); });

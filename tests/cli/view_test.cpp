@@ -1,6 +1,7 @@
 // gloam view: what the page holds, and that it shows it in a browser that opens it from disk.
 #include <Imath/half.h>
 #include <pty.h>
+#include <sys/inotify.h>
 
 #include <bit>
 #include <cmath>
@@ -144,6 +145,37 @@ TEST_F(ViewPage, SaysWhatItWroteAsJson) {
             Json({{"name", "shot.####.exr"}, {"frames", {1, 2}}, {"planes", {"depth", "color"}}}));
   EXPECT_EQ(document["files"][1], Json({{"name", "ao.exr"}, {"frames", Json::array()}, {"planes", {"depth", "ao"}}}));
   EXPECT_EQ(document["notes"], Json::array());
+}
+
+/// Counts how often a file is opened while it lives.
+class Openings {
+ public:
+  explicit Openings(const fs::path& file) : queue_(inotify_init1(IN_NONBLOCK)) {
+    inotify_add_watch(queue_, file.c_str(), IN_OPEN | IN_CLOSE);  // equal events in a row would be one
+  }
+  ~Openings() { close(queue_); }
+  Openings(const Openings&) = delete;
+  Openings& operator=(const Openings&) = delete;
+  int count() {
+    inotify_event event;  // without a name, as the file itself is watched
+    while (read(queue_, &event, sizeof event) == sizeof event) count_ += (event.mask & IN_OPEN) != 0;
+    return count_;
+  }
+
+ private:
+  int queue_, count_ = 0;
+};
+
+/// Headers may be far away and many: each is looked at once, and opened once more where the planes are read.
+TEST_F(ViewPage, OpensEachFileTwice) {
+  for (const int frame : {1, 2}) write_frame(path(fmt::format("shot.{:04}.exr", frame)), small_frame());
+  Openings once(path("shot.0002.exr"));
+  FrameFile(path("shot.0002.exr"), {});
+  const int each = once.count();
+  ASSERT_GT(each, 0) << "no inotify here";
+  Openings viewed(path("shot.0002.exr"));
+  ASSERT_EQ(view({file("shot.####.exr")}).status, 0);
+  EXPECT_LE(viewed.count(), 2 * each);
 }
 
 TEST_F(ViewPage, TellsFilesOfOneNameApartByTheirFolders) {

@@ -43,6 +43,8 @@ def refused(call, sentence, kind=gloam.Error):
     (lambda z: z[::-1], "is not C-contiguous"),
     (lambda z: z[:, 1:], "is not C-contiguous"),
     (lambda z: numpy.broadcast_to(numpy.float32(5), (90, 150)), "is not C-contiguous"),
+    (lambda z: numpy.frombuffer(b"x" + z.tobytes(), numpy.float32, offset=1).reshape(z.shape),
+     "plane 'depth' does not begin at a multiple of 4 bytes in memory; copy it: array.copy()"),
     (lambda z: z.ravel(), "plane 'depth' has the shape (13500,); (height, width) is allowed"),
     (lambda z: z[:, :, None], "has the shape (90, 150, 1); (height, width) is allowed"),
     (lambda z: z[:0], "1 to 65536 pixels each way are allowed"),
@@ -53,6 +55,30 @@ def refused(call, sentence, kind=gloam.Error):
 ])
 def test_arrays(change, sentence, depth, camera):
     refused(lambda: gloam.run("gtao", depth=change(depth), camera=camera, radius=0.5), sentence)
+
+
+@pytest.mark.parametrize("call, sentence", [
+    (lambda z: gloam.Device(3), "device is of type int; a text is allowed"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, outputs=[z]), "outputs of type list is not allowed"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, views=z), "views of type ndarray is not allowed"),
+    (lambda z: gloam.read("none.exr", as_stored=z), "as_stored is of type ndarray; True or False is allowed"),
+    (lambda z: gloam.read("none.exr", channels=z), "channels of type ndarray is not allowed"),
+    (lambda z: gloam.capture("plane", 8, 8, eye=z[0, 0], target=(0, 0, 0)), "is not a point"),
+])
+def test_types(call, sentence, depth):
+    refused(lambda: call(depth), sentence, gloam.UsageError)
+
+
+def test_none_is_the_default():
+    assert gloam.capture("plane", 16, None, ["normal"], peel=None, stochastic=None).height == 1080
+    small = gloam.capture("plane", 16, 12, ["normal"])
+    truth = gloam.reference(small, samples=32, what=None, falloff=None, seed=None)
+    assert numpy.array_equal(truth["ao"], gloam.reference(small, samples=32)["ao"])
+
+
+@pytest.mark.parametrize("mask", ["ao", "ao_raw"])
+def test_a_mask_that_the_technique_makes(mask, depth, camera):
+    refused(lambda: gloam.run("gtao", depth=depth, camera=camera, only=mask), f"gtao makes '{mask}' itself", gloam.UsageError)
 
 
 def test_planes_of_two_sizes(depth, camera):
@@ -73,6 +99,10 @@ def test_planes_of_two_sizes(depth, camera):
     (dict(camera_to_world=numpy.diag([1, 1, -1, 1])), "mirrors the world"),
     (dict(camera_to_world=numpy.eye(3)), "has the shape (3, 3); (4, 4) is allowed"),
     (dict(world_to_camera="north"), "world_to_camera is no matrix"),
+    (dict(fx="9"), "camera: fx is of type str; a number is allowed"),
+    (dict(cy=None), "camera: cy is of type NoneType"),
+    (dict(near=[1]), "camera: near is of type list"),
+    (dict(fy=True), "camera: fy is of type bool"),
     (dict(camera_to_world=numpy.eye(4), world_to_camera=numpy.eye(4)), "are both given"),
 ])
 def test_cameras(change, sentence):
@@ -109,6 +139,9 @@ def test_names_are_suggested_as_the_command_does(depth, camera, frame, command, 
         said = command("run", flags[0], tmp_path / "frame.exr", "-o", tmp_path / "out.exr", *flags[1:], status=2)
         assert said.strip().endswith(str(raised.value)), (said, str(raised.value))
     refused(lambda: gloam.run("gtao", depth=depth, nromal=depth, camera=camera), "no plane 'nromal' (did you mean 'normal'?)")
+    for wrong, right in (("presett", "preset"), ("outputt", "outputs"), ("devcie", "device"), ("resolutoin", "resolution")):
+        refused(lambda: gloam.run("gtao", depth=depth, camera=camera, **{wrong: "high"}),
+                f"no keyword '{wrong}' (did you mean '{right}'?); there are preset, ", gloam.UsageError)
     refused(lambda: gloam.run("gtao", depth=depth, camera=camera, math="fsat"), "did you mean 'fast'?", gloam.UsageError)
     refused(lambda: gloam.run("gtao", depth=depth, camera=camera, resolution="haf"), "did you mean 'half'?", ValueError)
     assert issubclass(gloam.UsageError, ValueError) and issubclass(gloam.Error, RuntimeError)

@@ -119,6 +119,14 @@ def test_layers_are_one_array():
     assert numpy.array_equal(result["ao"], gloam.run("dp-gtao", layered, radius=0.5)["ao"])
 
 
+def test_a_stack_takes_the_place_of_all_layers_of_a_frame():
+    layered = gloam.capture("fence", 96, 64, ["normal"], peel=4)
+    two = numpy.stack([layered[f"peel.0{i}"] for i in range(2)])
+    expected = gloam.run("dp-gtao", depth=layered["depth"], normal=layered["normal"], peel=two, camera=layered.camera, radius=0.5)
+    assert not numpy.array_equal(expected["ao"], gloam.run("dp-gtao", layered, radius=0.5)["ao"])
+    assert_same(gloam.run("dp-gtao", layered, peel=two, radius=0.5), expected)
+
+
 def test_a_mask_may_be_an_array(arrays, frame):
     mask = numpy.zeros((90, 150), numpy.float32)
     mask[:, :75] = 1

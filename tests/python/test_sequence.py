@@ -1,6 +1,7 @@
 """Sequences: the same bits as `gloam run` on a shot, also accumulated over time."""
 
 import subprocess
+import threading
 
 import numpy
 import pytest
@@ -97,3 +98,30 @@ def test_sequences_that_cannot_be(call, sentence, shot):
     with pytest.raises(gloam.Error) as raised:
         call(shot)
     assert sentence in str(raised.value) and "\n" not in str(raised.value), str(raised.value)
+
+
+def test_threads_share_a_run(shot):
+    expected = {result.number: result["ao"] for result in gloam.Sequence(shot / "shot.####.exr").run("gtao", radius=0.5)}
+    for _ in range(5):
+        run, results, failures = gloam.Sequence(shot / "shot.####.exr").run("gtao", radius=0.5), [], []
+
+        def work():
+            try:
+                results.extend(run)
+            except BaseException as error:
+                failures.append(error)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert not failures
+        assert sorted(result.number for result in results) == list(expected)
+        for result in results:
+            assert numpy.array_equal(result["ao"], expected[result.number]), result.number
+
+
+def test_a_mistyped_keyword_is_suggested(shot):
+    with pytest.raises(gloam.UsageError, match="no keyword 'temporall' .did you mean 'temporal'.."):
+        gloam.Sequence(shot / "shot.####.exr").run("gtao", temporall=True)

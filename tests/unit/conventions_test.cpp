@@ -450,6 +450,40 @@ TEST(Normals, WithoutAPoseAWorldTurnedLittleIsNotTheView) {
   EXPECT_LT(agreement, 0.9) << sentence;
 }
 
+/// Edges, of which small images have many: a third of the normals lies 60 degrees off, to either side.
+TEST(Normals, WithoutAPoseEdgesAreNoTurn) {
+  Scene scene;
+  int pixel = 0;
+  scene.change([&](const dvec3& n) {
+    if (++pixel % 3 != 0) return n;
+    const double angle = pixel % 2 ? 1.05 : -1.05;
+    return dvec3(n.x, std::cos(angle) * n.y - std::sin(angle) * n.z, std::sin(angle) * n.y + std::cos(angle) * n.z);
+  });
+  scene.camera.pose.reset();
+  std::string sentence;
+  EXPECT_EQ(scene.detect(sentence), NormalSpace::view) << sentence;
+  EXPECT_LT(agreement_in(sentence), 0.9) << sentence;
+  EXPECT_EQ(sentence.find("turned by"), std::string::npos) << sentence;
+}
+
+/// 11.5 degrees: they agree with depth too well to tell by that alone.
+TEST(Normals, WithoutAPoseATurnIsTold) {
+  for (const bool is_turned : {false, true}) {
+    Scene scene;
+    const double angle = is_turned ? 0.2 : 0;
+    scene.camera.pose->world_to_view =
+        glm::dmat3(1, 0, 0, 0, std::cos(angle), std::sin(angle), 0, -std::sin(angle), std::cos(angle));
+    scene.to_world();
+    scene.camera.pose.reset();
+    std::string sentence;
+    EXPECT_EQ(scene.detect(sentence), NormalSpace::view) << sentence;
+    EXPECT_EQ(sentence.find("turned by") != std::string::npos, is_turned) << sentence;
+    if (!is_turned) continue;
+    EXPECT_NEAR(std::stod(sentence.substr(sentence.find("turned by ") + 10)), 11.5, 1.1) << sentence;
+    EXPECT_NE(sentence.find("--camera"), std::string::npos) << sentence;
+  }
+}
+
 TEST(Normals, MissingOnesAreCountedOnTheForeground) {
   Scene scene;
   EXPECT_EQ(count_missing_normals(scene.normal, scene.depth), 0);

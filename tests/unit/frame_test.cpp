@@ -38,6 +38,34 @@ struct Folder {
 
 void put(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
+TEST(Frame, WithoutPlanesHasAllElse) {
+  Frame frame{.display = {0, 0, 4, 3},
+              .window = {-1, 0, 5, 3},
+              .views = {},
+              .pixel_aspect = 1.5,
+              .attributes = {{"gloamScene", "fence"}},
+              .numbers = {{"aoRadius", 0.5}},
+              .assumed = {"a sentence"}};
+  View& view = frame.views.emplace_back();
+  view.name = "left";
+  view.camera = Camera{.fx = 10, .fy = 11, .cx = 2, .cy = 1};
+  view.camera_before = Camera{.fx = 12, .fy = 11, .cx = 2, .cy = 1};
+  view.origin = {1, 2, 3};
+  view.planes["depth"].name = "depth";
+  const Frame copy = without_planes(frame);
+  EXPECT_TRUE(copy.display == frame.display && copy.window == frame.window);
+  EXPECT_EQ(copy.pixel_aspect, 1.5);
+  EXPECT_EQ(copy.attributes, frame.attributes);
+  EXPECT_EQ(copy.numbers, frame.numbers);
+  EXPECT_EQ(copy.assumed, frame.assumed);
+  ASSERT_EQ(copy.views.size(), 1u);
+  EXPECT_EQ(copy.views[0].name, "left");
+  EXPECT_EQ(copy.views[0].camera->fx, 10);
+  EXPECT_EQ(copy.views[0].camera_before->fx, 12);
+  EXPECT_EQ(copy.views[0].origin, view.origin);
+  EXPECT_TRUE(copy.views[0].planes.empty());
+}
+
 TEST(Layout, PitchIsAMultipleOf16AndRowsAreApart) {
   const Layout layout(17, 3);
   EXPECT_EQ(layout.pitch, 32);

@@ -105,6 +105,13 @@ TEST(Mask, WhatCannotBeIsSaidInOneLine) {
   EXPECT_EQ(
       message({.outputs = {"reflection-mask"}, .mask = "corner-mask"}, {"depth", "normal", "roughness", "reflectance"}),
       "--only: reflection-mask makes 'mask' itself and cannot be restricted by it; leave --only out");
+  // The mask and what it restricts make planes of the same names, one after the other.
+  EXPECT_NO_THROW(plan_of({.outputs = {"sssr"}, .mask = "reflection-mask"},
+                          {"depth", "normal", "color", "roughness", "reflectance"}));
+  for (const char* mask : {"ao", "ao_raw"}) {
+    EXPECT_EQ(message({.outputs = {"gtao"}, .mask = mask}),
+              fmt::format("--only: gtao makes '{}' itself and cannot be restricted by it; leave --only out", mask));
+  }
 }
 
 // --- What comes out

@@ -49,6 +49,32 @@ TEST(Strips, AreTheWholeImage) {
   EXPECT_EQ(divided.passes.size(), whole.passes.size());
 }
 
+/// All that a run says beside the planes.
+TEST(Strips, SayWhatTheWholeImageSays) {
+  Frame frame = steps();
+  frame.assumed = {"a sentence"};
+  frame.pixel_aspect = 1.5;
+  frame.views.front().origin = {1, 2, 3};
+  std::vector<float> mask(width * height);
+  for (int y = 0; y < height; ++y) std::fill_n(mask.begin() + y * width, width, y < height / 2 ? 1.0f : 0.0f);
+  frame.views.front().planes["mask"] = plane_from("mask", width, height, mask);
+  Device device;
+  PlanRequest request = gtao(0.2);
+  request.mask = "mask";
+  request.elsewhere = "hbao+";
+  const Plan plan = plan_on(request, frame).plan;
+  const Strips strips = strips_for(plan, frame, device.info(), 4);
+  ASSERT_EQ(strips.why_not, "");
+  const RunResult whole = run(plan, frame, device, {}), divided = run_in_strips(plan, frame, device, {}, strips);
+  EXPECT_EQ(divided.frame.assumed, whole.frame.assumed);
+  EXPECT_EQ(divided.frame.pixel_aspect, whole.frame.pixel_aspect);
+  EXPECT_TRUE(divided.frame.window == whole.frame.window);
+  EXPECT_EQ(divided.frame.views.front().origin, whole.frame.views.front().origin);
+  EXPECT_EQ(divided.frame.views.front().name, whole.frame.views.front().name);
+  EXPECT_NEAR(whole.rest_share, 0.5, 0.1);
+  EXPECT_NEAR(divided.rest_share, whole.rest_share, 0.05);  // rows of lanes at the mask's edge
+}
+
 TEST(Strips, AreAsFewAsFit) {
   const Frame frame = steps();
   const Plan plan = plan_on(gtao(0.2), frame).plan;

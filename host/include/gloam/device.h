@@ -47,8 +47,9 @@ inline constexpr int most_per_group = 1024;
 class Device {
  public:
   /// `text`: part of the platform's or the device's name, in any case; empty: the first GPU, else the device with the most lanes.
-  /// Throws Error, with a list of the devices, if none matches.
-  explicit Device(const std::string& text = "");
+  /// A text that is the whole `label_of` a device means that device. `uses_measured_tuning`: false leaves what `gloam doctor` measured
+  /// aside, so that `DeviceInfo::tuning` is `usual`. Throws Error, with a list of the devices, if none matches.
+  explicit Device(const std::string& text = "", bool uses_measured_tuning = true);
   ~Device();
   Device(Device&&) noexcept;
 

@@ -103,6 +103,10 @@ struct Frame {
   const View& view(const std::string& name) const;
 };
 
+/// Copies without planes: of a view its name, cameras and origin; of a frame its windows, texts and numbers, and such views.
+View without_planes(const View& view);
+Frame without_planes(const Frame& frame);
+
 /// The planes that every view has, in order; none of a frame without views.
 std::vector<std::string> common_planes(const Frame& frame);
 

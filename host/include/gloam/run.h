@@ -20,8 +20,6 @@ struct RunOptions {
   Real real = Real::float32;
   int lanes = 0;  ///< pixels per work-item: 1, 4, 8, 16; 0: what suits the device (half as many for double)
   int group = 0;  ///< most work-items per work-group, 1 to 1024; 0: what suits the device
-  /// Whether what `gloam doctor` measured says what suits the device (`DeviceInfo::tuning`), or the table of known devices does.
-  bool use_measured_tuning = true;
   int seed = 0;
   int repeat = 1;  ///< timed runs; more than one: after an untimed warm-up
   /// Adds up the values that samples read instead of what they contribute, to measure the cost of addresses and reads alone. The

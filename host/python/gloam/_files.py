@@ -136,6 +136,7 @@ class Sequence:
         planes, parameters = _run.divided(keywords)
         if planes:
             raise UsageError(f"{_gloam.enumerate(list(planes))}: planes come with the frames; leave them out")
+        _run.check_names(parameters, tuple(name for name in _run._OPTIONS if name not in ("repeat", "strips")) + ("temporal", "device", "settings"))
         words, run_words = _run.request_words(technique, parameters, settings, options)
         return Run(self, _gloam.run_over(self._held, self._words, words, bool(temporal), _words.device(device), run_words))
 

@@ -15,6 +15,9 @@ Pass.__doc__ = "A pass of a run: the view, its name such as 'gtao/estimate', and
 _OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed",
             "repeat", "strips")
 
+#: Those that are named in its signature.
+_NAMED = ("camera", "fov", "views", "device", "settings")
+
 
 class Result(dict):
     """What a run made: arrays by the names of their planes, and facts about the run as attributes.
@@ -91,6 +94,21 @@ def divided(keywords):
         else:
             parameters[name] = value
     return planes, parameters
+
+
+def _parameter_names():
+    return {parameter["name"] for facts in _gloam.techniques() for parameter in facts["parameters"]}
+
+
+def check_names(parameters, keywords):
+    """Refuses a keyword that no technique has as a parameter, where it looks most like one of the call's own, such as 'presett'."""
+    known = _parameter_names() if parameters else ()
+    for name in parameters:
+        if name in known:
+            continue
+        said = _gloam.suggestion(name, [*keywords, *known])
+        if said and said in [_gloam.suggestion(name, [keyword]) for keyword in keywords]:
+            raise UsageError(f"no keyword '{name}'{said}; there are {_gloam.enumerate(list(keywords))}, planes, and the technique's parameters")
 
 
 def _of_each_view(planes):
@@ -242,6 +260,7 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     if isinstance(mask, numpy.ndarray) or _is_planes(mask):
         keywords["mask"], options["only"] = mask, "mask"
     planes, parameters = divided(keywords)
+    check_names(parameters, _OPTIONS + _NAMED)
     words, run_words = request_words(technique, parameters, settings, options)
     made, is_own, several = _frame_for(frame, planes, camera, fov, views, words)
     outcome = _gloam.run(words, made, is_own, _words.device(device), run_words, _strips(options.get("strips")))

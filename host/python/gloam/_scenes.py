@@ -66,9 +66,10 @@ def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=Non
     """
     if camera is not None and not isinstance(camera, Camera):
         camera = _words.text("camera", camera)
+    width, height = 1920 if width is None else width, 1080 if height is None else height
     words = {"width": _words.integer("width", width), "height": _words.integer("height", height), "planes": _words.names("planes", planes),
              "camera": camera, "eye": _words.point("eye", eye), "target": _words.point("target", target), "fov": _words.number("fov", fov),
-             "peel": _words.integer("peel", peel), "stochastic": _words.integer("stochastic", stochastic),
+             "peel": _words.integer("peel", peel) or 0, "stochastic": _words.integer("stochastic", stochastic) or 0,
              "stereo": _words.number("stereo", stereo), "convergence": _words.number("convergence", convergence)}
     frame = _gloam.capture(_scene(scene, settings), words)
     _words.note(frame.notes, stacklevel=2)
@@ -90,8 +91,8 @@ def reference(frame, scene=None, *, samples=None, radius=None, what="ao", fallof
         frame = _gloam.read([_words.path("frame", frame)], _words.reading(), [])
     if not isinstance(frame, Frame):
         raise UsageError(f"frame is of type {type(frame).__name__}; a gloam.Frame or a path is allowed")
-    words = {"what": _words.text("what", what), "falloff": _words.text("falloff", falloff), "samples": _words.integer("samples", samples),
-             "radius": _words.number("radius", radius), "seed": _words.integer("seed", seed),
+    words = {"what": _words.text("what", what) or "ao", "falloff": _words.text("falloff", falloff) or "none", "samples": _words.integer("samples", samples),
+             "radius": _words.number("radius", radius), "seed": _words.integer("seed", seed) or 0,
              "checkpoint": "" if checkpoint is None else _words.path("checkpoint", checkpoint),
              "settings": _words.settings(scene_settings), "falloff_settings": _words.settings(settings)}
     held = None if scene is None else _scene(scene, scene_settings)

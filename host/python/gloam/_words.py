@@ -23,6 +23,12 @@ def _refuse(name, value, allowed):
     raise UsageError(f"{name} is of type {type(value).__name__}; {allowed} is allowed")
 
 
+def _shown(value):
+    """A value in a sentence: its type where it is longer than a line."""
+    shown = repr(value)
+    return shown if len(shown) <= 80 and "\n" not in shown else f"of type {type(value).__name__}"
+
+
 def text(name, value):
     if value is None:
         return None
@@ -52,9 +58,10 @@ def number(name, value):
 def point(name, value):
     if value is None:
         return None
-    values = [number(name, item) for item in value] if isinstance(value, (tuple, list, numpy.ndarray)) else None
+    is_list = isinstance(value, (tuple, list)) or isinstance(value, numpy.ndarray) and value.ndim == 1
+    values = [number(name, item) for item in value] if is_list else None
     if values is None or len(values) != 3:
-        raise UsageError(f"{name} {value!r} is not a point; three numbers are allowed, such as (1, 2, 3)")
+        raise UsageError(f"{name} {_shown(value)} is not a point; three numbers are allowed, such as (1, 2, 3)")
     return values
 
 
@@ -66,7 +73,7 @@ def names(name, value):
         value = value.split(",")
     if isinstance(value, (list, tuple)) and value and all(isinstance(item, str) and item for item in value):
         return list(value)
-    raise UsageError(f"{name} {value!r} is not allowed; a list of names is, such as ['ao', 'ao_raw']")
+    raise UsageError(f"{name} {_shown(value)} is not allowed; a list of names is, such as ['ao', 'ao_raw']")
 
 
 def path(name, value):
@@ -118,9 +125,12 @@ def reading(camera=None, **words):
     if "channels" in words and words["channels"] is not None:
         channels = words["channels"]
         if not isinstance(channels, dict) or not all(isinstance(item, str) for pair in channels.items() for item in pair):
-            raise UsageError(f"channels {channels!r} is not allowed; a dict is, such as {{'depth': 'Layer.Z'}}")
+            raise UsageError(f"channels {_shown(channels)} is not allowed; a dict is, such as {{'depth': 'Layer.Z'}}")
         read["channels"] = channels
-    if words.get("as_stored"):
+    as_stored = words.get("as_stored")
+    if as_stored is not None and not isinstance(as_stored, (bool, numpy.bool_)):
+        _refuse("as_stored", as_stored, "True or False")
+    if as_stored:
         read["as_stored"] = True
     return {"camera": camera, **read}
 
