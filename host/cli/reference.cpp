@@ -1,4 +1,4 @@
-// gloam reference ao|reflection FRAME.exr --scene SCENE -o REF.exr
+// gloam reference KIND FRAME.exr --scene SCENE -o REF.exr
 #include <memory>
 
 #include "cli/given_flags.h"
@@ -8,6 +8,7 @@
 #include "cli/shot_flags.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
+#include "gloam/scene/bounces_reference.h"
 
 namespace gloam::cli {
 namespace {
@@ -28,7 +29,8 @@ Json document(const Reference& result, const ReferenceJob& job, const Scene& sce
                {"rays", result.rays},
                {"seconds", seconds},
                {"rays_per_second", seconds > 0 ? double(result.rays) / seconds : 0}};
-  json.update(job.settings);
+  for (const auto& [name, word] : job.words) json[name] = word;
+  for (const auto& [name, number] : job.numbers) json[name] = number;
   return json;
 }
 
@@ -71,11 +73,13 @@ void reference_on_frame(const ReferenceCommand& flags, const ReferenceJob& job) 
        {"--camera", flags.frame_flags.camera}},
       {{"-o", flags.out}, {"the unfinished", checkpoint}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
   const auto bar = progress_bar();
-  TracingOfFrame tracing{uint32_t(flags.seed), checkpoint, {}};
-  if (bar) tracing.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
+  ReferenceOptions options;
+  options.seed = uint32_t(flags.seed);
+  options.checkpoint = checkpoint;
+  if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
   FrameFiles files({flags.frame}, flags.frame_flags.read_options());
   SceneOfFrame scene(flags.scene);
-  const TracedFrame traced = trace_frame(flags, job, files, scene, tracing);
+  const TracedFrame traced = trace_frame(flags, job, files, scene, options);
   const Reference& result = traced.truth;
   std::optional<RadiusReport> report;
   if (traced.radius) report.emplace(*traced.radius, traced.frame, std::nullopt);
@@ -95,9 +99,17 @@ void reference_on_frame(const ReferenceCommand& flags, const ReferenceJob& job) 
   print(result, job, scene.tracer().scene(), flags);
 }
 
+/// "  ao  share of the directions that are open\n"
+std::string kinds_in_words() {
+  std::string words;
+  for (const ReferenceKind& kind : reference_kinds()) words += fmt::format("  {:<19} {}\n", kind.name, kind.help);
+  return words;
+}
+
 void reference_command(ReferenceCommand flags, const CLI::App& command) {
   flags.given = contents_in_words(command);
-  const ReferenceJob job = job_of(flags);
+  flags.request.falloff_settings = flags.scene.take_dotted_settings();
+  const ReferenceJob job = job_of(flags.request, as_flag);
   check_flags(flags);
   if (FramePattern::is_pattern(flags.frame)) return reference_on_shot(flags, job);
   reference_on_frame(flags, job);
@@ -107,8 +119,9 @@ void reference_command(ReferenceCommand flags, const CLI::App& command) {
 
 void add_reference(CLI::App& app) {
   auto flags = std::make_shared<ReferenceCommand>();
+  ReferenceRequest& request = flags->request;
   CLI::App* command = app.add_subcommand("reference", "ray-traced truth for a frame whose scene is at hand");
-  command->add_option("what", flags->what, "what is traced")->required()->type_name(type_of_words(reference_kinds()));
+  command->add_option("what", request.what, "what is traced")->required()->type_name(type_of_words(reference_names()));
   command
       ->add_option(
           "frame", flags->frame,
@@ -122,16 +135,19 @@ void add_reference(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "EXR file to write, of a shot truth.####.exr")
       ->required()
       ->type_name("REF.exr");
-  add_number(*command, "--samples", flags->samples, allowed_rays,
-             "rays per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
+  add_number(*command, "--samples", request.samples, allowed_rays,
+             "rays (bounces: paths) per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
       ->type_name("N");
-  add_number(*command, "--radius", flags->radius, {allowed_radii.least, allowed_radii.most, true},
+  add_number(*command, "--radius", request.radius, {allowed_radii.least, allowed_radii.most, true},
              "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame")
       ->type_name("R");
   command
-      ->add_option("--falloff", flags->falloff,
+      ->add_option("--falloff", request.falloff,
                    "none, or a technique: its contribution at the true first hit (--set hbao+.bias=0.2)")
       ->type_name("none|NAME");
+  add_number(*command, "--bounces", request.bounces, {0, most_bounces},
+             "of bounces: reflections after which a path ends; default 128")
+      ->type_name("N");
   add_number(*command, "--seed", flags->seed, {0, 1 << 30}, "of the sample set; in a shot the frame's number is added")
       ->type_name("N");
   command->add_option("--picture", flags->picture, "also as a picture")->type_name("AO.png");
@@ -143,13 +159,14 @@ void add_reference(CLI::App& app) {
   flags->scene.add_settings_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
-  command->footer(
-      "Interrupted after its first 15 s, it goes on when run again from what it kept last. Examples:\n"
-      "  gloam reference ao colonnade.exr -o colonnade_ao_ref.exr --samples 1024\n"
-      "  gloam reference ao house.exr --scene house.glb -o ref.exr --radius 0.3\n"
-      "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+\n"
-      "  gloam reference ao 'shot.####.exr' -o 'truth.####.exr' --frames 1-48 --samples 512 --resume\n"
-      "  gloam reference reflection gallery.exr -o gallery_reflection_ref.exr --samples 1024");
+  command->footer("Kinds:\n" + kinds_in_words() +
+                  "Interrupted after its first 15 s, it goes on when run again from what it kept last. Examples:\n"
+                  "  gloam reference ao colonnade.exr -o colonnade_ao_ref.exr --samples 1024\n"
+                  "  gloam reference ao house.exr --scene house.glb -o ref.exr --radius 0.3\n"
+                  "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+\n"
+                  "  gloam reference ao 'shot.####.exr' -o 'truth.####.exr' --frames 1-48 --samples 512 --resume\n"
+                  "  gloam reference reflection gallery.exr -o gallery_reflection_ref.exr --samples 1024\n"
+                  "  gloam reference bounces courtyard.exr -o courtyard_bounces_ref.exr --samples 1024");
   command->callback([flags, command] { reference_command(*flags, *command); });
 }
 

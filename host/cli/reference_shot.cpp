@@ -85,9 +85,11 @@ class TruthsOfShot {
     if (flags_.resume && report_.leaves_alone(frame.number, out, why_again(out, making))) return false;
     times.decode = lap();
     const std::string checkpoint = out.string() + ".partial";
-    TracedFrame traced =
-        trace_frame(flags_, job_, files, scene_,
-                    {seed_of(frame.number), checkpoint, [&](double share) { report_.in_frame(share); }});
+    ReferenceOptions options;
+    options.seed = seed_of(frame.number);
+    options.checkpoint = checkpoint;
+    options.progress = [&](double share) { report_.in_frame(share); };
+    TracedFrame traced = trace_frame(flags_, job_, files, scene_, options);
     times.compute = lap();
     traced.truth.frame.attributes.merge(attributes_of(making));
     write_frame(out, traced.truth.frame, {flags_.half, flags_.compression});
@@ -100,7 +102,7 @@ class TruthsOfShot {
   }
 
   FrameMaking making_of(const FrameFiles& files) const {
-    return {GLOAM_VERSION, fmt::format("reference {}{}; {}", flags_.what, flags_.given, scene_.identity()),
+    return {GLOAM_VERSION, fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity()),
             identity_of(files)};
   }
 

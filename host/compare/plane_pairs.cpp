@@ -16,7 +16,14 @@ const std::vector<PlanePair>& result_pairs() {
                                                {"reflection", "reflection"},
                                                {"bent_normal", "bent_normal"},
                                                {"cone", "cone"},
-                                               {"hit", "hit"}};
+                                               {"hit", "hit"},
+                                               {"indirect", "indirect"},
+                                               {"indirect_raw", "indirect_raw"},
+                                               {"indirect_raw", "indirect"},
+                                               {"bounces", "bounces"},
+                                               {"specular_occlusion", "specular_occlusion"},
+                                               {"contact", "contact"},
+                                               {"environment", "environment"}};
   return pairs;
 }
 

@@ -161,6 +161,17 @@ const std::vector<Spelling>& spellings() {
       {"history_depth", "history", "z", own},
       {"history_frames", "history", "frames", own},
       {"reflection_noise", "*", "reflection_noise", own},
+      {"indirect", "indirect", "r,g,b", own},
+      {"indirect_raw", "indirectraw", "r,g,b", own},
+      {"indirect_noise", "*", "indirect_noise", own},
+      {"bounces", "bounces", "r,g,b", own},
+      {"bounces_noise", "*", "bounces_noise", own},
+      {"specular_occlusion", "*", "specular_occlusion", own},
+      {"specular_occlusion_noise", "*", "specular_occlusion_noise", own},
+      {"contact", "*", "contact", own},
+      {"contact_noise", "*", "contact_noise", own},
+      {"environment", "environment", "r,g,b", own},
+      {"environment_noise", "*", "environment_noise", own},
       {"hit", "hit", "z", own},
   };
   return table;

@@ -337,6 +337,38 @@ TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
       "--radius");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "inf", "--falloff", "hbao+"}, 2,
                  "finite");
+  // Options of another kind, and names that are nearly right.
+  const auto refused = [&](const char* kind, const char* option, const char* value, const std::string& why) {
+    expect_refused({"reference", kind, loggia, "--scene", "plane", "-o", out, option, value}, 2, why);
+  };
+  refused("bounce", "--radius", "1", "did you mean 'bounces'?");
+  refused("specular-occlusion", "--radius", "1", "did you mean 'specular_occlusion'?");
+  refused("reflection", "--radius", "0.5", "--radius 0.5: is for ao, ");
+  refused("bounces", "--falloff", "hbao+", "--falloff hbao+: is for ao, and bounces has none; leave it out");
+  refused("bounces", "--set", "hbao+.bias=0.3", "--set hbao+.bias: sets a falloff");
+  refused("ao", "--bounces", "2", "--bounces 2: is for bounces, and ao has none; leave it out");
+  refused("bounces", "--bounces", "1025", "a whole number from 0 to 1024 is");
+}
+
+/// Each kind of truth has its plane, its noise, and states its samples and what it is.
+TEST_F(CaptureCommand, EveryKindOfReferenceStatesWhatItIs) {
+  ASSERT_EQ(gloam({"capture", "slab", "-o", file("s.exr"), "--size", "64x36"}).status, 0);
+  for (const std::string kind : {"ao", "reflection", "bounces", "specular_occlusion"}) {
+    const Result result =
+        gloam({"reference", kind, file("s.exr"), "-o", file("r.exr"), "--samples", "40", "--json", "-"});
+    ASSERT_EQ(result.status, 0) << kind << result.err;
+    FrameFile reference(file("r.exr"), {});
+    EXPECT_EQ(reference.number_attribute(kind + "Samples"), 64) << kind;
+    EXPECT_NEAR(reference.number_attribute(kind + "Noise").value(), double(result.json()["noise"]), 1e-6) << kind;
+    EXPECT_GT(double(result.json()["noise"]), 0) << kind;
+    EXPECT_EQ(reference.number_attribute(kind + "Radius").has_value(), kind != "reflection") << kind;
+    EXPECT_NE(reference.text_attribute(kind + "Definition"), "") << kind;
+    EXPECT_EQ(reference.text_attribute("gloamScene"), "slab");
+    EXPECT_TRUE(contains(reference.common_planes(), kind) && contains(reference.common_planes(), kind + "_noise"));
+    // Compared with itself there is no error.
+    const nlohmann::json same = gloam({"compare", file("r.exr"), file("r.exr"), "--json", "-"}).json();
+    EXPECT_EQ(same["rmse"], 0) << kind;
+  }
 }
 
 TEST_F(CaptureCommand, ListsScenes) {
