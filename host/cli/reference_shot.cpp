@@ -158,7 +158,8 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
   const ShotFiles shot({.frame = flags.frame}, flags.frame_flags, flags.choice);
   const NamedPatterns outputs = {{"-o", output}};
   check_outputs(outputs, shot, {{"--json", flags.json.file()}});
-  check_paths({{"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene}},
+  check_paths({{"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+               {"--environment", flags.request.environment}},
               {{"--json", flags.json.file()}});
   ShotReport report(shot.frames().size(), flags.json);
   TruthsOfShot truths(flags, job, shot, output, report);

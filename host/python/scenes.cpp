@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "gloam/scene/capture.h"
 #include "python/frames.h"
 #include "python/interrupts.h"
@@ -144,6 +145,11 @@ void check_reach(const char* name, std::optional<double> reach) {
     throw UsageError("{} {:g} is not allowed; a number from 1e-30 to 1e30, or inf, is", name, *reach);
 }
 
+std::optional<glm::dvec3> point_from(const py::object& words) {
+  const auto values = py::cast<std::optional<std::array<double, 3>>>(words);
+  return values ? std::optional(point_of(*values)) : std::nullopt;
+}
+
 ReferenceRequest request_from(const py::dict& words) {
   ReferenceRequest request;
   request.what = py::cast<std::string>(words["what"]);
@@ -152,7 +158,16 @@ ReferenceRequest request_from(const py::dict& words) {
   request.falloff = py::cast<std::string>(words["falloff"]);
   request.falloff_settings = py::cast<Settings>(words["falloff_settings"]);
   request.bounces = py::cast<std::optional<int>>(words["bounces"]);
+  request.length = py::cast<std::optional<double>>(words["length"]);
+  request.light_direction = point_from(words["light_direction"]);
+  request.light_position = point_from(words["light_position"]);
+  request.light_angle = py::cast<std::optional<double>>(words["light_angle"]);
+  request.environment = py::cast<std::string>(words["environment"]);
+  const std::string axes = py::cast<std::string>(words["environment_axes"]);
+  if (!axes.empty()) request.environment_axes = value_of(axes, "environment_axes", environment_axes());
+  request.environment_turn = py::cast<std::optional<double>>(words["environment_turn"]);
   check_reach("radius", request.radius);
+  check_reach("length", request.length);
   return request;
 }
 

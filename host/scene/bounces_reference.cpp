@@ -90,9 +90,10 @@ Reference bounces_reference(const Tracer& tracer, const Frame& frame, const Boun
     return rays;
   };
   Reference result = trace_rows(tracer, frame, rows);
-  describe(result, "bounces", options.radius, pixels.paths_per_pixel(),
+  describe(result, "bounces", pixels.paths_per_pixel(),
            "mean over cosine-weighted directions of 1 where nothing is within bouncesRadius, else of albedo times the "
            "same mean at what is met, up to bouncesMost reflections");
+  result.frame.numbers["bouncesRadius"] = options.radius;
   result.frame.numbers["bouncesMost"] = options.bounces;
   return result;
 }

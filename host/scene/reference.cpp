@@ -77,7 +77,8 @@ AoReference ao_reference(const Tracer& tracer, const Frame& frame, const AoRefer
     return (long long)estimator.rays_per_pixel();
   };
   AoReference result = trace_rows(tracer, frame, rows);
-  describe(result, "ao", options.radius, estimator.rays_per_pixel(), definition(options.falloff));
+  describe(result, "ao", estimator.rays_per_pixel(), definition(options.falloff));
+  result.frame.numbers["aoRadius"] = options.radius;
   Frame& out = result.frame;
   out.attributes["aoFalloff"] = options.falloff;
   if (!options.falloff_parameters.empty()) out.attributes["aoFalloffParameters"] = options.falloff_parameters;

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "gloam/error.h"
 #include "gloam/scene/bounces_reference.h"
+#include "gloam/scene/contact_reference.h"
+#include "gloam/scene/environment_reference.h"
+#include "gloam/scene/indirect_reference.h"
 #include "gloam/scene/reflection_reference.h"
 #include "gloam/scene/specular_occlusion_reference.h"
 #include "scene/falloff.h"
@@ -76,12 +81,65 @@ ReferenceJob specular_occlusion_job(const ReferenceRequest& request, const Optio
   return job;
 }
 
+ReferenceJob indirect_job(const ReferenceRequest& request, const OptionSpelling&) {
+  ReferenceJob job = job_with(request, ReferenceOptions(), &indirect_reference);
+  job.heading = "light from the first surfaces met";
+  return job;
+}
+
+ReferenceJob environment_job(const ReferenceRequest& request, const OptionSpelling& spelled) {
+  if (request.environment.empty())
+    throw UsageError("reference environment: needs the light; give {} FILE.exr", spelled("environment"));
+  const auto map = std::make_shared<EnvironmentMap>(
+      read_environment(request.environment, request.environment_axes.value_or(EnvironmentAxes::openexr),
+                       request.environment_turn.value_or(0)));
+  ReferenceOptions options;
+  options.samples = request.samples.value_or(options.samples);
+  ReferenceJob job;
+  job.reads = {"depth", "normal"};
+  job.radius = request.radius;
+  job.heading = fmt::format("environment of {} x {}", map->width(), map->height());
+  job.words = {{"environment", request.environment}};
+  job.trace = [options, map](const Tracer& tracer, const Frame& frame, const ReferenceOptions& of_frame) {
+    return environment_reference(tracer, frame, *map, for_frame(options, of_frame));
+  };
+  return job;
+}
+
+ReferenceJob contact_job(const ReferenceRequest& request, const OptionSpelling& spelled) {
+  ContactReferenceOptions options;
+  if (request.light_direction && request.light_position)
+    throw UsageError("{} and {} are two lights; give one of them", spelled("light_direction"),
+                     spelled("light_position"));
+  options.light_direction = request.light_direction;
+  options.light_position = request.light_position;
+  options.light_angle = request.light_angle.value_or(0);
+  ReferenceJob job = job_with(request, options, &contact_reference);
+  job.radius = request.length;
+  job.heading = options.light_position    ? "light at a position"
+                : options.light_direction ? "light from a direction"
+                                          : "the scene's sun";
+  if (options.light_angle > 0) job.heading += fmt::format(", a disc of {:g} degrees", options.light_angle);
+  job.numbers = {{"light_angle", options.light_angle}};
+  return job;
+}
+
+std::string in_words(const glm::dvec3& v) { return fmt::format("{:g},{:g},{:g}", v.x, v.y, v.z); }
+
 /// Options that not all kinds take, with what was given for them.
 std::vector<std::pair<std::string, std::string>> special_options(const ReferenceRequest& request) {
   std::vector<std::pair<std::string, std::string>> given;
   if (request.radius) given.emplace_back("radius", fmt::format("{:g}", *request.radius));
   if (request.falloff != "none") given.emplace_back("falloff", request.falloff);
   if (request.bounces) given.emplace_back("bounces", fmt::format("{}", *request.bounces));
+  if (request.length) given.emplace_back("length", fmt::format("{:g}", *request.length));
+  if (request.light_direction) given.emplace_back("light_direction", in_words(*request.light_direction));
+  if (request.light_position) given.emplace_back("light_position", in_words(*request.light_position));
+  if (request.light_angle) given.emplace_back("light_angle", fmt::format("{:g}", *request.light_angle));
+  if (!request.environment.empty()) given.emplace_back("environment", request.environment);
+  if (request.environment_axes)
+    given.emplace_back("environment_axes", word_for(*request.environment_axes, environment_axes()));
+  if (request.environment_turn) given.emplace_back("environment_turn", fmt::format("{:g}", *request.environment_turn));
   return given;
 }
 
@@ -125,6 +183,17 @@ const std::vector<ReferenceKind>& reference_kinds() {
        {"radius", "bounces"},
        bounces_job},
       {"specular_occlusion", "share of a glossy lobe that is open", 256, {"radius"}, specular_occlusion_job},
+      {"indirect", "light from the surfaces around, by one reflection", 256, {"radius"}, indirect_job},
+      {"environment",
+       "light of an environment from open directions",
+       256,
+       {"radius", "environment", "environment_axes", "environment_turn"},
+       environment_job},
+      {"contact",
+       "share of a light that arrives past what is near",
+       256,
+       {"length", "light_direction", "light_position", "light_angle"},
+       contact_job},
   };
   return kinds;
 }

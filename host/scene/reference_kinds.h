@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec3.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gloam/environment_map.h"
 #include "gloam/parameters.h"
 #include "gloam/scene/reference.h"
 
@@ -20,6 +22,12 @@ struct ReferenceRequest {
   std::string falloff = "none";
   Settings falloff_settings = {};  ///< {"hbao+.bias", "0.2"}
   std::optional<int> bounces;
+  std::optional<double> length;  ///< scene units; may be infinite
+  std::optional<glm::dvec3> light_direction = {}, light_position = {};
+  std::optional<double> light_angle;  ///< degrees
+  std::string environment;            ///< path of a lat-long map
+  std::optional<EnvironmentAxes> environment_axes;
+  std::optional<double> environment_turn;  ///< degrees
 };
 
 /// How a user spells an option's name: "light_angle" as "--light-angle" or as it is.
@@ -35,7 +43,7 @@ struct ReferenceJob {
   std::map<std::string, std::string> words;    ///< settings, for JSON
   std::map<std::string, double> numbers = {};  ///< likewise
   bool has_radius = true;
-  std::optional<double> radius;  ///< given
+  std::optional<double> radius;  ///< given; of contact the length
   /// `options`: with the radius of this frame, a seed, a checkpoint and what to call; its samples do not count.
   std::function<Reference(const Tracer& tracer, const Frame& frame, const ReferenceOptions& options)> trace;
 };

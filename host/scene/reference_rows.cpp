@@ -354,10 +354,8 @@ void check_samples(int samples) {
   if (samples < 1 || samples > (1 << 24)) throw UsageError("{} samples are not allowed; 1 to {} are", samples, 1 << 24);
 }
 
-void describe(Reference& reference, const std::string& name, double radius, int samples,
-              const std::string& definition) {
+void describe(Reference& reference, const std::string& name, int samples, const std::string& definition) {
   Frame& frame = reference.frame;
-  frame.numbers[name + "Radius"] = radius;
   frame.numbers[name + "Samples"] = samples;
   frame.numbers[name + "Noise"] = reference.noise;
   frame.attributes[name + "Definition"] = definition;

@@ -76,8 +76,8 @@ RowsOptions rows_of(const std::string& value, std::vector<float> background, con
 void check_radius(double radius);
 void check_samples(int samples);
 
-/// Adds what every reference with a radius states about itself: `name` with Radius, Samples, Noise and Definition.
-void describe(Reference& reference, const std::string& name, double radius, int samples, const std::string& definition);
+/// Adds what every reference states about itself: `name` with Samples, Noise and Definition.
+void describe(Reference& reference, const std::string& name, int samples, const std::string& definition);
 
 /// Makes the planes of `options` for every view of the frame, with its depth and cameras. Throws as `ao_reference` does for a
 /// frame that does not fit the scene, and if another file lies in the checkpoint's place.

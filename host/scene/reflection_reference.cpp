@@ -166,14 +166,10 @@ Reference reflection_reference(const Tracer& tracer, const Frame& frame, const R
     return pixels.trace(view, site, x, y, pixel, value, noise);
   };
   Reference result = trace_rows(tracer, frame, rows);
-  Frame& out = result.frame;
-  out.numbers["reflectionSamples"] = rounded_samples(options.samples);
-  out.numbers["reflectionNoise"] = result.noise;
-  out.numbers["gloamExposure"] = exposure_for(out);
-  out.attributes["reflectionDefinition"] =
-      "light that visible surfaces reflect towards the eye (GGX, Smith, Schlick) from what leaves others the same in "
-      "every "
-      "direction, and from the sky; A is the share of it that the frame shows";
+  describe(result, "reflection", rounded_samples(options.samples),
+           "light that visible surfaces reflect towards the eye (GGX, Smith, Schlick) from what leaves others the same "
+           "in every direction, and from the sky; A is the share of it that the frame shows");
+  result.frame.numbers["gloamExposure"] = exposure_for(result.frame);
   return result;
 }
 

@@ -98,9 +98,10 @@ Reference specular_occlusion_reference(const Tracer& tracer, const Frame& frame,
     return samples;
   };
   Reference result = trace_rows(tracer, frame, rows);
-  describe(result, "specular_occlusion", options.radius, samples,
+  describe(result, "specular_occlusion", samples,
            "share of the light of a GGX lobe (height-correlated Smith, alpha = roughness^2, without Fresnel) about the "
            "normal, seen from the eye, whose directions are open within specular_occlusionRadius");
+  result.frame.numbers["specular_occlusionRadius"] = options.radius;
   return result;
 }
 

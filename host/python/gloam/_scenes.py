@@ -75,17 +75,23 @@ def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=Non
     return frame
 
 
-def reference(frame, scene=None, *, samples=None, radius=None, what="ao", falloff="none", bounces=None, seed=0, checkpoint=None, settings=None,
-              **scene_settings):
+def reference(frame, scene=None, *, samples=None, radius=None, what="ao", falloff="none", bounces=None, length=None,
+              light_direction=None, light_position=None, light_angle=None, environment=None, environment_axes=None, environment_turn=None, seed=0,
+              checkpoint=None, settings=None, **scene_settings):
     """The ray-traced truth of a frame: a gloam.Frame with the planes ao and ao_noise (or those of another kind), depth and cameras.
 
     frame: a gloam.Frame with depth and a camera with a pose, or a path.  scene: as for gloam.capture; default: the built-in one that the frame
-    names.  what: "ao", "reflection", "bounces" (ambient light with light reflected between surfaces) or "specular_occlusion" (openness of a
-        glossy lobe).
+    names.  what: "ao", "reflection", "bounces" (ambient light with light reflected between surfaces), "specular_occlusion" (openness of a
+        glossy lobe), "indirect" (light from the surfaces around), "environment" (light of an environment from open directions) or "contact"
+        (share of a light that arrives past what is near).
     samples: rays (of bounces: paths) per pixel, rounded up to a multiple of 32; default 256, of reflections 1024.
     radius: reach of an occluder, scene units, or inf; default: the frame's, else the scene's, else made from the frame.
     falloff: "none", or a technique whose contribution is traced (settings={"hbao+.bias": 0.2}).  bounces: reflections after which a path of
         bounces ends, 0 to 1024; default 128.  seed: 0 or more.
+    length: of contact, reach of an occluder, scene units, or inf; default as for radius.  light_direction: towards the light, or light_position, scene
+        units, as (x, y, z) in the world; default: the scene's sun.  light_angle: angular radius of the light, degrees; default 0.
+    environment: path of a lat-long EXR file.  environment_axes: "openexr" (default: +y is up, the middle looks along +z) or "blender" (+z is up,
+        the middle looks along +x).  environment_turn: degrees about the up axis, counter-clockwise seen from above.
     checkpoint: path of a file in which the work is saved every 15 s; after Ctrl-C the same call goes on from there.
     `numbers` of the result has aoRadius (scene units), aoSamples, aoNoise (RMS), of other kinds with the name of their plane.
     Raises gloam.Error, also if the frame does not show the scene. Ctrl-C ends the call within a moment.
@@ -96,7 +102,12 @@ def reference(frame, scene=None, *, samples=None, radius=None, what="ao", fallof
         raise UsageError(f"frame is of type {type(frame).__name__}; a gloam.Frame or a path is allowed")
     words = {"what": _words.text("what", what), "falloff": _words.text("falloff", falloff), "samples": _words.integer("samples", samples),
              "radius": _words.number("radius", radius), "seed": _words.integer("seed", seed),
-             "bounces": _words.integer("bounces", bounces),
+             "bounces": _words.integer("bounces", bounces), "length": _words.number("length", length),
+             "light_direction": _words.point("light_direction", light_direction),
+             "light_position": _words.point("light_position", light_position), "light_angle": _words.number("light_angle", light_angle),
+             "environment": "" if environment is None else _words.path("environment", environment),
+             "environment_axes": "" if environment_axes is None else _words.text("environment_axes", environment_axes),
+             "environment_turn": _words.number("environment_turn", environment_turn),
              "checkpoint": "" if checkpoint is None else _words.path("checkpoint", checkpoint),
              "settings": _words.settings(scene_settings), "falloff_settings": _words.settings(settings)}
     held = None if scene is None else _scene(scene, scene_settings)
