@@ -1,6 +1,8 @@
-"""Renders the ambient-occlusion pass of an OBJ file with Blender's Cycles, one sample position per pixel: its centre.
+"""Renders an OBJ file with Blender's Cycles, one sample position per pixel: its centre.
 
-blender -b --factory-startup --python-exit-code 1 -P render_ao.py -- SCENE.obj CAMERA.json RADIUS SAMPLES SEED OUT.exr
+blender -b --factory-startup --python-exit-code 1 -P render_truth.py -- KIND SCENE.obj CAMERA.json RADIUS SAMPLES SEED OUT.exr
+
+KIND: "ao", the ambient-occlusion pass within RADIUS; or "white_light", the picture of surfaces with the albedo 0.6 under a sky of 1.
 
 The OBJ holds triangles only and is taken in its own axes. The camera JSON is as docs/gbuffer.md has it.
 """
@@ -35,7 +37,24 @@ def add_camera(scene, camera):
     scene.camera = item
 
 
-def main(scene_file, camera_file, radius, samples, seed, out):
+def light_white(scene, mesh):
+    """A sky of 1 and a grey diffuse surface, and no limit on light or its paths."""
+    scene.world.use_nodes = True
+    background = scene.world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1, 1, 1, 1), 1
+    material = bpy.data.materials.new("grey")
+    material.use_nodes = True
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    grey, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
+    grey.inputs["Color"].default_value = (0.6, 0.6, 0.6, 1)
+    material.node_tree.links.new(grey.outputs["BSDF"], output.inputs["Surface"])
+    mesh.materials.append(material)
+    scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 128
+    scene.cycles.sample_clamp_direct = scene.cycles.sample_clamp_indirect = 0
+
+
+def main(kind, scene_file, camera_file, radius, samples, seed, out):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     mesh = bpy.data.meshes.new("mesh")
@@ -47,7 +66,10 @@ def main(scene_file, camera_file, radius, samples, seed, out):
     add_camera(scene, camera)
 
     scene.world = bpy.data.worlds.new("world")
-    scene.world.light_settings.distance = float(radius)
+    if kind == "white_light":
+        light_white(scene, mesh)
+    else:
+        scene.world.light_settings.distance = float(radius)
     scene.render.engine = "CYCLES"
     scene.cycles.samples = int(samples)
     scene.cycles.seed = int(seed)
@@ -55,7 +77,7 @@ def main(scene_file, camera_file, radius, samples, seed, out):
     scene.cycles.use_denoising = False
     scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     scene.cycles.filter_width = 0.01
-    scene.view_layers[0].use_pass_ambient_occlusion = True
+    scene.view_layers[0].use_pass_ambient_occlusion = kind == "ao"
     scene.view_layers[0].use_pass_z = True
     scene.render.resolution_x, scene.render.resolution_y = camera["width"], camera["height"]
     scene.render.resolution_percentage = 100
