@@ -102,8 +102,9 @@ class TruthsOfShot {
   }
 
   FrameMaking making_of(const FrameFiles& files) const {
-    return {GLOAM_VERSION, fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity()),
-            identity_of(files)};
+    std::string how = fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity());
+    if (!job_.identity.empty()) how += "; " + job_.identity;
+    return {GLOAM_VERSION, how, identity_of(files)};
   }
 
   /// Frames have rays of their own: their noise differs, and is in no frame what it was in the one before.

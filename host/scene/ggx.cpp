@@ -35,7 +35,7 @@ dvec3 above_surface(dvec3 v) {
 
 GgxLobe::GgxLobe(float roughness, const dvec3& to_eye)
     : is_mirror_(roughness < mirror_roughness),
-      alpha_(double(std::max(roughness, mirror_roughness))),
+      alpha_(double(std::max(mirror_roughness, roughness))),  // in this order NaN becomes a narrow lobe
       to_eye_(above_surface(to_eye)) {
   alpha_ *= alpha_;
   masked_ = hidden_per_seen(alpha_, to_eye_);

@@ -15,6 +15,7 @@
 #include "gloam/scene/reflection_reference.h"
 #include "gloam/scene/specular_occlusion_reference.h"
 #include "scene/falloff.h"
+#include "scene/fingerprint.h"
 
 namespace gloam {
 namespace {
@@ -100,6 +101,9 @@ ReferenceJob environment_job(const ReferenceRequest& request, const OptionSpelli
   job.radius = request.radius;
   job.heading = fmt::format("environment of {} x {}", map->width(), map->height());
   job.words = {{"environment", request.environment}};
+  Fingerprint print;
+  print.add(map->texels());
+  job.identity = "environment " + print.text();
   job.trace = [options, map](const Tracer& tracer, const Frame& frame, const ReferenceOptions& of_frame) {
     return environment_reference(tracer, frame, *map, for_frame(options, of_frame));
   };

@@ -42,6 +42,7 @@ struct ReferenceJob {
   std::string heading;                         ///< "falloff none"
   std::map<std::string, std::string> words;    ///< settings, for JSON
   std::map<std::string, double> numbers = {};  ///< likewise
+  std::string identity = {};                   ///< of files that were read, by what is in them
   bool has_radius = true;
   std::optional<double> radius;  ///< given; of contact the length
   /// `options`: with the radius of this frame, a seed, a checkpoint and what to call; its samples do not count.
