@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.h"
 #include "gloam/planes.h"
 
 namespace gloam::cli {
@@ -12,7 +13,9 @@ namespace {
 std::string bias_words(double bias, const std::string& plane) {
   if (std::abs(bias) < 5e-6) return "";
   const PlaneKind::Meaning meaning = plane_kind(plane).meaning;
-  const bool light = meaning == PlaneKind::unit_interval || plane == "color" || plane == "reflection";
+  static const std::vector<std::string> radiance = {"color",        "reflection", "indirect",
+                                                    "indirect_raw", "bounces",    "environment"};
+  const bool light = meaning == PlaneKind::unit_interval || contains(radiance, plane);
   return bias > 0 ? (light ? "  (too bright)" : "  (too high)") : (light ? "  (too dark)" : "  (too low)");
 }
 

@@ -11,13 +11,15 @@ namespace {
 
 using glm::dvec3;
 
-/// Mean light of one half of the rays.
-dvec3 half_of(const Tracer& tracer, const Site& site, double radius, int samples, uint32_t seed) {
+/// Mean light of one half of the rays. Adds the rays that it took.
+dvec3 half_of(const Tracer& tracer, const Site& site, double radius, int samples, uint32_t seed,
+              long long& rays_traced) {
   dvec3 sum(0);
   for (int first = 0; first < samples; first += rays_per_packet) {
     const CosineRays rays = cosine_rays(site, seed, first);
     for (int i = 0; i < rays.count; ++i) {
       const std::optional<Surface> met = tracer.first_from(site.origin, dvec3(rays.directions[i]), radius);
+      rays_traced += met ? 2 : 1;  // the second towards the sun
       // Each hit asks for one point of the sun: there are many hits.
       if (met) sum += dvec3(radiance(tracer, *met, hash(seed + uint32_t(first + i)), 1));
     }
@@ -40,10 +42,11 @@ Reference indirect_reference(const Tracer& tracer, const Frame& frame, const Ref
   rows.key = fmt::format("{} radius {} samples {} seed {}", print.text(), options.radius, samples, options.seed);
   rows.trace = [&](const ViewTracer&, const Site& site, int, int, uint32_t pixel, float* value, float& noise) {
     const auto seeds = seeds_of_halves(pixel, options.seed);
-    const dvec3 a = half_of(tracer, site, options.radius, samples / 2, seeds[0]),
-                b = half_of(tracer, site, options.radius, samples / 2, seeds[1]);
+    long long rays = 0;
+    const dvec3 a = half_of(tracer, site, options.radius, samples / 2, seeds[0], rays),
+                b = half_of(tracer, site, options.radius, samples / 2, seeds[1], rays);
     noise = mean_of_halves(a, b, value);
-    return 2LL * samples;  // each with one towards the sun
+    return rays;
   };
   Reference result = trace_rows(tracer, frame, rows);
   describe(result, "indirect", samples,
