@@ -1,4 +1,4 @@
-// gloam reference ao|reflection FRAME.exr --scene SCENE -o REF.exr
+// gloam reference KIND FRAME.exr --scene SCENE -o REF.exr
 #include <memory>
 
 #include "cli/given_flags.h"
@@ -8,6 +8,8 @@
 #include "cli/shot_flags.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
+#include "gloam/scene/bounces_reference.h"
+#include "gloam/scene/contact_reference.h"
 
 namespace gloam::cli {
 namespace {
@@ -28,7 +30,8 @@ Json document(const Reference& result, const ReferenceJob& job, const Scene& sce
                {"rays", result.rays},
                {"seconds", seconds},
                {"rays_per_second", seconds > 0 ? double(result.rays) / seconds : 0}};
-  json.update(job.settings);
+  for (const auto& [name, word] : job.words) json[name] = word;
+  for (const auto& [name, number] : job.numbers) json[name] = number;
   return json;
 }
 
@@ -68,14 +71,17 @@ void reference_on_frame(const ReferenceCommand& flags, const ReferenceJob& job) 
   check_paths(
       {{"the frame", flags.frame},
        {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
-       {"--camera", flags.frame_flags.camera}},
+       {"--camera", flags.frame_flags.camera},
+       {"--environment", flags.request.environment}},
       {{"-o", flags.out}, {"the unfinished", checkpoint}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
   const auto bar = progress_bar();
-  TracingOfFrame tracing{uint32_t(flags.seed), checkpoint, {}};
-  if (bar) tracing.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
+  ReferenceOptions options;
+  options.seed = uint32_t(flags.seed);
+  options.checkpoint = checkpoint;
+  if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
   FrameFiles files({flags.frame}, flags.frame_flags.read_options());
   SceneOfFrame scene(flags.scene);
-  const TracedFrame traced = trace_frame(flags, job, files, scene, tracing);
+  const TracedFrame traced = trace_frame(flags, job, files, scene, options);
   const Reference& result = traced.truth;
   std::optional<RadiusReport> report;
   if (traced.radius) report.emplace(*traced.radius, traced.frame, std::nullopt);
@@ -95,20 +101,63 @@ void reference_on_frame(const ReferenceCommand& flags, const ReferenceJob& job) 
   print(result, job, scene.tracer().scene(), flags);
 }
 
+/// "  ao  share of the directions that are open\n"
+std::string kinds_in_words() {
+  std::string words;
+  for (const ReferenceKind& kind : reference_kinds()) words += fmt::format("  {:<19} {}\n", kind.name, kind.help);
+  return words;
+}
+
 void reference_command(ReferenceCommand flags, const CLI::App& command) {
   flags.given = contents_in_words(command);
-  const ReferenceJob job = job_of(flags);
+  flags.request.falloff_settings = flags.scene.take_dotted_settings();
+  const ReferenceJob job = job_of(flags.request, as_flag);
   check_flags(flags);
   if (FramePattern::is_pattern(flags.frame)) return reference_on_shot(flags, job);
   reference_on_frame(flags, job);
+}
+
+glm::dvec3 parse_direction(const std::string& text, const std::string& flag) {
+  const glm::dvec3 direction = parse_point(text, flag);
+  if (direction == glm::dvec3(0)) throw UsageError("{} {} is not allowed; a direction that is not 0 is", flag, text);
+  return direction;
+}
+
+/// Flags of single kinds.
+void add_kind_flags(CLI::App& command, ReferenceRequest& request) {
+  add_number(command, "--bounces", request.bounces, {0, most_bounces},
+             "of bounces: reflections after which a path ends; default 128")
+      ->type_name("N");
+  add_number(
+      command, "--length", request.length, {allowed_radii.least, allowed_radii.most, true},
+      "of contact: reach of an occluder, scene units, or inf; default: the scene's AO radius, else made from the "
+      "frame")
+      ->type_name("L");
+  add_parsed(command, "--light-direction", request.light_direction, parse_direction,
+             "of contact: towards the light, in the world; default: the scene's sun")
+      ->type_name("X,Y,Z");
+  add_parsed(command, "--light-position", request.light_position, parse_point, "of contact: the light, scene units")
+      ->type_name("X,Y,Z");
+  add_number(command, "--light-angle", request.light_angle, {0, most_light_angle},
+             "of contact: angular radius of the light's disc; default 0, a point")
+      ->type_name("DEGREES");
+  command.add_option("--environment", request.environment, "of environment: the light, a lat-long map")
+      ->type_name("FILE.exr");
+  add_choice(command, "--environment-axes", request.environment_axes, environment_axes(),
+             "of environment: how the world lies in the map; openexr (default): +y is up and its middle looks along "
+             "+z; blender: +z is up and its middle looks along +x");
+  add_number(command, "--environment-turn", request.environment_turn, {-360, 360},
+             "of environment: turns it about the up axis, counter-clockwise seen from above")
+      ->type_name("DEGREES");
 }
 
 }  // namespace
 
 void add_reference(CLI::App& app) {
   auto flags = std::make_shared<ReferenceCommand>();
+  ReferenceRequest& request = flags->request;
   CLI::App* command = app.add_subcommand("reference", "ray-traced truth for a frame whose scene is at hand");
-  command->add_option("what", flags->what, "what is traced")->required()->type_name(type_of_words(reference_kinds()));
+  command->add_option("what", request.what, "what is traced")->required()->type_name(type_of_words(reference_names()));
   command
       ->add_option(
           "frame", flags->frame,
@@ -122,16 +171,17 @@ void add_reference(CLI::App& app) {
   command->add_option("-o,--output", flags->out, "EXR file to write, of a shot truth.####.exr")
       ->required()
       ->type_name("REF.exr");
-  add_number(*command, "--samples", flags->samples, allowed_rays,
-             "rays per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
+  add_number(*command, "--samples", request.samples, allowed_rays,
+             "rays (bounces: paths) per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
       ->type_name("N");
-  add_number(*command, "--radius", flags->radius, {allowed_radii.least, allowed_radii.most, true},
+  add_number(*command, "--radius", request.radius, {allowed_radii.least, allowed_radii.most, true},
              "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame")
       ->type_name("R");
   command
-      ->add_option("--falloff", flags->falloff,
+      ->add_option("--falloff", request.falloff,
                    "none, or a technique: its contribution at the true first hit (--set hbao+.bias=0.2)")
       ->type_name("none|NAME");
+  add_kind_flags(*command, request);
   add_number(*command, "--seed", flags->seed, {0, 1 << 30}, "of the sample set; in a shot the frame's number is added")
       ->type_name("N");
   command->add_option("--picture", flags->picture, "also as a picture")->type_name("AO.png");
@@ -144,12 +194,16 @@ void add_reference(CLI::App& app) {
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
+      "Kinds:\n" + kinds_in_words() +
       "Interrupted after its first 15 s, it goes on when run again from what it kept last. Examples:\n"
       "  gloam reference ao colonnade.exr -o colonnade_ao_ref.exr --samples 1024\n"
       "  gloam reference ao house.exr --scene house.glb -o ref.exr --radius 0.3\n"
       "  gloam reference ao colonnade.exr -o own.exr --falloff hbao+\n"
       "  gloam reference ao 'shot.####.exr' -o 'truth.####.exr' --frames 1-48 --samples 512 --resume\n"
-      "  gloam reference reflection gallery.exr -o gallery_reflection_ref.exr --samples 1024");
+      "  gloam reference reflection gallery.exr -o gallery_reflection_ref.exr --samples 1024\n"
+      "  gloam reference bounces courtyard.exr -o courtyard_bounces_ref.exr --samples 1024\n"
+      "  gloam reference contact courtyard.exr -o courtyard_contact_ref.exr --length 0.5 --light-angle 1.5\n"
+      "  gloam reference environment statue.exr -o statue_light_ref.exr --environment sky.exr --radius inf");
   command->callback([flags, command] { reference_command(*flags, *command); });
 }
 

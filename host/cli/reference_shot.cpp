@@ -85,9 +85,11 @@ class TruthsOfShot {
     if (flags_.resume && report_.leaves_alone(frame.number, out, why_again(out, making))) return false;
     times.decode = lap();
     const std::string checkpoint = out.string() + ".partial";
-    TracedFrame traced =
-        trace_frame(flags_, job_, files, scene_,
-                    {seed_of(frame.number), checkpoint, [&](double share) { report_.in_frame(share); }});
+    ReferenceOptions options;
+    options.seed = seed_of(frame.number);
+    options.checkpoint = checkpoint;
+    options.progress = [&](double share) { report_.in_frame(share); };
+    TracedFrame traced = trace_frame(flags_, job_, files, scene_, options);
     times.compute = lap();
     traced.truth.frame.attributes.merge(attributes_of(making));
     write_frame(out, traced.truth.frame, {flags_.half, flags_.compression});
@@ -100,8 +102,9 @@ class TruthsOfShot {
   }
 
   FrameMaking making_of(const FrameFiles& files) const {
-    return {GLOAM_VERSION, fmt::format("reference {}{}; {}", flags_.what, flags_.given, scene_.identity()),
-            identity_of(files)};
+    std::string how = fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity());
+    if (!job_.identity.empty()) how += "; " + job_.identity;
+    return {GLOAM_VERSION, how, identity_of(files)};
   }
 
   /// Frames have rays of their own: their noise differs, and is in no frame what it was in the one before.
@@ -156,7 +159,8 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
   const ShotFiles shot({.frame = flags.frame}, flags.frame_flags, flags.choice);
   const NamedPatterns outputs = {{"-o", output}};
   check_outputs(outputs, shot, {{"--json", flags.json.file()}});
-  check_paths({{"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene}},
+  check_paths({{"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+               {"--environment", flags.request.environment}},
               {{"--json", flags.json.file()}});
   ShotReport report(shot.frames().size(), flags.json);
   TruthsOfShot truths(flags, job, shot, output, report);

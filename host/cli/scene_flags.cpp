@@ -9,6 +9,12 @@
 namespace gloam::cli {
 namespace {
 
+bool is_file_name(const std::string& text) {
+  return std::filesystem::path(text).extension() == ".json" || std::filesystem::is_regular_file(text);
+}
+
+}  // namespace
+
 glm::dvec3 parse_point(const std::string& text, const std::string& flag) {
   const std::vector<std::string> items = split_list(text, flag);
   if (items.size() != 3) throw UsageError("{} {} is not a point; write {} 1,2,3", flag, text, flag);
@@ -16,12 +22,6 @@ glm::dvec3 parse_point(const std::string& text, const std::string& flag) {
   for (int i = 0; i < 3; ++i) point[i] = parse_number(items[size_t(i)], flag, Range<double>{-1e12, 1e12});
   return point;
 }
-
-bool is_file_name(const std::string& text) {
-  return std::filesystem::path(text).extension() == ".json" || std::filesystem::is_regular_file(text);
-}
-
-}  // namespace
 
 void SceneFlags::add_settings_to(CLI::App& app) {
   app.add_option("--set", settings, "set a parameter of a built-in scene; --faces 50000 is short for it (repeatable)")

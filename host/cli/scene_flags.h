@@ -11,6 +11,9 @@
 
 namespace gloam::cli {
 
+/// "1,2,3". Throws UsageError.
+glm::dvec3 parse_point(const std::string& text, const std::string& flag);
+
 /// The scene, and its settings.
 struct SceneFlags {
   std::string scene;

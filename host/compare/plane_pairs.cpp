@@ -14,12 +14,16 @@ const std::vector<PlanePair>& result_pairs() {
                                                {"ao_raw", "ao"},
                                                {"ao", "ao_raw"},
                                                {"reflection", "reflection"},
+                                               {"bent_normal", "bent_normal"},
+                                               {"cone", "cone"},
+                                               {"hit", "hit"},
                                                {"indirect", "indirect"},
                                                {"indirect_raw", "indirect_raw"},
                                                {"indirect_raw", "indirect"},
-                                               {"bent_normal", "bent_normal"},
-                                               {"cone", "cone"},
-                                               {"hit", "hit"}};
+                                               {"bounces", "bounces"},
+                                               {"specular_occlusion", "specular_occlusion"},
+                                               {"contact", "contact"},
+                                               {"environment", "environment"}};
   return pairs;
 }
 

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfCompressionAttribute.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIntAttribute.h>
@@ -83,6 +84,8 @@ std::optional<std::string> text_of(const Imf::Attribute& a) {
   if (const auto* v = value_in<std::string>(a)) return *v;
   if (const auto* v = value_in<Imf::StringVector>(a)) return fmt::format("{}", fmt::join(*v, ", "));
   if (const auto* v = value_in<Imf::Compression>(a)) return compression_name(*v);
+  if (const auto* v = value_in<Imf::Envmap>(a))
+    return *v == Imf::ENVMAP_LATLONG ? "latlong" : *v == Imf::ENVMAP_CUBE ? "cube" : "unknown";
   if (const auto* v = value_in<Imf::TimeCode>(a))
     return fmt::format("{:02}:{:02}:{:02}:{:02}", v->hours(), v->minutes(), v->seconds(), v->frame());
   if (const auto number = number_text(a)) return number;

@@ -18,6 +18,12 @@ PlaneKind kind(std::string name, std::vector<std::string> components, std::vecto
           meaning,         std::move(help),       std::move(source)};
 }
 
+/// A colour with the channels NAME.R, NAME.G and NAME.B.
+PlaneKind colour(const std::string& name, float outside, std::string help) {
+  return kind(name, {"r", "g", "b"}, {name + ".R", name + ".G", name + ".B"}, outside, PlaneKind::value,
+              std::move(help));
+}
+
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
 
 }  // namespace
@@ -48,10 +54,6 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("ao_raw", {""}, {"AO_raw"}, 1, K::unit_interval, "ambient occlusion before filtering"),
       kind("ao_error", {""}, {"AO_error"}, 0, K::unit_interval, "expected absolute error of `ao`"),
       kind("ao_noise", {""}, {"AO_noise"}, 0, K::value, "estimated error of a ray-traced AO"),
-      kind("indirect", {"r", "g", "b"}, {"indirect.R", "indirect.G", "indirect.B"}, 0, K::value,
-           "light from surfaces near by: irradiance / pi, before the albedo of the surface that it reaches"),
-      kind("indirect_raw", {"r", "g", "b"}, {"indirect_raw.R", "indirect_raw.G", "indirect_raw.B"}, 0, K::value,
-           "indirect light before filtering"),
       kind("bent_normal", {"x", "y", "z"}, {"bent.X", "bent.Y", "bent.Z"}, 0, K::unit_vector,
            "mean unoccluded direction, view space"),
       kind(
@@ -72,6 +74,20 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("history_frames", {""}, {"history.frames"}, 0, K::value, "how many frames the frame before was made of",
            "gloam run --history PREVIOUS.exr"),
       kind("reflection_noise", {""}, {"reflection_noise"}, 0, K::value, "estimated error of a ray-traced reflection"),
+      colour("indirect", 0, "light from the surfaces around, irradiance / pi"),
+      colour("indirect_raw", 0, "light from the surfaces around before filtering"),
+      kind("indirect_noise", {""}, {"indirect_noise"}, 0, K::value, "estimated error of ray-traced indirect light"),
+      colour("bounces", 1, "ambient light with light reflected between surfaces; 1 is open"),
+      kind("bounces_noise", {""}, {"bounces_noise"}, 0, K::value, "estimated error of ray-traced bounces"),
+      kind("specular_occlusion", {""}, {"specular_occlusion"}, 1, K::unit_interval,
+           "open share of the glossy lobe; 1 is open"),
+      kind("specular_occlusion_noise", {""}, {"specular_occlusion_noise"}, 0, K::value,
+           "estimated error of ray-traced specular occlusion"),
+      kind("contact", {""}, {"contact"}, 1, K::unit_interval, "share of a light that arrives; 1 is lit"),
+      kind("contact_noise", {""}, {"contact_noise"}, 0, K::value, "estimated error of ray-traced contact shadows"),
+      colour("environment", 0, "light of the environment from open directions, irradiance / pi"),
+      kind("environment_noise", {""}, {"environment_noise"}, 0, K::value,
+           "estimated error of ray-traced environment light"),
       kind("hit", {""}, {"hit.Z"}, 0, K::length, "length of the reflected ray, scene units; 0 where it meets nothing"),
   };
   return kinds;

@@ -5,12 +5,13 @@
 #include <mutex>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "gloam/scene/capture.h"
-#include "gloam/scene/reflection_reference.h"
 #include "python/frames.h"
 #include "python/interrupts.h"
 #include "scene/falloff.h"
 #include "scene/names.h"
+#include "scene/reference_kinds.h"
 
 namespace gloam::python {
 namespace {
@@ -135,41 +136,40 @@ SharedScene scene_of(const HeldFrame& frame, const Settings& settings) {
   return load(named.name, named.settings);
 }
 
-/// What every kind of truth is traced with.
-struct Tracing {
-  std::optional<int> samples;
-  uint32_t seed = 0;
-  std::string checkpoint;
-};
-
-Tracing tracing_from(const py::dict& words) {
-  const int seed = py::cast<int>(words["seed"]);
+void check_seed(int seed) {
   if (seed < 0 || seed > 1 << 30)
     throw UsageError("seed {} is not allowed; a whole number from 0 to {} is", seed, 1 << 30);
-  return {py::cast<std::optional<int>>(words["samples"]), uint32_t(seed), py::cast<std::string>(words["checkpoint"])};
 }
 
-template <typename Options>
-Options with_tracing(Options options, const Tracing& tracing, Interrupts& interrupts) {
-  options.samples = tracing.samples.value_or(options.samples);
-  options.seed = tracing.seed;
-  options.checkpoint = tracing.checkpoint;
-  options.poll = [&interrupts] { interrupts.poll(); };
-  return options;
+void check_reach(const char* name, std::optional<double> reach) {
+  if (reach && !((*reach >= 1e-30 && *reach <= 1e30) || (std::isinf(*reach) && *reach > 0)))
+    throw UsageError("{} {:g} is not allowed; a number from 1e-30 to 1e30, or inf, is", name, *reach);
 }
 
-void check_radius(std::optional<double> radius, bool has_falloff) {
-  if (radius && !((*radius >= 1e-30 && *radius <= 1e30) || (std::isinf(*radius) && *radius > 0)))
-    throw UsageError("radius {:g} is not allowed; a number from 1e-30 to 1e30, or inf, is", *radius);
-  if (radius && std::isinf(*radius) && has_falloff)
-    throw UsageError("radius inf: the falloff is in relation to the radius; give a finite one");
+std::optional<glm::dvec3> point_from(const py::object& words) {
+  const auto values = py::cast<std::optional<std::array<double, 3>>>(words);
+  return values ? std::optional(point_of(*values)) : std::nullopt;
 }
 
-Reference trace_ao(const HeldScene& scene, const Frame& frame, std::optional<double> given,
-                   AoReferenceOptions options) {
-  check_radius(given, bool(options.contribution));
-  options.radius = radius_of_truth(given, stated_radius(frame), scene.scene(), frame).value;
-  return ao_reference(scene.tracer(), frame, options);
+ReferenceRequest request_from(const py::dict& words) {
+  ReferenceRequest request;
+  request.what = py::cast<std::string>(words["what"]);
+  request.samples = py::cast<std::optional<int>>(words["samples"]);
+  request.radius = py::cast<std::optional<double>>(words["radius"]);
+  request.falloff = py::cast<std::string>(words["falloff"]);
+  request.falloff_settings = py::cast<Settings>(words["falloff_settings"]);
+  request.bounces = py::cast<std::optional<int>>(words["bounces"]);
+  request.length = py::cast<std::optional<double>>(words["length"]);
+  request.light_direction = point_from(words["light_direction"]);
+  request.light_position = point_from(words["light_position"]);
+  request.light_angle = py::cast<std::optional<double>>(words["light_angle"]);
+  request.environment = py::cast<std::string>(words["environment"]);
+  const std::string axes = py::cast<std::string>(words["environment_axes"]);
+  if (!axes.empty()) request.environment_axes = value_of(axes, "environment_axes", environment_axes());
+  request.environment_turn = py::cast<std::optional<double>>(words["environment_turn"]);
+  check_reach("radius", request.radius);
+  check_reach("length", request.length);
+  return request;
 }
 
 SharedFrame held_reference(Reference&& traced, const std::string& scene, const std::string& checkpoint) {
@@ -186,26 +186,21 @@ SharedFrame held_reference(Reference&& traced, const std::string& scene, const s
 }
 
 SharedFrame reference_of(const HeldFrame& held, const py::object& given_scene, const py::dict& words) {
-  const std::string what = py::cast<std::string>(words["what"]), falloff = py::cast<std::string>(words["falloff"]);
-  const Settings settings = py::cast<Settings>(words["settings"]),
-                 of_falloff = py::cast<Settings>(words["falloff_settings"]);
-  const auto radius = py::cast<std::optional<double>>(words["radius"]);
-  const std::vector<std::string> kinds = {"ao", "reflection"};
-  if (!contains(kinds, what))
-    throw UsageError("reference: no '{}'{}; there are {}", what, suggestion(what, kinds), enumerate(kinds));
-  if (what == "reflection" && radius) throw UsageError("radius {}: a reflection has no radius; leave it out", *radius);
-  if (what == "reflection" && falloff != "none")
-    throw UsageError("falloff {}: a reflection has no falloff; leave it out", falloff);
-  const Tracing tracing = tracing_from(words);
-  AoReferenceOptions ao;
-  if (what == "ao") set_falloff(ao, falloff, of_falloff);
+  const ReferenceJob job = job_of(request_from(words), as_keyword);
+  ReferenceOptions options;
+  const int seed = py::cast<int>(words["seed"]);
+  check_seed(seed);
+  options.seed = uint32_t(seed);
+  const std::string checkpoint = py::cast<std::string>(words["checkpoint"]);
+  options.checkpoint = checkpoint;
+  const Settings settings = py::cast<Settings>(words["settings"]);
   const SharedScene scene = given_scene.is_none() ? scene_of(held, settings) : py::cast<SharedScene>(given_scene);
   return without_lock([&](Interrupts& interrupts) {
-    Reference traced = what == "ao"
-                           ? trace_ao(*scene, held.frame, radius, with_tracing(ao, tracing, interrupts))
-                           : reflection_reference(scene->tracer(), held.frame,
-                                                  with_tracing(ReflectionReferenceOptions(), tracing, interrupts));
-    return held_reference(std::move(traced), scene->scene().name, tracing.checkpoint);
+    options.poll = [&interrupts] { interrupts.poll(); };
+    if (job.has_radius)
+      options.radius = radius_of_truth(job.radius, stated_radius(held.frame), scene->scene(), held.frame).value;
+    Reference traced = job.trace(scene->tracer(), held.frame, options);
+    return held_reference(std::move(traced), scene->scene().name, checkpoint);
   });
 }
 

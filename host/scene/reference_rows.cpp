@@ -343,6 +343,25 @@ void check_views(const Frame& frame) {
   }
 }
 
+void check_radius(double radius) {
+  if (!(radius > 0)) throw UsageError("a reference of radius {:g} is open everywhere; give more than 0", radius);
+}
+
+void check_samples(int samples) {
+  if (samples < 1 || samples > (1 << 24)) throw UsageError("{} samples are not allowed; 1 to {} are", samples, 1 << 24);
+}
+
+void describe(Reference& reference, const std::string& name, int samples, const std::string& definition) {
+  Frame& frame = reference.frame;
+  frame.numbers[name + "Samples"] = samples;
+  frame.numbers[name + "Noise"] = reference.noise;
+  frame.attributes[name + "Definition"] = definition;
+}
+
+std::array<uint32_t, 2> seeds_of_halves(uint32_t pixel, uint32_t seed) {
+  return {hash(2 * (pixel + seed)), hash(2 * (pixel + seed) + 1)};
+}
+
 Reference trace_rows(const Tracer& tracer, const Frame& frame, const RowsOptions& options) {
   return RowsTracing(tracer, frame, options).run();
 }

@@ -1,8 +1,11 @@
 // Tracing a reference pixel by pixel: rows on all threads, saved now and then, compared with the frame.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gloam/scene/reference.h"
@@ -55,12 +58,47 @@ struct RowsOptions {
       trace;
 };
 
+/// Rows of a quantity with the plane `value`, its noise beside it, traced with what the options of all kinds of reference have.
+template <typename Options>
+RowsOptions rows_of(const std::string& value, std::vector<float> background, const Options& options) {
+  RowsOptions rows;
+  rows.value = value;
+  rows.noise = value + "_noise";
+  rows.background = std::move(background);
+  rows.checkpoint = options.checkpoint;
+  rows.checkpoint_seconds = options.checkpoint_seconds;
+  rows.progress = options.progress;
+  rows.poll = options.poll;
+  return rows;
+}
+
+/// Throws UsageError for a radius or a number of samples that is not allowed.
+void check_radius(double radius);
+void check_samples(int samples);
+
+/// Adds what every reference states about itself: `name` with Samples, Noise and Definition.
+void describe(Reference& reference, const std::string& name, int samples, const std::string& definition);
+
 /// Makes the planes of `options` for every view of the frame, with its depth and cameras. Throws as `ao_reference` does for a
 /// frame that does not fit the scene, and if another file lies in the checkpoint's place.
 Reference trace_rows(const Tracer& tracer, const Frame& frame, const RowsOptions& options);
 
 /// Throws Error for a view without depth or pose.
 void check_views(const Frame& frame);
+
+/// Seeds of the two halves of a pixel's rays.
+std::array<uint32_t, 2> seeds_of_halves(uint32_t pixel, uint32_t seed);
+
+/// Sets `value` to the mean of two halves, and returns half of their difference, as the mean over the components.
+template <typename Half>
+float mean_of_halves(const Half& a, const Half& b, float* value) {
+  double difference = 0;
+  for (int i = 0; i < Half::length(); ++i) {
+    value[i] = float((a[i] + b[i]) / 2);
+    difference += (a[i] - b[i]) / 2;
+  }
+  return float(std::abs(difference) / Half::length());
+}
 
 /// `samples` per pixel rounded up to two halves of whole packets.
 int rounded_samples(int samples);

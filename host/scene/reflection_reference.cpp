@@ -3,24 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "base/low_discrepancy.h"
 #include "gloam/error.h"
 #include "gloam/projection.h"
 #include "gloam/scene/radiance.h"
 #include "scene/fingerprint.h"
+#include "scene/ggx.h"
 #include "scene/reference_rows.h"
 
 namespace gloam {
 namespace {
 
-using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
-
-/// Below this roughness a surface is a mirror: all rays go one way (the same bound as in kernels/shared/rays/ggx.h).
-constexpr float mirror_roughness = 0.03f;
 
 /// Rays of a mirror; they differ in the points of the sun that their hits are lit by.
 constexpr int mirror_samples = 2 * rays_per_packet;
@@ -29,24 +25,9 @@ constexpr int mirror_samples = 2 * rays_per_packet;
 constexpr double white_percentile = 0.99;
 
 struct Gloss {
-  double alpha = 1;
+  float roughness = 1;
   dvec3 reflectance{0.0};
-  bool is_mirror = false;
 };
-
-/// A visible microfacet's normal seen from `v`, z up (Dupuy and Benyoub 2023).
-dvec3 visible_normal(const dvec3& v, double alpha, const dvec2& u) {
-  const dvec3 w = glm::normalize(dvec3(alpha * v.x, alpha * v.y, v.z));
-  const double angle = glm::two_pi<double>() * u.y, z = (1 - u.x) * (1 + w.z) - w.z;
-  const double r = std::sqrt(std::max(1 - z * z, 0.0));
-  const dvec3 h = dvec3(r * std::cos(angle), r * std::sin(angle), z) + w;
-  return glm::normalize(dvec3(alpha * h.x, alpha * h.y, std::max(h.z, 1e-9)));
-}
-
-/// Smith's Lambda.
-double hidden_per_seen(double alpha, const dvec3& v) {
-  return 0.5 * (std::sqrt(1 + alpha * alpha * (v.x * v.x + v.y * v.y) / (v.z * v.z)) - 1);
-}
 
 dvec3 fresnel(const dvec3& reflectance, double cosine) {
   return reflectance + (1.0 - reflectance) * std::pow(std::max(1 - cosine, 0.0), 5.0);
@@ -102,10 +83,11 @@ class ReflectionTracer {
     const Gloss gloss = gloss_at(pixels.view(), site, x, y);
     std::fill(value, value + 4, 0.0f);
     if (gloss.reflectance == dvec3(0)) return 0;
-    const int samples = gloss.is_mirror ? mirror_samples : rounded_samples(options_.samples);
-    const uint32_t seed = pixel + options_.seed;
-    const Half a = half(site, gloss, samples / 2, hash(2 * seed)),
-               b = half(site, gloss, samples / 2, hash(2 * seed + 1));
+    const GgxLobe lobe(gloss.roughness, glm::transpose(site.to_world) * site.to_eye);
+    const int samples = lobe.is_mirror() ? mirror_samples : rounded_samples(options_.samples);
+    const auto seeds = seeds_of_halves(pixel, options_.seed);
+    const Half a = half(site, lobe, gloss.reflectance, samples / 2, seeds[0]),
+               b = half(site, lobe, gloss.reflectance, samples / 2, seeds[1]);
     const dvec3 mean = (a.radiance + b.radiance) / double(samples), off = (a.radiance - b.radiance) / double(samples);
     for (int i = 0; i < 3; ++i) value[i] = float(mean[i]);
     const double weights = a.weights + b.weights;
@@ -122,29 +104,16 @@ class ReflectionTracer {
     if (const Plane* reflectance = view.find("reflectance")) {
       for (size_t i = 0; i < 3; ++i) material.reflectance[int(i)] = reflectance->channels[i].at(x, y);
     }
-    Gloss gloss;
-    gloss.is_mirror = material.roughness < mirror_roughness;
-    gloss.alpha = double(std::max(material.roughness, mirror_roughness));
-    gloss.alpha *= gloss.alpha;
-    gloss.reflectance = dvec3(material.reflectance);
-    return gloss;
+    return {material.roughness, dvec3(material.reflectance)};
   }
 
-  Half half(const Site& site, const Gloss& gloss, int samples, uint32_t seed) const {
+  Half half(const Site& site, const GgxLobe& lobe, const dvec3& reflectance, int samples, uint32_t seed) const {
     Half sum;
-    dvec3 v = glm::transpose(site.to_world) * site.to_eye;
-    v.z = std::max(v.z, 1e-3);  // as in the kernels: a shading normal may face away
-    v = glm::normalize(v);
-    const double hidden_v = hidden_per_seen(gloss.alpha, v);
     for (int i = 0; i < samples; ++i) {
-      const dvec3 h =
-          gloss.is_mirror ? dvec3(0, 0, 1) : visible_normal(v, gloss.alpha, scrambled_sobol(uint32_t(i), seed));
-      const double vh = glm::dot(v, h);
-      const dvec3 l = 2 * vh * h - v;
-      if (l.z <= 0) continue;
-      const double seen = gloss.is_mirror ? 1 : (1 + hidden_v) / (1 + hidden_v + hidden_per_seen(gloss.alpha, l));
-      const dvec3 weight = seen * fresnel(gloss.reflectance, vh);
-      add(sum, site, glm::normalize(site.to_world * l), weight, hash(seed + uint32_t(i)));
+      const GgxLobe::Sample sample = lobe.sample(scrambled_sobol(uint32_t(i), seed));
+      if (sample.direction.z <= 0) continue;
+      const dvec3 weight = sample.weight * fresnel(reflectance, sample.cosine);
+      add(sum, site, glm::normalize(site.to_world * sample.direction), weight, hash(seed + uint32_t(i)));
     }
     return sum;
   }
@@ -185,34 +154,22 @@ double exposure_for(const Frame& frame) {
 }  // namespace
 
 Reference reflection_reference(const Tracer& tracer, const Frame& frame, const ReflectionReferenceOptions& options) {
-  if (options.samples < 1 || options.samples > (1 << 24))
-    throw UsageError("{} samples are not allowed; 1 to {} are", options.samples, 1 << 24);
+  check_samples(options.samples);
   check_views(frame);
   const ReflectionTracer pixels(tracer, frame, options);
-  RowsOptions rows;
-  rows.value = "reflection";
-  rows.noise = "reflection_noise";
-  rows.background = {0, 0, 0, 0};
+  RowsOptions rows = rows_of("reflection", {0, 0, 0, 0}, options);
   Fingerprint print;
   print.add_light(tracer.scene());
   print.add_gloss(frame);
   rows.key = fmt::format("{} samples {} seed {}", print.text(), rounded_samples(options.samples), options.seed);
-  rows.checkpoint = options.checkpoint;
-  rows.checkpoint_seconds = options.checkpoint_seconds;
-  rows.progress = options.progress;
-  rows.poll = options.poll;
   rows.trace = [&](const ViewTracer& view, const Site& site, int x, int y, uint32_t pixel, float* value, float& noise) {
     return pixels.trace(view, site, x, y, pixel, value, noise);
   };
   Reference result = trace_rows(tracer, frame, rows);
-  Frame& out = result.frame;
-  out.numbers["reflectionSamples"] = rounded_samples(options.samples);
-  out.numbers["reflectionNoise"] = result.noise;
-  out.numbers["gloamExposure"] = exposure_for(out);
-  out.attributes["reflectionDefinition"] =
-      "light that visible surfaces reflect towards the eye (GGX, Smith, Schlick) from what leaves others the same in "
-      "every "
-      "direction, and from the sky; A is the share of it that the frame shows";
+  describe(result, "reflection", rounded_samples(options.samples),
+           "light that visible surfaces reflect towards the eye (GGX, Smith, Schlick) from what leaves others the same "
+           "in every direction, and from the sky; A is the share of it that the frame shows");
+  result.frame.numbers["gloamExposure"] = exposure_for(result.frame);
   return result;
 }
 

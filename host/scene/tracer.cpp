@@ -200,9 +200,9 @@ std::optional<Surface> Tracer::first(const TracerRay& ray) const {
   return impl_->first(ray, context);
 }
 
-std::optional<Surface> Tracer::first_from(const vec3& lifted, const dvec3& direction) const {
+std::optional<Surface> Tracer::first_from(const vec3& lifted, const dvec3& direction, double far) const {
   SceneContext context = impl_->context();
-  return impl_->first({dvec3(lifted), direction}, context.base);
+  return impl_->first({dvec3(lifted), direction, 0, far}, context.base);
 }
 
 /// All hits that Embree reports, in its order; valid until the thread's next call.

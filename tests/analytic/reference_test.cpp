@@ -11,29 +11,21 @@
 #include "gloam/scene/capture.h"
 #include "scene/built_in/mesh_builder.h"
 #include "support/long.h"
+#include "support/traced_scene.h"
 
 namespace gloam {
 namespace {
 
 using glm::dvec3;
 using glm::vec3;
+using test::add_floor;
+using test::corner;
+using test::frame_of;
+using test::mesh_of;
+using test::scene_with;
 
 constexpr double bound = 2e-3;
 constexpr int samples = 65536;
-
-Scene scene_with(const SceneCamera& camera) {
-  Scene scene;
-  scene.name = "test";
-  scenes::add_material(scene, "grey", vec3(0.5f));
-  scene.cameras = {camera};
-  return scene;
-}
-
-Mesh& mesh_of(Scene& scene, const char* name) { return scenes::add_mesh(scene, name, 0); }
-
-void add_floor(Scene& scene, float half) {
-  scenes::add_quad(mesh_of(scene, "floor"), {-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half});
-}
 
 struct Traced {
   Frame captured;
@@ -42,13 +34,8 @@ struct Traced {
 
 Traced traced(const Scene& scene, const AoReferenceOptions& options, int width = 32, int height = 18) {
   const Tracer tracer(scene);
-  CaptureOptions capture_options;
-  capture_options.width = width;
-  capture_options.height = height;
-  capture_options.planes = {"normal", "position", "instance"};
-  capture_options.views = {{"", camera_for(scene.cameras.front(), width, height), {}}};
   Traced result;
-  result.captured = capture(tracer, capture_options).frame;
+  result.captured = frame_of(tracer, width, height);
   result.reference = ao_reference(tracer, result.captured, options);
   return result;
 }
@@ -135,14 +122,6 @@ TEST(Reference, CanyonFloor) {
     const auto wall = [&](double a) { return 0.5 * (1 - a / std::hypot(a, double(h))); };
     return 1 - wall(p.x + half_width) - wall(half_width - p.x);
   });
-}
-
-/// A floor and a wall at x = 0: a corner of 90 degrees.
-Scene corner() {
-  Scene scene = scene_with(looking_at("main", {1.2, 1.0, 1.2}, {0.2, 0, 0}, 60));
-  add_floor(scene, 40);
-  scenes::add_quad(mesh_of(scene, "wall"), {0, 0, 40}, {0, 0, -40}, {0, 40, -40}, {0, 40, 40});
-  return scene;
 }
 
 // Directions that meet a wall at distance a within R are those with x > a/R: a segment of the disc that cosine-weighted

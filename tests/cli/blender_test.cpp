@@ -1,4 +1,5 @@
-// The ray-traced reference against an independent one: the ambient-occlusion pass of Blender's Cycles.
+// Ray-traced references against independent ones by Blender's Cycles: its ambient-occlusion pass, and its picture of a room in white
+// light.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "scene/built_in/mesh_builder.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -56,20 +58,20 @@ void write_camera(const fs::path& path, const Camera& camera) {
                                         {"camera_to_world", matrix}};
 }
 
-/// Blender's rendered pass, or none if it does not render.
-Channel blender_ao(const fs::path& folder, int seed) {
-  const fs::path out = folder / ("blender_" + std::to_string(seed) + ".exr");
+/// What Blender renders of the folder's scene. `kind`: "ao" or "white_light"; `plane`: the name of what is rendered.
+Channel rendered(const fs::path& folder, const std::string& kind, const std::string& plane, int seed) {
+  const fs::path out = folder / fmt::format("blender_{}_{}.exr", kind, seed);
   const std::string command = fmt::format(
-      "blender -b --factory-startup --python-exit-code 1 -P '{}/tests/blender/render_ao.py' -- '{}' '{}' {} 512 {} "
-      "'{}' "
+      "blender -b --factory-startup --python-exit-code 1 -P '{}/tests/blender/render_truth.py' -- {} '{}' '{}' {} 512 "
+      "{} '{}' "
       ">'{}' 2>&1",
-      GLOAM_SOURCE_DIR, (folder / "room.obj").string(), (folder / "view.camera.json").string(), radius, seed,
+      GLOAM_SOURCE_DIR, kind, (folder / "room.obj").string(), (folder / "view.camera.json").string(), radius, seed,
       out.string(), (folder / "blender.log").string());
   if (std::system(command.c_str()) != 0) throw Error("Blender failed: {}", slurp(folder / "blender.log"));
   ReadOptions options;
   options.as_stored = true;
   options.camera_file = (folder / "view.camera.json").string();
-  return std::move(FrameFile(out, options).read({"ao"}).views[0].planes.at("ao").channels[0]);
+  return std::move(FrameFile(out, options).read({plane}).views[0].planes.at(plane).channels[0]);
 }
 
 /// Whether the pixel and its neighbours show one flat face: at edges the two programs sometimes sample different faces.
@@ -86,42 +88,65 @@ bool is_inside_a_face(const View& view, int x, int y) {
   return true;
 }
 
-class Blender : public Cli {};
+class Blender : public Cli {
+ protected:
+  /// Captures the room, and traces a truth of it.
+  void trace(const std::string& kind, const std::string& reach) const {
+    const std::string obj = path("room.obj"), camera = path("view.camera.json");
+    write_obj(obj, room());
+    write_camera(camera, camera_for(looking_at("main", {2.2, 1.9, 2.4}, {-0.3, 0.6, -1.2}, 65), width, height));
+    ASSERT_EQ(gloam({"capture", obj, "-o", path("frame.exr"), "--size", "160x90", "--camera", camera, "--planes",
+                     "depth,normal,albedo"})
+                  .err,
+              "");
+    const Result traced = gloam({"reference", kind, path("frame.exr"), "--scene", obj, "-o", path("reference.exr"),
+                                 "--radius", reach, "--samples", "4096"});
+    ASSERT_EQ(traced.status, 0) << traced.err;
+  }
+
+  /// Compares the traced plane with two renderings, each divided by `scale`. Pixels at edges do not count.
+  void expect_agreement(const std::string& kind, const Channel& a, const Channel& b, double scale) const {
+    FrameFile file(path("reference.exr"), {});
+    const Frame ours = file.read({kind}), captured = FrameFile(path("frame.exr"), {}).read({"depth", "normal"});
+    double ours_to_theirs = 0, theirs_to_theirs = 0, bias = 0;
+    int count = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!is_inside_a_face(captured.views[0], x, y)) continue;
+        const double mean = (a.at(x, y) + b.at(x, y)) / 2 / scale, half = (a.at(x, y) - b.at(x, y)) / 2 / scale;
+        const double error = ours.views[0].planes.at(kind).channels[0].at(x, y) - mean;
+        ours_to_theirs += error * error;
+        theirs_to_theirs += half * half;
+        bias += error;
+        ++count;
+      }
+    }
+    ASSERT_GT(count, width * height / 2);
+    const double rmse = std::sqrt(ours_to_theirs / count), blender_noise = std::sqrt(theirs_to_theirs / count);
+    const double our_noise = file.number_attribute(kind + "Noise").value();
+    std::printf("%s, %d pixels: RMSE %.5f, bias %+.5f; noise of Blender %.5f, of gloam %.5f\n", kind.c_str(), count,
+                rmse, bias / count, blender_noise, our_noise);
+    EXPECT_LT(rmse, 1.5 * std::hypot(blender_noise, our_noise));
+    EXPECT_LT(std::abs(bias / count), 1e-3);
+  }
+};
 
 TEST_F(Blender, AgreesWithTheReferenceWithinTheNoise) {
   if (std::system("command -v blender >/dev/null") != 0) GTEST_SKIP() << "no blender to compare with";
-  const std::string obj = path("room.obj"), camera = path("view.camera.json");
-  const std::string frame = path("frame.exr"), reference = path("reference.exr");
-  write_obj(obj, room());
-  write_camera(camera, camera_for(looking_at("main", {2.2, 1.9, 2.4}, {-0.3, 0.6, -1.2}, 65), width, height));
-  ASSERT_EQ(
-      gloam({"capture", obj, "-o", frame, "--size", "160x90", "--camera", camera, "--planes", "depth,normal"}).err, "");
-  ASSERT_EQ(
-      gloam({"reference", "ao", frame, "--scene", obj, "-o", reference, "--radius", "0.6", "--samples", "4096"}).err,
-      "");
-  FrameFile file(reference, {});
-  const Frame ours = file.read({"ao"}), captured = FrameFile(frame, {}).read({"depth", "normal"});
-  const Channel a = blender_ao(folder, 1), b = blender_ao(folder, 2);
-  double ours_to_theirs = 0, theirs_to_theirs = 0, bias = 0;
-  int count = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (!is_inside_a_face(captured.views[0], x, y)) continue;
-      const double mean = (a.at(x, y) + b.at(x, y)) / 2, half = (a.at(x, y) - b.at(x, y)) / 2;
-      const double error = ours.views[0].planes.at("ao").channels[0].at(x, y) - mean;
-      ours_to_theirs += error * error;
-      theirs_to_theirs += half * half;
-      bias += error;
-      ++count;
-    }
-  }
-  ASSERT_GT(count, width * height / 2);
-  const double rmse = std::sqrt(ours_to_theirs / count), blender_noise = std::sqrt(theirs_to_theirs / count);
-  const double our_noise = file.number_attribute("aoNoise").value();
-  std::printf("%d pixels: RMSE %.5f, bias %+.5f; noise of Blender %.5f, of gloam %.5f\n", count, rmse, bias / count,
-              blender_noise, our_noise);
-  EXPECT_LT(rmse, 1.5 * std::hypot(blender_noise, our_noise));
-  EXPECT_LT(std::abs(bias / count), 1e-3);
+  trace("ao", "0.6");
+  expect_agreement("ao", rendered(folder, "ao", "ao", 1), rendered(folder, "ao", "ao", 2), 1);
+}
+
+// A white sky over diffuse surfaces: the picture is the albedo times what arrives after all reflections.
+TEST_F(Blender, AgreesWithBouncesWithinTheNoise) {
+  ONLY_IN_LONG_RUN();
+  if (std::system("command -v blender >/dev/null") != 0) GTEST_SKIP() << "no blender to compare with";
+  trace("bounces", "inf");
+  const Frame captured = FrameFile(path("frame.exr"), {}).read({"albedo"});
+  const double albedo = captured.views[0].planes.at("albedo").channels[0].at(width / 2, height / 2);
+  ASSERT_NEAR(albedo, 0.6, 1e-6) << "as render_truth.py has it";
+  expect_agreement("bounces", rendered(folder, "white_light", "color", 1), rendered(folder, "white_light", "color", 2),
+                   albedo);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // gloam capture and gloam reference, as a user runs them.
 #include <cmath>
 
+#include "base/lists.h"
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -337,6 +338,59 @@ TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
       "--radius");
   expect_refused({"reference", "ao", loggia, "--scene", "plane", "-o", out, "--radius", "inf", "--falloff", "hbao+"}, 2,
                  "finite");
+  // Options of another kind, and names that are nearly right.
+  const auto refused = [&](const char* kind, const char* option, const char* value, const std::string& why) {
+    expect_refused({"reference", kind, loggia, "--scene", "plane", "-o", out, option, value}, 2, why);
+  };
+  refused("bounce", "--radius", "1", "did you mean 'bounces'?");
+  refused("specular-occlusion", "--radius", "1", "did you mean 'specular_occlusion'?");
+  refused("reflection", "--radius", "0.5", "--radius 0.5: is for ao, ");
+  refused("bounces", "--falloff", "hbao+", "--falloff hbao+: is for ao, and bounces has none; leave it out");
+  refused("bounces", "--set", "hbao+.bias=0.3", "--set hbao+.bias: sets a falloff");
+  refused("ao", "--bounces", "2", "--bounces 2: is for bounces, and ao has none; leave it out");
+  refused("contact", "--radius", "1", "--radius 1: is for ao, ");
+  refused("ao", "--length", "1", "--length 1: is for contact, and ao has none; leave it out");
+  refused("indirect", "--light-direction", "0,1,0", "--light-direction 0,1,0: is for contact, and indirect has none");
+  refused("contact", "--light-direction", "0,0,0",
+          "--light-direction 0,0,0 is not allowed; a direction that is not 0 is");
+  refused("contact", "--light-direction", "0,nan,1", "--light-direction nan is not allowed");
+  refused("contact", "--light-position", "1,2", "is not a point");
+  refused("contact", "--light-angle", "81", "a number from 0 to 80 is");
+  refused("environment", "--radius", "1", "give --environment FILE.exr");
+  refused("environment", "--environment-axes", "openxr", "did you mean 'openexr'?");
+  refused("ao", "--environment", loggia.c_str(), "is for environment, and ao has none; leave it out");
+  expect_refused({"reference", "environment", loggia, "--scene", "plane", "-o", out, "--environment", loggia}, 1,
+                 "no lat-long environment");
+  expect_refused({"reference", "contact", loggia, "--scene", "plane", "-o", out, "--light-position", "0,1,0",
+                  "--light-direction", "0,1,0"},
+                 2, "--light-direction and --light-position are two lights; give one of them");
+  refused("bounces", "--bounces", "1025", "a whole number from 0 to 1024 is");
+}
+
+/// Each kind of truth has its plane, its noise, and states its samples and what it is.
+TEST_F(CaptureCommand, EveryKindOfReferenceStatesWhatItIs) {
+  ASSERT_EQ(gloam({"capture", "slab", "-o", file("s.exr"), "--size", "64x36"}).status, 0);
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("sky.exr"), "--size", "64x32", "--planes", "color"}).status, 0);
+  for (const std::string kind :
+       {"ao", "reflection", "bounces", "specular_occlusion", "indirect", "environment", "contact"}) {
+    Arguments arguments = {"reference", kind, file("s.exr"), "-o", file("r.exr"), "--samples", "40", "--json", "-"};
+    if (kind == "environment") arguments.insert(arguments.end(), {"--environment", file("sky.exr")});
+    if (kind == "contact") arguments.insert(arguments.end(), {"--light-direction", "1,0.1,0.5", "--light-angle", "10"});
+    const Result result = gloam(arguments);
+    ASSERT_EQ(result.status, 0) << kind << result.err;
+    FrameFile reference(file("r.exr"), {});
+    EXPECT_EQ(reference.number_attribute(kind + "Samples"), 64) << kind;
+    EXPECT_NEAR(reference.number_attribute(kind + "Noise").value(), double(result.json()["noise"]), 1e-6) << kind;
+    EXPECT_GT(double(result.json()["noise"]), 0) << kind;
+    EXPECT_EQ(reference.number_attribute(kind + "Radius").has_value(), kind != "reflection" && kind != "contact")
+        << kind;
+    EXPECT_NE(reference.text_attribute(kind + "Definition"), "") << kind;
+    EXPECT_EQ(reference.text_attribute("gloamScene"), "slab: height=1");
+    EXPECT_TRUE(contains(reference.common_planes(), kind) && contains(reference.common_planes(), kind + "_noise"));
+    // Compared with itself there is no error.
+    const nlohmann::json same = gloam({"compare", file("r.exr"), file("r.exr"), "--json", "-"}).json();
+    EXPECT_EQ(same["rmse"], 0) << kind;
+  }
 }
 
 TEST_F(CaptureCommand, ListsScenes) {

@@ -141,6 +141,40 @@ TEST_F(TruthsOfAShot, ReflectionsAndPictures) {
   EXPECT_TRUE(fs::exists(path("r.0002.png")));
 }
 
+// A frame's truth is that of the frame alone for every kind, and another light makes other files.
+TEST_F(TruthsOfAShot, LightOfEveryKind) {
+  const auto write_sky = [&](const char* camera) {
+    ASSERT_EQ(
+        gloam({"capture", "statue", "-o", file("sky.exr"), "--size", "64x32", "--planes", "color", "--camera", camera})
+            .err,
+        "");
+  };
+  write_sky("main");
+  const std::pair<std::string, Arguments> kinds[] = {
+      {"bounces", {"--bounces", "2"}},
+      {"specular_occlusion", {}},
+      {"indirect", {}},
+      {"contact", {"--light-angle", "5"}},
+      {"environment", {"--environment", file("sky.exr")}},
+  };
+  for (const auto& [kind, own] : kinds) {
+    Arguments shot = {"reference", kind, file("c.####.exr"), "-o", file(kind + ".####.exr"),
+                      "--samples", "32", "--resume"};
+    Arguments alone = {"reference", kind, file("c.0003.exr"), "-o", file("alone.exr"),
+                       "--samples", "32", "--seed",           "3"};
+    shot.insert(shot.end(), own.begin(), own.end());
+    alone.insert(alone.end(), own.begin(), own.end());
+    ASSERT_EQ(gloam(shot).err, "") << kind;
+    ASSERT_EQ(gloam(alone).status, 0) << kind;
+    EXPECT_EQ(gloam({"compare", file(kind + ".0003.exr"), file("alone.exr"), "--json", "-"}).json()["max"], 0) << kind;
+    shot.insert(shot.end(), {"--json", "-"});
+    EXPECT_EQ(lines_of(gloam(shot).out).back()["skipped"], 4) << kind;
+    if (kind != "environment") continue;
+    write_sky("close");
+    EXPECT_EQ(lines_of(gloam(shot).out).back()["done"], 4) << "under another sky of the same name";
+  }
+}
+
 TEST_F(TruthsOfAShot, RefusesInOneLine) {
   const std::string shot = file("c.####.exr"), one = file("c.0001.exr");
   const auto refused = [&](const Arguments& more, const std::vector<std::string>& says) {

@@ -142,6 +142,27 @@ def test_reference_is_the_commands(command, tmp_path):
     assert not numpy.array_equal(with_falloff["ao"], truth["ao"])
 
 
+def test_every_kind_of_reference_is_the_commands(command, tmp_path):
+    frame = gloam.capture("colonnade", 32, 24, ["normal", "roughness"])
+    gloam.write(tmp_path / "frame.exr", frame)
+    gloam.write(tmp_path / "sky.exr", gloam.capture("plane", 64, 32, ["color"]))
+    kinds = {
+        "bounces": ({"bounces": 2, "radius": 1}, ["--bounces", "2", "--radius", "1"]),
+        "specular_occlusion": ({}, []),
+        "indirect": ({"radius": float("inf")}, ["--radius", "inf"]),
+        "contact": ({"length": 2, "light_direction": (1, 2, 0), "light_angle": 5},
+                    ["--length", "2", "--light-direction", "1,2,0", "--light-angle", "5"]),
+        "environment": ({"environment": tmp_path / "sky.exr", "environment_axes": "blender", "environment_turn": 30},
+                        ["--environment", tmp_path / "sky.exr", "--environment-axes", "blender", "--environment-turn", "30"]),
+    }
+    for kind, (words, flags) in kinds.items():
+        command("reference", kind, tmp_path / "frame.exr", "-o", tmp_path / "truth.exr", "--samples", "32", *flags)
+        truth, stored = gloam.reference(tmp_path / "frame.exr", what=kind, samples=32, **words), gloam.read(tmp_path / "truth.exr", as_stored=True)
+        assert truth.planes == sorted([kind, kind + "_noise", "depth"])
+        for plane in (kind, kind + "_noise"):
+            assert numpy.array_equal(truth[plane], stored[plane]), plane
+
+
 @pytest.mark.parametrize("call, sentence", [
     (lambda f: gloam.capture("colonade"), "no scene 'colonade' (did you mean 'colonnade'?)"),
     (lambda f: gloam.capture("statue", 8, 8, fases=3), "fases"),
@@ -160,6 +181,13 @@ def test_reference_is_the_commands(command, tmp_path):
     (lambda f: gloam.reference(f, falloff="hbaoo"), "did you mean 'hbao'?"),
     (lambda f: gloam.reference(f, "fence"), "is not what the frame shows"),
     (lambda f: gloam.reference(f, seed=-1), "seed -1 is not allowed"),
+    (lambda f: gloam.reference(f, what="contact", radius=1), "radius 1: is for ao, "),
+    (lambda f: gloam.reference(f, what="contact", light_direction=(0, 0, 0)), "direction 0,0,0 is not allowed"),
+    (lambda f: gloam.reference(f, what="contact", light_position=(0, 0)), "light_position (0, 0) is not a point"),
+    (lambda f: gloam.reference(f, what="contact", length=-1), "length -1 is not allowed"),
+    (lambda f: gloam.reference(f, what="bounces", bounces=-1), "-1 bounces are not allowed"),
+    (lambda f: gloam.reference(f, what="environment"), "give environment FILE.exr"),
+    (lambda f: gloam.reference(f, what="environment", environment="/none.exr"), "/none.exr"),
     (lambda f: gloam.reference(3), "frame is of type int"),
 ])
 def test_scenes_that_cannot_be(call, sentence, frame):

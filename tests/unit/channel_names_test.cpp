@@ -112,7 +112,11 @@ INSTANTIATE_TEST_SUITE_P(
         Spelled{"bent_normal", {"bent.X", "bent.Y", "bent.Z"}}, Spelled{"cone", {"cone"}},
         Spelled{"reflectance", {"reflectance.R", "reflectance.G", "reflectance.B"}},
         Spelled{"reflection", {"reflection.R", "reflection.G", "reflection.B", "reflection.A"}},
-        Spelled{"hit", {"hit.Z"}}));
+        Spelled{"indirect", {"indirect.R", "indirect.G", "indirect.B"}},
+        Spelled{"indirect_raw", {"indirect_raw.R", "indirect_raw.G", "indirect_raw.B"}},
+        Spelled{"bounces", {"bounces.R", "bounces.G", "bounces.B"}},
+        Spelled{"specular_occlusion", {"specular_occlusion"}}, Spelled{"contact", {"contact"}},
+        Spelled{"environment", {"environment.R", "environment.G", "environment.B"}}, Spelled{"hit", {"hit.Z"}}));
 
 TEST(ChannelNames, OwnNamesComeFirst) {
   EXPECT_EQ(found({"A.Depth.Z", "Z"}, "depth"), Names{"Z"});

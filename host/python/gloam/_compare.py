@@ -6,7 +6,7 @@ from . import _files, _gloam, _run, _words
 from ._gloam import Frame, UsageError
 
 #: Where an array says nothing of its plane, the first of these that the other side has in its shape.
-_RESULTS = ("ao", "ao_raw", "reflection", "bent_normal", "cone", "hit", "color", "normal", "albedo", "depth")
+_RESULTS = ("ao", "ao_raw", "reflection", "bent_normal", "cone", "hit", "indirect", "bounces", "specular_occlusion", "contact", "environment", "color", "normal", "albedo", "depth")
 
 
 def _name_for(array, other, plane):

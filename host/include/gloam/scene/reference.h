@@ -29,6 +29,17 @@ struct AoReferenceOptions {
   std::function<void()> poll = {};  ///< called after each pixel, from any thread; what it throws ends the work
 };
 
+/// What references without a falloff are traced with.
+struct ReferenceOptions {
+  double radius = 0.5;  ///< reach of rays, scene units; may be infinite
+  int samples = 256;    ///< rays (of `bounces`: paths) per pixel, rounded up to a multiple of 32
+  uint32_t seed = 0;
+  std::filesystem::path checkpoint = {};  ///< as in `AoReferenceOptions`, like what follows
+  double checkpoint_seconds = 15;
+  std::function<void(double share_done)> progress = {};
+  std::function<void()> poll = {};
+};
+
 /// A traced reference, and figures on its quality.
 struct Reference {
   Frame frame;  ///< per view a plane of values and one of noise (half the difference of two independent halves), with

@@ -63,8 +63,9 @@ class Tracer {
   std::optional<Surface> first(const TracerRay& ray) const;
 
   /// The first surface on a ray from a point that was `lifted` off a surface, to the side that it faces, but not that surface
-  /// itself.
-  std::optional<Surface> first_from(const glm::vec3& lifted, const glm::dvec3& direction) const;
+  /// itself. `far`: as in TracerRay.
+  std::optional<Surface> first_from(const glm::vec3& lifted, const glm::dvec3& direction,
+                                    double far = std::numeric_limits<double>::infinity()) const;
 
   /// All surfaces on the ray, nearest first. Two triangles of one mesh that meet under the ray count once.
   void all(const TracerRay& ray, std::vector<Surface>& surfaces) const;

@@ -1,6 +1,8 @@
-"""Renders the ambient-occlusion pass of an OBJ file with Blender's Cycles, one sample position per pixel: its centre.
+"""Renders an OBJ file with Blender's Cycles, one sample position per pixel: its centre.
 
-blender -b --factory-startup --python-exit-code 1 -P render_ao.py -- SCENE.obj CAMERA.json RADIUS SAMPLES SEED OUT.exr
+blender -b --factory-startup --python-exit-code 1 -P render_truth.py -- KIND SCENE.obj CAMERA.json RADIUS SAMPLES SEED OUT.exr
+
+KIND: "ao", the ambient-occlusion pass within RADIUS; or "white_light", the picture of surfaces with the albedo 0.6 under a sky of 1.
 
 The OBJ holds triangles only and is taken in its own axes. The camera JSON is as docs/gbuffer.md has it.
 """
@@ -39,7 +41,24 @@ def add_camera(scene, camera):
     scene.camera = item
 
 
-def main(scene_file, camera_file, radius, samples, seed, out):
+def light_white(scene, mesh):
+    """A sky of 1 and a grey diffuse surface, and no limit on light or its paths."""
+    scene.world.use_nodes = True
+    background = scene.world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1, 1, 1, 1), 1
+    material = bpy.data.materials.new("grey")
+    material.use_nodes = True
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    grey, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
+    grey.inputs["Color"].default_value = (0.6, 0.6, 0.6, 1)
+    material.node_tree.links.new(grey.outputs["BSDF"], output.inputs["Surface"])
+    mesh.materials.append(material)
+    scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 128
+    scene.cycles.sample_clamp_direct = scene.cycles.sample_clamp_indirect = 0
+
+
+def main(kind, scene_file, camera_file, radius, samples, seed, out):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     mesh = bpy.data.meshes.new("mesh")
@@ -51,10 +70,14 @@ def main(scene_file, camera_file, radius, samples, seed, out):
     add_camera(scene, camera)
 
     scene.world = bpy.data.worlds.new("world")
-    scene.world.light_settings.distance = float(radius)
+    if kind == "white_light":
+        light_white(scene, mesh)
+    else:
+        scene.world.light_settings.distance = float(radius)
     scene.render.engine = "CYCLES"
     cycles_ao.set_up(scene, samples)
     scene.cycles.seed = int(seed)
+    scene.view_layers[0].use_pass_ambient_occlusion = kind == "ao"
     scene.render.resolution_x, scene.render.resolution_y = camera["width"], camera["height"]
     scene.render.resolution_percentage = 100
     scene.render.filepath = out
