@@ -117,8 +117,12 @@ TEST(ResumedReference, EveryKindEndsWithTheSameBits) {
     EXPECT_EQ(resumed_share(kind.trace, changed), 0) << kind.plane;
     changed = options;
     changed.radius = 0.7;
-    if (kind.plane != std::string("reflection")) EXPECT_EQ(resumed_share(kind.trace, changed), 0) << kind.plane;
-    if (kind.other) EXPECT_EQ(resumed_share(kind.other, options), 0) << kind.plane;
+    if (kind.plane != std::string("reflection")) {
+      EXPECT_EQ(resumed_share(kind.trace, changed), 0) << kind.plane;
+    }
+    if (kind.other) {
+      EXPECT_EQ(resumed_share(kind.other, options), 0) << kind.plane;
+    }
     const Reference resumed = kind.trace(tracer, frame, options);
     EXPECT_GE(resumed.resumed_share, 0.4) << kind.plane;
     EXPECT_TRUE(same_values(whole, resumed, kind.plane)) << kind.plane;

@@ -53,15 +53,15 @@ def scenes():
 
 
 def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=None, target=None, fov=None, peel=0, peel_light=False,
-            stochastic=0, stereo=None,
-            convergence=None, **settings):
+            stochastic=0, stereo=None, convergence=None, **settings):
     """A G-buffer of a scene, a gloam.Frame of width x height pixels, sampled at pixel centres.
 
     scene: a gloam.Scene, a name of gloam.scenes(), or a path; settings of a built-in scene by keyword.
     planes: names of planes beside depth: normal, albedo, color, roughness, reflectance, position, back_depth, instance; default: all.
     camera: the name of one of the scene's cameras, or a gloam.Camera with a pose; or eye and target, points (x, y, z) in scene units; default: the
         scene's first.  fov: horizontal field of view, degrees.
-    peel: depth layers to store, 0 to 64.  peel_light: also colour and normal of each layer, for dp-indirect.  stochastic: samples of a stochastic depth map, 0 to 16.
+    peel: depth layers to store, 0 to 64.  peel_light: also colour and normal of each layer, for dp-indirect.
+    stochastic: samples of a stochastic depth map, 0 to 16.
     stereo: distance of two eyes, scene units, with the camera between them; convergence: their depth without disparity.
     Raises gloam.Error. Ctrl-C ends the call within a moment.
     """
