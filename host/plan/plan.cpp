@@ -18,10 +18,27 @@
 namespace gloam {
 namespace {
 
-/// Adds the extras that are asked for to a pass's outputs.
-void add_extras(Pass& pass, const std::vector<std::string>& outputs) {
+/// The extras that a technique has to make: those asked for, and those that others read.
+std::vector<std::string> extras_of(const Technique& technique, const std::vector<std::string>& outputs,
+                                   const Walk& walk) {
+  std::vector<std::string> extras = outputs;
+  for (const auto& [maker, plane] : walk.extras) {
+    if (maker == &technique) add_new(extras, plane);
+  }
+  return extras;
+}
+
+bool reads(const Pass& pass, const std::string& plane) {
+  return std::any_of(pass.reads.begin(), pass.reads.end(), [&](const Binding& b) { return b.plane == plane; });
+}
+
+/// Adds those of the technique's extras to a pass's outputs, and what is read for them alone to its inputs.
+void add_extras(Pass& pass, const Technique& technique, const std::vector<std::string>& asked_for) {
   for (const Binding& extra : pass.extras) {
-    if (!contains(outputs, extra.plane) && !contains(outputs, extra.argument)) continue;
+    if (!contains(asked_for, extra.plane) && !contains(asked_for, extra.argument)) continue;
+    for (const auto& [plane, read] : technique.read_for_extras) {
+      if (plane == extra.plane && !reads(pass, read)) pass.reads.push_back(read.c_str());
+    }
     pass.writes.push_back(extra);
     pass.defines.emplace_back("WITH_" + upper_case(extra.argument), 1);
   }
@@ -131,7 +148,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (request.temporal) check_temporal(request);
   const bool accumulates_after = request.temporal && !accumulates_by_itself(*asked_for.front());
   if (accumulates_after) want_history(available, also);
-  Walk walk(wanted, with_stacks(available), also, mask);
+  Walk walk(wanted, request, with_stacks(available), also, mask);
   check_full_resolution(request, walk.order);
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
@@ -147,7 +164,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
       // What completes an extra of two estimates runs once, after both.
       if (pass.writes.empty() && walk.order[i] == elsewhere) continue;
-      add_extras(pass, wanted.outputs);
+      add_extras(pass, *walk.order[i], extras_of(*walk.order[i], wanted.outputs, walk));
       if (pass.writes.empty()) continue;
       add_optional_reads(pass, plan.inputs);
       define_layers(pass, plan, *walk.order[i]);
