@@ -9,7 +9,7 @@ template <typename Params>
 Pass estimate_of(const Params& p, Defines defines) {
   defines.insert(defines.end(), {{"DIRECTIONS", p.directions}, {"STEPS", p.steps}});
   Pass estimate = ambient_occlusion_estimate(p, "gtao_estimate", std::move(defines));
-  estimate.extras = {"bent_normal", "cone"};
+  estimate.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
   return estimate;
 }
 
@@ -38,7 +38,8 @@ std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
 
 Technique row(std::string name, std::string summary, std::string paper) {
   Technique t = over_slices(ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl"));
-  t.extras = {"bent_normal", "cone"};
+  t.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
+  t.read_for_extras = {{"specular_occlusion_raw", "roughness"}, {"lobe_weight", "roughness"}};
   return t;
 }
 
