@@ -98,6 +98,7 @@ const std::vector<Group>& groups() {
       {"ambient occlusion of two views", [](const Technique& t) { return makes(t, "ao") && t.views > 1; }},
       {"ambient occlusion on light-field displays", [](const Technique& t) { return makes(t, "ao"); }},
       {"indirect light", [](const Technique& t) { return makes(t, "indirect"); }},
+      {"ambient light", [](const Technique& t) { return makes(t, "bounces") || makes(t, "specular_occlusion"); }},
       {"reflections", [](const Technique& t) { return makes(t, "reflection"); }},
       {"masks, for --only", [](const Technique& t) { return makes(t, "mask"); }},
       {"filters, for --filter", [](const Technique& t) { return bench::is_filter(t); }},

@@ -167,6 +167,8 @@ const std::vector<Spelling>& spellings() {
       {"bounces", "bounces", "r,g,b", own},
       {"bounces_noise", "*", "bounces_noise", own},
       {"specular_occlusion", "*", "specular_occlusion", own},
+      {"specular_occlusion_raw", "*", "specular_occlusion_raw", own},
+      {"lobe_weight", "*", "lobe_weight", own},
       {"specular_occlusion_noise", "*", "specular_occlusion_noise", own},
       {"contact", "*", "contact", own},
       {"contact_noise", "*", "contact_noise", own},

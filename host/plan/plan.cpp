@@ -18,19 +18,27 @@
 namespace gloam {
 namespace {
 
-/// The outputs, and what techniques of the plan read: the planes for which extras are made.
-std::vector<std::string> planes_in_use(const std::vector<std::string>& outputs, const Techniques& techniques) {
-  std::vector<std::string> planes = outputs;
-  for (const Technique* technique : techniques) {
-    for (const std::string& plane : technique->reads) add_new(planes, plane);
+/// The extras that a technique has to make: those asked for, and those that others read.
+std::vector<std::string> extras_of(const Technique& technique, const std::vector<std::string>& outputs,
+                                   const Walk& walk) {
+  std::vector<std::string> extras = outputs;
+  for (const auto& [maker, plane] : walk.extras) {
+    if (maker == &technique) add_new(extras, plane);
   }
-  return planes;
+  return extras;
 }
 
-/// Adds the extras that are in use to a pass's outputs.
-void add_extras(Pass& pass, const std::vector<std::string>& in_use) {
+bool reads(const Pass& pass, const std::string& plane) {
+  return std::any_of(pass.reads.begin(), pass.reads.end(), [&](const Binding& b) { return b.plane == plane; });
+}
+
+/// Adds those of the technique's extras to a pass's outputs, and what is read for them alone to its inputs.
+void add_extras(Pass& pass, const Technique& technique, const std::vector<std::string>& asked_for) {
   for (const Binding& extra : pass.extras) {
-    if (!contains(in_use, extra.plane) && !contains(in_use, extra.argument)) continue;
+    if (!contains(asked_for, extra.plane) && !contains(asked_for, extra.argument)) continue;
+    for (const auto& [plane, read] : technique.read_for_extras) {
+      if (plane == extra.plane && !reads(pass, read)) pass.reads.push_back(read.c_str());
+    }
     pass.writes.push_back(extra);
     pass.defines.emplace_back("WITH_" + upper_case(extra.argument), 1);
   }
@@ -140,7 +148,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (request.temporal) check_temporal(request);
   const bool accumulates_after = request.temporal && !accumulates_by_itself(*asked_for.front());
   if (accumulates_after) want_history(available, also);
-  Walk walk(wanted, with_stacks(available), also, mask);
+  Walk walk(wanted, request, with_stacks(available), also, mask);
   check_full_resolution(request, walk.order);
   Plan plan;
   plan.technique = wanted.makers.empty() ? request.outputs.front() : wanted.makers.front()->name;
@@ -152,12 +160,11 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (is_reduced) walk.order.push_back(&resampling());
   const Technique* restricted = mask.empty() || asked_for.empty() ? nullptr : asked_for.front();
   const std::vector<ParameterValues> values = values_of(request, walk.order, plan.technique, restricted, mask);
-  const std::vector<std::string> in_use = planes_in_use(wanted.outputs, walk.order);
   for (size_t i = 0; i < walk.order.size(); ++i) {
     for (Pass& pass : passes_of(*walk.order[i], values[i])) {
       // What completes an extra of two estimates runs once, after both.
       if (pass.writes.empty() && walk.order[i] == elsewhere) continue;
-      add_extras(pass, in_use);
+      add_extras(pass, *walk.order[i], extras_of(*walk.order[i], wanted.outputs, walk));
       if (pass.writes.empty()) continue;
       add_optional_reads(pass, plan.inputs);
       define_layers(pass, plan, *walk.order[i]);

@@ -132,4 +132,16 @@ std::vector<ParameterValues> values_of(const PlanRequest& request, const Techniq
   return values;
 }
 
+std::vector<std::string> reads_of(const Technique& technique, const PlanRequest& request) {
+  if (!technique.reads_with) return technique.reads;
+  ParameterValues values(technique.parameters);
+  for (const auto& [name, value] : request.settings) {
+    const size_t dot = name.find('.');
+    const bool is_other = dot != std::string::npos && name.substr(0, dot) != technique.name;
+    const std::string bare = dot == std::string::npos ? name : name.substr(dot + 1);
+    if (!is_other && values.has(bare)) values.set(bare, value, technique.name);
+  }
+  return technique.reads_with(values);
+}
+
 }  // namespace gloam

@@ -14,4 +14,7 @@ namespace gloam {
 std::vector<ParameterValues> values_of(const PlanRequest& request, const Techniques& order, const std::string& main,
                                        const Technique* restricted, const std::string& mask);
 
+/// The planes that a technique reads with the request's settings.
+std::vector<std::string> reads_of(const Technique& technique, const PlanRequest& request);
+
 }  // namespace gloam

@@ -6,12 +6,24 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "plan/settings.h"
 
 namespace gloam {
 
-Walk::Walk(const Wanted& wanted, std::vector<std::string> available, const std::vector<std::string>& also,
-           const std::string& mask)
-    : wanted_(wanted), available_(std::move(available)) {
+namespace {
+
+/// The one of these techniques that makes a plane as an extra; null if none does.
+const Technique* extra_maker(const Techniques& techniques, const std::string& plane) {
+  const auto found = std::find_if(techniques.begin(), techniques.end(),
+                                  [&](const Technique* t) { return contains(t->extras, plane); });
+  return found == techniques.end() ? nullptr : *found;
+}
+
+}  // namespace
+
+Walk::Walk(const Wanted& wanted, const PlanRequest& request, std::vector<std::string> available,
+           const std::vector<std::string>& also, const std::string& mask)
+    : wanted_(wanted), request_(request), available_(std::move(available)) {
   if (!mask.empty()) need(mask, nullptr);
   for (const std::string& output : wanted.outputs) need(output, nullptr);
   for (const std::string& plane : also) need(plane, nullptr);
@@ -19,8 +31,10 @@ Walk::Walk(const Wanted& wanted, std::vector<std::string> available, const std::
 
 void Walk::need(const std::string& plane, const Technique* asking) {
   if (contains(made_, plane) || contains(inputs, plane) || contains(missing, plane)) return;
-  const Technique* maker = maker_of(plane, asking, wanted_.makers);
-  if (std::find(order.begin(), order.end(), maker) != order.end()) return;  // an extra of a technique that already runs
+  // An extra of a technique that already runs costs least.
+  const Technique* running = asking && !contains(available_, plane) ? extra_maker(order, plane) : nullptr;
+  const Technique* maker = running ? running : maker_of(plane, asking, wanted_.makers);
+  if (std::find(order.begin(), order.end(), maker) != order.end()) return need_extra(*maker, plane);
   const bool under_way = maker && std::find(begun_.begin(), begun_.end(), maker) != begun_.end();
   const bool asked_for =
       maker && std::find(wanted_.makers.begin(), wanted_.makers.end(), maker) != wanted_.makers.end();
@@ -30,13 +44,23 @@ void Walk::need(const std::string& plane, const Technique* asking) {
   } else if (!maker || under_way) {
     missing.push_back(plane);
   } else {
+    need_extra(*maker, plane);
     schedule(*maker);
+  }
+}
+
+/// Notes that a technique has to make a plane, if the plane is one of its extras.
+void Walk::need_extra(const Technique& maker, const std::string& plane) {
+  if (!contains(maker.extras, plane)) return;
+  extras.emplace_back(&maker, plane);
+  for (const auto& [extra, read] : maker.read_for_extras) {
+    if (extra == plane) need(read, &maker);
   }
 }
 
 void Walk::schedule(const Technique& technique) {
   begun_.push_back(&technique);
-  for (const std::string& plane : technique.reads) need(plane, &technique);
+  for (const std::string& plane : reads_of(technique, request_)) need(plane, &technique);
   for (const std::string& plane : technique.may_read) {
     if (contains(available_, plane) && !contains(inputs, plane)) inputs.push_back(plane);
   }

@@ -110,6 +110,7 @@ Technique over_two_eyes(Technique mono, ParameterList parameters,
   t.may_read.clear();
   t.effect = {};
   t.extras.clear();
+  t.read_for_extras.clear();
   t.parameters = std::move(parameters);
   for (const auto& [name, value] : std::exchange(t.then_with, {})) set_initial(t.parameters, name, value);
   t.then.clear();

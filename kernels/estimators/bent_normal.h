@@ -1,18 +1,24 @@
 // Bent normal: mean of the open directions, weighted by solid angle. Cone: the cone about it that is as open as the directions
 // are (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
-// -D WITH_BENT_NORMAL, WITH_CONE: a kernel's last arguments and last line are
+// -D WITH_BENT_NORMAL, WITH_CONE, WITH_SPECULAR_OCCLUSION_RAW, WITH_LOBE_WEIGHT (glossy_lobe.h): a kernel's last arguments and last line are
 //   ... PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
 //   STORE_OPEN_DIRECTIONS(directions, receiver)
+// With the last two, the kernel has the argument ROUGHNESS_ARGUMENT after its occluders, and the line SET_LOBE(directions, receiver).
 #ifndef GLOAM_BENT_NORMAL_H
 #define GLOAM_BENT_NORMAL_H
 
+#include "shared/rays/ggx.h"
 #include "shared/sampling/ambient_occlusion.h"
 
 #define WITH_OPEN_DIRECTIONS (WITH_BENT_NORMAL || WITH_CONE)
+#define WITH_LOBE (WITH_SPECULAR_OCCLUSION_RAW || WITH_LOBE_WEIGHT)
 
 typedef struct {
   real3 sum;
   real weight;
+#if WITH_LOBE
+  real alpha, lobe_closed, lobe;  // closed and all of the surface's lobe
+#endif
 } OpenDirections;
 
 static inline OpenDirections no_directions(void) {
@@ -74,10 +80,48 @@ static inline real cone_of(OpenDirections d) {
 #define STORE_CONE(d, r)
 #define STORE_NO_CONE
 #endif
-#define OPEN_DIRECTIONS_ARGUMENTS BENT_NORMAL_ARGUMENTS CONE_ARGUMENT
-#define STORE_OPEN_DIRECTIONS(d, r) STORE_BENT_NORMAL(d, r) STORE_CONE(d, r)
+#if WITH_LOBE
+#define ROUGHNESS_ARGUMENT PLANE roughness,
+#define SET_LOBE(d, r) set_lobe(&d, (r).here, roughness);
+
+static inline void set_lobe(OpenDirections* d, int here, PLANE roughness) {
+  const real r = clamp(load(roughness, here), (real)(MIRROR_ROUGHNESS), (real)(1));
+  d->alpha = r * r;
+  d->lobe_closed = d->lobe = (real)(0);
+}
+
+static inline real open_lobe_of(OpenDirections d) {
+  const mask is_there = d.lobe > 0;
+  return larger(1 - choose(is_there, d.lobe_closed, (real)(0)) / choose(is_there, d.lobe, (real)(1)), (real)(0));
+}
+#else
+#define ROUGHNESS_ARGUMENT
+#define SET_LOBE(d, r)
+#endif
+#if WITH_SPECULAR_OCCLUSION_RAW
+#define OPEN_LOBE_ARGUMENT , PLANE_OUT specular_occlusion_raw
+#define STORE_OPEN_LOBE(d, r) \
+  store(choose((r).point.background, (real)(1), open_lobe_of(d)), specular_occlusion_raw, (r).here);
+#define STORE_NO_OPEN_LOBE store((real)(1), specular_occlusion_raw, here);
+#else
+#define OPEN_LOBE_ARGUMENT
+#define STORE_OPEN_LOBE(d, r)
+#define STORE_NO_OPEN_LOBE
+#endif
+#if WITH_LOBE_WEIGHT
+#define LOBE_WEIGHT_ARGUMENT , PLANE_OUT lobe_weight
+#define STORE_LOBE_WEIGHT(d, r) store(choose((r).point.background, (real)(0), (d).lobe), lobe_weight, (r).here);
+#define STORE_NO_LOBE_WEIGHT store((real)(0), lobe_weight, here);
+#else
+#define LOBE_WEIGHT_ARGUMENT
+#define STORE_LOBE_WEIGHT(d, r)
+#define STORE_NO_LOBE_WEIGHT
+#endif
+#define OPEN_DIRECTIONS_ARGUMENTS BENT_NORMAL_ARGUMENTS CONE_ARGUMENT OPEN_LOBE_ARGUMENT LOBE_WEIGHT_ARGUMENT
+#define STORE_OPEN_DIRECTIONS(d, r) \
+  STORE_BENT_NORMAL(d, r) STORE_CONE(d, r) STORE_OPEN_LOBE(d, r) STORE_LOBE_WEIGHT(d, r)
 // For pixels that are left out (SKIP_UNWANTED), at index `here`.
-#define STORE_NO_DIRECTIONS STORE_NO_BENT_NORMAL STORE_NO_CONE
+#define STORE_NO_DIRECTIONS STORE_NO_BENT_NORMAL STORE_NO_CONE STORE_NO_OPEN_LOBE STORE_NO_LOBE_WEIGHT
 
 // Zero on background.
 static inline void store_bent_normal(OpenDirections d, Receiver r, PLANE_OUT x, PLANE_OUT y, PLANE_OUT z) {

@@ -108,7 +108,7 @@ typedef struct {
   real unknown, others;    // numbers of samples
   Closed closed;           // with two eyes: by surfaces that this eye alone sees
   Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
-#if WITH_OPEN_DIRECTIONS
+#if WITH_OPEN_DIRECTIONS || WITH_LOBE
   Degrees degrees;  // to which the slice's directions are closed
 #endif
 #if STEREO
@@ -326,7 +326,7 @@ static inline real expected_error(Evidence e, real facing, COEFFICIENTS) {
   return roots + sum_of_terms(t, weights);
 }
 
-#if WITH_OPEN_DIRECTIONS
+#if WITH_OPEN_DIRECTIONS || WITH_LOBE
 static inline Degrees degrees_of(Evidence e, real closed) {
   const real a = smaller(e.below_horizon, (real)(1)), b = smaller(e.within_thickness, a);
   const real all = smaller(larger(closed, (real)(0)), (real)(1)), least = (real)(1e-6f);
@@ -404,10 +404,15 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
 #if WITH_AO_ERROR
   sum->error += importance * expected_error(evidence, facing, coefficients);
 #endif
-#if WITH_OPEN_DIRECTIONS
+#if WITH_OPEN_DIRECTIONS || WITH_LOBE
   right.degrees = left.degrees = degrees_of(evidence, closed);
+#endif
+#if WITH_OPEN_DIRECTIONS
   take_closed_side(directions, search.surface, slice, density * DIRECTIONS, &right, (scalar)1);
   take_closed_side(directions, search.surface, slice, density * DIRECTIONS, &left, (scalar)-1);
+#endif
+#if WITH_LOBE
+  take_lobe(directions, search.surface, slice, density * DIRECTIONS, &right, &left);
 #endif
 }
 
@@ -433,12 +438,14 @@ static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Pa
 }
 
 kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE depth, PLANE normal_x, PLANE normal_y,
-                              PLANE normal_z, OCCLUDERS_ARGUMENT BACK_ARGUMENT WANTED_ARGUMENT RESULTS) {
+                              PLANE normal_z,
+                              OCCLUDERS_ARGUMENT ROUGHNESS_ARGUMENT BACK_ARGUMENT WANTED_ARGUMENT RESULTS) {
   SKIP_UNWANTED(frame, STORE_OPEN)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
+  SET_LOBE(directions, r)
   Sum mean = no_sum();
   coefficients += WITH_BACK_DEPTH * NUMBERS;
   if (ANY(!r.point.background)) {

@@ -40,7 +40,7 @@ Pass estimate_of(const Params& p, const std::string& occluders, int edge_factor)
     estimate.may_read = {"back_depth"};
   }
   estimate.tables = {{"coefficients", std::move(table)}};
-  estimate.extras = {"bent_normal", "cone", {"ao_error", "ao_error_raw"}};
+  estimate.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight", {"ao_error", "ao_error_raw"}};
   return estimate;
 }
 
@@ -84,11 +84,12 @@ Technique evidence_over_depth() {
       "evidence", "ambient occlusion expected from what slices show: thickness is judged by extent",
       "coefficients fitted to ray-traced truth; slices after Jimenez, Wu, Pesce, Jarabo 2016", "evidence/evidence.cl"));
   t.then_with = {{"half_width", "3"}};
-  t.extras = {"bent_normal", "cone", "ao_error"};
+  t.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight", "ao_error"};
+  t.read_for_extras = {{"specular_occlusion_raw", "roughness"}, {"lobe_weight", "roughness"}};
   t.may_read = {"back_depth"};
   t.parameters = EvidenceParams::table();
   t.passes = passes_of(over_depth);
-  t.default_for = {"ao_raw", "bent_normal", "cone"};
+  t.default_for = {"ao_raw", "bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
   t.effect = {.name = "ambient occlusion",
               .mask = "corner-mask",
               .probe = {{"cell", "8"}, {"search_steps", "2"}},

@@ -249,6 +249,9 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
     take_closed_side(directions, search.surface, slice, inverse_density, &right, (scalar)1);
     take_closed_side(directions, search.surface, slice, inverse_density, &left, (scalar)-1);
 #endif
+#if WITH_LOBE
+    take_lobe(directions, search.surface, slice, inverse_density, &right, &left);
+#endif
   }
   return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
 }

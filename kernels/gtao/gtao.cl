@@ -10,17 +10,21 @@
 // out: ao_raw       1 = open .. 0 = closed, unfiltered; 1 on background
 //      bent_normal  unit, view space (WITH_BENT_NORMAL); zero on background
 //      cone         cosine of the half angle of the open cone about it (WITH_CONE)
+//      specular_occlusion_raw  open share of the surface's lobe (WITH_SPECULAR_OCCLUSION_RAW; reads roughness); 1 on background
+//      lobe_weight  of the part of the lobe that the slices hold (WITH_LOBE_WEIGHT; reads roughness); 0 on background
 // -D DIRECTIONS, STEPS, BITMASK, FADE, THICKNESS_HEURISTIC, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT,
 //    COMPENSATED, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "gtao/closed_slices.h"
 
 kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
+                          OCCLUDERS_ARGUMENT ROUGHNESS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw
+                              OPEN_DIRECTIONS_ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here); STORE_NO_DIRECTIONS)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
+  SET_LOBE(directions, r)
   real open = 1;
   real3 light;
   if (ANY(!r.point.background)) {

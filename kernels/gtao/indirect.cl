@@ -11,7 +11,7 @@
 //                 stochastic depths, hidden surfaces close sectors and send nothing
 // out: indirect_raw  irradiance / pi, in the unit of color, unfiltered; 0 on background
 //      ao_raw        as bitmask makes it, to the last bit (WITH_AO_RAW)
-//      bent_normal, cone  as bitmask makes them (WITH_BENT_NORMAL, WITH_CONE)
+//      bent_normal, cone, specular_occlusion_raw, lobe_weight  as bitmask makes them (WITH_...)
 // -D as gtao.cl, with LIGHT
 #include "gtao/closed_slices.h"
 
@@ -49,7 +49,8 @@ static inline void store_light(real3 light, mask counts, PLANE_OUT r, PLANE_OUT 
 }
 
 kernel void indirect_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                              SOURCES_ARGUMENT WANTED_ARGUMENT PLANE_OUT indirect_raw_r, PLANE_OUT indirect_raw_g,
+                              SOURCES_ARGUMENT ROUGHNESS_ARGUMENT WANTED_ARGUMENT PLANE_OUT indirect_raw_r,
+                              PLANE_OUT indirect_raw_g,
                               PLANE_OUT indirect_raw_b AO_RAW_ARGUMENT OPEN_DIRECTIONS_ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(0), indirect_raw_r, here); store((real)(0), indirect_raw_g, here);
                 store((real)(0), indirect_raw_b, here); STORE_NO_AO_RAW STORE_NO_DIRECTIONS)
@@ -57,6 +58,7 @@ kernel void indirect_estimate(Frame frame, Params params, PLANE depth, PLANE nor
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
+  SET_LOBE(directions, r)
   real open = 1;
   real3 light = make3((real)(0), (real)(0), (real)(0));
   if (ANY(!r.point.background)) {

@@ -9,7 +9,7 @@ template <typename Params>
 Pass estimate_of(const Params& p, Defines defines) {
   defines.insert(defines.end(), {{"DIRECTIONS", p.directions}, {"STEPS", p.steps}});
   Pass estimate = ambient_occlusion_estimate(p, "gtao_estimate", std::move(defines));
-  estimate.extras = {"bent_normal", "cone"};
+  estimate.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
   return estimate;
 }
 
@@ -29,7 +29,7 @@ Pass indirect_pass(const Params& p) {
   estimate.kernel = "indirect_estimate";
   estimate.source = "gtao/indirect.cl";
   estimate.writes = {"indirect_raw"};
-  estimate.extras = {"ao_raw", "bent_normal", "cone"};
+  estimate.extras.insert(estimate.extras.begin(), "ao_raw");
   return estimate;
 }
 
@@ -86,7 +86,8 @@ std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
 
 Technique row(std::string name, std::string summary, std::string paper) {
   Technique t = over_slices(ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl"));
-  t.extras = {"bent_normal", "cone"};
+  t.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
+  t.read_for_extras = {{"specular_occlusion_raw", "roughness"}, {"lobe_weight", "roughness"}};
   return t;
 }
 
@@ -116,7 +117,7 @@ Technique indirect_over_depth() {
   t.writes = {"indirect_raw"};
   t.outputs = {"indirect", "indirect_raw"};
   t.then = "bilateral-color";
-  t.extras = {"ao_raw", "bent_normal", "cone"};
+  t.extras.insert(t.extras.begin(), "ao_raw");
   t.parameters = IndirectParams::table();
   t.passes = passes_of(indirect_passes);
   return t;

@@ -5,8 +5,8 @@
 // joint_upsample (OpenCL has an `upsample` of its own): `frame`: the whole; `other`: the reduced one (upsample.h).
 // joint_upsample_of_both: from the reduced pixels of two views that agree (shared/stereo/upsample.h); `neighbour`: the other view,
 // reduced.
-// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample: the value of background and of unknown pixels),
-//    TWO_VIEWS (joint_upsample_of_both)
+// -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample, _color, _color_alpha: the value of background and of unknown
+//    pixels), TWO_VIEWS (joint_upsample_of_both)
 #include "resample/params.h"
 #include "shared/filter/upsample.h"
 #include "shared/lanes/wanted.h"
@@ -113,17 +113,18 @@ kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams param
   store(direction.z * sign, result_z, s.here);
 }
 
+#ifdef OUTSIDE
 static inline void upsample_plane(Weights w, Site s, mask known, PLANE source, PLANE_OUT result) {
   const real total = choose(known, w.total, (real)(1));
-  store(choose(known, weighted(w, s, source) / total, (real)(0)), result, s.here);
+  store(choose(known, weighted(w, s, source) / total, (real)(OUTSIDE)), result, s.here);
 }
 
 kernel void joint_upsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
                                  PLANE source_b, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
                                  PLANE low_normal_z, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
                                  WANTED_ARGUMENT PLANE_OUT result_r, PLANE_OUT result_g, PLANE_OUT result_b) {
-  SKIP_UNWANTED(frame, store((real)(0), result_r, here); store((real)(0), result_g, here);
-                store((real)(0), result_b, here))
+  SKIP_UNWANTED(frame, store((real)(OUTSIDE), result_r, here); store((real)(OUTSIDE), result_g, here);
+                store((real)(OUTSIDE), result_b, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
@@ -138,8 +139,8 @@ kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams 
                                        PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
                                        PLANE normal_y, PLANE normal_z, WANTED_ARGUMENT PLANE_OUT result_r,
                                        PLANE_OUT result_g, PLANE_OUT result_b, PLANE_OUT result_a) {
-  SKIP_UNWANTED(frame, store((real)(0), result_r, here); store((real)(0), result_g, here);
-                store((real)(0), result_b, here); store((real)(0), result_a, here))
+  SKIP_UNWANTED(frame, store((real)(OUTSIDE), result_r, here); store((real)(OUTSIDE), result_g, here);
+                store((real)(OUTSIDE), result_b, here); store((real)(OUTSIDE), result_a, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
@@ -149,3 +150,4 @@ kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams 
   upsample_plane(w, s, known, source_b, result_b);
   upsample_plane(w, s, known, source_a, result_a);
 }
+#endif

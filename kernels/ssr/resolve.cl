@@ -4,6 +4,7 @@
 // in : depth, normal, roughness, reflectance  reflector.h
 //      ray_...             rays.cl and shade.cl, of this eye and, with REPROJECTION, of the other
 //      instance            id of what is seen (REPROJECTION)
+//      specular_occlusion  open share of the pixel's lobe, a factor on the environment (WITH_SPECULAR_OCCLUSION)
 // out: reflection          radiance towards the eye; a = share of it that the image showed
 //      reach               mean length of the rays that met something, scene units (TEMPORAL)
 // -D RAYS, NEIGHBOURS, OTHER_NEIGHBOURS, REPROJECTION, TEMPORAL, MASKED
@@ -131,6 +132,9 @@ kernel void ssr_resolve(Frame frame,
                         PLANE other_ray_z, PLANE other_ray_density, PLANE other_ray_r, PLANE other_ray_g,
                         PLANE other_ray_b, PLANE other_ray_length, PLANE other_ray_confidence,
 #endif
+#if WITH_SPECULAR_OCCLUSION
+                        PLANE specular_occlusion,
+#endif
                         WANTED_ARGUMENT PLANE_OUT reflection_r, PLANE_OUT reflection_g, PLANE_OUT reflection_b,
                         PLANE_OUT reflection_a
 #if TEMPORAL
@@ -196,7 +200,12 @@ kernel void ssr_resolve(Frame frame,
   const real3 f0 = reflectance_at(reflectance_r, reflectance_g, reflectance_b, here);
   // Surfaces too rough for rays reflect the environment, with Fresnel's term for the mirror direction.
   const mask has_environment = is_rough & is_wanted;
-  const real evenly = choose(has_environment, albedo, (real)(0)), middle = grazing_share(s.to_eye.z);
+#if WITH_SPECULAR_OCCLUSION
+  const real reflected = albedo * clamp(load(specular_occlusion, here), (real)(0), (real)(1));
+#else
+  const real reflected = albedo;
+#endif
+  const real evenly = choose(has_environment, reflected, (real)(0)), middle = grazing_share(s.to_eye.z);
   // straight + grazing is the whole; Fresnel's term takes `reflectance` of the former and all of the latter.
   store(choose(is_known, scale * (f0.x * sum.straight.x + sum.grazing.x),
                evenly * (f0.x + (1 - f0.x) * middle) * params.environment_r),

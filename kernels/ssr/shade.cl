@@ -4,6 +4,7 @@
 // in : depth, normal, color    of this eye and, with TRAVERSAL or FADE, of the other; color: radiance, the same in every direction;
 //                              the color of background is what rays see that meet nothing
 //      ray_x, _y, _z, ray_density, met, met_in_other, left_at  ray.h
+//      specular_occlusion           open share of the pixel's lobe, a factor on the environment (WITH_SPECULAR_OCCLUSION)
 // out: hit_length       of the first reflected ray, scene units; 0 for a miss and for background
 //      ray_r, _g, _b    what the ray sees
 //      ray_length       scene units, +inf towards background, 0 for a miss
@@ -168,6 +169,9 @@ kernel void ssr_see(Frame frame,
                     PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z,
                     PLANE other_color_r, PLANE other_color_g, PLANE other_color_b,
 #endif
+#if WITH_SPECULAR_OCCLUSION
+                    PLANE specular_occlusion,
+#endif
                     PLANE_OUT hit_length, PLANE_OUT ray_r, PLANE_OUT ray_g, PLANE_OUT ray_b, PLANE_OUT ray_length,
                     PLANE_OUT ray_confidence) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
@@ -207,7 +211,11 @@ kernel void ssr_see(Frame frame,
     from_border = to_border_of_either(frame, neighbour, point_along(frame, start, length), sight.is_known);
 #endif
     const real confidence = confidence_of(params, sight, direction, from_border);
+#if WITH_SPECULAR_OCCLUSION
+    const real missing = (1 - confidence) * clamp(load(specular_occlusion, here), (real)(0), (real)(1));
+#else
     const real missing = 1 - confidence;
+#endif
     const real3 color = choose3(sight.is_known, sight.color, make3((real)(0), (real)(0), (real)(0)));
     sight.length = choose(sight.is_known, sight.length, (real)(0));
     if (k == 0) store(choose(isinf(sight.length), (real)(0), sight.length), hit_length, here);

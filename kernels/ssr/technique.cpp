@@ -173,12 +173,19 @@ class Passes {
             .defines = {{"BOTH_DEPTHS", 0}, {"IN_OTHER", 1}}};
   }
 
+  /// The environment is black by default, and then nothing is read for it.
+  Bindings factors_on_environment() const {
+    const bool is_black = p_.environment_r == 0 && p_.environment_g == 0 && p_.environment_b == 0;
+    return is_black ? Bindings{} : Bindings{"specular_occlusion"};
+  }
+
   Pass see() const {
     Pass pass{.name = "see",
               .kernel = "ssr_see",
               .source = "ssr/shade.cl",
               .reads = image() + rays() + met(),
               .writes = Bindings{{"hit_length", "hit"}} + seen()};
+    pass.may_read = factors_on_environment();
     if (c_.traversal) pass.reads.push_back(plane_of_rays("left_at"));
     if (c_.traversal || c_.fade) pass.reads = pass.reads + of_other_eye(image());
     return pass;
@@ -190,6 +197,7 @@ class Passes {
               .source = "ssr/resolve.cl",
               .reads = reflector() + rays() + seen(),
               .writes = {{"reflection", c_.accumulates ? "reflection_raw" : "reflection"}},
+              .may_read = factors_on_environment(),
               .footprint = {.columns = 2, .rows = 2},
               .can_skip = true};
     if (c_.accumulates) pass.writes.push_back({"reach", "ssr_reach"});
@@ -244,6 +252,7 @@ Technique plain() {
   t.summary = "reflections by rays through the depth, chosen by roughness and shared among neighbours";
   t.paper = "Stachowiak, Uludag 2015";
   t.reads = {"depth", "normal", "color", "roughness", "reflectance"};
+  t.may_read = {"specular_occlusion"};
   t.writes = t.outputs = {"reflection", "hit"};
   t.default_for = {"reflection", "hit"};
   t.over_time = "temporal-sssr";

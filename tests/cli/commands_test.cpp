@@ -244,7 +244,9 @@ TEST_F(Cli, APlaneCanBePlannedAsTheTechniqueThatMakesIt) {
   EXPECT_EQ(cone.json()["outputs"], Json({"ao", "cone"}));
   EXPECT_EQ(passes_of(cone.json())[0], "evidence/estimate");
   EXPECT_EQ(cone.json()["passes"][0]["writes"], Json({"ao_raw", "cone"}));
-  EXPECT_EQ(plan({"--with", "hit"}).err, "gloam: --with hit: evidence does not make it; it has bent_normal, cone and ao_error\n");
+  EXPECT_EQ(plan({"--with", "hit"}).err,
+            "gloam: --with hit: evidence does not make it; it has bent_normal, cone, "
+            "specular_occlusion_raw, lobe_weight and ao_error\n");
   EXPECT_EQ(passes_of(plan({"--filter", "gaussian"}).json())[1].rfind("gaussian/", 0), 0u);
   const Json half = plan({"--resolution", "half"}).json();
   EXPECT_EQ(half["passes"][2]["writes"], Json({"ao_raw@2"})) << "the estimate runs reduced as well";

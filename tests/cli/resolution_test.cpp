@@ -150,8 +150,11 @@ TEST_F(CliResolution, LayersAreNotUpsampled) {
 TEST_F(CliResolution, ExtrasThatThereAreNot) {
   const std::pair<const char*, const char*> refused[] = {
       {"bent",
-       "gloam: --with bent: gtao does not make it (did you mean 'bent_normal'?); it has bent_normal and cone\n"},
-      {"cone,ao_noise", "gloam: --with ao_noise: gtao does not make it; it has bent_normal and cone\n"}};
+       "gloam: --with bent: gtao does not make it (did you mean 'bent_normal'?); it has bent_normal, cone, "
+       "specular_occlusion_raw and lobe_weight\n"},
+      {"cone,ao_noise",
+       "gloam: --with ao_noise: gtao does not make it; it has bent_normal, cone, specular_occlusion_raw and "
+       "lobe_weight\n"}};
   for (const auto& [extras, message] : refused) {
     const Result result = run({"--with", extras});
     EXPECT_EQ(result.status, 2);

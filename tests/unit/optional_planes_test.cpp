@@ -60,6 +60,62 @@ TEST(ExtrasInTwoSteps, AreCompletedOnlyWhereTheyAreAskedFor) {
   EXPECT_EQ(plan.outputs, (Names{"ao_raw", "ao_error"}));
 }
 
+TEST(ExtrasForOthers, AreMadeWhereAnotherTechniqueReadsThem) {
+  const Plan plan = plan_of({.outputs = {"specular-occlusion"}}, {"depth", "normal", "roughness"});
+  EXPECT_EQ(labels_of(plan), (Names{"evidence/estimate", "specular-occlusion/rows", "specular-occlusion/columns"}));
+  EXPECT_EQ(plan.outputs, (Names{"specular_occlusion"}));
+  EXPECT_TRUE(has_define(plan, "WITH_SPECULAR_OCCLUSION_RAW"));
+  EXPECT_TRUE(has_define(plan, "WITH_LOBE_WEIGHT"));
+  EXPECT_FALSE(has_define(plan, "WITH_CONE"));
+}
+
+TEST(ExtrasForOthers, ComeFromTheTechniqueAskedFor) {
+  const Plan plan =
+      plan_of({.outputs = {"gtao", "specular-occlusion"}, .then = "none"}, {"depth", "normal", "roughness"});
+  EXPECT_EQ(labels_of(plan), (Names{"gtao/estimate", "specular-occlusion/rows", "specular-occlusion/columns"}));
+}
+
+TEST(ExtrasForOthers, AreTakenFromTheFrame) {
+  const Plan plan = plan_of({.outputs = {"specular-occlusion"}},
+                            {"depth", "normal", "roughness", "specular_occlusion_raw", "lobe_weight"});
+  EXPECT_EQ(labels_of(plan), (Names{"specular-occlusion/rows", "specular-occlusion/columns"}));
+}
+
+TEST(PlanesReadForExtras, AreReadForThemAlone) {
+  EXPECT_EQ(plan_of({.outputs = {"gtao"}}, {"depth", "normal", "roughness"}).inputs, (Names{"depth", "normal"}));
+  const Plan plan =
+      plan_of({.outputs = {"gtao"}, .with = {"specular_occlusion_raw"}}, {"depth", "normal", "roughness"});
+  EXPECT_EQ(plan.inputs, (Names{"depth", "normal", "roughness"}));
+  EXPECT_EQ(message_of([] {
+              plan_of({.outputs = {"gtao"}, .with = {"lobe_weight"}}, {"depth", "normal"});
+            }),
+            "gtao: needs 'roughness', and frame.exr has only Z (see docs/gbuffer.md)");
+}
+
+TEST(ReadsByParameter, AreThoseOfTheMethod) {
+  const Names frame = {"depth", "normal", "roughness", "ao", "bent_normal", "cone"};
+  const auto inputs = [&](const Settings& settings) {
+    return plan_of({.outputs = {"specular-occlusion"}, .settings = settings}, frame).inputs;
+  };
+  EXPECT_EQ(inputs({{"method", "lagarde"}}), (Names{"depth", "normal", "roughness", "ao"}));
+  EXPECT_EQ(inputs({{"specular-occlusion.method", "cone"}}),
+            (Names{"depth", "normal", "roughness", "bent_normal", "cone"}));
+  EXPECT_EQ(message_of([&] {
+              inputs({{"method", "guess"}});
+            }),
+            "specular-occlusion: method = 'guess' is not allowed; sectors, cone, lagarde is");
+}
+
+TEST(SpecularOcclusion, IsReadByReflectionsThatHaveAnEnvironment) {
+  const Names frame = {"depth", "normal", "color", "roughness", "reflectance", "specular_occlusion"};
+  const auto reads_it = [&](const Settings& settings) {
+    const Names inputs = plan_of({.outputs = {"sssr"}, .settings = settings}, frame).inputs;
+    return std::find(inputs.begin(), inputs.end(), "specular_occlusion") != inputs.end();
+  };
+  EXPECT_FALSE(reads_it({}));
+  EXPECT_TRUE(reads_it({{"environment_g", "1"}}));
+}
+
 TEST(FileParameter, IsNoneUntilItIsSet) {
   ParameterValues values(find_technique("evidence").parameters);
   EXPECT_EQ(values.text("coefficients"), "none");

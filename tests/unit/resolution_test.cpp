@@ -175,7 +175,8 @@ TEST(Resolution, WhatIsMissingForUpsamplingIsNamed) {
 
 TEST(Extras, UnknownOnesAreRefusedWithWhatThereIs) {
   EXPECT_EQ(message_of([] { plan_of({.outputs = {"gtao"}, .with = {"bent"}}); }),
-            "--with bent: gtao does not make it (did you mean 'bent_normal'?); it has bent_normal and cone");
+            "--with bent: gtao does not make it (did you mean 'bent_normal'?); it has bent_normal, cone, "
+            "specular_occlusion_raw and lobe_weight");
   EXPECT_EQ(message_of([] { plan_of({.outputs = {"hbao+"}, .with = {"cone"}}); }),
             "--with cone: hbao+ does not make it; it has no extras");
 }

@@ -145,6 +145,8 @@ struct Technique {
   std::string source;   ///< default kernel file of its passes, below kernels/: "hbao_plus/hbao_plus.cl"
   std::vector<std::string> reads, writes;
   std::vector<std::string> may_read;  ///< planes that it reads where the frame has them
+  /// Those of `reads` that it reads with given parameters. Empty: all.
+  std::function<std::vector<std::string>(const ParameterValues&)> reads_with;
   std::vector<std::string> outputs;  ///< planes that `gloam run` writes; empty: `writes`. The technique in `then` makes
                                      ///< those that are not in `writes`
   std::string then;                  ///< technique that follows by default, such as a filter; it inherits parameters of
@@ -156,8 +158,11 @@ struct Technique {
   bool any_projection = false;
   /// For given parameters, the distance between key views, which other views may reuse; 1: there are none.
   std::function<int(const ParameterValues&)> key_views;
-  std::string over_time;            ///< technique that does the same for sequences, where there is one
-  std::vector<std::string> extras;  ///< planes that it makes besides `writes` if they are asked for by name
+  std::string over_time;  ///< technique that does the same for sequences, where there is one
+  /// Planes that it makes besides `writes` if they are asked for by name, or if another technique reads them.
+  std::vector<std::string> extras;
+  /// For some extras, a plane that the pass that makes the extra reads for it alone: {extra, plane}. No technique makes that plane.
+  std::vector<std::pair<std::string, std::string>> read_for_extras;
   ParameterList parameters;
   std::vector<Preset> presets;
   std::string caution;  ///< what to know before choosing a preset; may be empty

@@ -5,6 +5,7 @@
 #define GLOAM_SLICE_DIRECTIONS_H
 
 #include "estimators/bent_normal.h"
+#include "estimators/glossy_lobe.h"
 #include "shared/sampling/slice_steps.h"
 
 #if WITH_OPEN_DIRECTIONS
