@@ -49,7 +49,7 @@ std::string head(const std::vector<Source>& sources, const std::string& command)
              "too bright. *Time* is that of the whole plan, the filter included, over that of HBAO+ medium in the "
              "same round of the same process; such a ratio travels between machines of a kind, milliseconds do not. "
              "A *setting* is a technique with a preset:") +
-         "```\n"
+         "```text\n"
          "gloam run TECHNIQUE frame.exr -o ao.exr --preset PRESET [--resolution half|quarter]\n"
          "```\n\n";
 }
