@@ -20,6 +20,9 @@ static_assert(tile % 16 == 0);
 
 void check_adaptive(const Plan& plan, const Technique& technique, const std::string& preset) {
   if (plan.resolution != 1) throw UsageError("--adaptive {}: works at full resolution; leave out --resolution", preset);
+  if (!contains(technique.writes, "ao_raw"))
+    throw UsageError("--adaptive {}: varies the samples of ambient occlusion, and {} makes {}; leave --adaptive out",
+                     preset, technique.name, enumerate(technique.writes));
   const bool reads_stack = std::any_of(technique.reads.begin(), technique.reads.end(), is_stack);
   if (technique.views > 1 || reads_stack)
     throw UsageError("--adaptive {}: {} reads {}, which a base pass does not; leave --adaptive out", preset,

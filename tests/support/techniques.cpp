@@ -54,6 +54,12 @@ std::vector<std::string> unfiltered_extras(const Technique& technique) {
   return names;
 }
 
+void invent_for_extras(const Technique& technique, Frame& frame) {
+  for (const auto& [unused, plane] : technique.read_for_extras) {
+    if (!frame.views[0].find(plane)) invent_plane(frame, plane);
+  }
+}
+
 std::string identifier(const std::string& name) {
   std::string text;
   for (const char c : name) {

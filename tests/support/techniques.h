@@ -21,6 +21,9 @@ Frame outputs_of(const Technique& technique, Frame& frame, const Settings& setti
 /// Those of a technique's extras that its estimate makes, without those that a filter of its own completes.
 std::vector<std::string> unfiltered_extras(const Technique& technique);
 
+/// Adds invented planes that a technique reads for extras alone.
+void invent_for_extras(const Technique& technique, Frame& frame);
+
 /// Name for a test: letters, digits and underscores, "hbao_plus".
 std::string identifier(const std::string& name);
 

@@ -137,6 +137,7 @@ TEST(Mask, GivesTheSameBitsAtEveryLaneWidth) {
     const Technique& technique = find_technique(name);
     Frame frame = shoot(perspective(65, 9), room());
     plan_for(technique, frame);  // adds invented planes
+    invent_for_extras(technique, frame);
     plane_of(frame, "mask").channels[0].at(32, 4) = 1;
     const Plan plan =
         make_plan({.outputs = {name}, .with = technique.extras, .settings = few_samples(technique), .mask = "mask"},
@@ -164,6 +165,7 @@ class Masked : public ::testing::TestWithParam<Case> {
   RunResult result_of(Frame& frame, const std::string& mask, const std::string& filter = "") {
     const Case& c = GetParam();
     plan_for(*c.technique, frame);  // adds invented planes
+    invent_for_extras(*c.technique, frame);
     PlanRequest request{.outputs = {c.technique->name},
                         // Around the mask, what a filter of the technique reads is computed too.
                         .with = filter == "none" ? unfiltered_extras(*c.technique) : c.technique->extras,

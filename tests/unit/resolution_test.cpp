@@ -59,8 +59,9 @@ TEST(Resolution, WhatComesBackHasAKernel) {
   const std::string source = flatten(resampling().source);
   Names available;
   for (const PlaneKind& kind : plane_kinds()) available.push_back(kind.name);
-  for (const char* layer : {"peel.00", "peel.01", "stochastic.00", "stochastic.01", "stochastic.02", "stochastic.03"})
-    available.push_back(layer);
+  for (const StackKind& stack : stack_kinds()) {
+    for (int layer = 0; layer < 4; ++layer) available.push_back(layer_name(stack.name, layer));
+  }
   std::set<std::string> kernels;
   for (const Technique& technique : registry()) {
     for (const int resolution : {2, 4}) {

@@ -84,6 +84,7 @@ class Adaptive : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Adaptive, EachTileHasTheBitsOfOnePreset) {
   Frame frame = shoot(perspective(203, 90), room());
+  invent_for_extras(*GetParam().technique, frame);
   const RunResult full = result_of(frame, request_for(GetParam(), "medium"), GetParam().lanes);
   const RunResult low = result_of(frame, request_for(GetParam(), "low"), GetParam().lanes);
   const RunResult mixed = result_of(frame, request_for(GetParam(), "medium", "low", "0.3"), GetParam().lanes);
@@ -97,6 +98,7 @@ TEST_P(Adaptive, EachTileHasTheBitsOfOnePreset) {
 
 TEST_P(Adaptive, TheLeastRangeDecides) {
   Frame frame = shoot(orthographic(67, 45, 4), room());
+  invent_for_extras(*GetParam().technique, frame);
   for (const std::string filter : {"", "none"}) {
     const auto frame_of = [&](const std::string& preset, const std::string& adaptive, const std::string& least_range) {
       return std::move(
@@ -180,7 +182,11 @@ TEST(AdaptivePlan, WhatCannotBeIsSaidInOneLine) {
   EXPECT_EQ(message({.outputs = {"stereo-gtao"}, .adaptive = "low"}),
             "--adaptive low: stereo-gtao reads two views, which a base pass does not; leave --adaptive out");
   EXPECT_EQ(message({.outputs = {"normals"}, .adaptive = "low"}),
-            "--adaptive low: normals has no estimate that can skip pixels; leave --adaptive out");
+            "--adaptive low: varies the samples of ambient occlusion, and normals makes normal; leave --adaptive out");
+  EXPECT_EQ(
+      message({.outputs = {"indirect"}, .adaptive = "low"}, {"depth", "normal", "color"}),
+      "--adaptive low: varies the samples of ambient occlusion, and indirect makes indirect_raw; leave --adaptive "
+      "out");
   EXPECT_EQ(message({.outputs = {"multires"}, .adaptive = "low"}),
             "--adaptive low: multires has no estimate that can skip pixels; leave --adaptive out");
 }
