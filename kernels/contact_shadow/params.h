@@ -1,0 +1,31 @@
+#include "shared/lanes/params.h"
+
+// The light, and how far it is followed.
+#define CONTACT_LIGHT_PARAMS(P)                                                                                   \
+  P(float, length, 0.5f, 0, INFINITY, "scene units", "distance from the surface up to which something shades it") \
+  P(float, max_reach, 0.25f, 0, 1, "image widths", "cap on the length on the screen")                             \
+  P(choice, light, sun, (sun, directional, point),                                                                \
+    "sun: the one that the frame states (gloamLight), else straight up; directional, point: light_x, light_y, "   \
+    "light_z")                                                                                                    \
+  P(float, light_x, 0, -1e30f, 1e30f, "scene units",                                                              \
+    "direction towards a directional light, or place of a point light")                                           \
+  P(float, light_y, 0, -1e30f, 1e30f, "scene units", "likewise")                                                  \
+  P(float, light_z, 0, -1e30f, 1e30f, "scene units", "likewise")                                                  \
+  P(choice, light_in, known, (known, world, view),                                                                \
+    "space of the light; known: the world where the pose of the camera is known, else view space")                \
+  P(float, bias, 0.01f, 0, 1, "", "what rises over the tangent plane by a lower sine does not count")
+
+#define CONTACT_SHADOW_PARAMS(P)                                                                            \
+  CONTACT_LIGHT_PARAMS(P)                                                                                   \
+  P(int, steps, 16, 1, 1024, "", "samples towards the light")                                               \
+  P(float, thickness, 0.4f, 0, INFINITY, "lengths", "how far an occluder reaches behind its visible front") \
+  P(bool, jitter, on, "shift the samples from pixel to pixel")
+
+#define CONTACT_MASK_PARAMS(P)                                                                          \
+  CONTACT_LIGHT_PARAMS(P)                                                                               \
+  P(int, search_steps, 8, 1, 64, "", "samples towards the light from the pixel that stands for a cell") \
+  P(bool, jitter, on, "shift the samples from cell to cell")                                            \
+  P(int, cell, 4, 2, 16, "pixels", "width and height of a cell of the mask")
+
+PARAMS(ContactShadowParams, CONTACT_SHADOW_PARAMS)
+PARAMS(ContactMaskParams, CONTACT_MASK_PARAMS)
