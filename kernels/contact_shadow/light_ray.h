@@ -1,5 +1,5 @@
 // The ray from a pixel's point towards the light, as steps from pixel to pixel, and what lies on it.
-// -D POINT (a light at a place), JITTER
+// -D POINT (a light at a place)
 //
 // light  three numbers, view space: the unit direction towards the light, or with POINT its place, scene units
 #ifndef GLOAM_LIGHT_RAY_H

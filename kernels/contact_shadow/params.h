@@ -1,18 +1,16 @@
 #include "shared/lanes/params.h"
 
 // The light, and how far it is followed.
-#define CONTACT_LIGHT_PARAMS(P)                                                                                   \
-  P(float, length, 0.5f, 0, INFINITY, "scene units", "distance from the surface up to which something shades it") \
-  P(float, max_reach, 0.25f, 0, 1, "image widths", "cap on the length on the screen")                             \
-  P(choice, light, sun, (sun, directional, point),                                                                \
-    "sun: the one that the frame states (gloamLight), else straight up; directional, point: light_x, light_y, "   \
-    "light_z")                                                                                                    \
-  P(float, light_x, 0, -1e30f, 1e30f, "scene units",                                                              \
-    "direction towards a directional light, or place of a point light")                                           \
-  P(float, light_y, 0, -1e30f, 1e30f, "scene units", "likewise")                                                  \
-  P(float, light_z, 0, -1e30f, 1e30f, "scene units", "likewise")                                                  \
-  P(choice, light_in, known, (known, world, view),                                                                \
-    "space of the light; known: the world where the pose of the camera is known, else view space")                \
+#define CONTACT_LIGHT_PARAMS(P)                                                                                       \
+  P(float, length, 0.5f, 0, INFINITY, "scene units", "distance from the surface up to which something shades it")     \
+  P(float, max_reach, 0.25f, 0, 1, "image widths", "cap on the length on the screen")                                 \
+  P(choice, light, sun, (sun, directional, point), "sun: as the frame states it (gloamLight), else from straight up") \
+  P(float, light_x, 0, -1e30f, 1e30f, "",                                                                             \
+    "direction towards a directional light; place of a point light, scene units")                                     \
+  P(float, light_y, 1, -1e30f, 1e30f, "", "likewise")                                                                 \
+  P(float, light_z, 0, -1e30f, 1e30f, "", "likewise")                                                                 \
+  P(choice, light_in, world, (world, view),                                                                           \
+    "space of light_x, light_y and light_z; of a camera without a pose only view space is known")                     \
   P(float, bias, 0.01f, 0, 1, "", "what rises over the tangent plane by a lower sine does not count")
 
 #define CONTACT_SHADOW_PARAMS(P)                                                                            \
@@ -24,7 +22,6 @@
 #define CONTACT_MASK_PARAMS(P)                                                                          \
   CONTACT_LIGHT_PARAMS(P)                                                                               \
   P(int, search_steps, 8, 1, 64, "", "samples towards the light from the pixel that stands for a cell") \
-  P(bool, jitter, on, "shift the samples from cell to cell")                                            \
   P(int, cell, 4, 2, 16, "pixels", "width and height of a cell of the mask")
 
 PARAMS(ContactShadowParams, CONTACT_SHADOW_PARAMS)
