@@ -29,11 +29,12 @@ kernel void contact_find(Frame frame, Params params, LIGHT, PLANE depth, PLANE n
   const real cell = r.point.across_x + r.point.across_y;
   r.last = choose(r.last > 0, smaller(r.last + 1, r.line.end), (real)(0));
   const mask searched = !r.point.background & !r.at_light & r.faces;
+  const real around = larger((scalar)0.5 * r.last * (scalar)(1.0f / STEPS), (real)(1));
   mask rises = (mask)(0);
   for (int k = 0; k < STEPS; ++k) {
     if (!ANY(searched & !rises)) break;
-    const OnRay s = sample_on(r, frame, depth, (real)(((scalar)k + 1) * (scalar)(1.0f / STEPS)));
-    rises |= searched & s.counts & (s.deeper > -cell) & rises_by(r, s, params.bias);
+    const OnRay s = sample_on(r, frame, depth, (real)(((scalar)k + 1) * (scalar)(1.0f / STEPS)), around);
+    rises |= searched & passes(s, cell, REAL_INFINITY) & rises_by(r, s, params.least_sine);
   }
   store(choose(rises, (real)(1), (real)(0)), found, r.here);
 }

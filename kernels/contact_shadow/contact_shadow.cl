@@ -8,6 +8,10 @@
 #include "contact_shadow/params.h"
 #include "shared/lanes/wanted.h"
 
+// A sample stands for its own pixel, so that what is thinner than a step of the ray is met. (For all that lies between two samples it
+// would stand too far: on built-in scenes the RMSE is the same or up to .013 larger.)
+#define HALF_A_PIXEL ((scalar)0.5)
+
 // Light arrives where nothing is looked for.
 static inline real unshaded(LightRay r) {
   return choose(r.point.background | r.at_light | r.faces, (real)(1), (real)(0));
@@ -25,8 +29,8 @@ kernel void contact_shadow(Frame frame, Params params, LIGHT, PLANE depth, PLANE
   mask searched = is_wanted & !r.point.background & !r.at_light & r.faces, shaded = (mask)(0);
   for (int k = 0; k < STEPS; ++k) {
     if (!ANY(searched)) break;
-    const OnRay s = sample_on(r, frame, depth, ((scalar)k + shift) * (scalar)(1.0f / STEPS));
-    const mask stands_before = s.counts & (s.deeper > 0) & (s.deeper < thickness) & rises_by(r, s, params.bias);
+    const OnRay s = sample_on(r, frame, depth, ((scalar)k + shift) * (scalar)(1.0f / STEPS), (real)(HALF_A_PIXEL));
+    const mask stands_before = passes(s, (real)(0), thickness) & rises_by(r, s, params.bias);
     shaded |= searched & stands_before;
     searched &= !stands_before;
   }

@@ -77,26 +77,35 @@ static inline LightRay light_ray_at(Frame f, LIGHT, scalar longest, scalar most_
 
 // A sample of the ray: the pixel nearest to it after a whole number of steps.
 typedef struct {
-  real steps;
-  real3 offset;  // from the point to what the pixel shows, in depths of the point
-  real deeper;   // depth of the ray there, less that of what the pixel shows, in depths of the point
-  mask counts;   // it lies on the ray
+  real3 offset;        // from the point to what the pixel shows, in depths of the point
+  real before, after;  // how much deeper than that the ray is where it enters and leaves, in depths of the point
+  mask counts;         // the pixel lies on the ray
 } OnRay;
 
-// `share`: of the ray, 0 to 1.
-static inline OnRay sample_on(LightRay r, Frame f, PLANE depth, real share) {
+// Depth of the ray after `steps`, less the depth of the point, in depths of the point.
+static inline real deeper_after(LightRay r, Frame f, real steps) {
+  const real nearness = r.line.slope * steps;
+  return f.perspective > 0 ? -nearness / larger(1 + nearness, (real)(1e-16f)) : -nearness;
+}
+
+// `share`: of the ray, 0 to 1; `around`: steps to either side that the sample stands for.
+static inline OnRay sample_on(LightRay r, Frame f, PLANE depth, real share, real around) {
   OnRay s;
-  s.steps = larger(rint(share * r.last), (real)(1));
-  s.counts = s.steps <= r.last;
-  const real steps = choose(s.counts, s.steps, (real)(0));
+  const real place = larger(rint(share * r.last), (real)(1));
+  s.counts = place <= r.last;
+  const real steps = choose(s.counts, place, (real)(0));
   const integer dx = clamp(nearest(r.line.per_x * steps), -r.x, f.width - 1 - r.x);
   const integer dy = clamp(nearest(r.line.per_y * steps), (integer)(-r.y), (integer)(f.height - 1 - r.y));
   const real e = relative_depth(r.point, r.depth, gather(depth + r.here, index_near(f, dx, dy)));
   s.offset = towards_near(f, r.point, to_real(dx), to_real(dy), e);
-  const real nearness = r.line.slope * steps;
-  const real own = f.perspective > 0 ? -nearness / larger(1 + nearness, (real)(1e-16f)) : -nearness;
-  s.deeper = own - e;
+  s.before = deeper_after(r, f, larger(steps - around, (real)(0))) - e;
+  s.after = deeper_after(r, f, smaller(steps + around, r.last)) - e;
   return s;
+}
+
+// Whether the ray passes what a sample shows, between `behind` its front and `before` it.
+static inline mask passes(OnRay s, real before, real behind) {
+  return s.counts & (larger(s.before, s.after) > -before) & (smaller(s.before, s.after) < behind);
 }
 
 // Whether a sample rises over the surface's tangent plane by an elevation with at least this sine.

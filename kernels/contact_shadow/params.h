@@ -10,18 +10,20 @@
   P(float, light_y, 1, -1e30f, 1e30f, "", "likewise")                                                                 \
   P(float, light_z, 0, -1e30f, 1e30f, "", "likewise")                                                                 \
   P(choice, light_in, world, (world, view),                                                                           \
-    "space of light_x, light_y and light_z; of a camera without a pose only view space is known")                     \
-  P(float, bias, 0.01f, 0, 1, "", "what rises over the tangent plane by a lower sine does not count")
+    "space of light_x, light_y and light_z; of a camera without a pose only view space is known")
 
 #define CONTACT_SHADOW_PARAMS(P)                                                                            \
   CONTACT_LIGHT_PARAMS(P)                                                                                   \
   P(int, steps, 16, 1, 1024, "", "samples towards the light")                                               \
   P(float, thickness, 0.4f, 0, INFINITY, "lengths", "how far an occluder reaches behind its visible front") \
-  P(bool, jitter, on, "shift the samples from pixel to pixel")
+  P(bool, jitter, on, "shift the samples from pixel to pixel")                                              \
+  P(float, bias, 0.01f, 0, 1, "", "what rises over the tangent plane by a lower sine does not count")
 
 #define CONTACT_MASK_PARAMS(P)                                                                          \
   CONTACT_LIGHT_PARAMS(P)                                                                               \
   P(int, search_steps, 8, 1, 64, "", "samples towards the light from the pixel that stands for a cell") \
+  P(float, least_sine, 0.01f, 0.001f, 1, "",                                                            \
+    "something may shade if it rises over the tangent plane by at least this sine")                     \
   P(int, cell, 4, 2, 16, "pixels", "width and height of a cell of the mask")
 
 PARAMS(ContactShadowParams, CONTACT_SHADOW_PARAMS)

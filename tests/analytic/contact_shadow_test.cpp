@@ -79,8 +79,8 @@ void expect_shadow_of_strip(const Shot& shot, const Settings& settings, const Pa
   const Frame result = contact_of(frame, settings);
   const double pixel = wall / shot.camera.fx * (shot.camera.orthographic ? 1 / wall : 1);
   int shaded = 0, lit = 0;
-  // Rays of the rows above leave the image before they reach the strip.
-  for (int y = 30; y < shot.height; ++y) {
+  // Rays of the rows above and below may leave the image before they reach the strip.
+  for (int y = 30; y < shot.height - 30; ++y) {
     for (int x = 0; x < shot.width; ++x) {
       if (value_at(frame, "depth", x, y) != float(wall)) continue;
       const EyeRay ray = ray_through(shot, x + 0.5, y + 0.5);
@@ -98,8 +98,8 @@ void expect_shadow_of_strip(const Shot& shot, const Settings& settings, const Pa
 
 std::vector<Shot> large_shots() { return {perspective(240, 180), orthographic(240, 180, 4)}; }
 
-// Along the view's axis the strip is as thick as it is, and no more.
-const Settings thin = {{"thickness", "0.02"}};
+// Next to nothing behind its front: rays meet the strip where they pass its pixels.
+const Settings thin = {{"thickness", "0.0001"}};
 
 TEST(ContactShadow, AStripShadesTheWallWhereADirectionalLightPassesIt) {
   const dvec3 light(0.8, 0.3, 1);
@@ -112,7 +112,7 @@ TEST(ContactShadow, AStripShadesTheWallWhereADirectionalLightPassesIt) {
 TEST(ContactShadow, AStripShadesTheWallWhereALightAtAPlacePassesIt) {
   const dvec3 light(0.8, 0.1, -3);  // at a depth of 3
   for (const Shot& shot : large_shots()) {
-    expect_shadow_of_strip(shot, from_light("point", light, joined(thin, {{"length", "100"}, {"thickness", "0.0002"}})),
+    expect_shadow_of_strip(shot, from_light("point", light, joined(thin, {{"length", "100"}})),
                            [&](const dvec3& p) { return p.x + before * (light.x - p.x) / (light.z + wall); });
   }
 }
@@ -136,7 +136,7 @@ TEST(ContactShadow, WhatIsBeyondTheLengthOrTheLightDoesNotShade) {
 }
 
 TEST(ContactShadow, ABallShadesTheFloorInAnEllipse) {
-  const dvec3 centre(0.1, -0.2, -3.6), light = glm::normalize(dvec3(0.9, 0.5, 0.6));
+  const dvec3 centre(0.2, 0, -3.5), light = glm::normalize(dvec3(0.6, 0.2, 1));
   constexpr double radius = 0.25;
   const Shot shot = perspective(240, 180);
   const Frame frame = shoot(shot, nearest_of({ball(centre, radius), tilted_plane(wall, 0, 0)}));
@@ -153,9 +153,9 @@ TEST(ContactShadow, ABallShadesTheFloorInAnEllipse) {
       wrong += contact_at(result, x, y) != (meets ? 0 : 1);
     }
   }
-  std::printf("ball before a wall: %d of %d shaded pixels are wrong\n", wrong, shaded);
-  EXPECT_GT(shaded, 500);
-  EXPECT_LT(wrong, 0.1 * shaded);
+  std::printf("ball before a wall: %d shaded pixels, %d wrong\n", shaded, wrong);
+  EXPECT_GT(shaded, 300);
+  EXPECT_LT(wrong, 0.16 * shaded);
 }
 
 TEST(ContactShadow, ALightInASurfaceOrAtThePointIsNoSpecialCase) {
@@ -174,19 +174,19 @@ TEST(ContactShadow, ALightInASurfaceOrAtThePointIsNoSpecialCase) {
 
 TEST(ContactShadow, ADirectionOfTheWorldIsTurnedIntoTheView) {
   Frame frame = shoot(perspective(80, 60), room());
-  const Frame expected = contact_of(frame, from_light("directional", {0.25, 1, 0.5}, {{"light_in", "view"}}));
+  const Frame expected = contact_of(frame, from_light("directional", {0.25, 0.5, 0.5}, {{"light_in", "view"}}));
   // x of the world is y of the view, y is -x.
   Pose pose;
   pose.world_to_view = glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1);
   pose.position = {10, -20, 30};
   frame.views[0].camera->pose = pose;
-  const Frame turned = contact_of(frame, from_light("directional", {1, -0.25, 0.5}));
-  frame.views[0].light = glm::normalize(dvec3(1, -0.25, 0.5));
+  const Frame turned = contact_of(frame, from_light("directional", {0.5, -0.25, 0.5}));
+  frame.views[0].light = glm::normalize(dvec3(0.5, -0.25, 0.5));
   const Frame sun = contact_of(frame, limit);
-  const Frame place = contact_of(frame, from_light("point", dvec3(10, -20, 30) + dvec3(1, -0.25, 0.5)));
-  const Frame place_expected = contact_of(frame, from_light("point", {0.25, 1, 0.5}, {{"light_in", "view"}}));
-  EXPECT_GT(shares_of(expected).dark, 0.1);
-  EXPECT_GT(shares_of(expected).lit, 0.1);
+  const Frame place = contact_of(frame, from_light("point", dvec3(10, -20, 30) + dvec3(0.5, -0.25, 0.5)));
+  const Frame place_expected = contact_of(frame, from_light("point", {0.25, 0.5, 0.5}, {{"light_in", "view"}}));
+  EXPECT_GT(shares_of(expected).dark, 0.01);
+  EXPECT_GT(shares_of(expected).lit, 0.05);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) {
       ASSERT_EQ(contact_at(turned, x, y), contact_at(expected, x, y));
@@ -209,7 +209,7 @@ TEST(ContactShadow, RefusesADirectionOfNoLength) {
 TEST(ContactShadow, TheMaskHasNearlyAllShadows) {
   for (const Shot& shot : large_shots()) {
     const Frame frame = shoot(shot, room());
-    const Settings light = {{"light", "directional"}, {"light_x", "0.3"}, {"light_y", "1"}, {"light_z", "0.4"}};
+    const Settings light = {{"light", "directional"}, {"light_x", "-1"}, {"light_y", "0.5"}, {"light_z", "0.4"}};
     const Frame all = contact_of(frame, joined(light, {{"steps", "64"}}));
     const Frame unshaded = contact_of(frame, joined(light, {{"length", "0"}}));
     const Frame mask = run(plan_of("contact-mask", frame, light, {"mask"}), frame, device()).frame;
@@ -226,9 +226,9 @@ TEST(ContactShadow, TheMaskHasNearlyAllShadows) {
     const double pixels = double(shot.width) * shot.height;
     std::printf("contact-mask on the room: %.1f %% shaded, %.1f %% wanted, %.2f %% missed\n", 100 * shaded / pixels,
                 100 * wanted / pixels, 100 * missed / pixels);
-    EXPECT_GT(shaded, 0.02 * pixels);
-    EXPECT_LT(missed, 0.002 * pixels);
-    EXPECT_LT(wanted, 0.6 * pixels);
+    EXPECT_GT(shaded, 0.01 * pixels);
+    EXPECT_LT(missed, 0.0005 * pixels);
+    EXPECT_LT(wanted, 0.25 * pixels);
   }
 }
 
