@@ -14,6 +14,9 @@
 #include "shared/filter/subsample.h"
 #include "shared/sampling/cells.h"
 
+// Where the pixel of a cell faces away from the light by less than this cosine, others of the cell may face it.
+#define ROUNDED ((scalar)0.3f)
+
 kernel void contact_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
                               PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
                               PLANE_OUT low_normal_z) {
@@ -28,7 +31,7 @@ kernel void contact_find(Frame frame, Params params, LIGHT, PLANE depth, PLANE n
   // Pixels of the cell differ by a cell in where they start, and in what stands before their rays.
   const real cell = r.point.across_x + r.point.across_y;
   r.last = choose(r.last > 0, smaller(r.last + 1, r.line.end), (real)(0));
-  const mask searched = !r.point.background & !r.at_light & r.faces;
+  const mask searched = !r.point.background & !r.at_light & (r.faces | (r.facing > -ROUNDED));
   const real around = larger((scalar)0.5 * r.last * (scalar)(1.0f / STEPS), (real)(1));
   mask rises = (mask)(0);
   for (int k = 0; k < STEPS; ++k) {

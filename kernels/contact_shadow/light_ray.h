@@ -23,6 +23,7 @@ typedef struct {
   real depth;
   real3 normal;
   Anchor point;
+  real facing;    // cosine between the normal and the direction towards the light
   mask faces;     // the light can arrive: the surface faces it, or its normal is unknown
   mask at_light;  // the light is at the point itself
   ScreenRay line;
@@ -64,7 +65,8 @@ static inline LightRay light_ray_at(Frame f, LIGHT, scalar longest, scalar most_
   const real3 direction = towards_light(light, f, r.point, &distance);
   r.at_light = !(distance > 0);
   const mask is_known = dot3(r.normal, r.normal) > (scalar)0.5;
-  r.faces = !is_known | (dot3(r.normal, direction) > GRAZING);
+  r.facing = dot3(r.normal, direction);
+  r.faces = !is_known | (r.facing > GRAZING);
   r.line = screen_ray_of(f, r.point, choose(r.point.background, (real)(1), r.depth), direction);
   r.length = smaller((scalar)longest * r.point.inverse_depth, (real)(FARTHEST));
   const real near = smaller(r.length, distance * (1 - BEFORE_LIGHT));
