@@ -16,6 +16,7 @@
 #include "bench/plans.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "gloam/radius.h"
 #include "gloam/run.h"
 
 namespace gloam::bench {
@@ -37,8 +38,8 @@ std::optional<Plan> plan_alone(const Technique& technique, float radius, int lay
   for (const std::string& plane : technique.writes) {
     if (contains(outputs_of(technique), plane)) request.only.push_back(plane);
   }
-  if (ParameterValues(technique.parameters).has("radius"))
-    request.settings.emplace_back("radius", fmt::format("{}", radius));
+  if (const std::string name = radius_parameter(technique.parameters); !name.empty())
+    request.settings.emplace_back(name, fmt::format("{}", radius));
   try {
     return make_plan(request, planes_read(technique, layers), "the benchmark's frame");
   } catch (const MissingPlanes&) {

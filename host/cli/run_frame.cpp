@@ -222,7 +222,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   const std::optional<Radius> settled = settle(planned, frame);
   const Plan& plan = planned.plan;
   const std::optional<RadiusReport> radius = report_on(settled, frame, plan);
-  if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) note({warning});
+  note(notes_about_views(plan, frame));
   if (reads_history(plan) && !files.history()) add_no_history(frame, plan.inputs);
   Device device = starting.get();
   watch.lap("device");

@@ -14,8 +14,8 @@ namespace {
 void add_warnings(const std::optional<Radius>& radius, const Plan& plan, const Frame& frame) {
   report_on(radius, frame, plan);
   if (radius && radius->from == RadiusSource::frame)
-    note({"radius: each frame has its own, made from its depths; --radius gives one to all"});
-  if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) note({warning});
+    note({fmt::format("{0}: each frame has its own, made from its depths; --{0} gives one to all", radius->name)});
+  note(notes_about_views(plan, frame));
 }
 
 }  // namespace

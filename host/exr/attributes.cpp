@@ -6,6 +6,9 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
 namespace gloam {
 
 std::optional<Imath::M44d> matrix_attribute(const Imf::Header& header, const std::string& name) {
@@ -29,6 +32,14 @@ std::optional<glm::dvec3> origin_attribute(const Imf::Header& header, const std:
   const auto* found = header.findTypedAttribute<Imf::V3dAttribute>(prefix + "gloamOrigin");
   if (!found) return {};
   return glm::dvec3(found->value().x, found->value().y, found->value().z);
+}
+
+std::optional<glm::dvec3> light_attribute(const Imf::Header& header) {
+  const auto* found = header.findTypedAttribute<Imf::V3fAttribute>("gloamLight");
+  if (!found) return {};
+  const glm::dvec3 light(found->value().x, found->value().y, found->value().z);
+  const double length = glm::length(light);
+  return length > 0 && std::isfinite(length) ? std::optional(light / length) : std::nullopt;
 }
 
 }  // namespace gloam

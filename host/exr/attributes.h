@@ -22,4 +22,7 @@ std::string text_attribute(const Imf::Header& header, const std::string& name);
 /// `gloamOrigin`, the point of the world that matrices and positions are relative to; none if the header lacks it.
 std::optional<glm::dvec3> origin_attribute(const Imf::Header& header, const std::string& prefix);
 
+/// `gloamLight`, the direction towards the sun in the world, made unit; none if the header lacks it or it is no direction.
+std::optional<glm::dvec3> light_attribute(const Imf::Header& header);
+
 }  // namespace gloam

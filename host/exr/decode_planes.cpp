@@ -19,6 +19,7 @@ View view_of(const ExrFile& file, const FileCameras& cameras, const std::string&
   if (!name.empty()) origin = origin_attribute(header, name + ".");
   if (!origin) origin = origin_attribute(header, "");
   view.origin = origin.value_or(glm::dvec3(0.0));
+  view.light = light_attribute(header);
   return view;
 }
 

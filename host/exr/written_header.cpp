@@ -49,6 +49,13 @@ void insert_camera(Imf::Header& header, const Camera& camera, const Window& disp
   if (!camera.pose) header.insert(prefix + "gloamPose", Imf::StringAttribute("unknown"));
 }
 
+/// Of all views the sun is the same.
+void insert_light(Imf::Header& header, const Frame& frame) {
+  if (frame.views.empty() || !frame.views.front().light) return;
+  const glm::vec3 light(*frame.views.front().light);
+  header.insert("gloamLight", Imf::V3fAttribute(Imath::V3f(light.x, light.y, light.z)));
+}
+
 /// The origin of positions: readers need it even if there is no camera.
 void insert_origin(Imf::Header& header, const glm::dvec3& origin, const std::string& prefix) {
   if (origin != glm::dvec3(0.0))
@@ -83,6 +90,7 @@ Imf::Header header_without_views(const Frame& frame, const std::vector<WrittenCh
   header.pixelAspectRatio() = float(frame.pixel_aspect);
   for (const WrittenChannel& channel : channels) header.channels().insert(channel.name, Imf::Channel(channel.type));
   if (has_directions) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));
+  insert_light(header, frame);
   for (const auto& [name, text] : frame.attributes) header.insert(name, Imf::StringAttribute(text));
   for (const auto& [name, number] : frame.numbers) header.insert(name, Imf::FloatAttribute(float(number)));
   return header;

@@ -74,6 +74,7 @@ View without_planes(const View& view) {
           .camera = view.camera,
           .camera_before = view.camera_before,
           .origin = view.origin,
+          .light = view.light,
           .planes = {}};
 }
 

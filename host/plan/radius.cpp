@@ -39,13 +39,20 @@ std::string in_pixels(double pixels) {
   return pixels >= 100 && pixels < 1e6 ? fmt::format("{:.0f}", pixels) : fmt::format("{:.3g}", pixels);
 }
 
-std::string suggested(double radius, double pixels) {
-  return fmt::format("--radius {:g} reaches {}", radius, in_pixels(pixels));
+std::string suggested(const std::string& name, double radius, double pixels) {
+  return fmt::format("--{} {:g} reaches {}", name, radius, in_pixels(pixels));
 }
 
 }  // namespace
 
-bool is_radius(const Parameter& parameter) { return parameter.name == "radius" && parameter.unit == "scene units"; }
+bool is_radius(const Parameter& parameter) {
+  return (parameter.name == "radius" || parameter.name == "length") && parameter.unit == "scene units";
+}
+
+std::string radius_parameter(const ParameterList& parameters) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(), is_radius);
+  return found == parameters.end() ? "" : found->name;
+}
 
 const char* name_of(RadiusSource source) {
   switch (source) {
@@ -101,10 +108,11 @@ Radius default_radius(const Frame& frame, std::optional<double> stated) {
 std::optional<Radius> radius_of(const Plan& plan, const PlanRequest& request, RadiusSource from) {
   const PlannedPass* planned = first_with_radius(plan);
   if (!planned) return {};
+  const std::string name = radius_parameter(planned->technique->parameters);
   const bool is_given = std::any_of(request.settings.begin(), request.settings.end(), [&](const auto& setting) {
-    return setting.first == "radius" || setting.first == planned->technique->name + ".radius";
+    return setting.first == name || setting.first == planned->technique->name + "." + name;
   });
-  return Radius{planned->values.number("radius"), is_given ? RadiusSource::flag : from};
+  return Radius{planned->values.number(name), is_given ? RadiusSource::flag : from, name};
 }
 
 std::optional<double> cap_of(const Plan& plan) {
@@ -118,16 +126,17 @@ std::string warning_about(const Radius& radius, const Frame& frame, std::optiona
   const std::optional<double> per_unit = pixels_at_median_depth(frame);
   const std::optional<double> made = radius_made_from(frame);
   if (radius.from == RadiusSource::frame || !per_unit) return "";
-  const std::string instead = suggested(*made, *made * *per_unit);
+  const std::string instead = suggested(radius.name, *made, *made * *per_unit);
   const double most = cap.value_or(1) * frame.width();
   if (radius.value == 0)
-    return fmt::format("radius 0: nothing is within reach, so AO is 1 everywhere; {} pixels", instead);
+    return fmt::format("{} 0: nothing is within reach, so {} everywhere; {} pixels", radius.name,
+                       radius.name == "radius" ? "AO is 1" : "nothing is shaded", instead);
   if (std::isinf(radius.value))
-    return fmt::format("radius inf: every occluder counts that lies within {} pixels{}", in_pixels(most),
+    return fmt::format("{} inf: every occluder counts that lies within {} pixels{}", radius.name, in_pixels(most),
                        cap ? fmt::format(", which is max_reach {:g}", *cap) : "");
   const double pixels = radius.value * *per_unit;
-  const std::string reaches =
-      fmt::format("radius {:g} scene units reaches {} pixels at the median depth", radius.value, in_pixels(pixels));
+  const std::string reaches = fmt::format("{} {:g} scene units reaches {} pixels at the median depth", radius.name,
+                                          radius.value, in_pixels(pixels));
   if (pixels < std::max(least_pixels, far_below_default * default_radius_share * longer_side(frame)))
     return fmt::format("{}: few occluders are that near; {}", reaches, instead);
   if (pixels > most)
@@ -139,7 +148,7 @@ std::string warning_about(const Radius& radius, const Frame& frame, std::optiona
 std::string in_words(const Radius& radius, const Frame& frame) {
   const char* const from[] = {"given", "the truth's", "the scene's", "made from the frame"};
   const std::optional<double> pixels = pixels_at_median_depth(frame);
-  return fmt::format("radius {:g} scene units ({}){}", radius.value, from[int(radius.from)],
+  return fmt::format("{} {:g} scene units ({}){}", radius.name, radius.value, from[int(radius.from)],
                      pixels ? fmt::format(": {} pixels at the median depth", in_pixels(radius.value * *pixels))
                             : ": the frame shows no surface");
 }

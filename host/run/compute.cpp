@@ -19,8 +19,7 @@ bool has_radius(const PlanRequest& request, const Plan& plan) {
   return radius && radius->from == RadiusSource::flag;
 }
 
-}  // namespace
-
+/// A sentence if two eyes have no surface in common. Else empty.
 std::string warning_about_views(const Plan& plan, const Frame& frame) {
   const auto is_of_two = [](const PlannedPass& planned) { return planned.technique->views == 2; };
   if (!std::any_of(plan.passes.begin(), plan.passes.end(), is_of_two) || frame.views.size() != 2) return "";
@@ -32,6 +31,21 @@ std::string warning_about_views(const Plan& plan, const Frame& frame) {
       "the views '{}' and '{}' have no surface in common, and each gets a result of its own; do both show "
       "one scene, each with its own camera?",
       frame.views[0].name, frame.views[1].name);
+}
+
+}  // namespace
+
+std::vector<std::string> notes_about_views(const Plan& plan, const Frame& frame) {
+  std::vector<std::string> notes;
+  if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) notes.push_back(warning);
+  for (const PlannedPass& planned : plan.passes) {
+    if (!planned.technique->assumes) continue;
+    for (const View& view : frame.views) {
+      const std::string assumed = view.camera ? planned.technique->assumes(planned.values, view) : "";
+      if (!assumed.empty()) add_new(notes, {assumed});
+    }
+  }
+  return notes;
 }
 
 Computation plan_on(const PlanRequest& request, const Frame& frame, const std::vector<std::string>& also) {
@@ -53,8 +67,7 @@ Computation plan_on(const PlanRequest& request, const Frame& frame, const std::v
     const std::string warning = warning_about(*computation.radius, frame, cap_of(computation.plan));
     if (!warning.empty()) computation.notes.push_back(warning);
   }
-  if (const std::string warning = warning_about_views(computation.plan, frame); !warning.empty())
-    computation.notes.push_back(warning);
+  add_new(computation.notes, notes_about_views(computation.plan, frame));
   return computation;
 }
 

@@ -9,6 +9,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
+#include "gloam/radius.h"
 #include "run/checks.h"
 
 namespace gloam {
@@ -67,7 +68,8 @@ int margin_of(const Plan& plan, const Frame& frame) {
     if (!planned.pass.footprint.is_wide) continue;
     const double cap = planned.values.number("max_reach") * frame.width();
     for (const View& view : frame.views)
-      reach = std::max(reach, rows_of_radius(planned.values.number("radius"), cap, view, frame));
+      reach = std::max(reach, rows_of_radius(planned.values.number(radius_parameter(planned.technique->parameters)),
+                                             cap, view, frame));
   }
   return int(std::min(rows + std::ceil(reach), double(frame.height())));
 }

@@ -201,6 +201,8 @@ void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOp
   view.name = from.name;
   view.camera = from.camera;
   view.origin = from.camera.pose->position;
+  const Light& light = tracer.scene().light;
+  if (light.sun != vec3(0) && light.to_sun != vec3(0)) view.light = glm::normalize(dvec3(light.to_sun));
   const CaptureTarget target = capture_target(view, options, Layout(options.width, options.height));
   const PartSeconds seconds = capture_rows(Capturer(tracer, from, target, options), options, rows_before);
   result.stochastic_seconds += seconds.stochastic;

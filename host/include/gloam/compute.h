@@ -23,8 +23,9 @@ struct Computation {
 /// as `make_plan` and `check` (frame.h) do.
 Computation plan_on(const PlanRequest& request, const Frame& frame, const std::vector<std::string>& also = {});
 
-/// A note if two eyes have no surface in common: most likely they show two scenes, or have each other's cameras. Else empty.
-std::string warning_about_views(const Plan& plan, const Frame& frame);
+/// Notes, a sentence each: two eyes have no surface in common (most likely they show two scenes, or have each other's cameras); what
+/// techniques take for something that the views do not state.
+std::vector<std::string> notes_about_views(const Plan& plan, const Frame& frame);
 
 /// Plans for the planes that every view of a frame has, and runs the plan. Without a radius in the request, `default_radius`
 /// (radius.h) makes one from the frame: each frame of a sequence gets its own, unless `PlanRequest::radius` is set.

@@ -15,8 +15,10 @@ namespace gloam {
 /// (docs/accuracy.md) cover .031 to .108 of it, with a median of .065.
 inline constexpr double default_radius_share = 1.0 / 16;
 
-/// Whether a parameter is a radius in scene units, whose default comes from the frame.
+/// Whether a parameter is a radius in scene units, whose default comes from the frame: `radius`, or `length` of a ray.
 bool is_radius(const Parameter& parameter);
+/// The name of the parameter that is a radius; empty if there is none.
+std::string radius_parameter(const ParameterList& parameters);
 
 /// Where a radius comes from: a flag or setting, the truth that a result is compared with, the scene (`aoRadius` in the frame's
 /// header, or a built-in scene), or the frame's depths.
@@ -27,6 +29,7 @@ const char* name_of(RadiusSource source);
 struct Radius {
   double value = 0;  ///< scene units; may be infinite
   RadiusSource from = RadiusSource::frame;
+  std::string name = "radius";  ///< of the parameter
 };
 
 /// Width in pixels of one scene unit at the median depth of the surfaces of all views. None if no view has a depth, a camera and a

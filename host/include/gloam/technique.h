@@ -170,6 +170,8 @@ struct Technique {
   /// Empty if there are none.
   Settings converged;
   std::function<std::vector<Pass>(const ParameterValues&)> passes;
+  /// What it takes for something that it needs and a view does not state, a sentence; empty: nothing. Empty function: never.
+  std::function<std::string(const ParameterValues&, const View&)> assumes;
   Effect effect;  ///< its role in `gloam auto`
   /// Samples per pixel over one layer. Empty if unknown.
   std::function<int(const ParameterValues&)> samples;

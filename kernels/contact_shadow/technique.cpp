@@ -1,0 +1,161 @@
+#include "gloam/technique.h"
+
+#include <glm/geometric.hpp>
+
+#include "contact_shadow/params.h"
+#include "gloam/error.h"
+#include "technique/cell_masks.h"
+
+namespace gloam::techniques {
+namespace {
+
+constexpr const char* another_light = "set light to directional for another";
+
+/// Where the sun is if nothing states it; the defaults of light_x, light_y and light_z.
+const glm::dvec3 up(0, 1, 0);
+
+template <typename Params>
+bool is_sun(const Params& p) {
+  return p.light == Params::light_values::sun;
+}
+
+template <typename Params>
+bool is_point(const Params& p) {
+  return p.light == Params::light_values::point;
+}
+
+/// Where the pose is unknown, what is meant in the world is taken for view space (`assumption` says so).
+template <typename Params>
+bool is_in_world(const Params& p, const View& view) {
+  return p.light_in == Params::light_in_values::world && view.camera->pose;
+}
+
+template <typename Params>
+glm::dvec3 given_light(const Params& p) {
+  return {p.light_x, p.light_y, p.light_z};
+}
+
+template <typename Params>
+void check_light(const Params& p) {
+  if (p.light == Params::light_values::directional && given_light(p) == glm::dvec3(0))
+    throw UsageError("light_x, light_y and light_z are all 0, which is no direction; one of them must not be 0");
+}
+
+/// The unit direction towards the light, or with `is_point` its place, in the view's space.
+template <typename Params>
+glm::dvec3 light_in_view(const Params& p, const View& view) {
+  const bool in_world = is_in_world(p, view);
+  glm::dvec3 light = given_light(p);
+  if (is_sun(p)) light = in_world && view.light ? *view.light : up;
+  if (in_world) {
+    const Pose& pose = *view.camera->pose;
+    light = pose.world_to_view * (is_point(p) ? light - pose.position : light);
+  }
+  return is_point(p) ? light : glm::normalize(light);
+}
+
+template <typename Params>
+std::vector<float> table_of(const Params& p, const View& view) {
+  const glm::dvec3 light = light_in_view(p, view);
+  return {float(light.x), float(light.y), float(light.z)};
+}
+
+/// What is taken for the light where the frame leaves it open, or settings have no effect.
+template <typename Params>
+std::string assumption(const ParameterValues& values, const View& view) {
+  const Params p = values.as<Params>();
+  const bool in_world = is_in_world(p, view);
+  const char* const without_pose = "the pose of the camera is unknown";
+  if (is_sun(p) && given_light(p) != up)
+    return "light: light_x, light_y and light_z have no effect with light sun; set light to directional or point";
+  if (is_sun(p) && in_world && !view.light)
+    return fmt::format("light: the frame states no sun (gloamLight), so light comes from 0,1,0 in the world; {}",
+                       another_light);
+  if (is_sun(p) && !in_world)
+    return fmt::format("light: {}, so light comes from 0,1,0 in view space; {}",
+                       view.camera->pose ? "light_in is view" : without_pose, another_light);
+  if (!in_world && p.light_in == Params::light_in_values::world)
+    return fmt::format("light: {}, so light_x, light_y and light_z are taken for view space", without_pose);
+  return "";
+}
+
+template <typename Params>
+Pass with_light(Pass pass, const Params& p) {
+  pass.defines.push_back({"POINT", is_point(p)});
+  pass.view_tables = {{"light", [p](const View& view) { return table_of(p, view); }}};
+  return pass;
+}
+
+std::vector<Pass> shadow_passes(const ContactShadowParams& p) {
+  check_light(p);
+  return {with_light({.name = "march",
+                      .kernel = "contact_shadow",
+                      .reads = {"depth", "normal"},
+                      .writes = {"contact"},
+                      .defines = {{"STEPS", p.steps}, {"JITTER", p.jitter}},
+                      .footprint = {.is_wide = true},
+                      .can_skip = true},
+                     p)};
+}
+
+std::vector<Pass> mask_passes(const ContactMaskParams& p) {
+  check_light(p);
+  const Defines defines = {{"SCALE", p.cell}, {"STEPS", p.search_steps}};
+  Pass subsample{.name = "subsample",
+                 .kernel = "contact_subsample",
+                 .reads = {"depth", "normal"},
+                 .writes = {{"low_depth", "depth@cells"}, {"low_normal", "normal@cells"}},
+                 .defines = defines,
+                 .scale = p.cell};
+  Pass find{.name = "find",
+            .kernel = "contact_find",
+            .reads = {{"depth", "depth@cells"}, {"normal", "normal@cells"}},
+            .writes = {{"found", "contacts"}},
+            .defines = defines,
+            .scale = p.cell,
+            .footprint = {.is_wide = true}};
+  find = with_light(std::move(find), p);
+  subsample.defines = find.defines;
+  return mask_of_cells({std::move(subsample), std::move(find)});
+}
+
+Technique mask() {
+  Technique t;
+  t.name = "contact-mask";
+  t.summary = "where contact shadows can be, from depth and normals alone";
+  t.paper = "after OdSSAO 2020";
+  t.source = "contact_shadow/contact_mask.cl";
+  t.reads = {"depth", "normal"};
+  t.writes = {"mask"};
+  t.parameters = ContactMaskParams::table();
+  t.passes = passes_of(mask_passes);
+  t.assumes = assumption<ContactMaskParams>;
+  return t;
+}
+
+Technique shadow() {
+  Technique t;
+  t.name = "contact-shadow";
+  t.summary = "shadows of what is near a surface, between the surface and one light";
+  t.paper = "after McGuire, Mara 2014";
+  t.source = "contact_shadow/contact_shadow.cl";
+  t.reads = {"depth", "normal"};
+  t.writes = {"contact"};
+  t.default_for = {"contact"};
+  t.parameters = ContactShadowParams::table();
+  t.presets = {{"low", {{"steps", "8"}}},
+               {"medium", {{"steps", "16"}}},
+               {"high", {{"steps", "32"}}},
+               {"ultra", {{"steps", "64"}}}};
+  t.converged = {{"steps", "1024"}};
+  t.passes = passes_of(shadow_passes);
+  t.assumes = assumption<ContactShadowParams>;
+  t.samples = [](const ParameterValues& values) { return int(values.number("steps")); };
+  return t;
+}
+
+}  // namespace
+
+std::vector<Technique> contact_shadow() { return {shadow(), mask()}; }
+
+}  // namespace gloam::techniques
