@@ -19,11 +19,11 @@
   P(bool, jitter, on, "shift the samples from pixel to pixel") \
   P(float, bias, 0.01f, 0, 1, "", "what rises over the tangent plane by a lower sine does not count")
 
-#define CONTACT_MASK_PARAMS(P)                                                                          \
-  CONTACT_LIGHT_PARAMS(P)                                                                               \
+#define CONTACT_MASK_PARAMS(P)                                                                           \
+  CONTACT_LIGHT_PARAMS(P)                                                                                \
   P(int, search_steps, 16, 1, 64, "", "samples towards the light from the pixel that stands for a cell") \
-  P(float, least_sine, 0.01f, 0.00048828125f, 1, "",                                                    \
-    "something may shade if it rises over the tangent plane by at least this sine")                     \
+  P(float, least_sine, 0.01f, 0.00048828125f, 1, "",                                                     \
+    "something may shade if it rises over the tangent plane by at least this sine")                      \
   P(int, cell, 4, 2, 16, "pixels", "width and height of a cell of the mask")
 
 PARAMS(ContactShadowParams, CONTACT_SHADOW_PARAMS)
