@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Errors of contact shadows on built-in scenes, against the traced truth: the table of docs/accuracy.md.
+"""Errors of contact shadows on built-in scenes, against the traced truth: the table of kernels/contact_shadow/README.md.
 
 python3 bench/contact_errors.py FOLDER [GLOAM [SIZE [LENGTH [SCENE ...]]]]    by default build/gloam, 960x540, 0.5, gallery courtyard lounge
 

@@ -30,6 +30,8 @@ kernel void contact_find(Frame frame, Params params, LIGHT, PLANE depth, PLANE n
                             normal_y, normal_z);
   // Pixels of the cell differ by a cell in where they start, and in what stands before their rays.
   const real cell = r.point.across_x + r.point.across_y;
+  // What stands before the rays of other pixels may be a few cells deeper or nearer than before this one's.
+  const real thickness = (scalar)params.thickness * r.length, farthest = r.length + thickness + 2 * cell;
   r.last = choose(r.last > 0, smaller(r.last + 1, r.line.end), (real)(0));
   const mask searched = !r.point.background & !r.at_light & (r.faces | (r.facing > -ROUNDED));
   const real around = larger((scalar)0.5 * r.last * (scalar)(1.0f / STEPS), (real)(1));
@@ -37,7 +39,8 @@ kernel void contact_find(Frame frame, Params params, LIGHT, PLANE depth, PLANE n
   for (int k = 0; k < STEPS; ++k) {
     if (!ANY(searched & !rises)) break;
     const OnRay s = sample_on(r, frame, depth, (real)(((scalar)k + 1) * (scalar)(1.0f / STEPS)), around);
-    rises |= searched & passes(s, cell, REAL_INFINITY) & rises_by(r, s, params.least_sine);
+    rises |= searched & passes(frame, s, cell, thickness + 4 * cell) & rises_by(r, s, params.least_sine) &
+             (dot3(s.offset, s.offset) < farthest * farthest);
   }
   store(choose(rises, (real)(1), (real)(0)), found, r.here);
 }

@@ -22,17 +22,25 @@ kernel void contact_shadow(Frame frame, Params params, LIGHT, PLANE depth, PLANE
   const LightRay r = light_ray_at(frame, light, params.length, params.max_reach * (scalar)frame.width, depth, normal_x,
                                   normal_y, normal_z);
   SKIP_UNWANTED(frame, store(unshaded(r), contact, here))
-  const real shift = noise_at(r.x, r.y, frame.seed).shift;
+  real shift = noise_at(r.x, r.y, frame.seed).shift;
   // Behind its visible front an occluder reaches this far along the pixel's ray.
   const real along_ray = inverse_sqrt(1 + r.point.ray_x * r.point.ray_x + r.point.ray_y * r.point.ray_y);
   const real thickness = (scalar)params.thickness * r.length * along_ray;
   mask searched = is_wanted & !r.point.background & !r.at_light & r.faces, shaded = (mask)(0);
   for (int k = 0; k < STEPS; ++k) {
+#if GATHERS_ONLY
+    shift += sample_on(r, frame, depth, (real)(((scalar)k + 1) * (scalar)(1.0f / STEPS)), (real)(0)).e;
+    continue;
+#endif
     if (!ANY(searched)) break;
     const OnRay s = sample_on(r, frame, depth, ((scalar)k + shift) * (scalar)(1.0f / STEPS), (real)(HALF_A_PIXEL));
-    const mask stands_before = passes(s, (real)(0), thickness) & rises_by(r, s, params.bias);
+    const mask stands_before = passes(frame, s, (real)(0), thickness) & rises_by(r, s, params.bias);
     shaded |= searched & stands_before;
     searched &= !stands_before;
   }
+#if GATHERS_ONLY
+  store(shift, contact, r.here);
+  return;
+#endif
   store(choose(shaded, (real)(0), unshaded(r)), contact, r.here);
 }

@@ -17,6 +17,9 @@
 // Shadow rays end this share of the distance before a light at a place, which may stand on a surface.
 #define BEFORE_LIGHT ((scalar)1e-4f)
 
+// Relative nearness of the end of a ray that leads to infinity: a little nearer, so that background is behind it.
+#define NEXT_TO_INFINITY ((scalar)-0.9999995f)
+
 typedef struct {
   integer x;
   int y, here;
@@ -27,8 +30,9 @@ typedef struct {
   mask faces;     // the light can arrive: the surface faces it, or its normal is unknown
   mask at_light;  // the light is at the point itself
   ScreenRay line;
-  real last;    // steps to the end of the ray
-  real length;  // of what counts as near, in depths of the point
+  real least, most;  // nearness relative to the start, on the ray to its end
+  real last;         // steps to the end of the ray
+  real length;       // of what counts as near, in depths of the point
 } LightRay;
 
 // Unit direction towards the light, and the distance to it in depths of the point. The same bits in every mode.
@@ -74,21 +78,19 @@ static inline LightRay light_ray_at(Frame f, LIGHT, scalar longest, scalar most_
   const real left = 1 + f.perspective * r.line.growth * near;
   const real steps = choose(left > 0, steps_to(f, r.line, near), REAL_INFINITY);
   r.last = smaller(smaller(r.line.end, (real)(most_pixels)), steps);
+  const real end = f.perspective > 0 ? larger(r.line.slope * r.last, (real)(NEXT_TO_INFINITY)) : r.line.slope * r.last;
+  r.least = smaller(end, (real)(0));
+  r.most = larger(end, (real)(0));
   return r;
 }
 
 // A sample of the ray: the pixel nearest to it after a whole number of steps.
 typedef struct {
-  real3 offset;        // from the point to what the pixel shows, in depths of the point
-  real before, after;  // how much deeper than that the ray is where it enters and leaves, in depths of the point
-  mask counts;         // the pixel lies on the ray
+  real e;            // relative depth of what the pixel shows
+  real3 offset;      // from the point to what the pixel shows, in depths of the point
+  real least, most;  // nearness of the ray relative to its start, where it passes the pixel
+  mask counts;       // the pixel lies on the ray
 } OnRay;
-
-// Depth of the ray after `steps`, less the depth of the point, in depths of the point.
-static inline real deeper_after(LightRay r, Frame f, real steps) {
-  const real nearness = r.line.slope * steps;
-  return f.perspective > 0 ? -nearness / larger(1 + nearness, (real)(1e-16f)) : -nearness;
-}
 
 // `share`: of the ray, 0 to 1; `around`: steps to either side that the sample stands for.
 static inline OnRay sample_on(LightRay r, Frame f, PLANE depth, real share, real around) {
@@ -98,16 +100,21 @@ static inline OnRay sample_on(LightRay r, Frame f, PLANE depth, real share, real
   const real steps = choose(s.counts, place, (real)(0));
   const integer dx = clamp(nearest(r.line.per_x * steps), -r.x, f.width - 1 - r.x);
   const integer dy = clamp(nearest(r.line.per_y * steps), (integer)(-r.y), (integer)(f.height - 1 - r.y));
-  const real e = relative_depth(r.point, r.depth, gather(depth + r.here, index_near(f, dx, dy)));
-  s.offset = towards_near(f, r.point, to_real(dx), to_real(dy), e);
-  s.before = deeper_after(r, f, larger(steps - around, (real)(0))) - e;
-  s.after = deeper_after(r, f, smaller(steps + around, r.last)) - e;
+  s.e = relative_depth(r.point, r.depth, gather(depth + r.here, index_near(f, dx, dy)));
+  s.offset = towards_near(f, r.point, to_real(dx), to_real(dy), s.e);
+  const real middle = r.line.slope * steps, beside = fabs(r.line.slope) * around;
+  s.least = larger(middle - beside, r.least);
+  s.most = smaller(middle + beside, r.most);
   return s;
 }
 
-// Whether the ray passes what a sample shows, between `behind` its front and `before` it.
-static inline mask passes(OnRay s, real before, real behind) {
-  return s.counts & (larger(s.before, s.after) > -before) & (smaller(s.before, s.after) < behind);
+// (1 + n)(1 + e) - 1, or n + e for an orthographic camera: below 0 where a place of the ray with the relative nearness n is deeper than
+// the relative depth e, above 0 where it is nearer.
+static inline real nearer_than(Frame f, real n, real e) { return n + e + f.perspective * n * e; }
+
+// Whether the ray passes what a sample shows, between `behind` its front and `before` it, in depths of the point.
+static inline mask passes(Frame f, OnRay s, real before, real behind) {
+  return s.counts & (nearer_than(f, s.least, s.e - before) < 0) & (nearer_than(f, s.most, s.e + behind) > 0);
 }
 
 // Whether a sample rises over the surface's tangent plane by an elevation with at least this sine.

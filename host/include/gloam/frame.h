@@ -83,7 +83,7 @@ struct View {
   std::optional<Camera> camera;
   std::optional<Camera> camera_before;  ///< camera of the frame before in a sequence, for techniques with a history
   glm::dvec3 origin{0.0};               ///< origin of the plane `position` (gloamOrigin), in double
-  std::optional<glm::dvec3> light;      ///< unit direction towards the scene's sun, in the world (gloamLight), where stated
+  std::optional<glm::dvec3> light;  ///< unit direction towards the scene's sun, in the world (gloamLight), where stated
   std::map<std::string, Plane> planes;
   const Plane* find(const std::string& plane) const;
 };
