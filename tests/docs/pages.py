@@ -134,6 +134,10 @@ PAGES = {
                 [ -s $file.exr ]; done
             [ -s plot.png ] && [ -s difference.0004.png ] && [ -s flicker.json ] && [ ! -e gtao.0002.exr ]
             gloam info 'shot.####.exr' --frames 1-2 --camera cameras.json | grep -c '  cameras.json' | grep -x 2"""),
+    "docs/reference.md": Page(
+        prepare="gloam capture gallery -o sky.exr --size 64x32 --planes color",
+        instead={"--samples 1024": ("--samples 32", MINUTES), "--size 960x540": ("--size 160x90", MINUTES)},
+        check="for file in bounces specular indirect light contact; do [ -s $file.exr ]; done"),
     "docs/stereo.md": Page(
         check="[ -s inconsistency.png ] && [ -s both.png ]"),
     "docs/view.md": Page(check="[ -s frame.view.html ] && [ -s look.html ]"),
