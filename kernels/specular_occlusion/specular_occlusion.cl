@@ -86,7 +86,7 @@ static inline void add_neighbour(Sums* sums, Frame frame, TangentPlane plane, Gl
   const real w = window_at(i, COLUMNS) * window_at(j, ROWS) * alike *
                  same_surface(plane, frame, step, load(depth, there), load3(normal_x, normal_y, normal_z, there));
   const mask counts = to_mask(to_natural(x + i) < (natural)((uint)frame.width));
-  const real counted = choose(i == 0 && j == 0 ? EVERY_LANE : (mask)(0), (real)(1), choose(counts, w, (real)(0)));
+  const real counted = choose(EVERY_LANE_IF(i == 0 && j == 0), (real)(1), choose(counts, w, (real)(0)));
   sums->sum += counted * sum;
   sums->weight += counted * weight;
 }
