@@ -1,7 +1,6 @@
 #include "exr/channel_names.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -34,17 +33,12 @@ void note(NamedPlanes& named, const std::string& plane, const std::string& sente
 
 /// Adds the layers of a gloam file: peel.00.Z, stochastic.00.Z, peel_color.00.R.
 void add_stack_layers(NamedPlanes& named, const std::vector<Layer>& layers, const std::string& view) {
-  std::map<std::string, std::string> planes;  // by channel
-  for (const StackKind& stack : stack_kinds()) {
-    for (int number = 0; number < 100; ++number)
-      planes[lower(layer_name(stack.group, number) + "." + stack.component)] = layer_name(stack.name, number);
-  }
   std::set<std::string> seen;
   for (const Layer& layer : layers) {
     for (const auto& [component, channel] : layer.components) {
-      const auto plane = planes.find(lower(layer.path) + "." + component);
-      if (plane == planes.end() || !seen.insert(plane->second).second) continue;
-      named.planes.push_back(source_of(plane->second, view, {&layer, {channel}, own, DeclaredConvention::nothing, 1}));
+      const std::string plane = plane_of_layer(lower(layer.path), component);
+      if (plane.empty() || !seen.insert(plane).second) continue;
+      named.planes.push_back(source_of(plane, view, {&layer, {channel}, own, DeclaredConvention::nothing, 1}));
     }
   }
 }

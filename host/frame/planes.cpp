@@ -150,12 +150,38 @@ const StackKind& stack_kind(std::string_view name) {
   throw std::out_of_range(fmt::format("'{}' is no stack", name));
 }
 
-std::optional<StackLayer> stack_layer(std::string_view plane) {
-  const size_t dot = plane.find('.');
-  if (dot == std::string_view::npos || !is_stack(plane.substr(0, dot))) return {};
-  const std::string_view number = plane.substr(dot + 1);
+namespace {
+
+/// The name before ".NN", and the number.
+std::optional<StackLayer> numbered(std::string_view name) {
+  const size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return {};
+  const std::string_view number = name.substr(dot + 1);
   if (number.size() != 2 || !is_digit(number[0]) || !is_digit(number[1])) return {};
-  return StackLayer{std::string(plane.substr(0, dot)), 10 * (number[0] - '0') + (number[1] - '0')};
+  return StackLayer{std::string(name.substr(0, dot)), 10 * (number[0] - '0') + (number[1] - '0')};
+}
+
+bool is_lower_case_of(std::string_view lower, std::string_view text) {
+  return std::equal(lower.begin(), lower.end(), text.begin(), text.end(),
+                    [](char a, char b) { return a == char(std::tolower(static_cast<unsigned char>(b))); });
+}
+
+}  // namespace
+
+std::optional<StackLayer> stack_layer(std::string_view plane) {
+  std::optional<StackLayer> layer = numbered(plane);
+  if (layer && !is_stack(layer->stack)) layer.reset();
+  return layer;
+}
+
+std::string plane_of_layer(std::string_view path, std::string_view component) {
+  const std::optional<StackLayer> layer = numbered(path);
+  if (!layer) return "";
+  for (const StackKind& stack : stack_kinds()) {
+    if (stack.group == layer->stack && is_lower_case_of(component, stack.component))
+      return layer_name(stack.name, layer->number);
+  }
+  return "";
 }
 
 std::string layer_name(const std::string& stack, int number) { return fmt::format("{}.{:02}", stack, number); }

@@ -1,6 +1,7 @@
 #include "plan/settings.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/lists.h"
 #include "gloam/planes.h"
@@ -11,6 +12,13 @@
 
 namespace gloam {
 namespace {
+
+/// The technique that a setting is for, empty for all, and its parameter: "bilateral.radius", "radius".
+std::pair<std::string, std::string> parts_of(const std::string& setting) {
+  const size_t dot = setting.find('.');
+  if (dot == std::string::npos) return {"", setting};
+  return {setting.substr(0, dot), setting.substr(dot + 1)};
+}
 
 /// Applies the settings. A setting that reaches no planned technique is an error.
 void apply(const PlanRequest& request, const Techniques& order, const std::string& main,
@@ -41,9 +49,7 @@ void apply(const PlanRequest& request, const Techniques& order, const std::strin
     }
   }
   for (const auto& [name, value] : request.settings) {
-    const size_t dot = name.find('.');
-    const std::string only = dot == std::string::npos ? "" : name.substr(0, dot);
-    const std::string bare = dot == std::string::npos ? name : name.substr(dot + 1);
+    const auto [only, bare] = parts_of(name);
     if (set_where_known(bare, value, only)) continue;
     std::vector<std::string> known;
     for (const Technique* t : order) {
@@ -136,10 +142,8 @@ std::vector<std::string> reads_of(const Technique& technique, const PlanRequest&
   if (!technique.reads_with) return technique.reads;
   ParameterValues values(technique.parameters);
   for (const auto& [name, value] : request.settings) {
-    const size_t dot = name.find('.');
-    const bool is_other = dot != std::string::npos && name.substr(0, dot) != technique.name;
-    const std::string bare = dot == std::string::npos ? name : name.substr(dot + 1);
-    if (!is_other && values.has(bare)) values.set(bare, value, technique.name);
+    const auto [only, bare] = parts_of(name);
+    if ((only.empty() || only == technique.name) && values.has(bare)) values.set(bare, value, technique.name);
   }
   return technique.reads_with(values);
 }

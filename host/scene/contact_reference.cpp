@@ -27,8 +27,6 @@ constexpr double before_light = 1e-5;
 
 bool is_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-std::string in_words(const dvec3& v) { return fmt::format("{:g},{:g},{:g}", v.x, v.y, v.z); }
-
 /// A light, relative to Scene::origin.
 struct ShadowLight {
   bool is_point = false;

@@ -16,6 +16,7 @@
 #include "gloam/scene/specular_occlusion_reference.h"
 #include "scene/falloff.h"
 #include "scene/fingerprint.h"
+#include "scene/scene_checks.h"
 
 namespace gloam {
 namespace {
@@ -127,8 +128,6 @@ ReferenceJob contact_job(const ReferenceRequest& request, const OptionSpelling& 
   job.numbers = {{"light_angle", options.light_angle}};
   return job;
 }
-
-std::string in_words(const glm::dvec3& v) { return fmt::format("{:g},{:g},{:g}", v.x, v.y, v.z); }
 
 /// Options that not all kinds take, with what was given for them.
 std::vector<std::pair<std::string, std::string>> special_options(const ReferenceRequest& request) {

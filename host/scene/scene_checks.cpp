@@ -28,6 +28,8 @@ bool gives_light(const Scene& scene, const std::string& what, const vec3& light)
 
 }  // namespace
 
+std::string in_words(const glm::dvec3& v) { return fmt::format("{:g},{:g},{:g}", v.x, v.y, v.z); }
+
 void check_albedo(const Scene& scene) {
   for (const Material& material : scene.materials) {
     if (all(material.albedo, [](float x) { return x >= 0 && x <= 1; })) continue;

@@ -1,9 +1,15 @@
 // What a scene needs so that light can be traced in it.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <string>
+
 #include "gloam/scene/scene.h"
 
 namespace gloam {
+
+/// "x,y,z", as flags have it.
+std::string in_words(const glm::dvec3& v);
 
 /// Throws Error for a material whose albedo is outside 0 to 1: light between two such surfaces grows without end.
 void check_albedo(const Scene& scene);

@@ -54,6 +54,10 @@ struct StackLayer {
 /// None if the plane is not a layer.
 std::optional<StackLayer> stack_layer(std::string_view plane);
 
+/// The plane that a channel of a layer is, by the lower-case path before its component: ("peel_color.00", "r"): "peel_color_r.00".
+/// Empty if there is none.
+std::string plane_of_layer(std::string_view path, std::string_view component);
+
 /// ("peel", 7): "peel.07".
 std::string layer_name(const std::string& stack, int number);
 
