@@ -36,6 +36,8 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("color", {"r", "g", "b"}, {"R", "G", "B"}, 0, K::value, "scene-linear radiance"),
       kind("alpha", {""}, {"A"}, 0, K::unit_interval, "coverage; 0 is background"),
       kind("albedo", {"r", "g", "b"}, {"albedo.R", "albedo.G", "albedo.B"}, 0, K::unit_interval, "base colour"),
+      colour("ambient", 0, "ambient light that a surface reflects towards the eye, without occlusion; part of `color`"),
+      kind("metallic", {""}, {"metallic"}, 0, K::unit_interval, "1 is metal, whose albedo is no diffuse one"),
       kind("roughness", {""}, {"roughness"}, 1, K::unit_interval, "perceptual; GGX alpha is its square"),
       kind("reflectance", {"r", "g", "b"}, {"reflectance.R", "reflectance.G", "reflectance.B"}, 0, K::unit_interval,
            "specular reflectance at normal incidence (F0)"),

@@ -1,4 +1,4 @@
-// A result laid over the frame's colour.
+// A result laid over the frame's colour. What makes a whole picture of several results is in composition.h.
 #pragma once
 
 #include <array>
