@@ -7,12 +7,14 @@
 #include "cli/options.h"
 #include "cli/shot_flags.h"
 #include "plan/automatic.h"
+#include "plan/budget.h"
 
 namespace gloam::cli {
 
 struct AutoCommand {
   std::string out, explain, compression = "zip";
   std::optional<MaskUse> mask;
+  BudgetGoal goal;
   bool half = false, measure = false;
   FrameArguments frame;
   FrameFlags frame_flags;

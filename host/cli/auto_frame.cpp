@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/auto_budget.h"
 #include "cli/memory.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
@@ -14,6 +15,8 @@ namespace {
 double best(const RunResult& result) {
   return result.total_ms.empty() ? 0 : *std::min_element(result.total_ms.begin(), result.total_ms.end());
 }
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Adds the planes of effects that the frame does not call for: nothing is occluded, nothing is reflected.
 void add_idle_planes(const Frame& frame, const std::vector<std::string>& outputs, Frame& out) {
@@ -43,14 +46,20 @@ void probe_closely_for_picture(EffectChoice& choice, const EffectProbe& probe) {
   if (choice.is_wanted && !choice.is_everywhere) probe_closely(choice, probe);
 }
 
-Outcome outcome_of(const Technique& technique, const AutoSettings& settings, const EffectProbe& probe, Frame& out) {
+/// Whether an effect is wanted, and how.
+Outcome decided(const Technique& technique, const AutoSettings& settings, const EffectProbe& probe) {
   Outcome outcome{.decision = decide(technique, probe)};
   EffectChoice& effect = outcome.decision.effect;
-  if (settings.explains) {
+  if (settings.purpose.explains) {
     probe_closely_for_picture(effect, probe);
     for (EffectChoice& refinement : outcome.decision.refinements) probe_closely_for_picture(refinement, probe);
   }
   outcome.ms = effect.classify_ms;
+  return outcome;
+}
+
+void compute_decided(Outcome& outcome, const AutoSettings& settings, const EffectProbe& probe, Frame& out) {
+  const EffectChoice& effect = outcome.decision.effect;
   if (effect.is_wanted) {
     Computed computed = compute(outcome.decision, probe, settings.mask);
     outcome.ms += computed.ms;
@@ -61,22 +70,11 @@ Outcome outcome_of(const Technique& technique, const AutoSettings& settings, con
   }
   outcome.plan = make_plan(outcome.decision.request, probe.available, probe.holds);
   outcome.outputs = outcome.plan->outputs;
-  if (!effect.is_wanted) add_idle_planes(probe.frame, outcome.outputs, out);
+  if (!effect.is_wanted && !effect.is_too_faint) add_idle_planes(probe.frame, outcome.outputs, out);
   if (settings.measures && std::isnan(outcome.ms_everywhere)) {
     const Plan everywhere = make_plan(outcome.decision.everywhere, probe.available, probe.holds);
     outcome.ms_everywhere = best(run(everywhere, probe.frame, probe.device, probe.options));
   }
-  return outcome;
-}
-
-bool is_of_display(const FrameFiles& files) {
-  for (const FrameFile& file : files.files()) {
-    for (const std::string& view : file.views()) {
-      const std::optional<Camera> camera = file.camera(view);
-      if (camera && camera->slits) return true;
-    }
-  }
-  return false;
 }
 
 bool has_effect_for_displays(const std::string& name) {
@@ -92,8 +90,26 @@ Outcome impossible(const Technique& technique, std::string why) {
   return outcome;
 }
 
+/// Where the effect changes the picture, for a picture of that.
+void add_changes(Outcome& outcome, const Glance& glance) {
+  const std::string& plane = outcome.decision.effect.technique->effect.changes;
+  if (!contains(glance.planes(), plane)) return;
+  for (const View& view : glance.small().views) outcome.changes.emplace(view.name, glance.change_by(plane, view.name));
+}
+
+/// Why an effect has no place in the picture of a frame; empty if it has one, or if the frame has no picture and the effect needs none.
+std::string hindrance_in_picture(const Technique& technique, const FrameFiles& files, const ComposeOptions& composing) {
+  const Effect& effect = technique.effect;
+  if (!contains(files.common_planes(), "color"))
+    return effect.least_change > 0 ? "the frame has no 'color', which it would change" : "";
+  std::vector<std::string> computed = {effect.changes};
+  for (const ComposedPart& part : composition_of(files.common_planes(), computed, composing).parts)
+    if (part.plane == effect.changes && !part.is_used) return part.how;
+  return "";
+}
+
 /// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
-Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
+Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const ComposeOptions& composing) {
   Candidates found;
   std::optional<MissingPlanes> missing;
   const bool of_display = is_of_display(files);
@@ -106,14 +122,26 @@ Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
             impossible(*technique, "its kernels need a single centre of projection, and a display has none"));
       continue;
     }
+    if (const std::string why = hindrance_in_picture(*technique, files, composing); !why.empty()) {
+      found.impossible.push_back(impossible(*technique, why));
+      continue;
+    }
     try {
       found.possible.push_back({technique, asked_of_effect(*technique, asked, files.common_planes(), holdings(files))});
+      // One plane of a name: the first effect that has the extras makes them.
+      if (!found.possible.back().asked.with.empty()) asked.with.clear();
     } catch (const MissingPlanes& error) {
       if (!missing) missing = error;
       found.impossible.push_back(impossible(*technique, fmt::format("the frame has no '{}'", error.planes.front())));
     }
   }
-  if (found.possible.empty()) throw *missing;
+  if (found.possible.empty() && missing) throw *missing;
+  if (found.possible.empty())
+    throw Error("{}: no effect has a place in the picture: {}", files.name(),
+                found.impossible.front().decision.effect.why);
+  const bool has_filter = std::any_of(found.possible.begin(), found.possible.end(),
+                                      [&](const Candidate& candidate) { return candidate.asked.then == asked.then; });
+  if (!has_filter) found.possible.front().asked.then = asked.then;  // its plan reports the error
   for (const auto& setting : asked.settings) {
     const bool is_known = std::any_of(found.possible.begin(), found.possible.end(), [&](const Candidate& candidate) {
       const auto& settings = candidate.asked.settings;
@@ -122,6 +150,11 @@ Candidates candidates_for(const PlanRequest& asked, const FrameFiles& files) {
     if (!is_known) found.possible.front().asked.settings.push_back(setting);  // its plan reports the error
   }
   return found;
+}
+
+bool looks_at_changes(const Candidates& candidates) {
+  return std::any_of(candidates.possible.begin(), candidates.possible.end(),
+                     [](const Candidate& candidate) { return candidate.technique->effect.least_change > 0; });
 }
 
 std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vector<std::string>& planes) {
@@ -135,16 +168,28 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
 
 }  // namespace
 
-AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, bool explains) {
+bool is_of_display(const FrameFiles& files) {
+  for (const FrameFile& file : files.files()) {
+    for (const std::string& view : file.views()) {
+      const std::optional<Camera> camera = file.camera(view);
+      if (camera && camera->slits) return true;
+    }
+  }
+  return false;
+}
+
+AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose) {
   AutoFrame planned{std::move(files), {}, {"depth"}, {}};
   const FrameFiles& opened = planned.files;
-  planned.candidates = candidates_for(asked, opened);
+  planned.candidates = candidates_for(asked, opened, purpose.composing);
   for (const Candidate& candidate : planned.candidates.possible) {
     planned.plans.push_back(
         plans_of_effect(*candidate.technique, candidate.asked, opened.common_planes(), holdings(opened)));
     for (const Plan& plan : planned.plans.back()) add_new(planned.planes, plan.inputs);
   }
-  if (explains && contains(opened.common_planes(), "color")) add_new(planned.planes, "color");
+  if (purpose.explains || purpose.looks_at_picture || looks_at_changes(planned.candidates))
+    for (const std::string& plane : planes_to_compose())
+      if (contains(opened.common_planes(), plane)) add_new(planned.planes, plane);
   return planned;
 }
 
@@ -186,18 +231,35 @@ AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, con
   const std::vector<std::string> available = planes_of_every_view(frame, planned.planes);
   const std::string holds = holdings(planned.files);
   AutoResult result{without_planes(frame), {}, {}, {}};
+  const auto probe_for = [&](const Candidate& candidate) {
+    return EffectProbe{candidate.asked, frame, available, holds, device, options};
+  };
+  std::optional<Glance> glance;
+  if (contains(available, "color") &&
+      (settings.purpose.explains || settings.goal || looks_at_changes(planned.candidates)))
+    glance = glance_at(planned.candidates, settings.purpose.explains || settings.goal, settings.purpose.composing,
+                       probe_for);
   for (const Candidate& candidate : planned.candidates.possible) {
-    const EffectProbe probe{candidate.asked, frame, available, holds, device, options};
-    result.outcomes.push_back(outcome_of(*candidate.technique, settings, probe, result.frame));
-    if (result.radius) continue;
-    const Outcome& outcome = result.outcomes.back();
+    EffectProbe probe = probe_for(candidate);
+    const double change = glance ? change_by(*candidate.technique, *glance) : not_known;
+    if (!std::isnan(change)) probe.change = change / std::max(glance->rms(), 1e-30);
+    Outcome outcome = decided(*candidate.technique, settings, probe);
+    outcome.change = change;
+    if (settings.purpose.explains && glance) add_changes(outcome, *glance);
+    if (!settings.goal || !outcome.decision.effect.is_wanted) compute_decided(outcome, settings, probe, result.frame);
+    result.outcomes.push_back(std::move(outcome));
+  }
+  if (glance) result.glance_ms = glance->ms();
+  if (settings.goal) spend_budget(planned.candidates, settings, *glance, probe_for, result);
+  for (const Outcome& outcome : result.outcomes) {
+    if (result.radius || !outcome.plan) continue;
     result.used_radius = radius_of(*outcome.plan, outcome.decision.request, settings.radius_from);
     if (result.used_radius) result.radius.emplace(*result.used_radius, frame, cap_of(*outcome.plan));
   }
   for (Outcome& outcome : planned.candidates.impossible) result.outcomes.push_back(std::move(outcome));
   std::vector<MadeBy> made_by;
   for (const Outcome& outcome : result.outcomes)
-    if (outcome.plan) made_by.push_back({&*outcome.plan, outcome.decision.effect.is_wanted});
+    if (outcome.plan) made_by.push_back({&*outcome.plan, outcome.runs()});
   result.frame.attributes = provenance(made_by, options);
   return result;
 }

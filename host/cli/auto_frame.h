@@ -2,13 +2,16 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options.h"
 #include "cli/radius.h"
+#include "gloam/composition.h"
 #include "plan/automatic.h"
+#include "plan/budget.h"
 
 namespace gloam::cli {
 
@@ -21,6 +24,14 @@ struct Outcome {
   double ms = 0;  ///< on the device, classification and mask included
   /// Without classification; NaN: not measured.
   double ms_masked = std::numeric_limits<double>::quiet_NaN(), ms_everywhere = std::numeric_limits<double>::quiet_NaN();
+  /// RMS of the picture's colour; NaN: not known. `change`: by the effect. `lost`: expected error by what was chosen for it.
+  double change = std::numeric_limits<double>::quiet_NaN(), lost = std::numeric_limits<double>::quiet_NaN();
+  std::string setting;       ///< "medium, half", where a budget chose
+  bool is_left_out = false;  ///< wanted, but the budget does without
+  /// For each pixel of the glance, by view, how far the effect changes the picture (`Glance::change_by`); empty: not known.
+  std::map<std::string, Channel> changes;
+  /// Whether it is computed.
+  bool runs() const { return decision.effect.is_wanted && !is_left_out; }
 };
 
 /// An effect whose planes the frame has, and its request.
@@ -42,9 +53,18 @@ struct AutoFrame {
   std::vector<std::vector<Plan>> plans;  ///< that may run, by effect
 };
 
-/// Throws an error with all reasons if no effect is possible, and for a setting that no effect has. `explains`: colour is decoded
-/// for a picture.
-AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, bool explains);
+/// What is to be made of a frame beside its effects.
+struct AutoPurpose {
+  bool explains = false;          ///< --explain: colour is decoded for a picture
+  bool looks_at_picture = false;  ///< --composite, --budget, --error: what effects change in the picture matters
+  ComposeOptions composing;
+};
+
+/// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
+AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose);
+
+/// Whether the frame is of a light-field display.
+bool is_of_display(const FrameFiles& files);
 
 /// All effects take this radius where none is asked for.
 void set_radius(AutoFrame& planned, std::optional<double> radius);
@@ -55,8 +75,11 @@ unsigned long long bytes_of_results(const AutoFrame& planned);
 
 struct AutoSettings {
   MaskUse mask = MaskUse::measured;
-  bool measures = false, explains = false;  ///< --measure, --explain
+  bool measures = false;  ///< --measure
+  AutoPurpose purpose;
   RadiusSource radius_from = RadiusSource::frame;
+  BudgetGoal goal;  ///< empty: effects are computed at the preset and the resolution asked for
+  std::function<void(int done, int of)> measuring = {};  ///< progress of the table of speeds, made once on a device
 };
 
 /// What gloam auto makes of a frame.
@@ -65,6 +88,8 @@ struct AutoResult {
   std::vector<Outcome> outcomes;
   std::optional<Radius> used_radius;
   std::optional<RadiusReport> radius;
+  std::optional<Spent> spent;  ///< of a budget
+  double glance_ms = 0;        ///< device time of looking at the picture
 };
 
 /// Decides and computes. `frame`: as decoded, with its radius set. Takes the effects that cannot be computed from `planned`.

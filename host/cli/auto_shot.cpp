@@ -5,6 +5,7 @@
 
 #include "base/page_pool.h"
 #include "cli/auto_frame.h"
+#include "cli/auto_goal.h"
 #include "cli/shot_memory.h"
 #include "cli/shot_start.h"
 #include "cli/shot_steps.h"
@@ -16,6 +17,9 @@ namespace gloam::cli {
 namespace {
 
 void check_flags(const AutoCommand& flags) {
+  if (flags.goal)
+    throw UsageError("{}: is for one frame; choose by it on one frame, and give a shot the preset and the resolution",
+                     in_words(flags.goal));
   if (!flags.explain.empty())
     throw UsageError("--explain {}: is a picture of one frame; leave it out, or explain that frame alone",
                      flags.explain);
@@ -59,7 +63,7 @@ class Tally {
     for (const Outcome& outcome : outcomes) {
       const EffectChoice& effect = outcome.decision.effect;
       if (!outcome.plan) continue;
-      const std::string runs = effect.is_wanted ? outcome.decision.request.outputs.front() : "";
+      const std::string runs = outcome.runs() ? outcome.decision.request.outputs.front() : "";
       effects_[effect.technique->effect.name][runs].push_back(frame);
       ++frames_[effect.technique->effect.name];
     }
@@ -157,7 +161,7 @@ class AutoShotWork {
     if (settings_.resumes && report_.leaves_alone(frame.number, output_of(i), why_again(output_of(i), flight.making)))
       return false;
     check_size_in_shot(files, settings_.display);
-    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, false));
+    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, {}));
     set_radius(*flight.planned, settings_.radius);
     check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned), settings_.frame_bytes);
     return true;
@@ -199,7 +203,7 @@ struct FirstFrame {
 FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked) {
   std::optional<FirstFrame> first;
   first_that_can(shot, [&](const SequenceFrame& frame) {
-    AutoFrame planned = planned_auto(shot.open(frame), asked, false);
+    AutoFrame planned = planned_auto(shot.open(frame), asked, {});
     const Radius radius = default_radius(planned.files.read({"depth"}), stated_radius(planned.files));
     first.emplace(FirstFrame{std::move(planned), radius});
   });

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "cli/auto_frame.h"
+#include "cli/auto_goal.h"
+#include "cli/auto_report.h"
 #include "cli/auto_shot.h"
 #include "cli/given_flags.h"
 #include "cli/memory.h"
@@ -14,61 +16,6 @@
 
 namespace gloam::cli {
 namespace {
-
-Json number_or_null(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
-
-Json document_of(const EffectChoice& choice) {
-  return {{"name", choice.technique->effect.name},
-          {"technique", choice.technique->name},
-          {"wanted", choice.is_wanted},
-          {"everywhere", choice.is_everywhere},
-          {"why", choice.why},
-          {"share_of_tiles", choice.share}};
-}
-
-Json document_of(const std::vector<Outcome>& outcomes, const DeviceInfo& device) {
-  Json effects = Json::array();
-  double classify_ms = 0, total_ms = 0;
-  for (const Outcome& o : outcomes) {
-    Json effect = document_of(o.decision.effect);
-    effect["runs"] = o.decision.effect.is_wanted ? Json(o.decision.request.outputs.front()) : Json(nullptr);
-    effect["ms"] = o.ms;
-    effect["ms_everywhere"] = number_or_null(o.ms_everywhere);
-    effect["ms_masked"] = number_or_null(o.ms_masked);
-    effect["masked"] = o.is_masked;
-    effect["refinements"] = Json::array();
-    for (const EffectChoice& refinement : o.decision.refinements)
-      effect["refinements"].push_back(document_of(refinement));
-    effects.push_back(std::move(effect));
-    classify_ms += o.decision.effect.classify_ms;
-    total_ms += o.ms;
-  }
-  return {{"effects", effects}, {"classify_ms", classify_ms}, {"total_ms", total_ms}, {"device", device.name}};
-}
-
-std::string where(const EffectChoice& choice) {
-  if (choice.is_everywhere) return "everywhere";
-  return choice.cells.empty() ? "-" : fmt::format("{:.0f} %", 100 * choice.share);
-}
-
-std::string milliseconds_or_dash(double ms) { return std::isnan(ms) ? "-" : fmt::format("{:.2f}", ms); }
-
-void print(const std::vector<Outcome>& outcomes) {
-  std::vector<std::vector<std::string>> rows = {
-      {"effect", "wanted", "where", "technique", "ms", "masked", "everywhere", "why"}};
-  const auto add = [&](const EffectChoice& choice, const std::array<std::string, 3>& ms) {
-    rows.push_back({choice.technique->effect.name, choice.is_wanted ? "yes" : "no", where(choice),
-                    choice.technique->name, ms[0], ms[1], ms[2], choice.why});
-  };
-  for (const Outcome& o : outcomes) {
-    const bool is_possible = !o.outputs.empty();
-    add(o.decision.effect, is_possible ? std::array{milliseconds_or_dash(o.ms), milliseconds_or_dash(o.ms_masked),
-                                                    milliseconds_or_dash(o.ms_everywhere)}
-                                       : std::array<std::string, 3>{});
-    for (const EffectChoice& refinement : o.decision.refinements) add(refinement, {});
-  }
-  print_table(rows, 8);
-}
 
 Explanation explanation_of(const EffectChoice& choice, const std::string& view, const std::string& cost) {
   return {fmt::format("{}: {}", choice.technique->effect.name, choice.is_wanted ? "yes" : "no"), choice.why, cost,
@@ -98,8 +45,10 @@ void run_on_one_frame(const AutoCommand& flags) {
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out}, {"--explain", flags.explain}, {"--json", flags.json.file()}});
   const bool explains = !flags.explain.empty();
+  const AutoPurpose purpose{explains, bool(flags.goal), {}};
   AutoFrame planned =
-      planned_auto(flags.frame.open(flags.frame_flags.read_options()), flags.technique_flags.request({}), explains);
+      planned_auto(flags.frame.open(flags.frame_flags.read_options()), flags.technique_flags.request({}), purpose);
+  check_goal(flags.goal, planned);
   const unsigned long long memory = planned_memory(
       flags.frame_flags, planned.files.name(), flags.run_flags.device,
       [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory); },
@@ -111,7 +60,8 @@ void run_on_one_frame(const AutoCommand& flags) {
   set_radius(planned, made.value);
   options.progress = progress_bar();
   AutoResult result = compute_effects(
-      planned, {flags.mask.value_or(MaskUse::measured), flags.measure, explains, made.from}, frame, device, options);
+      planned, {flags.mask.value_or(MaskUse::measured), flags.measure, purpose, made.from, flags.goal, progress_bar()},
+      frame, device, options);
   std::vector<std::string> written = {flags.out};
   if (explains) {
     for (const View& view : frame.views) {
@@ -121,12 +71,14 @@ void run_on_one_frame(const AutoCommand& flags) {
   }
   for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
   write_frame(flags.out, result.frame, writing);
-  Json document = document_of(result.outcomes, device.info());
+  if (result.spent)
+    if (const std::string missed = note_on_goal(*result.spent, flags.goal); !missed.empty()) note({missed});
+  Json document = document_of(result, flags.goal, device.info());
   document["memory_bytes"] = memory;
   if (result.radius) result.radius->add_to(document);
   flags.json.write(document, written);
   if (flags.json.only_json()) return;
-  print(result.outcomes);
+  print(result, flags.goal);
   if (result.radius) result.radius->print();
   for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }
@@ -161,6 +113,13 @@ void add_auto(CLI::App& app) {
              "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more; of a shot: never");
   command->add_flag("--measure", flags->measure,
                     "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
+  CLI::Option* budget = add_parsed(*command, "--budget", flags->goal.ms, parse_budget,
+                                   "device time for all effects and for looking, such as 30ms: effects, presets and "
+                                   "resolutions are chosen for the least error of the picture");
+  budget->type_name("TIME");
+  add_number(*command, "--error", flags->goal.error, {1e-9, 1e9},
+             "RMS error of the picture: effects, presets and resolutions are chosen for the least time")
+      ->excludes(budget);
   CLI::Option* half = command->add_flag("--half", flags->half, "write results as half instead of float");
   add_compression(*command, flags->compression);
   flags->technique_flags.add_to(*command, false);
@@ -174,6 +133,7 @@ void add_auto(CLI::App& app) {
       "Examples:\n"
       "  gloam auto frame.exr -o out.exr\n"
       "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"
+      "  gloam auto frame.exr -o out.exr --budget 30ms\n"
       "  gloam auto 'shot.####.exr' -o 'out.####.exr' --frames 1-48 --radius 0.5\n"
       "Parameters are set with --set NAME=VALUE (gloam list techniques).");
   command->callback([flags, command] { auto_command(*flags, *command); });

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/lists.h"
+#include "gloam/composition.h"
 #include "plan/adaptive.h"
 
 namespace gloam {
@@ -53,11 +55,12 @@ void check_settings(const std::vector<const Technique*>& refinements, const Plan
   }
 }
 
-PlanRequest request_everywhere(const Technique& technique, const PlanRequest& asked) {
-  PlanRequest request = asked;
-  request.outputs = {technique.name};
-  request.settings = settings_for(technique, asked);
-  return request;
+/// Whether a filter makes a plane that the technique leaves to a filter. Unknown names pass: the plan refuses them.
+bool filters(const std::string& filter, const Technique& technique) {
+  if (filter.empty() || filter == "none" || !contains(technique_names(), filter)) return true;
+  const std::vector<std::string>& made = find_technique(filter).writes;
+  return std::any_of(made.begin(), made.end(),
+                     [&](const std::string& plane) { return contains(outputs_of(technique), plane); });
 }
 
 /// Whether some tiles can get fewer samples (`PlanRequest::adaptive`).
@@ -132,6 +135,13 @@ EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
   // The mask may find what a probe overlooks.
   if (choice.share == 0 && effect.least_share == 0) probe_mask(choice, probe, {}, 1);
   choice.is_wanted = choice.share > effect.least_share;
+  if (choice.is_wanted && probe.change && *probe.change < effect.least_change) {
+    choice.is_wanted = false;
+    choice.is_too_faint = true;
+    choice.why =
+        fmt::format("{}, but that changes the picture by {} only", effect.somewhere, in_percent(*probe.change));
+    return choice;
+  }
   choice.why = choice.is_wanted ? fmt::format("{} on {} of the image{}", effect.somewhere, in_percent(choice.share),
                                               choice.is_everywhere ? ", so a mask would cost more than it saves" : "")
                                 : effect.nowhere;
@@ -195,10 +205,17 @@ void leave_mask_out(Decision& decision, const std::string& why) {
 
 }  // namespace
 
+PlanRequest request_everywhere(const Technique& technique, const PlanRequest& asked) {
+  PlanRequest request = asked;
+  request.outputs = {technique.name};
+  request.settings = settings_for(technique, asked);
+  return request;
+}
+
 PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
                             const std::vector<std::string>& available, const std::string& holds) {
   PlanRequest known = asked;
-  if (technique.then.empty()) known.then.clear();
+  if (technique.then.empty() || !filters(known.then, technique)) known.then.clear();
   if (technique.extras.empty()) known.with.clear();
   if (!can_adapt(technique)) known.adaptive.clear();
   PlanRequest request = known;
@@ -213,7 +230,22 @@ PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked
 std::vector<const Technique*> techniques_with_effects() {
   std::vector<const Technique*> found;
   for (const Technique& technique : registry()) {
-    if (!technique.effect.name.empty() && technique.effect.refines.empty()) found.push_back(&technique);
+    const Effect& effect = technique.effect;
+    if (!effect.name.empty() && effect.refines.empty() && effect.completes.empty()) found.push_back(&technique);
+  }
+  const auto place = [](const Technique* technique) {
+    const std::vector<std::string>& parts = part_planes();
+    return std::find(parts.begin(), parts.end(), technique->effect.changes);
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const Technique* a, const Technique* b) { return place(a) < place(b); });
+  return found;
+}
+
+std::vector<const Technique*> techniques_that_complete(const Technique& technique) {
+  std::vector<const Technique*> found;
+  for (const Technique& t : registry()) {
+    if (t.effect.completes == technique.name) found.push_back(&t);
   }
   return found;
 }

@@ -1,6 +1,7 @@
 // Automatic choice: which of the effects that techniques declare (`Technique::effect`) a frame calls for, and where.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,15 @@ struct EffectProbe {
   const std::string& holds;                   ///< the planes in words (plan.h)
   Device& device;
   const RunOptions& options;
+  /// RMS change of the picture by the effect, as a share of the picture's RMS; none: not known.
+  std::optional<double> change = {};
 };
 
 /// The choice for one effect, or for a technique that refines one.
 struct EffectChoice {
   const Technique* technique = nullptr;
   bool is_wanted = false;
+  bool is_too_faint = false;   ///< the mask wants it, but it hardly changes the picture
   bool is_everywhere = false;  ///< wanted on so much of the image that no mask is made
   std::string why;             ///< in words, with the share
   double share = 0;            ///< share of the probed tiles, over all views
@@ -41,8 +45,14 @@ struct Decision {
   PlanRequest everywhere;                 ///< for all pixels, without probing
 };
 
-/// Techniques that declare an effect of their own.
+/// Techniques that declare an effect of their own, in the order of the planes that a picture takes (`part_planes`).
 std::vector<const Technique*> techniques_with_effects();
+
+/// Techniques that can follow an effect's in its plan (`Effect::completes`).
+std::vector<const Technique*> techniques_that_complete(const Technique& technique);
+
+/// The request that computes an effect for all pixels.
+PlanRequest request_everywhere(const Technique& technique, const PlanRequest& asked);
 
 /// The part of a request that applies to an effect: a setting such as radius, a filter or an extra plane applies to some effects
 /// only. Throws as `make_plan` does for a frame that lacks what the effect reads.

@@ -18,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string key_of(const DeviceInfo& info) { return info.platform + "; " + info.name + "; " + info.driver; }
-
 /// Empty if nothing can be kept.
 fs::path path_of(const DeviceInfo& info) {
   if (cache_folder().folder.empty()) return {};
@@ -56,6 +54,8 @@ std::optional<Tuning> tuning_in(const Json& document) {
 }
 
 }  // namespace
+
+std::string key_of(const DeviceInfo& info) { return info.platform + "; " + info.name + "; " + info.driver; }
 
 std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
   const fs::path path = path_of(info);

@@ -19,6 +19,9 @@ struct DeviceRecord {
   std::vector<std::string> failures;  ///< one sentence for each self-test that did not hold
 };
 
+/// A device with its driver, as text, by which what is known of it is found again.
+std::string key_of(const DeviceInfo& info);
+
 /// The record of a device with the same driver; none if it was never examined, or the file is damaged.
 std::optional<DeviceRecord> find_record(const DeviceInfo& info);
 

@@ -151,6 +151,14 @@ Technique shadow() {
   t.passes = passes_of(shadow_passes);
   t.assumes = assumption<ContactShadowParams>;
   t.samples = [](const ParameterValues& values) { return int(values.number("steps")); };
+  t.effect = {.name = "contact shadows",
+              .changes = "contact",
+              .mask = "contact-mask",
+              .probe = {{"cell", "8"}, {"search_steps", "2"}},
+              .most_share = 0.7,
+              .least_change = 0.01,
+              .somewhere = "something near stands before the light",
+              .nowhere = "nothing near stands before the light"};
   return t;
 }
 

@@ -91,6 +91,7 @@ Technique evidence_over_depth() {
   t.passes = passes_of(over_depth);
   t.default_for = {"ao_raw", "bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
   t.effect = {.name = "ambient occlusion",
+              .changes = "ao",
               .mask = "corner-mask",
               .probe = {{"cell", "8"}, {"search_steps", "2"}},
               .most_share = 0.8,

@@ -120,6 +120,15 @@ Technique indirect_over_depth() {
   t.extras.insert(t.extras.begin(), "ao_raw");
   t.parameters = IndirectParams::table();
   t.passes = passes_of(indirect_passes);
+  // Only what rises over a surface sends light to it. Light from near surfaces is faint in most pictures.
+  t.effect = {.name = "light of near surfaces",
+              .changes = "indirect",
+              .mask = "corner-mask",
+              .probe = {{"cell", "8"}, {"search_steps", "2"}},
+              .most_share = 0.8,
+              .least_change = 0.01,
+              .somewhere = "surfaces within the radius send light",
+              .nowhere = "nothing rises over any surface within the radius"};
   return t;
 }
 

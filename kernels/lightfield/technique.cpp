@@ -192,6 +192,7 @@ Technique mask() {
 /// No mask: key views do not use one, and the other views compute little. If anything occludes, the whole image is computed.
 Effect effect_of_displays() {
   return {.name = "ambient occlusion",
+          .changes = "ao",
           .for_displays = true,
           .mask = "lightfield-mask",
           .probe = {{"cell", "8"}, {"search_steps", "2"}},

@@ -25,6 +25,7 @@ std::vector<Technique> multi_bounce() {
   t.writes = {"bounces"};
   t.parameters = MultiBounceParams::table();
   t.passes = passes_of(multi_bounce_passes);
+  t.effect = {.name = "ambient light between surfaces", .completes = "evidence", .changes = "bounces"};
   return {t};
 }
 

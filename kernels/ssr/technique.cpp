@@ -264,6 +264,7 @@ Technique plain() {
   t.passes = passes_of(sssr_passes);
   // No mask: rays are listed one by one, so a mask saves little where surfaces reflect at all.
   t.effect = {.name = "reflections",
+              .changes = "reflection",
               .mask = "reflection-mask",
               .probe_resolution = 4,
               .most_share = 0.3,

@@ -126,6 +126,10 @@ struct Effect {
   /// Technique that this one improves on: it replaces that one if a frame has the planes it reads and calls for it. Empty for an
   /// effect of its own.
   std::string refines;
+  /// Technique of the effect that this one completes, in the same plan, from what that makes: "evidence" for bounces made from AO.
+  /// What completes an effect has no mask of its own.
+  std::string completes;
+  std::string changes;        ///< plane that it gives to the picture (composite.h): "ao"; empty: none
   bool for_displays = false;  ///< only for frames of light-field displays, which need `any_projection`
   std::string mask;           ///< technique whose mask tells where the effect is called for
   /// The probe: settings and resolution with which the mask is very cheap and still tells how many pixels call for the effect.
@@ -134,6 +138,9 @@ struct Effect {
   /// Shares of the image. Up to `least_share` the effect is not worth its cost; above `most_share` the mask costs more than it
   /// saves, and the effect is computed everywhere.
   double least_share = 0, most_share = 1;
+  /// Least change of the picture, as a share of the picture's RMS, that is worth the effect's cost. A glance measures the change
+  /// (plan/glance.h). 0: the mask alone decides.
+  double least_change = 0;
   Settings settings;               ///< settings in `gloam auto`; the user's own override them
   std::string somewhere, nowhere;  ///< the reason why, followed by "on 12 % of the image", and why not
 };

@@ -1,0 +1,116 @@
+#include "cli/auto_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/lists.h"
+#include "run/effect_speeds.h"
+
+namespace gloam::cli {
+namespace {
+
+constexpr double unlooked_at = std::numeric_limits<double>::quiet_NaN();
+
+bool can_plan(const PlanRequest& request, const EffectProbe& probe) {
+  try {
+    make_plan(request, probe.available, probe.holds);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// The effect at its cheapest, with all that completes it.
+Plan plan_of_glance(const Technique& technique, const EffectProbe& probe) {
+  PlanRequest request = request_everywhere(technique, probe.asked);
+  request.resolution = 1;
+  request.with.clear();
+  request.adaptive.clear();
+  if (request.preset.empty() && !technique.presets.empty()) request.preset = technique.presets.front().name;
+  for (const Technique* more : techniques_that_complete(technique)) {
+    PlanRequest completed = request;
+    completed.outputs.push_back(more->name);
+    if (can_plan(completed, probe)) request = completed;
+  }
+  return make_plan(request, probe.available, probe.holds);
+}
+
+std::vector<std::string> planes_of(const Technique& technique) {
+  std::vector<std::string> planes = {technique.effect.changes};
+  for (const Technique* more : techniques_that_complete(technique)) planes.push_back(more->effect.changes);
+  return planes;
+}
+
+BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, const EffectProbe& probe) {
+  BudgetedEffect effect;
+  effect.technique = candidate.technique;
+  const PlanRequest& request = outcome.decision.request;
+  effect.mask = request.mask;
+  effect.elsewhere = request.elsewhere;
+  effect.options = options_of(find_technique(request.outputs.front()), probe);
+  return effect;
+}
+
+void take_budgeted(BudgetedEffect& effect, Outcome& outcome, Frame& out) {
+  outcome.change = effect.without;
+  outcome.lost = effect.lost;
+  if (effect.chosen == left_out) {
+    outcome.is_left_out = true;
+    return;
+  }
+  const EffectOption& option = effect.options[size_t(effect.chosen)];
+  outcome.setting = option.setting();
+  outcome.decision.request = option.request;
+  outcome.decision.effect.is_everywhere = !effect.is_masked;
+  outcome.is_masked = effect.is_masked;
+  outcome.ms += effect.ms;
+  outcome.plan = std::move(effect.plan);
+  outcome.outputs = outcome.plan->outputs;
+  for (View& view : effect.result.frame.views)
+    for (auto& [name, plane] : view.planes) out.view(view.name).planes[name] = std::move(plane);
+}
+
+}  // namespace
+
+Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions& composing,
+                 const ProbeFor& probe_for) {
+  const EffectProbe first = probe_for(candidates.possible.front());
+  Glance glance(first.frame, composing);
+  for (const Candidate& candidate : candidates.possible) {
+    if (!at_all && candidate.technique->effect.least_change == 0) continue;
+    const EffectProbe probe = probe_for(candidate);
+    glance.look(plan_of_glance(*candidate.technique, probe), probe.device, probe.options);
+  }
+  return glance;
+}
+
+double change_by(const Technique& technique, const Glance& glance) {
+  if (!contains(glance.planes(), technique.effect.changes)) return unlooked_at;
+  std::vector<std::string> others = glance.planes();
+  for (const std::string& plane : planes_of(technique)) std::erase(others, plane);
+  return glance.loss_with(others);
+}
+
+void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,
+                  const ProbeFor& probe_for, AutoResult& result) {
+  std::vector<BudgetedEffect> effects;
+  std::vector<Outcome*> owners;
+  double probing_ms = 0;
+  for (size_t i = 0; i < candidates.possible.size(); ++i) {
+    Outcome& outcome = result.outcomes[i];
+    probing_ms += outcome.decision.effect.classify_ms;
+    if (!outcome.decision.effect.is_wanted) continue;
+    effects.push_back(budgeted(candidates.possible[i], outcome, probe_for(candidates.possible[i])));
+    owners.push_back(&outcome);
+  }
+  const EffectProbe probe = probe_for(candidates.possible.front());
+  EffectSpeeds speeds(probe.device.info());
+  result.spent = spend(
+      effects, settings.goal,
+      {probe.frame, probe.available, probe.holds, probe.device, probe.options, glance, probing_ms, settings.measuring},
+      speeds);
+  for (size_t i = 0; i < effects.size(); ++i) take_budgeted(effects[i], *owners[i], result.frame);
+}
+
+}  // namespace gloam::cli

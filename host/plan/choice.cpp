@@ -1,0 +1,94 @@
+#include "plan/choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace gloam {
+namespace {
+
+/// Losses by the planes that are made: there are few sets, and many choices.
+class Losses {
+ public:
+  explicit Losses(const ChoiceProblem& problem) : problem_(problem) {}
+
+  double of(const std::vector<int>& options) {
+    std::vector<std::string> planes;
+    for (size_t i = 0; i < options.size(); ++i) {
+      if (options[i] == left_out) continue;
+      const auto& made = problem_.effects[i][size_t(options[i])].makes;
+      planes.insert(planes.end(), made.begin(), made.end());
+    }
+    std::sort(planes.begin(), planes.end());
+    const auto known = by_planes_.find(planes);
+    if (known != by_planes_.end()) return known->second;
+    return by_planes_[planes] = problem_.loss_with(planes);
+  }
+
+ private:
+  const ChoiceProblem& problem_;
+  std::map<std::vector<std::string>, double> by_planes_;
+};
+
+Choice figures_with(const ChoiceProblem& problem, const std::vector<int>& options, Losses& losses) {
+  Choice choice{options, 0, 0};
+  double squares = std::pow(losses.of(options), 2);
+  for (size_t i = 0; i < options.size(); ++i) {
+    if (options[i] == left_out) continue;
+    const OptionFigures& option = problem.effects[i][size_t(options[i])];
+    choice.ms += option.ms;
+    squares += std::pow(option.relative_error * problem.loss_without[i], 2);
+  }
+  choice.error = std::sqrt(squares);
+  return choice;
+}
+
+/// Calls `look` for every combination of options, the empty one first.
+template <typename Look>
+void for_each_choice(const ChoiceProblem& problem, const Look& look) {
+  Losses losses(problem);
+  std::vector<int> options(problem.effects.size(), left_out);
+  while (true) {
+    look(figures_with(problem, options, losses));
+    size_t i = 0;
+    for (; i < options.size(); ++i) {
+      if (++options[i] < int(problem.effects[i].size())) break;
+      options[i] = left_out;
+    }
+    if (i == options.size()) return;
+  }
+}
+
+bool is_better(const Choice& a, const Choice& b) { return a.error < b.error || (a.error == b.error && a.ms < b.ms); }
+
+}  // namespace
+
+Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options) {
+  Losses losses(problem);
+  return figures_with(problem, options, losses);
+}
+
+std::optional<Choice> best_within_time(const ChoiceProblem& problem, double ms) {
+  std::optional<Choice> best;
+  for_each_choice(problem, [&](const Choice& choice) {
+    if (choice.ms <= ms && (!best || is_better(choice, *best))) best = choice;
+  });
+  return best;
+}
+
+std::optional<Choice> fastest_within_error(const ChoiceProblem& problem, double error) {
+  std::optional<Choice> fastest;
+  for_each_choice(problem, [&](const Choice& choice) {
+    if (choice.error > error) return;
+    if (!fastest || choice.ms < fastest->ms || (choice.ms == fastest->ms && choice.error < fastest->error))
+      fastest = choice;
+  });
+  return fastest;
+}
+
+Choice most_accurate(const ChoiceProblem& problem) {
+  return *best_within_time(problem, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace gloam

@@ -1,0 +1,69 @@
+// The choice of effects for a time or an error (host/plan/choice.h).
+#include "plan/choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gloam::test {
+namespace {
+
+/// Two effects that change the picture by 3 and by 4, independently: without both it is 5 off.
+ChoiceProblem two_effects() {
+  ChoiceProblem problem;
+  problem.effects = {{{{"ao"}, 2, 0.5}, {{"ao"}, 10, 0.1}}, {{{"reflection"}, 4, 0.25}, {{"reflection"}, 20, 0}}};
+  problem.loss_without = {3, 4};
+  problem.loss_with = [](const std::vector<std::string>& planes) {
+    const bool ao = std::find(planes.begin(), planes.end(), "ao") != planes.end();
+    const bool reflection = std::find(planes.begin(), planes.end(), "reflection") != planes.end();
+    return std::hypot(ao ? 0 : 3, reflection ? 0 : 4);
+  };
+  return problem;
+}
+
+using Options = std::vector<int>;
+
+TEST(Choice, ErrorsOfWhatIsComputedAndOfWhatIsLeftOutAddAsSquares) {
+  const ChoiceProblem problem = two_effects();
+  EXPECT_DOUBLE_EQ(figures_of(problem, {left_out, left_out}).error, 5);
+  EXPECT_DOUBLE_EQ(figures_of(problem, {0, left_out}).error, std::hypot(1.5, 4));
+  EXPECT_DOUBLE_EQ(figures_of(problem, {0, 0}).error, std::hypot(1.5, 1));
+  EXPECT_DOUBLE_EQ(figures_of(problem, {0, 0}).ms, 6);
+}
+
+TEST(Choice, TheLeastErrorWithinATime) {
+  const ChoiceProblem problem = two_effects();
+  EXPECT_EQ(best_within_time(problem, 0)->options, (Options{left_out, left_out}));
+  EXPECT_EQ(best_within_time(problem, 2)->options, (Options{0, left_out}));
+  // The second effect changes more than the first.
+  EXPECT_EQ(best_within_time(problem, 4)->options, (Options{left_out, 0}));
+  EXPECT_EQ(best_within_time(problem, 6)->options, (Options{0, 0}));
+  EXPECT_EQ(best_within_time(problem, 14)->options, (Options{1, 0}));
+  EXPECT_EQ(best_within_time(problem, 1000)->options, (Options{1, 1}));
+  EXPECT_EQ(most_accurate(problem).options, (Options{1, 1}));
+  EXPECT_FALSE(best_within_time(problem, -1));
+}
+
+TEST(Choice, TheLeastTimeWithinAnError) {
+  const ChoiceProblem problem = two_effects();
+  EXPECT_EQ(fastest_within_error(problem, 5)->options, (Options{left_out, left_out}));
+  EXPECT_EQ(fastest_within_error(problem, 2)->options, (Options{0, 0}));
+  EXPECT_EQ(fastest_within_error(problem, 1.6)->options, (Options{1, 0}));
+  EXPECT_EQ(fastest_within_error(problem, 0.31)->options, (Options{1, 1}));
+  EXPECT_FALSE(fastest_within_error(problem, 0.29));
+}
+
+TEST(Choice, OfEqualErrorsTheFaster) {
+  ChoiceProblem problem = two_effects();
+  problem.effects[0] = {{{"ao"}, 9, 0.5}, {{"ao"}, 2, 0.5}};
+  EXPECT_EQ(best_within_time(problem, 100)->options[0], 1);
+}
+
+TEST(Choice, WithoutEffectsThereIsNothingToChoose) {
+  ChoiceProblem problem;
+  problem.loss_with = [](const std::vector<std::string>&) { return 0.0; };
+  EXPECT_EQ(best_within_time(problem, 0)->error, 0);
+}
+
+}  // namespace
+}  // namespace gloam::test
