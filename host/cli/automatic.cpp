@@ -6,6 +6,7 @@
 
 #include "cli/auto_frame.h"
 #include "cli/auto_shot.h"
+#include "cli/explanations.h"
 #include "cli/given_flags.h"
 #include "cli/memory.h"
 #include "cli/shot.h"
@@ -46,11 +47,6 @@ Json document_of(const std::vector<Outcome>& outcomes, const DeviceInfo& device)
   return {{"effects", effects}, {"classify_ms", classify_ms}, {"total_ms", total_ms}, {"device", device.name}};
 }
 
-std::string where(const EffectChoice& choice) {
-  if (choice.is_everywhere) return "everywhere";
-  return choice.cells.empty() ? "-" : fmt::format("{:.0f} %", 100 * choice.share);
-}
-
 std::string milliseconds_or_dash(double ms) { return std::isnan(ms) ? "-" : fmt::format("{:.2f}", ms); }
 
 void print(const std::vector<Outcome>& outcomes) {
@@ -68,25 +64,6 @@ void print(const std::vector<Outcome>& outcomes) {
     for (const EffectChoice& refinement : o.decision.refinements) add(refinement, {});
   }
   print_table(rows, 8);
-}
-
-Explanation explanation_of(const EffectChoice& choice, const std::string& view, const std::string& cost) {
-  return {fmt::format("{}: {}", choice.technique->effect.name, choice.is_wanted ? "yes" : "no"), choice.why, cost,
-          choice.cells.empty() ? nullptr : choice.seen.view(view).find(choice.cells), choice.is_everywhere};
-}
-
-std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view) {
-  std::vector<Explanation> all;
-  for (const Outcome& o : outcomes) {
-    const std::string saving = std::isnan(o.ms_everywhere)
-                                   ? fmt::format("{:.1f} ms", o.ms)
-                                   : fmt::format("{:.1f} ms, everywhere {:.1f}", o.ms, o.ms_everywhere);
-    all.push_back(explanation_of(o.decision.effect, view, o.outputs.empty() ? "" : saving));
-    for (const EffectChoice& refinement : o.decision.refinements)
-      all.push_back(
-          explanation_of(refinement, view, refinement.is_wanted ? "runs as " + refinement.technique->name : ""));
-  }
-  return all;
 }
 
 void run_on_one_frame(const AutoCommand& flags) {
@@ -116,7 +93,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   if (explains) {
     for (const View& view : frame.views) {
       written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
-      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name));
+      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name), {planned.files.name(), ""});
     }
   }
   for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
