@@ -46,13 +46,13 @@ std::string in_words(Explanation::Wanted wanted) {
 
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
-Table table_of(const std::vector<Explanation>& effects) {
-  Table table{{{"effect", Align::left, 260},
+Table table_of(const std::vector<Explanation>& effects, int width) {
+  Table table{{{"effect", Align::left, std::max(230, width / 6)},
                {"wanted", Align::left, 120},
-               {"where", Align::right, 110},
-               {"why", Align::left},
+               {"where", Align::right, 130},
+               {"why"},
                {"saved", Align::right, 170},
-               {"lost", Align::right, 190}},
+               {"lost", Align::right, std::max(150, width / 6)}},
               {}};
   for (const Explanation& e : effects) {
     const TextStyle& style = e.wanted == Explanation::Wanted::yes ? cell_style : faint_cell;
@@ -94,6 +94,8 @@ Grid grid_with(int columns, int panels, cv::Size image) {
   // A whole fraction of the image's width is sharper than a slightly larger panel.
   const int fraction = image.width / ((image.width + room - 1) / room);
   if (image.width > room && fraction > 0.9 * room) room = fraction;
+  // Enlarged images stay lower than a screen, too.
+  if (image.width < narrowest_box) room = std::min(room, tallest_panel);
   grid.panel = panel_size(image.width, image.height, {narrowest_box, room, tallest_panel});
   return grid;
 }
@@ -105,7 +107,7 @@ Grid grid_for(int panels, cv::Size image) {
   const int most = std::min(panels, (widest - 2 * margin + gap) / (narrowest_box + gap));
   const auto misfit = [&](const Grid& grid) {
     const double height = grid.rows * (grid.panel.image.height + caption);
-    return std::abs(std::log(std::max(grid.width(), least_width) / height / screen));
+    return std::abs(std::log(grid.width() / height / screen));
   };
   Grid best = grid_with(1, panels, image);
   for (int columns = 2; columns <= most; ++columns)
@@ -242,7 +244,7 @@ void write_explanation(const std::filesystem::path& path, const View& view,
   const TextBlock heading = block_of(
       {{title_of(view, text.title), title_style}, {size_of(ground.colours, grid.panel.zoom_note), note_style}}, room);
   const std::vector<PlacedKey> keys = placed(keys_of(ground, panels, largest), room);
-  const PlacedTable table = placed(table_of(explanations), room);
+  const PlacedTable table = placed(table_of(explanations, room), room);
   const TextBlock totals = block_of({{text.totals, totals_style}}, room);
   // From top to bottom.
   const int legend_top = margin + heading.height + 6, panels_top = legend_top + keys.back().at.y + key_height + 4;
