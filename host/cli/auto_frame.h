@@ -29,7 +29,7 @@ struct Outcome {
   std::string setting;       ///< "medium, half", where a budget chose
   bool is_left_out = false;  ///< wanted, but the budget does without
   /// For each pixel of the glance, by view, how far the effect changes the picture (`Glance::change_by`); empty: not known.
-  std::map<std::string, Channel> changes;
+  std::map<std::string, Plane> changes;
   /// Whether it is computed.
   bool runs() const { return decision.effect.is_wanted && !is_left_out; }
 };

@@ -101,13 +101,13 @@ std::string runs_in_words(const Outcome& o) {
 
 std::string where_in_words(const EffectChoice& choice) {
   if (choice.is_everywhere) return "everywhere";
-  return choice.cells.empty() ? "-" : fmt::format("{:.0f} %", 100 * choice.share);
+  if (choice.cells.empty() || choice.share == 0) return "-";
+  return choice.share < 0.01 ? "less than 1 %" : fmt::format("{:.0f} %", 100 * choice.share);
 }
 
 std::string saved_in_words(const Outcome& o) {
-  if (std::isnan(o.ms_everywhere)) return "";
-  const double spent = o.runs() ? o.ms : o.decision.effect.classify_ms;
-  return fmt::format("{:.1f} of {:.1f} ms", std::max(0.0, o.ms_everywhere - spent), o.ms_everywhere);
+  const double ms = o.ms_everywhere - o.ms;
+  return ms > 0 ? fmt::format("{:.1f} of {:.1f} ms", ms, o.ms_everywhere) : "";
 }
 
 std::string lost_in_words(const Outcome& o) { return std::isnan(o.lost) ? "" : fmt::format("{:.4f}", o.lost); }
@@ -128,9 +128,14 @@ void print(const AutoResult& result, const BudgetGoal& goal) {
                       "", "", "", "", r.why});
   }
   print_table(rows, rows.front().size());
-  if (!result.spent) return;
-  fmt::print("{}: {:.2f} ms on the device, {:.2f} of it for looking; expected error of the picture {:.4f} (RMSE)\n",
-             in_words(goal), ms_of(result), result.spent->glance_ms, result.spent->expected_error);
+  if (const std::string totals = totals_in_words(result, goal); !totals.empty()) fmt::print("{}\n", totals);
+}
+
+std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal) {
+  if (!result.spent) return "";
+  return fmt::format(
+      "{}: {:.2f} ms on the device, {:.2f} of it for looking; expected error of the picture {:.4f} (RMSE)",
+      in_words(goal), ms_of(result), result.spent->glance_ms, result.spent->expected_error);
 }
 
 }  // namespace gloam::cli

@@ -8,6 +8,7 @@
 #include "cli/auto_goal.h"
 #include "cli/auto_report.h"
 #include "cli/auto_shot.h"
+#include "cli/explanations.h"
 #include "cli/given_flags.h"
 #include "cli/memory.h"
 #include "cli/shot.h"
@@ -16,25 +17,6 @@
 
 namespace gloam::cli {
 namespace {
-
-Explanation explanation_of(const EffectChoice& choice, const std::string& view, const std::string& cost) {
-  return {fmt::format("{}: {}", choice.technique->effect.name, choice.is_wanted ? "yes" : "no"), choice.why, cost,
-          choice.cells.empty() ? nullptr : choice.seen.view(view).find(choice.cells), choice.is_everywhere};
-}
-
-std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view) {
-  std::vector<Explanation> all;
-  for (const Outcome& o : outcomes) {
-    const std::string saving = std::isnan(o.ms_everywhere)
-                                   ? fmt::format("{:.1f} ms", o.ms)
-                                   : fmt::format("{:.1f} ms, everywhere {:.1f}", o.ms, o.ms_everywhere);
-    all.push_back(explanation_of(o.decision.effect, view, o.outputs.empty() ? "" : saving));
-    for (const EffectChoice& refinement : o.decision.refinements)
-      all.push_back(
-          explanation_of(refinement, view, refinement.is_wanted ? "runs as " + refinement.technique->name : ""));
-  }
-  return all;
-}
 
 void run_on_one_frame(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
@@ -66,7 +48,8 @@ void run_on_one_frame(const AutoCommand& flags) {
   if (explains) {
     for (const View& view : frame.views) {
       written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
-      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name));
+      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name),
+                        {planned.files.name(), totals_in_words(result, flags.goal)});
     }
   }
   for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));

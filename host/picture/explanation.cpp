@@ -1,103 +1,260 @@
 #include "gloam/explanation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "gloam/error.h"
+#include "picture/explanation_panel.h"
 #include "picture/picture.h"
+#include "picture/table.h"
+#include "picture/text_block.h"
+#include "picture/wordings.h"
 
 namespace gloam {
 namespace {
 
-/// One colour per effect, distinguishable for the colour-blind too (Okabe, Ito 2008); blue, green, red.
-const std::array<cv::Scalar, 5> effect_colours{
-    {{0, 159, 230}, {233, 180, 86}, {115, 158, 0}, {167, 121, 204}, {66, 228, 240}}};
+// ---------------------------------------------------------------------------------------------------------------------
+// Words
 
-constexpr int pad = 24, line = 26, swatch = 18, least_width = 640;
-const TextStyle title_style{14, ink, true}, text_style{12}, cost_style{12, faint};
+const TextStyle title_style{14, ink, true}, legend_style{10, ink}, caption_style{11, ink, true}, note_style{10, faint},
+    cell_style{10.5, ink}, name_style{10.5, ink, true}, faint_cell{10.5, faint}, totals_style{11, ink, true};
 
-cv::Scalar colour_of(size_t effect) { return effect_colours[effect % effect_colours.size()]; }
+bool is_somewhere(const Explanation& e) { return !e.where.empty() && e.where != "-"; }
 
-/// Grey by the angle between normal and line of sight, or by nearness if there are no normals.
-cv::Mat lit_from_the_eye(const View& view) {
-  const Channel& depth = view.find("depth")->channels.front();
-  const Plane* normal = view.find("normal");
-  cv::Mat image(depth.layout().height, depth.layout().width, CV_8UC3);
-  for (int y = 0; y < image.rows; ++y) {
-    for (int x = 0; x < image.cols; ++x) {
-      const double facing = normal ? std::max(0.0f, normal->channels[2].at(x, y)) : 1 / (1 + 0.1 * depth.at(x, y));
-      const unsigned char grey = to_byte(0.25 + 0.7 * facing);
-      image.at<cv::Vec3b>(y, x) = {grey, grey, grey};
-    }
-  }
-  return image;
+std::string share_of(const Explanation& e) {
+  return is_somewhere(e) && !e.is_everywhere ? fmt::format(" on {} of the image", e.where) : "";
 }
 
-cv::Mat backdrop_of(const View& view) {
-  if (const Plane* colour = view.find("color")) return coloured(*colour);
-  cv::Mat image = lit_from_the_eye(view);
-  const Channel& depth = view.find("depth")->channels.front();
-  cv::Mat background(image.size(), CV_8UC1);
-  for (int y = 0; y < image.rows; ++y) {
-    for (int x = 0; x < image.cols; ++x) background.at<unsigned char>(y, x) = is_background(depth.at(x, y)) ? 255 : 0;
-  }
-  image.setTo(background_tone, background);
-  hatch(image, background, 1);
-  return image;
+/// "ambient occlusion: wanted on 34 % of the image"
+std::string caption_of(const Explanation& e) {
+  const bool is_wanted = e.wanted == Explanation::Wanted::yes;
+  if (e.is_everywhere) return e.effect + (is_wanted ? ": wanted, computed everywhere" : ": called for, but left out");
+  const std::string share = share_of(e);
+  if (is_wanted) return fmt::format("{}: wanted{}", e.effect, share);
+  return share.empty() ? e.effect + ": not wanted" : fmt::format("{}: called for{}, but left out", e.effect, share);
 }
 
-/// Makes an image pale, so that a tint stands out.
-void fade(cv::Mat& image) { image.convertTo(image, -1, 0.7, 70); }
-
-/// Whether the tile of a pixel calls for the effect.
-bool is_called_for(const Explanation& e, int x, int y, cv::Size image) {
-  if (e.is_everywhere || !e.where) return e.is_everywhere;
-  const Channel& tiles = e.where->channels.front();
-  const int across = (image.width + tiles.layout().width - 1) / tiles.layout().width;
-  const int down = (image.height + tiles.layout().height - 1) / tiles.layout().height;
-  return tiles.at(x / across, y / down) > 0;
+bool has_panel(const Explanation& e) {
+  return e.wanted == Explanation::Wanted::yes || (e.wanted == Explanation::Wanted::no && (e.cells || e.is_everywhere));
 }
 
-void tint(cv::Mat& image, const Explanation& e, const cv::Scalar& colour) {
-  for (int y = 0; y < image.rows; ++y) {
-    for (int x = 0; x < image.cols; ++x) {
-      if (!is_called_for(e, x, y, image.size())) continue;
-      cv::Vec3b& pixel = image.at<cv::Vec3b>(y, x);
-      for (int c = 0; c < 3; ++c) pixel[c] = cv::saturate_cast<unsigned char>(0.5 * pixel[c] + 0.5 * colour[c]);
-    }
+std::string in_words(Explanation::Wanted wanted) {
+  return wanted == Explanation::Wanted::yes ? "yes" : wanted == Explanation::Wanted::no ? "no" : "not possible";
+}
+
+std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
+
+Table table_of(const std::vector<Explanation>& effects, int width) {
+  Table table{{{"effect", Align::left, std::max(230, width / 6)},
+               {"wanted", Align::left, 120},
+               {"where", Align::right, 130},
+               {"why"},
+               {"saved", Align::right, 170},
+               {"lost", Align::right, std::max(150, width / 6)}},
+              {}};
+  for (const Explanation& e : effects) {
+    const TextStyle& style = e.wanted == Explanation::Wanted::yes ? cell_style : faint_cell;
+    table.rows.push_back({{{e.effect, has_panel(e) ? name_style : style}, {e.technique, note_style}},
+                          {{in_words(e.wanted), style}},
+                          {{or_dash(e.where), style}},
+                          {{e.why, style}},
+                          {{or_dash(e.saved), style}},
+                          {{or_dash(e.lost), style}}});
   }
+  return table;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Panels in rows
+
+constexpr int widest = 2000, least_width = 1000, margin = 20, gap = 20, above_panel = 5;
+/// Least width of a panel with its caption, and largest height of a panel.
+constexpr int narrowest_box = 360, tallest_panel = 720;
+
+struct Panel {
+  TextBlock caption;
+  const Explanation* effect = nullptr;  ///< null: the view itself
+};
+
+struct Grid {
+  PanelSize panel;
+  int columns = 1, rows = 1;
+
+  int width() const { return columns * (panel.box + gap) - gap; }
+  int left(int column) const { return margin + column * (panel.box + gap); }
+};
+
+Grid grid_with(int columns, int panels, cv::Size image) {
+  Grid grid;
+  grid.columns = columns;
+  grid.rows = (panels + columns - 1) / columns;
+  int room = (widest - 2 * margin + gap) / columns - gap;
+  // A whole fraction of the image's width is sharper than a slightly larger panel.
+  const int fraction = image.width / ((image.width + room - 1) / room);
+  if (image.width > room && fraction > 0.9 * room) room = fraction;
+  // Enlarged images stay lower than a screen, too.
+  if (image.width < narrowest_box) room = std::min(room, tallest_panel);
+  grid.panel = panel_size(image.width, image.height, {narrowest_box, room, tallest_panel});
+  return grid;
+}
+
+/// The number of columns that makes the panels fill a screen best.
+Grid grid_for(int panels, cv::Size image) {
+  constexpr double screen = 1.8;
+  constexpr int caption = 45;
+  const int most = std::min(panels, (widest - 2 * margin + gap) / (narrowest_box + gap));
+  const auto misfit = [&](const Grid& grid) {
+    const double height = grid.rows * (grid.panel.image.height + caption);
+    return std::abs(std::log(grid.width() / height / screen));
+  };
+  Grid best = grid_with(1, panels, image);
+  for (int columns = 2; columns <= most; ++columns)
+    if (const Grid grid = grid_with(columns, panels, image); misfit(grid) < misfit(best)) best = grid;
+  return best;
+}
+
+std::vector<Panel> panels_of(const std::vector<Explanation>& effects) {
+  std::vector<Panel> panels(1);
+  for (const Explanation& e : effects)
+    if (has_panel(e)) panels.push_back({{}, &e});
+  return panels;
+}
+
+void add_captions(std::vector<Panel>& panels, bool is_lit, int width) {
+  for (Panel& panel : panels) {
+    const std::string title = panel.effect ? caption_of(*panel.effect)
+                              : is_lit     ? "the frame's surfaces, lit from the eye"
+                                           : "the frame's colour";
+    const std::string note = panel.effect ? panel.effect->technique : "";
+    panel.caption = block_of({{title, caption_style}, {note, note_style}}, width);
+  }
+}
+
+/// Heights of the captions of each row of panels.
+std::vector<int> caption_heights(const std::vector<Panel>& panels, const Grid& grid) {
+  std::vector<int> heights(size_t(grid.rows), 0);
+  for (size_t i = 0; i < panels.size(); ++i) {
+    int& row = heights[i / size_t(grid.columns)];
+    row = std::max(row, panels[i].caption.height);
+  }
+  return heights;
+}
+
+/// Draws the panels from `top` on, each with its caption just above it.
+void draw_panels(cv::Mat& canvas, const PanelGround& ground, const std::vector<Panel>& panels, const Grid& grid,
+                 double largest, int top) {
+  const cv::Mat nowhere(ground.no_surface.size(), CV_8UC1, cv::Scalar(0));
+  const std::vector<int> captions = caption_heights(panels, grid);
+  for (size_t i = 0; i < panels.size(); ++i) {
+    const int column = int(i) % grid.columns, row = int(i) / grid.columns;
+    if (column == 0) top += captions[size_t(row)] + above_panel;
+    const cv::Point corner(grid.left(column), top);
+    put_block(canvas, panels[i].caption, corner - cv::Point(0, panels[i].caption.height + above_panel));
+    if (panels[i].effect)
+      put_panel(canvas, tinted(ground, *panels[i].effect, largest), ground.no_surface, corner, grid.panel.image, 1);
+    else  // a sky has a colour
+      put_panel(canvas, ground.colours, ground.is_lit ? ground.no_surface : nowhere, corner, grid.panel.image, 1);
+    if (column == grid.columns - 1) top += grid.panel.image.height + gap;
+  }
+}
+
+int height_of_panels(const std::vector<Panel>& panels, const Grid& grid) {
+  int height = 0;
+  for (const int caption : caption_heights(panels, grid))
+    height += caption + above_panel + grid.panel.image.height + gap;
+  return height;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The legend
+
+/// A field of colours and its meaning.
+struct Key {
+  cv::Mat swatch;
+  std::string text;
+};
+
+constexpr int swatch_height = 14, key_height = 24;
+
+std::vector<Key> keys_of(const PanelGround& ground, const std::vector<Panel>& panels, double largest) {
+  const auto is_plain = [](const Panel& panel) { return panel.effect && !panel.effect->change; };
+  std::vector<Key> keys;
+  if (largest == 0 || std::any_of(panels.begin(), panels.end(), is_plain))
+    keys.push_back({cv::Mat(swatch_height, 28, CV_8UC3, tint_on_paper(1)), "where the effect is called for"});
+  if (largest > 0) {
+    cv::Mat scale(swatch_height, 112, CV_8UC3);
+    for (int x = 0; x < scale.cols; ++x) scale.col(x).setTo(tint_on_paper(double(x) / (scale.cols - 1)));
+    keys.push_back({scale, fmt::format("where it is called for, by how much it changes the picture: 0 to {} or more",
+                                       figure(largest))});
+  }
+  if (cv::countNonZero(ground.no_surface) > 0) {
+    cv::Mat background(swatch_height, 28, CV_8UC3, background_tone);
+    hatch(background, cv::Mat(background.size(), CV_8UC1, cv::Scalar(255)), 1);
+    keys.push_back({background, "no surface"});
+  }
+  return keys;
+}
+
+struct PlacedKey {
+  Key key;
+  cv::Point at;  ///< left top corner, from that of the legend
+};
+
+/// From left to right, in as many rows as needed.
+std::vector<PlacedKey> placed(std::vector<Key> keys, int width) {
+  std::vector<PlacedKey> out;
+  cv::Point at(0, 0);
+  for (Key& key : keys) {
+    const int needed = key.swatch.cols + 8 + natural_width({{key.text, legend_style}});
+    if (at.x > 0 && at.x + needed > width) at = {0, at.y + key_height};
+    out.push_back({std::move(key), at});
+    at.x += needed + 28;
+  }
+  return out;
+}
+
+void draw_key(cv::Mat& canvas, const PlacedKey& placed, cv::Point corner) {
+  const cv::Rect field(corner + placed.at, placed.key.swatch.size());
+  placed.key.swatch.copyTo(canvas(field));
+  cv::rectangle(canvas, field, rule, 1);
+  put_text(canvas, placed.key.text, {field.br().x + 8, field.br().y - 2}, legend_style);
+}
+
+std::string title_of(const View& view, const std::string& title) {
+  return view.name.empty() ? title : fmt::format("{}, view {}", title, view.name);
+}
+
+std::string size_of(const cv::Mat& image, const std::string& zoom) {
+  return fmt::format("{} x {} pixels{}", image.cols, image.rows, zoom.empty() ? "" : fmt::format(" ({})", zoom));
 }
 
 }  // namespace
 
 void write_explanation(const std::filesystem::path& path, const View& view,
-                       const std::vector<Explanation>& explanations) {
+                       const std::vector<Explanation>& explanations, const ExplanationText& text) {
   if (!view.find("depth")) throw Error("{}: cannot explain a view without depth", path.string());
-  cv::Mat image = backdrop_of(view);
-  fade(image);
-  for (size_t i = 0; i < explanations.size(); ++i) tint(image, explanations[i], colour_of(i));
-  // Small images are enlarged to make room for the text.
-  const int zoom = std::max(1, least_width / std::max(1, image.cols));
-  const cv::Size size(image.cols * zoom, image.rows * zoom);
-  const int width = std::max(size.width, least_width);
-  const int height = size.height + 2 * pad + int(explanations.size()) * (3 * line + pad / 2);
-  cv::Mat canvas(height, width, CV_8UC3, paper);
-  cv::Mat enlarged;
-  cv::resize(image, enlarged, size, 0, 0, cv::INTER_NEAREST);
-  enlarged.copyTo(canvas(cv::Rect(cv::Point((width - size.width) / 2, 0), size)));
-  int y = size.height + pad;
-  for (size_t i = 0; i < explanations.size(); ++i) {
-    const Explanation& e = explanations[i];
-    cv::rectangle(canvas, cv::Rect(pad, y, swatch, swatch), colour_of(i), cv::FILLED);
-    const int x = pad + swatch + 12, room = width - x - pad;
-    put_text(canvas, shortened(e.title, room, title_style), {x, y + 15}, title_style);
-    put_text(canvas, shortened(e.why, room, text_style), {x, y + 15 + line}, text_style);
-    put_text(canvas, shortened(e.cost, room, cost_style), {x, y + 15 + 2 * line}, cost_style);
-    y += 3 * line + pad / 2;
-  }
+  const PanelGround ground = ground_of(view);
+  const double largest = largest_change(explanations);
+  std::vector<Panel> panels = panels_of(explanations);
+  const Grid grid = grid_for(int(panels.size()), ground.colours.size());
+  add_captions(panels, ground.is_lit, grid.panel.box);
+  const int room = std::max(grid.width(), least_width - 2 * margin);
+  const TextBlock heading = block_of(
+      {{title_of(view, text.title), title_style}, {size_of(ground.colours, grid.panel.zoom_note), note_style}}, room);
+  const std::vector<PlacedKey> keys = placed(keys_of(ground, panels, largest), room);
+  const PlacedTable table = placed(table_of(explanations, room), room);
+  const TextBlock totals = block_of({{text.totals, totals_style}}, room);
+  // From top to bottom.
+  const int legend_top = margin + heading.height + 6, panels_top = legend_top + keys.back().at.y + key_height + 4;
+  const int table_top = panels_top + height_of_panels(panels, grid), totals_top = table_top + table.height + 8;
+  cv::Mat canvas(totals_top + totals.height + margin, room + 2 * margin, CV_8UC3, paper);
+  put_block(canvas, heading, {margin, margin});
+  for (const PlacedKey& key : keys) draw_key(canvas, key, {margin, legend_top});
+  draw_panels(canvas, ground, panels, grid, largest, panels_top);
+  put_table(canvas, table, {margin, table_top});
+  put_block(canvas, totals, {margin, totals_top});
   write_png(path, canvas);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// On fewer pixels than these along a side, a glance tells little.
 constexpr int least_side = 48;
-constexpr int most_scale = 4;
+constexpr int most_scale = 4;  // a power of two, as tiles of pictures are
 
 /// The planes of a frame that composing reads, as a frame of their own.
 Frame with_planes(const Frame& frame, const std::vector<std::string>& planes) {
@@ -27,7 +27,9 @@ Frame with_planes(const Frame& frame, const std::vector<std::string>& planes) {
 }  // namespace
 
 int scale_of_glance(const Frame& frame) {
-  return std::clamp(std::min(frame.width(), frame.height()) / least_side, 1, most_scale);
+  int scale = most_scale;
+  while (scale > 1 && std::min(frame.width(), frame.height()) / scale < least_side) scale /= 2;
+  return scale;
 }
 
 Glance::Glance(const Frame& frame, ComposeOptions how)
@@ -97,7 +99,7 @@ std::vector<std::string> Glance::without(const std::string& plane) const {
 
 double Glance::loss_without(const std::string& plane) const { return loss_with(without(plane)); }
 
-Channel Glance::change_by(const std::string& plane, const std::string& view) const {
+Plane Glance::change_by(const std::string& plane, const std::string& view) const {
   const Frame picture = picture_of(without(plane));
   const Plane &with = *whole_.view(view).find("color"), &left = *picture.view(view).find("color");
   const double unit = std::max(rms(), 1e-30);
@@ -110,7 +112,9 @@ Channel Glance::change_by(const std::string& plane, const std::string& view) con
       change.at(x, y) = float(std::sqrt(squares / double(with.channels.size())) / unit);
     }
   }
-  return change;
+  Plane result{"change", {}};
+  result.channels.push_back(std::move(change));
+  return result;
 }
 
 }  // namespace gloam

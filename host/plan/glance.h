@@ -34,7 +34,7 @@ class Glance {
   /// RMS difference between the picture of all planes and the one without this plane.
   double loss_without(const std::string& plane) const;
   /// For each pixel of the glance, how far the picture changes without this plane, in shares of the picture's RMS.
-  Channel change_by(const std::string& plane, const std::string& view) const;
+  Plane change_by(const std::string& plane, const std::string& view) const;
   /// Device time so far.
   double ms() const { return ms_; }
   int scale() const { return scale_; }

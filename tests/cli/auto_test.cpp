@@ -1,5 +1,8 @@
 // gloam auto: the effects that a frame calls for, its output in both cases, and refusals.
+#include <opencv2/core.hpp>
+
 #include "cli/gloam_process.h"
+#include "picture/picture.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
@@ -27,7 +30,8 @@ class CliAuto : public Cli {
   /// The first effect.
   Json effect_of(const Result& result) const { return result.json()["effects"][0]; }
   Json effect_of(const Result& result, const std::string& name) const {
-    for (const Json& effect : result.json()["effects"])
+    const Json effects = result.json()["effects"];
+    for (const Json& effect : effects)
       if (effect["name"] == name) return effect;
     return nullptr;
   }
@@ -265,15 +269,53 @@ TEST_F(CliAuto, WhatIsAskedForMayKeepARefinementAway) {
             std::string::npos);
 }
 
-TEST_F(CliAuto, APictureExplainsEachView) {
+TEST_F(CliAuto, APictureExplainsTheFrame) {
   const Result result = automatic(room(), {"--explain", path("why.png")});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(slurp(path("why.png")).substr(1, 3), "PNG");
   const Result flat = automatic(tilted_plane(3, 0.6, 1), {"--explain", path("flat.png")});
   ASSERT_EQ(flat.status, 0) << flat.err;
   EXPECT_NE(slurp(path("flat.png")), slurp(path("why.png")));
   const Result told = gloam({"auto", path("frame.exr"), "-o", path("out.exr")});
   EXPECT_NE(told.out.find("nothing rises over any surface within the radius"), std::string::npos) << told.out;
+}
+
+/// Pixels of a picture that are darker than paper in its outermost columns and rows.
+int inked_in_margin(const cv::Mat& picture, int margin) {
+  int inked = 0;
+  for (int y = 0; y < picture.rows; ++y)
+    for (int x = 0; x < picture.cols; ++x)
+      if (x < margin || y < margin || x >= picture.cols - margin || y >= picture.rows - margin)
+        inked += picture.at<cv::Vec2b>(y, x)[0] < 255;
+  return inked;
+}
+
+TEST_F(CliAuto, APictureHasAPanelForEachEffectThatIsPossible) {
+  // Without colour there are no reflections: one effect. A panel is 400 x 240 here.
+  ASSERT_EQ(automatic(room(), {"--radius", "0.2", "--explain", path("one.png")}).status, 0);
+  const cv::Mat one = read_png(path("one.png"));
+  EXPECT_EQ(one.cols, 1000);
+  EXPECT_EQ(inked_in_margin(one, 16), 0);
+  // Ambient occlusion, reflections, and what both gain from two views.
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("eyes.exr"), "--size", "200x120", "--stereo", "0.065"}).status, 0);
+  ASSERT_EQ(gloam({"auto", path("eyes.exr"), "-o", path("out.exr"), "--explain", path("eyes.png")}).status, 0);
+  for (const char* name : {"eyes.left.png", "eyes.right.png"}) {
+    const cv::Mat picture = read_png(path(name));
+    EXPECT_EQ(picture.cols, 2 * 20 + 3 * 400 + 2 * 20) << name;
+    EXPECT_GT(picture.rows, 2 * 240 + one.rows - 240) << name;  // two rows of panels, and more rows in the table
+    EXPECT_EQ(inked_in_margin(picture, 16), 0) << name;
+  }
+  EXPECT_NE(slurp(path("eyes.left.png")), slurp(path("eyes.right.png")));
+}
+
+TEST_F(CliAuto, PicturesOfTallAndOfWideFramesFitAScreen) {
+  for (const auto& [w, h] : std::vector<std::pair<int, int>>{{64, 256}, {2200, 60}}) {
+    ASSERT_EQ(automatic(room(), {"--radius", "0.2", "--explain", path("why.png")}, perspective(w, h)).status, 0);
+    const cv::Mat picture = read_png(path("why.png"));
+    EXPECT_GE(picture.cols, 1000);
+    EXPECT_LE(picture.cols, 2000);
+    EXPECT_LE(picture.rows, 1000) << w << "x" << h;
+    EXPECT_EQ(inked_in_margin(picture, 16), 0) << w << "x" << h;
+  }
 }
 
 TEST_F(CliAuto, WhatIsWrongIsSaidInOneLine) {
