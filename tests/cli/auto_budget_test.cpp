@@ -1,0 +1,130 @@
+// gloam auto --budget and --error: what is chosen, what is told, and refusals.
+#include "cli/gloam_process.h"
+#include "support/techniques.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class AutoBudget : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    ASSERT_EQ(gloam({"capture", "gallery", "-o", path("frame.exr"), "--size", "192x108"}).status, 0);
+  }
+  Result automatic(const Arguments& more, const char* frame = "frame.exr") const {
+    Arguments arguments = {"auto", path(frame), "-o", path("out.exr"), "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  }
+  static Json effect_of(const Json& document, const std::string& name) {
+    for (const Json& effect : document.at("effects"))
+      if (effect["name"] == name) return effect;
+    return nullptr;
+  }
+};
+
+TEST_F(AutoBudget, MuchTimeBuysTheLeastError) {
+  const Result result = automatic({"--budget", "1000s"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json document = result.json();
+  EXPECT_EQ(document["budget_ms"], 1e6);
+  EXPECT_EQ(document["goal_met"], true);
+  ASSERT_EQ(document["chosen"].size(), 3u) << document["chosen"];
+  for (const Json& chosen : document["chosen"]) {
+    EXPECT_GT(chosen["expected_ms"], 0);
+    EXPECT_GT(chosen["expected_error"], 0);
+    EXPECT_LT(chosen["expected_error"], effect_of(document, chosen["effect"])["change"]) << chosen;
+  }
+  EXPECT_GT(document["expected_error"], 0);
+}
+
+// The planes are those of the settings that it tells.
+TEST_F(AutoBudget, WhatItTellsIsWhatItDoes) {
+  const Result result = automatic({"--budget", "1000s"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json all = result.json()["chosen"];
+  for (const Json& chosen : all) {
+    const std::string resolution = chosen["resolution"] == 1 ? "full" : chosen["resolution"] == 2 ? "half" : "quarter";
+    ASSERT_EQ(gloam({"run", chosen["technique"].get<std::string>(), path("frame.exr"), "-o", path("run.exr"),
+                     "--preset", chosen["preset"].get<std::string>(), "--resolution", resolution})
+                  .status,
+              0);
+    const std::string plane = chosen["planes"][0];
+    const Frame out = FrameFile(path("out.exr"), {}).read({plane}), run = FrameFile(path("run.exr"), {}).read({plane});
+    EXPECT_EQ(difference(*out.views[0].find(plane), *run.views[0].find(plane)).max, 0) << chosen;
+  }
+}
+
+TEST_F(AutoBudget, ATimeThatNothingFitsNamesTheCheapest) {
+  const Result result = automatic({"--budget", "1us"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["goal_met"], false);
+  EXPECT_EQ(result.json()["chosen"].size(), 0u);
+  const Json effect = effect_of(result.json(), "ambient occlusion");
+  EXPECT_EQ(effect["wanted"], true);
+  EXPECT_TRUE(effect["runs"].is_null());
+  EXPECT_EQ(effect["lost"], effect["change"]);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("nothing fits, so all effects were left out"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("with the cheapest, "), std::string::npos) << result.err;
+  // What was left out is not written as if nothing were there.
+  const FrameFile file(path("out.exr"), {});
+  for (const PlaneSource& source : file.planes()) EXPECT_EQ(source.plane, "depth");
+}
+
+TEST_F(AutoBudget, AnErrorThatLeavingAllOutKeepsCostsNothing) {
+  const Result result = automatic({"--error", "1000"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["error_goal"], 1000);
+  EXPECT_EQ(result.json()["goal_met"], true);
+  EXPECT_EQ(result.json()["chosen"].size(), 0u);
+}
+
+TEST_F(AutoBudget, AnErrorThatNothingReachesIsTold) {
+  const Result result = automatic({"--error", "1e-9"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["goal_met"], false);
+  EXPECT_NE(result.err.find("no choice is expected to reach it; the nearest"), std::string::npos) << result.err;
+  EXPECT_EQ(result.json()["chosen"].size(), 3u);
+}
+
+TEST_F(AutoBudget, SettingsThatWereAskedForStand) {
+  const Result result = automatic({"--budget", "1000s", "--preset", "low", "--resolution", "half"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json all = result.json()["chosen"];
+  ASSERT_GT(all.size(), 0u);
+  for (const Json& chosen : all) {
+    EXPECT_EQ(chosen["preset"], "low");
+    EXPECT_EQ(chosen["resolution"], 2);
+  }
+}
+
+TEST_F(AutoBudget, TwoEyesAreWeighedTogether) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("eyes.exr"), "--size", "128x72", "--stereo", "0.065"}).status, 0);
+  const Result result = automatic({"--budget", "1000s"}, "eyes.exr");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(effect_of(result.json(), "ambient occlusion")["runs"], "stereo-evidence");
+  EXPECT_EQ(effect_of(result.json(), "reflections")["runs"], "stereo-ssr");
+}
+
+TEST_F(AutoBudget, WhatIsWrongIsSaidInOneLine) {
+  const auto message = [&](const Arguments& more, const char* frame = "frame.exr") {
+    const Result result = automatic(more, frame);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(message({"--budget", "30"}).find("write a number with its unit, such as 30ms"), std::string::npos);
+  EXPECT_NE(message({"--budget", "-3ms"}).find("--budget"), std::string::npos);
+  EXPECT_NE(message({"--budget", "ms"}).find("--budget"), std::string::npos);
+  EXPECT_NE(message({"--error", "0"}).find("--error"), std::string::npos);
+  EXPECT_NE(message({"--error", "0.1", "--budget", "1ms"}).find("--budget"), std::string::npos);
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("grey.exr"), "--size", "64x36", "--planes", "depth,normal"}).status,
+            0);
+  EXPECT_NE(message({"--budget", "30ms"}, "grey.exr").find("needs the frame's colour"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gloam::test
