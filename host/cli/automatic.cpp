@@ -93,7 +93,8 @@ void run_on_one_frame(const AutoCommand& flags) {
   if (explains) {
     for (const View& view : frame.views) {
       written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
-      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name), {planned.files.name(), ""});
+      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name),
+                        {planned.files.name(), totals_of(result.outcomes)});
     }
   }
   for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));

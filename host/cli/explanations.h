@@ -15,4 +15,7 @@ std::string where(const EffectChoice& choice);
 /// The effects and their refinements, on one view. Points to planes of `outcomes`.
 std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view);
 
+/// The line below the table: the time of all effects.
+std::string totals_of(const std::vector<Outcome>& outcomes);
+
 }  // namespace gloam::cli
