@@ -16,7 +16,7 @@ std::string saved_in_words(const Outcome& outcome);
 /// The expected error that the choice for an effect brings to the picture: ".0021"; empty: not known.
 std::string lost_in_words(const Outcome& outcome);
 
-/// What a budget came to, a sentence; empty without a budget.
+/// The time of all effects, and what a budget came to: a sentence.
 std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal);
 
 /// The table of effects, and for a budget a line of what was spent.

@@ -47,7 +47,7 @@ std::string in_words(Explanation::Wanted wanted) {
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
 Table table_of(const std::vector<Explanation>& effects, int width) {
-  Table table{{{"effect", Align::left, std::max(230, width / 6)},
+  Table table{{{"effect", Align::left, std::max(230, width * 2 / 9)},
                {"wanted", Align::left, 120},
                {"where", Align::right, 130},
                {"why"},
