@@ -111,10 +111,6 @@ std::string saved_in_words(const Outcome& o) {
   // Two times of one computation differ by chance: nothing was saved then.
   return leaves_out && ms > 0 ? fmt::format("{:.1f} of {:.1f} ms", ms, o.ms_everywhere) : "";
 }
-of{ : .1f} ms
-    ", ms, o.ms_everywhere) : "
-    ";
-}
 
 std::string lost_in_words(const Outcome& o) { return std::isnan(o.lost) ? "" : fmt::format("{:.4f}", o.lost); }
 
