@@ -1,6 +1,7 @@
 #include "plan/budget.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -57,11 +58,11 @@ class Spending {
       problem.effects.emplace_back();
       for (size_t k = 0; k < effects_[i].options.size(); ++k) {
         const EffectOption& option = effects_[i].options[k];
-        problem.effects.back().push_back({option.makes, ms_of(i, int(k)), option.relative_error});
+        problem.effects.back().push_back({option.makes, ms_with_its_part(i, int(k)), option.relative_error});
       }
       problem.loss_without.push_back(effects_[i].without);
     }
-    problem.loss_with = [this](const std::vector<std::string>& planes) { return means_.glance.loss_with(planes); };
+    problem.loss_with = [this](const std::vector<std::string>& planes) { return loss_with(planes); };
     return problem;
   }
 
@@ -88,6 +89,31 @@ class Spending {
     const auto measured = times_[effect].find(option);
     if (measured != times_[effect].end()) return measured->second;
     return effects_[effect].expected_ms[size_t(option)] * corrections_[effect];
+  }
+
+  /// What completes an effect takes no less than the effect alone, however noisy the times are.
+  double ms_with_its_part(size_t effect, int option) const {
+    const std::vector<EffectOption>& options = effects_[effect].options;
+    double ms = ms_of(effect, option);
+    if (options[size_t(option)].request.outputs.size() == 1) return ms;
+    for (size_t k = 0; k < options.size(); ++k) {
+      const bool is_its_part =
+          options[k].request.outputs.size() == 1 && options[k].setting() == options[size_t(option)].setting();
+      if (is_its_part) ms = std::max(ms, ms_of(effect, int(k)));
+    }
+    return ms;
+  }
+
+  /// The glance's loss, as far as the effects left out change the true picture more or less than a glance sees.
+  double loss_with(const std::vector<std::string>& planes) const {
+    double seen = 0, expected = 0;
+    for (const BudgetedEffect& effect : effects_) {
+      if (contains(planes, effect.technique->effect.changes)) continue;
+      seen += effect.seen * effect.seen;
+      expected += effect.without * effect.without;
+    }
+    const double loss = means_.glance.loss_with(planes);
+    return seen > 0 ? loss * std::sqrt(expected / seen) : loss;
   }
 
   void take(BudgetedEffect& effect, Plan plan, RunResult result, bool is_masked) {
@@ -166,7 +192,10 @@ double change_by(const BudgetedEffect& effect, const Glance& glance) {
 
 Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
             EffectSpeeds& speeds) {
-  for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
+  for (BudgetedEffect& effect : effects) {
+    effect.seen = change_by(effect, means.glance);
+    effect.without = effect.seen * true_per_seen_change(*effect.technique);
+  }
   fill_speeds(effects, means, speeds);
   Spent spent;
   spent.glance_ms = means.glance.ms() + means.probing_ms;

@@ -23,10 +23,14 @@ std::string label_of(const std::vector<std::string>& techniques, const std::stri
   return fmt::format("{}, {}, {}", fmt::join(techniques, " + "), preset, resolution_words[resolution]);
 }
 
+const nlohmann::json& measured_figures() {
+  static const nlohmann::json table = nlohmann::json::parse(data_files().at("effect_errors.json"));
+  return table;
+}
+
 /// What refines another is not measured, and that one's figures stand for it. What completes an effect changes no error of its planes.
 double measured_error(const EffectOption& option, const Technique& technique) {
-  static const nlohmann::json table = nlohmann::json::parse(data_files().at("effect_errors.json"));
-  const nlohmann::json& errors = table.at("relative_errors");
+  const nlohmann::json& errors = measured_figures().at("relative_errors");
   for (const std::string& name : {technique.name, measured_like(technique).name}) {
     const auto found = errors.find(label_of({name}, option.preset, option.resolution));
     if (found != errors.end()) return *found;
@@ -74,6 +78,10 @@ std::vector<std::string> parts_among(const std::vector<std::string>& planes) {
 std::string EffectOption::label() const { return label_of(request.outputs, preset, resolution); }
 
 std::string EffectOption::setting() const { return fmt::format("{}, {}", preset, resolution_words[resolution]); }
+
+double true_per_seen_change(const Technique& technique) {
+  return measured_figures().at("true_per_seen_change").value(technique.name, 1.0);
+}
 
 std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe) {
   std::vector<EffectOption> options;

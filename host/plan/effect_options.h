@@ -20,6 +20,10 @@ struct EffectOption {
   std::string setting() const;  ///< "medium, half"
 };
 
+/// How much more an effect changes the true picture than a glance sees: light also comes from what the image does not show
+/// (data/effect_errors.json).
+double true_per_seen_change(const Technique& technique);
+
 /// All options of an effect that the frame calls for. `technique`: what runs for it, which may refine the effect's. A preset or a
 /// resolution that was asked for stands. Options whose plan the frame does not allow are left out.
 std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe);

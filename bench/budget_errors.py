@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""What `gloam auto --budget` chooses against the best fixed settings of equal time: the table of docs/choosing.md.
+
+python3 bench/budget_errors.py FOLDER [GLOAM [SIZE [SAMPLES [SCENE|FRAME ...]]]]    by default build/gloam, 480x270, 256 rays, eight scenes
+python3 bench/budget_errors.py FOLDER --table [GLOAM [SIZE [SAMPLES [SCENE ...]]]]  writes data/effect_errors.json instead
+
+Every preset and resolution of every effect is run once for itself. Pictures of all combinations are composed from these planes, and the nearest to
+the picture of traced planes within the budget is the best fixed setting: found by brute force. Budgets are shares of the time of everything
+everywhere at the preset medium. Needs the Python module (PYTHONPATH=build/python). RMSE over the surfaces of a frame.
+"""
+import itertools
+import json
+import math
+import pathlib
+import sys
+
+import numpy
+
+import gloam
+from error_table import call
+
+SCENES = ["gallery", "courtyard", "lounge", "temple", "corridor", "colonnade", "banquet", "statue"]
+PRESETS, RESOLUTIONS = ["low", "medium", "high", "ultra"], ["full", "half", "quarter"]
+# By effect: the techniques that gloam auto chooses from, and the plane that each gives to the picture. multi-bounce runs evidence first.
+EFFECTS = {"ambient": [("evidence", "ao"), ("multi-bounce", "bounces")], "indirect": [("indirect", "indirect")],
+           "reflection": [("sssr", "reflection")]}
+BUDGETS = [0.25, 0.5, 1]
+
+
+class Scene:
+    """A frame with its truth, and the planes and times of every option."""
+
+    def __init__(self, gloam_path, folder, name, size, samples):
+        self.gloam, self.folder, self.name = gloam_path, folder, name
+        self.frame = folder / f"{name}.exr"
+        if not self.frame.exists():
+            planes = "depth,normal,color,albedo,ambient,roughness,reflectance,back_depth,instance"
+            call(gloam_path, "capture", name, "-o", self.frame, "--size", size, "--planes", planes)
+        self.truth = {}
+        for kind in ("ao", "indirect", "reflection"):
+            path = folder / f"{name}_{kind}.exr"
+            if not path.exists():
+                call(gloam_path, "reference", kind, self.frame, "-o", path, "--samples", samples)
+            self.truth[kind] = gloam.read(path, planes=[kind])[kind]
+        own = gloam.read(self.frame, planes=["depth", "color", "albedo", "ambient"])
+        self.surface = numpy.isfinite(own["depth"])
+        self.color, self.albedo, self.ambient = (own[plane][self.surface].astype(float) for plane in ("color", "albedo", "ambient"))
+        self.picture_of_truth = self.picture({kind: self.at_surfaces(plane) for kind, plane in self.truth.items()})
+
+    def at_surfaces(self, plane):
+        return plane[self.surface].astype(float)
+
+    def picture(self, parts):
+        """As host/frame/composition.cpp has it."""
+        picture = self.color.copy()
+        if "bounces" in parts and "indirect" not in parts:
+            picture += (parts["bounces"] - 1) * self.ambient
+        elif "ao" in parts:
+            picture += (parts["ao"][:, None] - 1) * self.ambient
+        if "indirect" in parts:
+            picture += self.albedo * parts["indirect"]
+        if "reflection" in parts:
+            picture += parts["reflection"][:, :3]
+        return picture
+
+    def error(self, parts):
+        return math.sqrt(numpy.mean((self.picture(parts) - self.picture_of_truth) ** 2))
+
+    def run(self, technique, plane, preset, resolution):
+        """The plane at surfaces, and the median time of seven runs, milliseconds on the device."""
+        out = self.folder / f"{self.name}_result.exr"
+        done = json.loads(call(self.gloam, "run", technique, self.frame, "-o", out, "--preset", preset, "--resolution", resolution,
+                               "--outputs", plane, "--repeat", 7, "--json", "-"))
+        return self.at_surfaces(gloam.read(out, planes=[plane])[plane]), done["total_ms"]["median"]
+
+    def options(self):
+        """By effect: a list of (setting, time, planes), the first of them without the effect."""
+        options = {}
+        for effect, techniques in EFFECTS.items():
+            options[effect] = [("left out", 0, {})]
+            for technique, plane in techniques:
+                for preset, resolution in itertools.product(PRESETS, RESOLUTIONS):
+                    values, ms = self.run(technique, plane, preset, resolution)
+                    options[effect].append((f"{technique}, {preset}, {resolution}", ms, {plane: values}))
+        return options
+
+    def best_fixed(self, options, budgets):
+        """For each time, of all combinations within it the one whose picture has the least error: (error, time, settings).
+
+        A picture is a sum of one term per effect, so the squared error of a combination is a sum of inner products of terms."""
+        listed = [(number, *option) for number, of_effect in enumerate(options.values()) for option in of_effect]
+        terms = numpy.array([(self.picture(option[3]) - self.color).ravel() for option in listed] +
+                            [(self.color - self.picture_of_truth).ravel()])
+        products = terms @ terms.T
+        of_effects = [[k for k, option in enumerate(listed) if option[0] == number] for number in range(len(options))]
+        best = [None] * len(budgets)
+        for combination in itertools.product(*of_effects):
+            planes = {plane for k in combination for plane in listed[k][3]}
+            if {"bounces", "indirect"} <= planes:
+                continue  # the picture takes ao then, which evidence alone makes
+            time = sum(listed[k][2] for k in combination)
+            chosen = [*combination, len(listed)]
+            error = math.sqrt(max(0, products[numpy.ix_(chosen, chosen)].sum()) / terms.shape[1])
+            for place, budget in enumerate(budgets):
+                if time <= budget and (best[place] is None or error < best[place][0]):
+                    best[place] = error, time, "; ".join(listed[k][1] for k in combination)
+        return best
+
+    def automatic(self, *goal):
+        """gloam auto: error of its picture, and what it tells."""
+        out = self.folder / f"{self.name}_auto.exr"
+        told = json.loads(call(self.gloam, "auto", self.frame, "-o", out, *goal, "--json", "-"))
+        frame = gloam.read(out)
+        made = [plane for plane in ("ao", "bounces", "indirect", "reflection") if plane in frame.planes]
+        return self.error({plane: self.at_surfaces(frame[plane]) for plane in made}), told
+
+
+def told_in_words(told):
+    """What gloam auto has chosen."""
+    if "chosen" not in told:
+        return "; ".join(effect["runs"] for effect in told["effects"] if effect["runs"])
+    return "; ".join(f"{' + '.join(c['outputs'])}, {c['preset']}, {RESOLUTIONS[c['resolution'] // 2]}" for c in told["chosen"]) or "nothing"
+
+
+def relative_errors(scenes):
+    """The error that an option brings to the picture, as a share of the error without the effect: root of the mean square over scenes."""
+    squares = {}
+    for scene in scenes:
+        true = {kind: scene.at_surfaces(plane) for kind, plane in scene.truth.items()}
+        for effect, techniques in EFFECTS.items():
+            technique, plane = techniques[0]
+            without = scene.error({kind: values for kind, values in true.items() if kind != plane})
+            if without == 0:
+                continue
+            for preset, resolution in itertools.product(PRESETS, RESOLUTIONS):
+                error = scene.error({**true, plane: scene.run(technique, plane, preset, resolution)[0]})
+                squares.setdefault(f"{technique}, {preset}, {resolution}", []).append((error / without) ** 2)
+    return {label: round(math.sqrt(sum(values) / len(values)), 3) for label, values in squares.items()}
+
+
+def changes(scenes):
+    """How much more an effect changes the true picture than the glance of gloam auto sees: geometric mean over scenes."""
+    logarithms = {}
+    for scene in scenes:
+        true = {kind: scene.at_surfaces(plane) for kind, plane in scene.truth.items()}
+        told = scene.automatic("--error", "1000")[1]
+        for effect in told["effects"]:
+            plane = {techniques[0][0]: techniques[0][1] for techniques in EFFECTS.values()}.get(effect["technique"])
+            without = plane and scene.error({kind: values for kind, values in true.items() if kind != plane})
+            if without and effect["change"]:
+                logarithms.setdefault(effect["technique"], []).append(math.log(without / effect["change"]))
+    return {technique: round(math.exp(sum(values) / len(values)), 2) for technique, values in logarithms.items()}
+
+
+def write_table(scenes):
+    path = pathlib.Path(__file__).parent.parent / "data" / "effect_errors.json"
+    scenes = list(scenes)
+    path.write_text(json.dumps({"relative_errors": relative_errors(scenes), "true_per_seen_change": changes(scenes)}, indent=2) + "\n")
+    print(f"wrote {path}")
+
+
+def print_budgets(scenes):
+    print("| frame | everything, ms | error | budget, ms | auto: error | ms | looking, ms | best fixed: error | ms | more than best | choice |")
+    print("|---|" + "---:|" * 9 + "---|")
+    for scene in scenes:
+        options = scene.options()
+        everything = [option for effect, (technique, _) in zip(options, (t[0] for t in EFFECTS.values())) for option in options[effect]
+                      if option[0] == f"{technique}, medium, full"]
+        all_ms = sum(option[1] for option in everything)
+        all_error = scene.error({plane: values for option in everything for plane, values in option[2].items()})
+        error, told = scene.automatic()
+        print(f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | none | {error:.4f} | {told['total_ms']:.1f} | "
+              f"{told['classify_ms'] + told['glance_ms']:.1f} | | | | {told_in_words(told)}, {100 * (1 - told['total_ms'] / all_ms):.0f} % saved |",
+              flush=True)
+        budgets = [share * all_ms for share in BUDGETS]
+        for budget, best in zip(budgets, scene.best_fixed(options, budgets)):
+            error, told = scene.automatic("--budget", f"{budget:.4f}ms")
+            print(f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | {budget:.1f} | {error:.4f} | {told['total_ms']:.1f} | "
+                  f"{told['classify_ms'] + told['glance_ms']:.1f} | {best[0]:.4f} | {best[1]:.1f} | {100 * (error / best[0] - 1):.0f} % | "
+                  f"{told_in_words(told)} (best: {best[2]}) |", flush=True)
+
+
+def main(folder, *arguments):
+    makes_table = arguments[:1] == ("--table",)
+    gloam_path, size, samples, *names = (*arguments[makes_table:], *("build/gloam", "480x270", "256")[len(arguments[makes_table:]):])
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    scenes = (Scene(gloam_path, folder, name, size, samples) for name in names or SCENES)
+    write_table(scenes) if makes_table else print_budgets(scenes)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:]) if len(sys.argv) > 1 else sys.exit(__doc__)
