@@ -138,8 +138,9 @@ def relative_errors(scenes):
     return {label: round(math.sqrt(sum(values) / len(values)), 3) for label, values in squares.items()}
 
 
-def changes(scenes):
-    """How much more an effect changes the true picture than the glance of gloam auto sees: geometric mean over scenes."""
+def changes(scenes, before):
+    """How much more an effect changes the true picture than the glance of gloam auto sees: geometric mean over scenes. gloam auto tells changes that
+    it has multiplied by what the table said before."""
     logarithms = {}
     for scene in scenes:
         true = {kind: scene.at_surfaces(plane) for kind, plane in scene.truth.items()}
@@ -149,13 +150,15 @@ def changes(scenes):
             without = plane and scene.error({kind: values for kind, values in true.items() if kind != plane})
             if without and effect["change"]:
                 logarithms.setdefault(effect["technique"], []).append(math.log(without / effect["change"]))
-    return {technique: round(math.exp(sum(values) / len(values)), 2) for technique, values in logarithms.items()}
+    return {technique: round(before.get(technique, 1) * math.exp(sum(values) / len(values)), 2) for technique, values in logarithms.items()}
 
 
 def write_table(scenes):
     path = pathlib.Path(__file__).parent.parent / "data" / "effect_errors.json"
     scenes = list(scenes)
-    path.write_text(json.dumps({"relative_errors": relative_errors(scenes), "true_per_seen_change": changes(scenes)}, indent=2) + "\n")
+    before = json.loads(path.read_text())["true_per_seen_change"]
+    table = {"relative_errors": relative_errors(scenes), "true_per_seen_change": changes(scenes, before)}
+    path.write_text(json.dumps(table, indent=2) + "\n")
     print(f"wrote {path}")
 
 

@@ -80,16 +80,21 @@ Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions
   for (const Candidate& candidate : candidates.possible) {
     if (!at_all && candidate.technique->effect.least_change == 0) continue;
     const EffectProbe probe = probe_for(candidate);
-    glance.look(plan_of_glance(*candidate.technique, probe), probe.device, probe.options);
+    glance.look(plan_of_glance(*candidate.technique, probe), true_per_seen_change(*candidate.technique), probe.device,
+                probe.options);
   }
   return glance;
 }
 
 double change_by(const Technique& technique, const Glance& glance) {
-  if (!contains(glance.planes(), technique.effect.changes)) return unlooked_at;
-  std::vector<std::string> others = glance.planes();
-  for (const std::string& plane : planes_of(technique)) std::erase(others, plane);
-  return glance.loss_with(others);
+  return contains(glance.planes(), technique.effect.changes) ? glance.change_by(planes_of(technique)) : unlooked_at;
+}
+
+void add_changes(Outcome& outcome, const Glance& glance) {
+  const Technique& technique = *outcome.decision.effect.technique;
+  if (!contains(glance.planes(), technique.effect.changes)) return;
+  for (const View& view : glance.small().views)
+    outcome.changes.emplace(view.name, glance.changes_by(planes_of(technique), view.name));
 }
 
 void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,

@@ -90,13 +90,6 @@ Outcome impossible(const Technique& technique, std::string why) {
   return outcome;
 }
 
-/// Where the effect changes the picture, for a picture of that.
-void add_changes(Outcome& outcome, const Glance& glance) {
-  const std::string& plane = outcome.decision.effect.technique->effect.changes;
-  if (!contains(glance.planes(), plane)) return;
-  for (const View& view : glance.small().views) outcome.changes.emplace(view.name, glance.change_by(plane, view.name));
-}
-
 /// Why an effect has no place in the picture of a frame; empty if it has one, or if the frame has no picture and the effect needs none.
 std::string hindrance_in_picture(const Technique& technique, const FrameFiles& files, const ComposeOptions& composing) {
   const Effect& effect = technique.effect;

@@ -23,6 +23,12 @@ RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means, 
   return run(plan, frame, means.device, options);
 }
 
+/// An option's error beside the one of the effect's sign and size, which the glance's losses hold already.
+double remaining_error(const Technique& technique, const EffectOption& option) {
+  const double missing = 1 - 1 / true_per_seen_change(technique);
+  return std::sqrt(std::max(0.0, option.relative_error * option.relative_error - missing * missing));
+}
+
 double pixels_of(const Frame& frame) { return double(frame.width()) * frame.height() * double(frame.views.size()); }
 
 /// Options of all effects that the table does not have are measured on the glance's pixels.
@@ -58,11 +64,12 @@ class Spending {
       problem.effects.emplace_back();
       for (size_t k = 0; k < effects_[i].options.size(); ++k) {
         const EffectOption& option = effects_[i].options[k];
-        problem.effects.back().push_back({option.makes, ms_with_its_part(i, int(k)), option.relative_error});
+        problem.effects.back().push_back(
+            {option.makes, ms_with_its_part(i, int(k)), remaining_error(*effects_[i].technique, option)});
       }
       problem.loss_without.push_back(effects_[i].without);
     }
-    problem.loss_with = [this](const std::vector<std::string>& planes) { return loss_with(planes); };
+    problem.loss_with = [this](const std::vector<std::string>& planes) { return means_.glance.loss_with(planes); };
     return problem;
   }
 
@@ -102,18 +109,6 @@ class Spending {
       if (is_its_part) ms = std::max(ms, ms_of(effect, int(k)));
     }
     return ms;
-  }
-
-  /// The glance's loss, as far as the effects left out change the true picture more or less than a glance sees.
-  double loss_with(const std::vector<std::string>& planes) const {
-    double seen = 0, expected = 0;
-    for (const BudgetedEffect& effect : effects_) {
-      if (contains(planes, effect.technique->effect.changes)) continue;
-      seen += effect.seen * effect.seen;
-      expected += effect.without * effect.without;
-    }
-    const double loss = means_.glance.loss_with(planes);
-    return seen > 0 ? loss * std::sqrt(expected / seen) : loss;
   }
 
   void take(BudgetedEffect& effect, Plan plan, RunResult result, bool is_masked) {
@@ -180,22 +175,18 @@ void name_cheapest(const std::vector<BudgetedEffect>& effects, const ChoiceProbl
   spent.cheapest_ms = spent.glance_ms + (effects.empty() ? 0 : least);
 }
 
-/// What the picture changes where an effect's planes, by any of its options, are left out.
+/// What the picture changes by an effect's planes, by any of its options.
 double change_by(const BudgetedEffect& effect, const Glance& glance) {
-  std::vector<std::string> others = glance.planes();
-  for (const EffectOption& option : effect.options)
-    for (const std::string& plane : option.makes) std::erase(others, plane);
-  return glance.loss_with(others);
+  std::vector<std::string> planes;
+  for (const EffectOption& option : effect.options) add_new(planes, option.makes);
+  return glance.change_by(planes);
 }
 
 }  // namespace
 
 Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
             EffectSpeeds& speeds) {
-  for (BudgetedEffect& effect : effects) {
-    effect.seen = change_by(effect, means.glance);
-    effect.without = effect.seen * true_per_seen_change(*effect.technique);
-  }
+  for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
   fill_speeds(effects, means, speeds);
   Spent spent;
   spent.glance_ms = means.glance.ms() + means.probing_ms;

@@ -35,8 +35,7 @@ struct BudgetedEffect {
   Plan plan;
   double lost =
       0;  ///< expected RMS error of the picture that the choice for this effect brings, or that leaving it out does
-  double seen = 0;     ///< RMS change of the picture by the effect, as the glance sees it
-  double without = 0;  ///< the same of the true picture, as expected
+  double without = 0;  ///< RMS change of the true picture by the effect, as expected
 };
 
 struct Spent {

@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "frame/subsample.h"
+#include "gloam/planes.h"
 
 namespace gloam {
 namespace {
@@ -24,6 +25,20 @@ Frame with_planes(const Frame& frame, const std::vector<std::string>& planes) {
   return copy;
 }
 
+/// A plane that changes the picture so many times as much. None becomes negative.
+Plane scaled(const Plane& plane, double factor) {
+  const float unchanged = plane_kind(plane.name).outside;
+  Plane result = plane.clone();
+  for (Channel& channel : result.channels) {
+    for (int y = 0; y < channel.layout().height; ++y) {
+      float* row = channel.row(y);
+      for (int x = 0; x < channel.layout().width; ++x)
+        row[x] = std::max(0.0f, unchanged + float(factor) * (row[x] - unchanged));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 int scale_of_glance(const Frame& frame) {
@@ -37,9 +52,10 @@ Glance::Glance(const Frame& frame, ComposeOptions how)
       how_(std::move(how)),
       small_(every_nth_pixel(frame, scale_, common_planes(frame))),
       parts_(without_planes(small_)),
+      expected_(without_planes(small_)),
       whole_(with_planes(small_, planes_to_compose())) {}
 
-void Glance::look(const Plan& plan, Device& device, const RunOptions& options) {
+void Glance::look(const Plan& plan, double true_per_seen, Device& device, const RunOptions& options) {
   RunOptions thrice = options;
   thrice.repeat = 3;
   RunResult result = run(plan, small_, device, thrice);
@@ -48,17 +64,18 @@ void Glance::look(const Plan& plan, Device& device, const RunOptions& options) {
     for (const std::string& name : part_planes()) {
       const auto found = view.planes.find(name);
       if (found == view.planes.end()) continue;
+      expected_.view(view.name).planes[name] = scaled(found->second, true_per_seen);
       parts_.view(view.name).planes[name] = std::move(found->second);
       add_new(planes_, name);
     }
   }
   std::sort(planes_.begin(), planes_.end());
-  whole_ = picture_of(planes_);
+  whole_ = picture_of(expected_, planes_);
 }
 
-Frame Glance::picture_of(const std::vector<std::string>& planes) const {
+Frame Glance::picture_of(const Frame& parts, const std::vector<std::string>& planes) const {
   Frame colour = with_planes(small_, planes_to_compose());
-  if (!planes.empty()) compose(colour, with_planes(parts_, planes), how_);
+  if (!planes.empty()) compose(colour, with_planes(parts, planes), how_);
   return colour;
 }
 
@@ -87,20 +104,23 @@ double Glance::rms_between(const Frame& a, const Frame* b) const {
 double Glance::rms() const { return rms_between(whole_, nullptr); }
 
 double Glance::loss_with(const std::vector<std::string>& planes) const {
-  const Frame picture = picture_of(planes);
+  const Frame picture = picture_of(parts_, planes);
   return rms_between(picture, &whole_);
 }
 
-std::vector<std::string> Glance::without(const std::string& plane) const {
+std::vector<std::string> Glance::without(const std::vector<std::string>& planes) const {
   std::vector<std::string> others = planes_;
-  std::erase(others, plane);
+  std::erase_if(others, [&](const std::string& plane) { return contains(planes, plane); });
   return others;
 }
 
-double Glance::loss_without(const std::string& plane) const { return loss_with(without(plane)); }
+double Glance::change_by(const std::vector<std::string>& planes) const {
+  const Frame picture = picture_of(expected_, without(planes));
+  return rms_between(picture, &whole_);
+}
 
-Plane Glance::change_by(const std::string& plane, const std::string& view) const {
-  const Frame picture = picture_of(without(plane));
+Plane Glance::changes_by(const std::vector<std::string>& planes, const std::string& view) const {
+  const Frame picture = picture_of(expected_, without(planes));
   const Plane &with = *whole_.view(view).find("color"), &left = *picture.view(view).find("color");
   const double unit = std::max(rms(), 1e-30);
   Channel change(with.channels.front().layout(), 0);

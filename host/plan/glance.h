@@ -22,36 +22,38 @@ class Glance {
   /// `frame`: normalised, with the planes that effects and the picture need.
   Glance(const Frame& frame, ComposeOptions how);
 
-  /// Computes a plan on few pixels and takes its planes that belong to a picture. Throws as `run` does.
-  void look(const Plan& plan, Device& device, const RunOptions& options);
+  /// Computes a plan on few pixels and takes its planes that belong to a picture. `true_per_seen`: how much more the effect changes the
+  /// true picture than these planes do. Throws as `run` does.
+  void look(const Plan& plan, double true_per_seen, Device& device, const RunOptions& options);
 
   /// Planes of the picture that are known, sorted.
   const std::vector<std::string>& planes() const { return planes_; }
-  /// RMS over surfaces of the picture's colour with everything: of all channels.
+  /// RMS over surfaces of the expected true picture's colour: of all channels.
   double rms() const;
-  /// RMS difference between the picture of these planes alone and the picture of all.
+  /// RMS difference between the picture of these planes alone, as they were seen, and the expected true picture. Errors of planes that
+  /// have one sign, such as too little light from what the image does not show, are in it.
   double loss_with(const std::vector<std::string>& planes) const;
-  /// RMS difference between the picture of all planes and the one without this plane.
-  double loss_without(const std::string& plane) const;
-  /// For each pixel of the glance, how far the picture changes without this plane, in shares of the picture's RMS.
-  Plane change_by(const std::string& plane, const std::string& view) const;
+  /// RMS change of the expected true picture by these planes.
+  double change_by(const std::vector<std::string>& planes) const;
+  /// For each pixel of the glance, how far the expected true picture changes by these planes, in shares of its RMS.
+  Plane changes_by(const std::vector<std::string>& planes, const std::string& view) const;
   /// Device time so far.
   double ms() const { return ms_; }
   int scale() const { return scale_; }
-  /// The frame's planes on few pixels, and the planes of effects.
+  /// The frame's planes on few pixels.
   const Frame& small() const { return small_; }
-  const Frame& parts() const { return parts_; }
 
  private:
-  Frame picture_of(const std::vector<std::string>& planes) const;
+  Frame picture_of(const Frame& parts, const std::vector<std::string>& planes) const;
   double rms_between(const Frame& a, const Frame* b) const;
-  std::vector<std::string> without(const std::string& plane) const;
+  std::vector<std::string> without(const std::vector<std::string>& planes) const;
 
   int scale_;
   ComposeOptions how_;
-  Frame small_;  ///< all planes of the frame
-  Frame parts_;  ///< planes of effects
-  Frame whole_;  ///< the picture of all planes
+  Frame small_;     ///< all planes of the frame
+  Frame parts_;     ///< planes of effects, as they were seen
+  Frame expected_;  ///< the same, scaled to what the true ones change
+  Frame whole_;     ///< the expected true picture
   std::vector<std::string> planes_;
   double ms_ = 0;
 };
