@@ -1,6 +1,7 @@
 // Light of an environment from the directions that ambient occlusion leaves open, by the slices of evidence.cl.
 //   slices       light on the open surface, less what closed directions of each slice would send (missing_light.h)
-//   bent normal  AO times the light on a surface that faces the mean open direction (Klehm, Ritschel, Eisemann, Seidel 2012)
+//   bent_normal  AO times the light on a surface that faces the mean open direction (Klehm, Ritschel, Eisemann, Seidel 2012)
+//   normal       AO times the light on the open surface
 //
 // in : depth              view-space z, scene units, +inf = background
 //      normal             unit, view space
@@ -8,7 +9,7 @@
 //      environment_light  shared/rays/environment.h
 // out: environment_raw    irradiance / pi, in the unit of the map, unfiltered; 0 on background
 //      ao_raw, bent_normal, cone  as evidence makes them (WITH_...)
-// -D as evidence.cl, with ENVIRONMENT_SIZE, BY_BENT_NORMAL, RAYS
+// -D as evidence.cl, with ENVIRONMENT_SIZE, BY_BENT_NORMAL, BY_NORMAL, RAYS
 #include "evidence/expected_slices.h"
 
 #if WITH_AO_RAW
@@ -46,12 +47,17 @@ kernel void environment_estimate(Frame frame, Params params, COEFFICIENTS, PLANE
     search.back = back_depth;
 #endif
     search_around(frame, params, layers, search, coefficients, depth, normal_x, normal_y, normal_z, &mean, &directions);
-#if BY_BENT_NORMAL
-    const real open = smaller(larger(1 - mean.closed, (real)(0)), (real)(1));
-    light = scale3(light_on_surface(environment_light, bent_normal_of(directions, r.normal)), open);
-#else
+#if MISSING_LIGHT
     light = light_on_surface(environment_light, r.normal);
     light = make3(light.x - mean.missing.x, light.y - mean.missing.y, light.z - mean.missing.z);
+#else
+#if BY_BENT_NORMAL
+    const real3 towards = bent_normal_of(directions, r.normal);
+#else
+    const real3 towards = r.normal;
+#endif
+    const real open = smaller(larger(1 - mean.closed, (real)(0)), (real)(1));
+    light = scale3(light_on_surface(environment_light, towards), open);
 #endif
   }
   store_light(light.x, r, environment_raw_r);

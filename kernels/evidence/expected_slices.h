@@ -13,7 +13,7 @@
 
 #ifdef ENVIRONMENT_SIZE
 #include "shared/rays/environment.h"
-#define MISSING_LIGHT (!BY_BENT_NORMAL)
+#define MISSING_LIGHT (!BY_BENT_NORMAL && !BY_NORMAL)
 #else
 #define MISSING_LIGHT 0
 #endif

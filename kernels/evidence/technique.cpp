@@ -75,20 +75,17 @@ std::vector<Pass> sd_passes(const SdEvidenceParams& p) {
   return passes;
 }
 
-/// Texels a side of the radiance that slices read: 11 degrees each, about as far apart as the directions of the pixels that a filter
-/// averages.
-constexpr int environment_size = 16;
-
 Pass environment_pass(const EnvironmentParams& p, const std::string& occluders) {
   Pass estimate = mono_pass(p, occluders);
   estimate.kernel = "environment_estimate";
   estimate.source = "evidence/environment.cl";
   estimate.writes = {"environment_raw"};
   estimate.extras = {"ao_raw", "bent_normal", "cone"};
-  estimate.defines.insert(
-      estimate.defines.end(),
-      {{"BY_BENT_NORMAL", p.method == EnvironmentParams::method_values::bent_normal}, {"RAYS", p.rays}});
-  return with_environment(std::move(estimate), p, environment_size);
+  using Method = EnvironmentParams::method_values;
+  estimate.defines.insert(estimate.defines.end(), {{"BY_BENT_NORMAL", p.method == Method::bent_normal},
+                                                   {"BY_NORMAL", p.method == Method::normal},
+                                                   {"RAYS", p.rays}});
+  return with_environment(std::move(estimate), p, EnvironmentLight::coarsest);
 }
 
 std::vector<Pass> environment_over_depth(const EnvironmentParams& p) { return {environment_pass(p, "depth")}; }

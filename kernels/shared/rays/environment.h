@@ -17,15 +17,7 @@
 // The first texel of the levels.
 #define FIRST_OF_LEVELS ((SIZE_ON_SURFACES + 2) * (SIZE_ON_SURFACES + 2))
 // Level l has COARSEST_SIZE << l texels a side.
-#if ENVIRONMENT_SIZE == 8
-#define FINEST_LEVEL 0
-#elif ENVIRONMENT_SIZE == 16
-#define FINEST_LEVEL 1
-#elif ENVIRONMENT_SIZE == 32
-#define FINEST_LEVEL 2
-#else
-#define FINEST_LEVEL 5
-#endif
+#define FINEST_LEVEL (ENVIRONMENT_SIZE == COARSEST_SIZE ? 0 : 5)  // 256 texels a side
 
 // A direction of view space in the map, at a place of the unfolded octahedron: -1 to 1 each way.
 typedef struct {
@@ -71,13 +63,10 @@ static inline real3 light_on_surface(PLANE light, real3 normal) {
   return between_texels(light, place_in_map(light, normal), (real)(SIZE_ON_SURFACES), (integer)(0), SIZE_ON_SURFACES + 2);
 }
 
-// Radiance at the nearest texel of a level, the same for all lanes.
-static inline real3 radiance_of_texel(PLANE light, real3 direction, int level) {
-  const int size = COARSEST_SIZE << level, rows = COARSEST_SIZE * ((1 << level) - 1) + 2 * level;
-  const MapPlace place = place_in_map(light, direction);
-  const integer column = clamp(to_integer((place.x + 1) * (scalar)(0.5f * size)), (integer)(0), (integer)(size - 1));
-  const integer row = clamp(to_integer((place.y + 1) * (scalar)(0.5f * size)), (integer)(0), (integer)(size - 1));
-  return texel_of_map(light, FIRST_OF_LEVELS + (rows + 1 + row) * LEVEL_PITCH + (column + 1));
+// Radiance of the coarsest level, whose texels are 22 degrees wide.
+static inline real3 coarse_radiance(PLANE light, real3 direction) {
+  return between_texels(light, place_in_map(light, direction), (real)(COARSEST_SIZE), (integer)(FIRST_OF_LEVELS),
+                        LEVEL_PITCH);
 }
 
 // Mean radiance of a cone of directions of about this solid angle, in steradians; 0: as fine as the map is.
