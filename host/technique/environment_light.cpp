@@ -31,9 +31,7 @@ dvec3 on_octahedron(double u, double v) {
   return {std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z};
 }
 
-dvec3 point_at(double column, double row, int size) {
-  return on_octahedron(2 * column / size - 1, 2 * row / size - 1);
-}
+dvec3 point_at(double column, double row, int size) { return on_octahedron(2 * column / size - 1, 2 * row / size - 1); }
 
 /// Means of blocks of texels, weighted by solid angle, with the axes of the picture.
 EnvironmentMap averaged(const EnvironmentMap& map) {
@@ -104,8 +102,7 @@ Level coarser(const Level& fine) {
 std::vector<dvec3> on_surfaces(const Level& light, int size) {
   std::vector<dvec3> directions;
   for (int y = 0; y < light.size; ++y) {
-    for (int x = 0; x < light.size; ++x)
-      directions.push_back(glm::normalize(point_at(x + 0.5, y + 0.5, light.size)));
+    for (int x = 0; x < light.size; ++x) directions.push_back(glm::normalize(point_at(x + 0.5, y + 0.5, light.size)));
   }
   std::vector<dvec3> result;
   for (int y = 0; y < size; ++y) {
@@ -213,8 +210,7 @@ std::shared_ptr<const EnvironmentLight> environment_light(const std::string& fil
 std::vector<float> environment_rotation(const View& view, EnvironmentAxes axes, double turn_degrees) {
   const bool has_pose = view.camera && view.camera->pose;
   const glm::dmat3 to_picture = world_to_picture(has_pose ? axes : EnvironmentAxes::openexr, turn_degrees);
-  const glm::dmat3 rotation =
-      has_pose ? to_picture * glm::transpose(view.camera->pose->world_to_view) : to_picture;
+  const glm::dmat3 rotation = has_pose ? to_picture * glm::transpose(view.camera->pose->world_to_view) : to_picture;
   std::vector<float> rows;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) rows.push_back(float(rotation[column][row]));

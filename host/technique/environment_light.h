@@ -41,8 +41,8 @@ std::vector<float> environment_rotation(const View& view, EnvironmentAxes axes, 
 /// Gives a pass the argument `environment_light`, for levels of up to `size` texels a side.
 template <typename Params>
 Pass with_environment(Pass pass, const Params& p, int size) {
-  const auto numbers = std::make_shared<const std::vector<float>>(
-      environment_light(file_name(p.environment))->packed(size));
+  const auto numbers =
+      std::make_shared<const std::vector<float>>(environment_light(file_name(p.environment))->packed(size));
   const auto axes = EnvironmentAxes(p.environment_axes);
   const double turn = p.environment_turn;
   pass.defines.emplace_back("ENVIRONMENT_SIZE", size);
@@ -62,7 +62,8 @@ std::string environment_assumption(const Params& p, const View& view, const std:
     return "environment: environment_axes and environment_turn have no effect without a map; give --environment FILE";
   if (p.environment == 0) return without;
   if (view.camera && view.camera->pose) return "";
-  return "environment: the pose of the camera is unknown, so up in the image is up in the map, whose middle lies behind the camera";
+  return "environment: the pose of the camera is unknown, so up in the image is up in the map, whose middle lies "
+         "behind the camera";
 }
 
 }  // namespace gloam

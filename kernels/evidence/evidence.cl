@@ -48,12 +48,13 @@
 
 #if TERMS_ONLY
 // A plane each: t, r t, and the roots of a and u.
-#define FOR_TERMS(DO)                                                                                             \
-  DO(0)                                                                                                           \
-  DO(1)                                                                                                           \
-  DO(2)                                                                                                           \
-  DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) \
-      DO(20) DO(21) DO(22) DO(23) DO(24) DO(25)
+#define FOR_TERMS(DO)                                                                                              \
+  DO(0)                                                                                                            \
+  DO(1)                                                                                                            \
+  DO(2)                                                                                                            \
+  DO(3)                                                                                                            \
+  DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) \
+      DO(21) DO(22) DO(23) DO(24) DO(25)
 #define TERM_ARGUMENT(k) , PLANE_OUT term_##k
 #define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
 #define RESULTS PLANE_OUT ao_raw FOR_TERMS(TERM_ARGUMENT)

@@ -21,12 +21,12 @@
   EVIDENCE_EDGE_PARAMS(P)
 
 // `rays`: RAYS of missing_light.h.
-#define ENVIRONMENT_LIGHT_PARAMS(P)                                                                               \
-  EVIDENCE_PARAMS(P)                                                                                              \
-  P(choice, method, slices, (slices, bent_normal, normal),                                                        \
+#define ENVIRONMENT_LIGHT_PARAMS(P)                                                                                 \
+  EVIDENCE_PARAMS(P)                                                                                                \
+  P(choice, method, slices, (slices, bent_normal, normal),                                                          \
     "what tells which light arrives: the closed directions of each slice, or ambient occlusion as a factor on the " \
-    "light on a surface that faces the mean open direction (bent_normal) or the normal's")                         \
-  P(int, rays, 2, 1, 4, "", "directions on each side of a slice in which light is read; of slices")                \
+    "light on a surface that faces the mean open direction (bent_normal) or the normal's")                          \
+  P(int, rays, 2, 1, 4, "", "directions on each side of a slice in which light is read; of slices")                 \
   ENVIRONMENT_PARAMS(P, "even light of radiance 1")
 
 #define SD_EVIDENCE_PARAMS(P) \

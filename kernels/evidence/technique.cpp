@@ -155,10 +155,10 @@ Technique evidence_over_two_eyes() {
 }
 
 Technique environment() {
-  Technique t = over_slices(ambient_occlusion(
-      "environment", "light of an environment, a lat-long map, from directions that are open",
-      "Klehm, Ritschel, Eisemann, Seidel 2012; slices after Jimenez, Wu, Pesce, Jarabo 2016",
-      "evidence/environment.cl"));
+  Technique t = over_slices(
+      ambient_occlusion("environment", "light of an environment, a lat-long map, from directions that are open",
+                        "Klehm, Ritschel, Eisemann, Seidel 2012; slices after Jimenez, Wu, Pesce, Jarabo 2016",
+                        "evidence/environment.cl"));
   t.writes = {"environment_raw"};
   t.outputs = {"environment", "environment_raw"};
   t.then = "bilateral-environment";

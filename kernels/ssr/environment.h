@@ -26,8 +26,8 @@ static inline real3 seen_by_rough_surface(PLANE light, Reflector s, mask counts)
   if (!ANY(counts)) return none;
   const real smoothness = 1 - s.alpha, towards_mirror = smoothness * (sqrt(larger(smoothness, (real)(0))) + s.alpha);
   const real3 mirrored = make3(-s.to_eye.x, -s.to_eye.y, s.to_eye.z);
-  const real3 main = make3(towards_mirror * mirrored.x, towards_mirror * mirrored.y,
-                           1 + towards_mirror * (mirrored.z - 1));
+  const real3 main =
+      make3(towards_mirror * mirrored.x, towards_mirror * mirrored.y, 1 + towards_mirror * (mirrored.z - 1));
   return light_on_surface(light, out_of_frame(s, main));
 }
 #else

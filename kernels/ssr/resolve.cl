@@ -125,10 +125,10 @@ kernel void ssr_resolve(Frame frame,
 #if REPROJECTION
                         Neighbour neighbour,
 #endif
-                        Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE roughness,
-                        PLANE reflectance_r, PLANE reflectance_g, PLANE reflectance_b, PLANE ray_x, PLANE ray_y,
-                        PLANE ray_z, PLANE ray_density, PLANE ray_r, PLANE ray_g, PLANE ray_b, PLANE ray_length,
-                        PLANE ray_confidence,
+                        Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                        PLANE roughness, PLANE reflectance_r, PLANE reflectance_g, PLANE reflectance_b, PLANE ray_x,
+                        PLANE ray_y, PLANE ray_z, PLANE ray_density, PLANE ray_r, PLANE ray_g, PLANE ray_b,
+                        PLANE ray_length, PLANE ray_confidence,
 #if REPROJECTION
                         PLANE instance, PLANE other_depth, PLANE other_instance, PLANE other_ray_x, PLANE other_ray_y,
                         PLANE other_ray_z, PLANE other_ray_density, PLANE other_ray_r, PLANE other_ray_g,

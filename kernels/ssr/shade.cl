@@ -162,8 +162,9 @@ kernel void ssr_see(Frame frame,
 #if TRAVERSAL || FADE
                     Neighbour neighbour,
 #endif
-                    Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE color_r,
-                    PLANE color_g, PLANE color_b, PLANE ray_x, PLANE ray_y, PLANE ray_z, PLANE ray_density, PLANE met,
+                    Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                    PLANE color_r, PLANE color_g, PLANE color_b, PLANE ray_x, PLANE ray_y, PLANE ray_z,
+                    PLANE ray_density, PLANE met,
 #if TRAVERSAL
                     PLANE met_in_other, PLANE left_at,
 #endif

@@ -41,7 +41,8 @@ static inline MapPlace place_in_map(PLANE light, real3 v) {
 static inline real3 texel_of_map(PLANE light, integer texel) {
   natural high, low;
   gather_bit_pair(light + NUMBERS_OF_ROTATION, texel, &high, &low);
-  return make3(to_real(as_stored((high & 0x7ffffc00u))), to_real(as_stored(((high & 0x3ffu) << 21) | ((low >> 21) << 10))),
+  return make3(to_real(as_stored((high & 0x7ffffc00u))),
+               to_real(as_stored(((high & 0x3ffu) << 21) | ((low >> 21) << 10))),
                to_real(as_stored((low & 0x1fffffu) << 10)));
 }
 
@@ -60,7 +61,8 @@ static inline real3 between_texels(PLANE light, MapPlace place, real size, integ
 
 // Light on an open surface: the mean radiance of cosine-weighted directions about the normal.
 static inline real3 light_on_surface(PLANE light, real3 normal) {
-  return between_texels(light, place_in_map(light, normal), (real)(SIZE_ON_SURFACES), (integer)(0), SIZE_ON_SURFACES + 2);
+  return between_texels(light, place_in_map(light, normal), (real)(SIZE_ON_SURFACES), (integer)(0),
+                        SIZE_ON_SURFACES + 2);
 }
 
 // Radiance of the coarsest level, whose texels are 22 degrees wide.
