@@ -16,6 +16,7 @@
 #include "gloam/light_field.h"
 #include "gloam/radius.h"
 #include "gloam/scene/light_field_capture.h"
+#include "gloam/scene/sky_map.h"
 #include "gloam/visualise.h"
 
 namespace gloam::cli {
@@ -80,6 +81,9 @@ void check_moving_flags(const CaptureCommand& flags) {
 void check_flags(const CaptureCommand& flags) {
   check_picture_name(flags.picture, "--picture");
   check_frame_name(flags.out, "-o");
+  if (!flags.sky.empty()) check_frame_name(flags.sky, "--sky");
+  if (FramePattern::is_pattern(flags.sky))
+    throw UsageError("--sky {}: is the name of many files, and the sky is one; give a name without #", flags.sky);
   check_second_view_flags(flags);
   if (flags.display.empty() && !flags.modules.empty())
     throw UsageError("--modules are for a light-field display; give --display FILE too");
@@ -98,7 +102,7 @@ Choices<OutlineMethod> methods_by_name() {
 
 /// Throws UsageError if an output is also an input or another output.
 void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& shots) {
-  std::vector<NamedPath> outputs = {{"--json", flags.json.file()}};
+  std::vector<NamedPath> outputs = {{"--json", flags.json.file()}, {"--sky", flags.sky}};
   for (const CaptureShot& shot : shots) {
     outputs.emplace_back("-o", shot.file);
     outputs.emplace_back("--picture", shot.picture);
@@ -179,6 +183,10 @@ void capture_command(const CaptureCommand& flags) {
     take(shot, scene.tracer(), options, write, figures);
     ++taken;
   }
+  if (!flags.sky.empty()) {
+    write_frame(flags.sky, sky_map(scene.scene()), write);
+    figures.files.push_back(flags.sky);
+  }
   figures.load = scene.load_seconds();
   figures.build = scene.build_seconds();
   if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
@@ -242,6 +250,10 @@ void add_capture(CLI::App& app) {
       ->type_name("NAME");
   add_frames(*command, flags->choice);
   command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
+  command
+      ->add_option("--sky", flags->sky,
+                   "also the scene's sky, without the sun, as a lat-long map for --environment (axes openexr)")
+      ->type_name("SKY.exr");
   command->add_flag("--half", flags->half, "store bounded planes as half");
   add_compression(*command, flags->compression);
   flags->camera.add_to(*command);
@@ -257,6 +269,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-12 --size 960x540\n"
       "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
+      "  gloam capture gallery -o gallery.exr --sky sky.exr\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
       "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");
   command->callback([flags] { capture_command(*flags); });

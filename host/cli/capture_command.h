@@ -13,7 +13,7 @@
 namespace gloam::cli {
 
 struct CaptureCommand {
-  std::string out, planes, path, shot, picture, compression = "zip";
+  std::string out, planes, path, shot, picture, sky, compression = "zip";
   std::string display, modules;
   std::optional<Size> size;
   int peel = 0;

@@ -178,6 +178,7 @@ const std::vector<Spelling>& spellings() {
       {"contact", "*", "contact", own},
       {"contact_noise", "*", "contact_noise", own},
       {"environment", "environment", "r,g,b", own},
+      {"environment_raw", "environmentraw", "r,g,b", own},
       {"environment_noise", "*", "environment_noise", own},
       {"hit", "hit", "z", own},
   };

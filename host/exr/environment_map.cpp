@@ -56,6 +56,18 @@ const std::vector<std::pair<std::string, EnvironmentAxes>>& environment_axes() {
   return axes;
 }
 
+glm::dmat3 world_to_picture(EnvironmentAxes axes, double turn_degrees) {
+  const double turn = turn_degrees * pi / 180, c = std::cos(turn), s = std::sin(turn);
+  glm::dmat3 columns;
+  for (int i = 0; i < 3; ++i) {
+    dvec3 axis(0);
+    axis[i] = 1;
+    const dvec3 d = to_picture(axis, axes);
+    columns[i] = {c * d.x + s * d.y, c * d.y - s * d.x, d.z};
+  }
+  return columns;
+}
+
 EnvironmentMap::EnvironmentMap(int width, int height, std::vector<vec3> texels, EnvironmentAxes axes,
                                double turn_degrees)
     : width_(width), height_(height), texels_(std::move(texels)), axes_(axes), turn_(turn_degrees * pi / 180) {

@@ -91,7 +91,12 @@ Imf::Header header_without_views(const Frame& frame, const std::vector<WrittenCh
   for (const WrittenChannel& channel : channels) header.channels().insert(channel.name, Imf::Channel(channel.type));
   if (has_directions) header.insert("gloamNormalSpace", Imf::StringAttribute("view"));
   insert_light(header, frame);
-  for (const auto& [name, text] : frame.attributes) header.insert(name, Imf::StringAttribute(text));
+  for (const auto& [name, text] : frame.attributes) {
+    if (name == "envmap")
+      Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
+    else
+      header.insert(name, Imf::StringAttribute(text));
+  }
   for (const auto& [name, number] : frame.numbers) header.insert(name, Imf::FloatAttribute(float(number)));
   return header;
 }

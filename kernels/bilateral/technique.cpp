@@ -10,6 +10,7 @@ std::vector<Pass> filter(const BilateralParams& p, const std::string& source, co
 
 std::vector<Pass> ao_passes(const BilateralParams& p) { return filter(p, "ao_raw", "ao"); }
 std::vector<Pass> color_passes(const BilateralParams& p) { return filter(p, "indirect_raw", "indirect"); }
+std::vector<Pass> environment_passes(const BilateralParams& p) { return filter(p, "environment_raw", "environment"); }
 
 Technique row(std::string name, std::string summary, const std::string& source, std::string result) {
   return {.name = std::move(name),
@@ -28,7 +29,10 @@ std::vector<Technique> bilateral() {
   ao.passes = passes_of(ao_passes);
   Technique color = row("bilateral-color", "the same filter for raw indirect light", "indirect_raw", "indirect");
   color.passes = passes_of(color_passes);
-  return {std::move(ao), std::move(color)};
+  Technique environment =
+      row("bilateral-environment", "the same filter for raw light of an environment", "environment_raw", "environment");
+  environment.passes = passes_of(environment_passes);
+  return {std::move(ao), std::move(color), std::move(environment)};
 }
 
 }  // namespace gloam::techniques

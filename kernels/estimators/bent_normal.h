@@ -1,5 +1,6 @@
 // Bent normal: mean of the open directions, weighted by solid angle. Cone: the cone about it that is as open as the directions
 // are (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
+// -D BY_BENT_NORMAL: for a kernel's own use
 // -D WITH_BENT_NORMAL, WITH_CONE, WITH_SPECULAR_OCCLUSION_RAW, WITH_LOBE_WEIGHT (glossy_lobe.h): a kernel's last arguments and last line are
 //   ... PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
 //   STORE_OPEN_DIRECTIONS(directions, receiver)
@@ -10,7 +11,7 @@
 #include "shared/rays/ggx.h"
 #include "shared/sampling/ambient_occlusion.h"
 
-#define WITH_OPEN_DIRECTIONS (WITH_BENT_NORMAL || WITH_CONE)
+#define WITH_OPEN_DIRECTIONS (WITH_BENT_NORMAL || WITH_CONE || BY_BENT_NORMAL)
 #define WITH_LOBE (WITH_SPECULAR_OCCLUSION_RAW || WITH_LOBE_WEIGHT)
 
 typedef struct {

@@ -26,17 +26,8 @@
 // -D DIRECTIONS, STEPS, EDGE_FACTOR, SURE_BIAS (the bias is at least LEAST_SLOPE_OF_UNKNOWN), TERMS_ONLY (for fitting: the terms as
 //    planes), JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED, STEREO, ESTIMATE_MONO,
 //    WITH_HALF_OCCLUSION
-#include "estimators/arc.h"
-#include "estimators/bent_normal.h"
-#include "estimators/extent.h"
-#include "estimators/sectors.h"
-#include "evidence/params.h"
-#include "shared/filter/isolated.h"
-#include "shared/sampling/slice_steps.h"
+#include "evidence/expected_slices.h"
 
-#if STOCHASTIC
-#include "shared/sampling/hidden_depths.h"
-#endif
 #ifdef COLUMNS
 #if !STEREO
 // Of the expected error.
@@ -47,17 +38,6 @@
 #include "shared/filter/bilateral_filter.h"
 #endif
 
-#ifndef WITH_BACK_DEPTH
-#define WITH_BACK_DEPTH 0
-#endif
-#define COEFFICIENTS constant float* coefficients
-#define TABLES_ARGUMENT COEFFICIENTS,
-#define TABLES coefficients,
-#if WITH_BACK_DEPTH
-#define BACK_ARGUMENT PLANE back_depth,
-#else
-#define BACK_ARGUMENT
-#endif
 #if WITH_AO_ERROR
 #define AO_ERROR_ARGUMENT , PLANE_OUT ao_error
 #define STORE_NO_ERROR store((real)(0), ao_error, here);
@@ -66,208 +46,15 @@
 #define STORE_NO_ERROR
 #endif
 
-// What is the same for all slices of a row of pixels.
-typedef struct {
-  Receiver receiver;
-  Surface surface;
-  real radius, radius_square;  // units of the pixel's depth
-  global const float* back;    // WITH_BACK_DEPTH
-} Search;
-
-static inline Search search_of(Params params, Receiver r) {
-  Search search;
-  search.receiver = r;
-  search.surface = surface_at(r.point, r.normal);
-  // Capped so that background is out of reach of an infinite radius too.
-  search.radius = smaller((scalar)params.radius * r.point.inverse_depth, (real)(1e8f));
-  search.radius_square = search.radius * search.radius;
-  search.back = 0;
-  return search;
-}
-
-// What closes one side of a slice.
-typedef struct {
-  real lowest;      // twice the cosine of the highest occluder's elevation
-  natural covered;  // sectors between front and back of occluders
-} Closed;
-
-// Directions below the horizon are closed to one degree and those within a thickness to another, so that the slice is closed as
-// expected.
-typedef struct {
-  real below_horizon, within_thickness, elsewhere;
-} Degrees;
-
-// One side of a slice, searched outwards. Lengths in units of the pixel's depth.
-typedef struct {
-  SliceSample sample;
-  real cosine, sine;    // of the normal's lean towards this side
-  real slope, above_e;  // slice.h
-  real share;           // of the slice's mass
-  QuickScale scale;     // all sectors lie on this side
-  Run run;
-  real unknown, others;    // numbers of samples
-  Closed closed;           // with two eyes: by surfaces that this eye alone sees
-  Closed closed_by_depth;  // by the first layer alone (COMPENSATED)
-#if WITH_OPEN_DIRECTIONS || WITH_LOBE
-  Degrees degrees;  // to which the slice's directions are closed
-#endif
-#if STEREO
-  Closed closed_for_both;  // by surfaces that both eyes see
-#endif
-} Side;
-
-static inline Side side_of(Slice slice, Search search, scalar sign) {
-  Side s;
-  s.cosine = slice.cosine;
-  s.sine = sign * slice.sine;
-  s.slope = sign * slice.slope;
-  s.above_e = slice.above_e;
-  s.share = larger(share_of_side(s.cosine, s.sine, slice.mass), (real)(LEAST_QUICK_SHARE));
-  s.scale = quick_scale_of(scale_of(s.cosine, s.sine, slice.mass * s.share, search.receiver.noise.shift));
-  s.run = run_from_receiver();
-  s.unknown = s.others = (real)(0);
-  s.closed.lowest = (real)(2);
-  s.closed.covered = (natural)(0u);
-  s.closed_by_depth = s.closed;
-#if STEREO
-  s.closed_for_both = s.closed;
-#endif
-  return s;
-}
-
-// Takes an occluder with a thickness, where it `counts`.
-static inline __attribute__((always_inline)) void take_occluder(const Side* s, SlicePoint p, real thickness,
-                                                                mask counts, Closed* closed) {
-  const real twice_cosine = p.along * twice_inverse_sqrt(p.square);
-  closed->lowest = choose(counts, smaller(twice_cosine, closed->lowest), closed->lowest);
-  const real high = smaller(quick_sectors_below(twice_cosine, s->scale), (real)(MOST_SECTORS));
-  const real along = multiply_add(s->sine, thickness, p.along), above = multiply_add(-s->cosine, thickness, p.above);
-  const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
-  const real back = quick_sectors_below(along * quick_twice_inverse_sqrt(square), s->scale);
-  // A back below the tangent closes everything below the front.
-  const real low = choose(above > 0, smaller(back, high), (real)(0));
-  closed->covered |= sectors_between(low, high) & bits_of(counts);
-}
-
-// Rounding alone must not hide anything, whatever the bias.
-#define LEAST_SLOPE_OF_UNKNOWN ((scalar)0.01f)
-
-// A depth that lies behind another by less than this share may be the same surface, rounded in another way.
-#define SAME_SURFACE ((scalar)1e-3f)
-
-// Thickness of surfaces behind the first, in radii: their extent is not followed.
-#define HIDDEN_THICKNESS ((scalar)0.05f)
-
-// Takes a surface at a side's sample, at relative depth e, where it `counts`.
-static inline __attribute__((always_inline)) void take_surface(Frame frame, Search search, const Side* s, real e,
-                                                               real thickness, mask counts, Closed* closed) {
-  SlicePoint p;
-  point_in_slice(frame, s->sample, s->slope, s->above_e, e, &p);
-  counts &= (p.above > s->sample.least) & (p.square < search.radius_square);
-  if (ANY(counts)) take_occluder(s, p, thickness, counts, closed);
-}
-
-// Takes every layer at an index from `here`. `is_shared`: where both eyes see the point (STEREO).
-static inline __attribute__((always_inline)) void look(Frame frame, Params params, DepthLayers layers, Search search,
-                                                       int here, integer place, mask in_frame, mask is_shared,
-                                                       Side* s) {
-  const Receiver r = search.receiver;
-#if GATHERS_ONLY
-  s->closed.lowest = smaller(s->closed.lowest, sum_of_depths(layers, frame, here, place, r.farthest));
-#if WITH_BACK_DEPTH
-  s->closed.lowest = smaller(s->closed.lowest, gather(search.back + here, place));
-#endif
-  return;
-#endif
-  mask by_both;
-  real e = relative_depth(r.point, r.depth, depth_seen(gather(layers.first + here, place), &by_both));
-  extend_run(&s->run, e, s->sample.along, search.radius);
-  SlicePoint p;
-  point_in_slice(frame, s->sample, s->slope, s->above_e, e, &p);
-  const mask rises = in_frame & (p.above > s->sample.least);
-  const mask counts = rises & (p.square < search.radius_square);
-  mask hides = rises & !counts & (e < 0);
-#if !SURE_BIAS
-  hides &= p.above > LEAST_SLOPE_OF_UNKNOWN * s->sample.along;
-#endif
-  s->unknown += choose(hides, (real)(1), (real)(0));
-  s->others += choose(has_left_receiver(&s->run), (real)(1), (real)(0));
-  const real extent = s->run.extent * s->cosine;
-#if STEREO
-  by_both &= is_shared;
-  const real thickness = thickness_of(extent, search.radius);
-  if (ANY(counts & by_both)) take_occluder(s, p, thickness, counts & by_both, &s->closed_for_both);
-  if (ANY(counts & !by_both)) take_occluder(s, p, thickness, counts & !by_both, &s->closed);
-#elif WITH_BACK_DEPTH
-  const real back = relative_depth(r.point, r.depth, gather(search.back + here, place));
-  const real known = larger(back - e, LEAST_THICKNESS * search.radius);
-  if (ANY(counts))
-    take_occluder(s, p, choose(back < FARTHEST, known, thickness_of(extent, search.radius)), counts, &s->closed);
-#elif LAYERS == 1
-  if (ANY(counts)) take_occluder(s, p, thickness_of(extent, search.radius), counts, &s->closed);
-#else
-  real thickness = thickness_of(extent, search.radius);
-#if COMPENSATED
-  if (ANY(counts)) take_occluder(s, p, thickness, counts, &s->closed_by_depth);
-#endif
-  const mask asked = in_frame & asks_further(rises, e < 0, p.square >= search.radius_square);
-  mask is_there = in_frame;
-  // A surface is taken once the next one is known, at which it ends.
-  FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {
-    const real next = choose(behind.counts, relative_depth(r.point, r.depth, behind.next), (real)(FARTHEST));
-    const mask is_another = next > e + SAME_SURFACE * (1 + fabs(e));
-    take_surface(frame, search, s, e, choose(is_another, smaller(thickness, next - e), thickness), is_there,
-                 &s->closed);
-    e = next;
-    is_there = behind.counts;
-    thickness = HIDDEN_THICKNESS * search.radius;
-  }
-  take_surface(frame, search, s, e, thickness, is_there, &s->closed);
-#endif
-}
-
-#include "shared/sampling/slice_search.h"
-
-// a, b, u and r of a slice.
-typedef struct {
-  real below_horizon, within_thickness, unknown, others;
-} Evidence;
-
-static inline Evidence no_evidence(void) {
-  Evidence e;
-  e.below_horizon = e.within_thickness = e.unknown = e.others = (real)(0);
-  return e;
-}
-
-static inline real share_below_lowest(Slice slice, const Side* s, real lowest) {
-  return share_below_cosine((scalar)0.5 * lowest, s->cosine, s->sine, slice.mass);
-}
-
-static inline real share_covered(const Side* s, natural covered) {
-  return count_of(covered) * (1 / SECTORS) * s->share;
-}
-
-static inline __attribute__((always_inline)) void add_side(Slice slice, const Side* s, Closed closed,
-                                                           Evidence* evidence) {
-  const scalar per_sample = (scalar)(0.5f / STEPS);
-  if (ANY(closed.lowest < 2)) {
-    evidence->below_horizon += share_below_lowest(slice, s, closed.lowest);
-    evidence->within_thickness += share_covered(s, closed.covered);
-  }
-  evidence->unknown += s->unknown * per_sample;
-  evidence->others += s->others * per_sample;
-}
-
-#define TERMS 12
-#define FITTED_TERMS (2 * TERMS + 2)
 #if TERMS_ONLY
 // A plane each: t, r t, and the roots of a and u.
-#define FOR_TERMS(DO)                                                                                             \
-  DO(0)                                                                                                           \
-  DO(1)                                                                                                           \
-  DO(2)                                                                                                           \
-  DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) \
-      DO(20) DO(21) DO(22) DO(23) DO(24) DO(25)
+#define FOR_TERMS(DO)                                                                                              \
+  DO(0)                                                                                                            \
+  DO(1)                                                                                                            \
+  DO(2)                                                                                                            \
+  DO(3)                                                                                                            \
+  DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) \
+      DO(21) DO(22) DO(23) DO(24) DO(25)
 #define TERM_ARGUMENT(k) , PLANE_OUT term_##k
 #define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
 #define RESULTS PLANE_OUT ao_raw FOR_TERMS(TERM_ARGUMENT)
@@ -278,164 +65,6 @@ static inline __attribute__((always_inline)) void add_side(Slice slice, const Si
   store((real)(1), ao_raw, here); \
   STORE_NO_ERROR STORE_NO_DIRECTIONS
 #endif
-
-static inline void terms_of(Evidence e, real facing, real* t) {
-  const real a = e.below_horizon, b = e.within_thickness, u = e.unknown;
-  t[0] = a;
-  t[1] = b;
-  t[2] = u;
-  t[3] = a * a;
-  t[4] = a * b;
-  t[5] = b * b;
-  t[6] = a * u;
-  t[7] = b * u;
-  t[8] = u * u;
-  t[9] = a * facing;
-  t[10] = b * facing;
-  t[11] = u * facing;
-}
-
-// Of w, v and e.
-#define NUMBERS (3 * TERMS + 3)
-
-static inline real sum_of_terms(const real* t, constant float* weights) {
-  real sum = (real)(0);
-#pragma unroll
-  for (int k = 0; k < TERMS; ++k) sum = multiply_add(t[k], (real)(weights[k]), sum);
-  return sum;
-}
-
-// Expected closed share of a slice. Most rows of pixels lie on open surfaces, and show nothing of all this.
-static inline __attribute__((always_inline)) real closed_share(Evidence e, real facing, COEFFICIENTS) {
-  real closed = (real)(0);
-  if (ANY((e.below_horizon > 0) | (e.unknown > 0))) {
-    real t[TERMS];
-    terms_of(e, facing, t);
-    closed = sum_of_terms(t, coefficients);
-    if (ANY(e.others > 0)) closed = multiply_add(e.others, sum_of_terms(t, coefficients + TERMS), closed);
-  }
-  return closed;
-}
-
-// Without the constant.
-static inline real expected_error(Evidence e, real facing, COEFFICIENTS) {
-  constant float* weights = coefficients + 2 * TERMS;
-  real t[TERMS];
-  terms_of(e, facing, t);
-  const real roots = sqrt(larger(e.below_horizon, (real)(0))) * weights[TERMS] + sqrt(e.unknown) * weights[TERMS + 1];
-  return roots + sum_of_terms(t, weights);
-}
-
-#if WITH_OPEN_DIRECTIONS || WITH_LOBE
-static inline Degrees degrees_of(Evidence e, real closed) {
-  const real a = smaller(e.below_horizon, (real)(1)), b = smaller(e.within_thickness, a);
-  const real all = smaller(larger(closed, (real)(0)), (real)(1)), least = (real)(1e-6f);
-  Degrees d;
-  d.within_thickness = smaller(all / larger(b, least), (real)(1));
-  d.below_horizon = smaller(larger(all - b, (real)(0)) / larger(a - b, least), (real)(1));
-  d.elsewhere = larger(all - a, (real)(0)) / larger(1 - a, least);
-  return d;
-}
-
-static inline real closed_towards(const Side* s, real along, real up) {
-  const real sectors = larger(quick_sectors_below(2 * along, s->scale), (real)(0));
-  const natural sector = to_natural(to_integer(smaller(sectors, (real)(MOST_SECTORS))));
-  const mask is_within = to_mask(((s->closed.covered >> sector) & 1u) != 0u);
-  return choose(is_within, s->degrees.within_thickness,
-                choose(2 * along > s->closed.lowest, s->degrees.below_horizon, s->degrees.elsewhere));
-}
-#include "shared/sampling/slice_directions.h"
-#endif
-
-// What the slices of a row of pixels sum up to.
-typedef struct {
-  real closed, error;
-#if TERMS_ONLY
-  real terms[FITTED_TERMS];
-#endif
-#if COMPENSATED
-  real closed_by_depth;
-#endif
-} Sum;
-
-static inline Sum no_sum(void) {
-  Sum sum;
-  sum.closed = sum.error = (real)(0);
-#if TERMS_ONLY
-  for (int k = 0; k < FITTED_TERMS; ++k) sum.terms[k] = (real)(0);
-#endif
-#if COMPENSATED
-  sum.closed_by_depth = (real)(0);
-#endif
-  return sum;
-}
-
-// One slice. `weight`: of its share in the mean.
-static inline __attribute__((always_inline)) void add_slice(Frame frame, Params params, DepthLayers layers,
-                                                            Search search, COEFFICIENTS, real turn, int within,
-                                                            real weight, Sum* sum, OpenDirections* directions) {
-  real cosine, sine;
-  const real density = weight * draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
-  const Slice slice = slice_at(search.receiver.point, search.surface, cosine, sine);
-  Side right = side_of(slice, search, (scalar)1), left = side_of(slice, search, (scalar)-1);
-  search_slice(frame, params, layers, search, slice, within, &right, &left);
-  Evidence evidence = no_evidence();
-  add_side(slice, &right, right.closed, &evidence);
-  add_side(slice, &left, left.closed, &evidence);
-  const real importance = density * slice.weight, facing = search.surface.facing;
-  const real closed = closed_share(evidence, facing, coefficients);
-  sum->closed += importance * closed;
-#if TERMS_ONLY
-  real t[TERMS];
-  terms_of(evidence, facing, t);
-  for (int k = 0; k < TERMS; ++k) {
-    sum->terms[k] += importance * t[k];
-    sum->terms[TERMS + k] += importance * evidence.others * t[k];
-  }
-  sum->terms[2 * TERMS] += importance * sqrt(larger(evidence.below_horizon, (real)(0)));
-  sum->terms[2 * TERMS + 1] += importance * sqrt(evidence.unknown);
-#endif
-#if COMPENSATED
-  Evidence by_depth = no_evidence();
-  add_side(slice, &right, right.closed_by_depth, &by_depth);
-  add_side(slice, &left, left.closed_by_depth, &by_depth);
-  sum->closed_by_depth += importance * closed_share(by_depth, facing, coefficients);
-#endif
-#if WITH_AO_ERROR
-  sum->error += importance * expected_error(evidence, facing, coefficients);
-#endif
-#if WITH_OPEN_DIRECTIONS || WITH_LOBE
-  right.degrees = left.degrees = degrees_of(evidence, closed);
-#endif
-#if WITH_OPEN_DIRECTIONS
-  take_closed_side(directions, search.surface, slice, density * DIRECTIONS, &right, (scalar)1);
-  take_closed_side(directions, search.surface, slice, density * DIRECTIONS, &left, (scalar)-1);
-#endif
-#if WITH_LOBE
-  take_lobe(directions, search.surface, slice, density * DIRECTIONS, &right, &left);
-#endif
-}
-
-// The mean over DIRECTIONS slices, and where `is_isolated` over EDGE_FACTOR times as many. Returns the closed share.
-static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Params params, DepthLayers layers,
-                                                                 Search search, COEFFICIENTS, mask is_isolated,
-                                                                 int within, Sum* sum, OpenDirections* directions) {
-  const Noise noise = search.receiver.noise;
-  const real share =
-      choose(is_isolated, (real)((scalar)1 / (EDGE_FACTOR * DIRECTIONS)), (real)((scalar)1 / DIRECTIONS));
-  const int rounds = EDGE_FACTOR > 1 && ANY(is_isolated) ? EDGE_FACTOR : 1;
-  for (int k = 0; k < rounds; ++k) {
-    // Slices of further rounds lie between those of the first, and so do their samples.
-    const scalar between = (scalar)k * (scalar)(1.0f / EDGE_FACTOR);
-    const real shift = noise.shift + between, turn = noise.turn + between;
-    search.receiver.noise.shift = choose(shift >= 1, shift - 1, shift);
-    const real first = choose(turn >= 1, turn - 1, turn);
-    const real weight = k == 0 ? share : choose(is_isolated, share, (real)(0));
-    for (int d = 0; d < DIRECTIONS; ++d)
-      add_slice(frame, params, layers, search, coefficients, (scalar)d + first, within, weight, sum, directions);
-  }
-  return sum->closed;
-}
 
 kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE depth, PLANE normal_x, PLANE normal_y,
                               PLANE normal_z,
@@ -453,17 +82,7 @@ kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE de
 #if WITH_BACK_DEPTH
     search.back = back_depth;
 #endif
-#if EDGE_FACTOR > 1
-    const mask isolated =
-        (!r.point.background) & is_isolated(frame, FIRST_X, ROW_Y, choose(r.point.background, (real)(1), r.depth),
-                                            r.normal, params.radius, depth, normal_x, normal_y, normal_z);
-#else
-    const mask isolated = (mask)(0);
-#endif
-    // A slice that is not parallel to the image plane reaches further on the screen than the radius at the pixel's depth.
-    const Reach widest = longer(r.reach, search.surface.length);
-    LOOK_AROUND(mean.closed, frame, r, widest,
-                mean_of_slices(frame, params, layers, search, coefficients, isolated, within, &mean, &directions))
+    search_around(frame, params, layers, search, coefficients, depth, normal_x, normal_y, normal_z, &mean, &directions);
   }
 #if TERMS_ONLY
   FOR_TERMS(STORE_TERM)

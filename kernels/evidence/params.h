@@ -1,3 +1,4 @@
+#include "shared/rays/environment_params.h"
 #include "shared/sampling/ambient_occlusion.h"
 #include "shared/stereo/params.h"
 
@@ -19,6 +20,15 @@
   EVIDENCE_SLICE_PARAMS(P) \
   EVIDENCE_EDGE_PARAMS(P)
 
+// `rays`: RAYS of missing_light.h.
+#define ENVIRONMENT_LIGHT_PARAMS(P)                                                                                 \
+  EVIDENCE_PARAMS(P)                                                                                                \
+  P(choice, method, slices, (slices, bent_normal, normal),                                                          \
+    "what tells which light arrives: the closed directions of each slice, or ambient occlusion as a factor on the " \
+    "light on a surface that faces the mean open direction (bent_normal) or the normal's")                          \
+  P(int, rays, 2, 1, 4, "", "directions on each side of a slice in which light is read; of slices")                 \
+  ENVIRONMENT_PARAMS(P, "even light of radiance 1")
+
 #define SD_EVIDENCE_PARAMS(P) \
   EVIDENCE_PARAMS(P)          \
   STOCHASTIC_PARAMS(P)
@@ -28,5 +38,6 @@
   STEREO_PARAMS(P)
 
 PARAMS(EvidenceParams, EVIDENCE_PARAMS)
+PARAMS(EnvironmentParams, ENVIRONMENT_LIGHT_PARAMS)
 PARAMS(SdEvidenceParams, SD_EVIDENCE_PARAMS)
 PARAMS(StereoEvidenceParams, STEREO_EVIDENCE_PARAMS)

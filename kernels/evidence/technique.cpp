@@ -3,6 +3,7 @@
 #include "evidence/params.h"
 #include "gloam/error.h"
 #include "technique/ambient_occlusion.h"
+#include "technique/environment_light.h"
 #include "technique/stereo.h"
 
 namespace gloam::techniques {
@@ -74,6 +75,28 @@ std::vector<Pass> sd_passes(const SdEvidenceParams& p) {
   return passes;
 }
 
+Pass environment_pass(const EnvironmentParams& p, const std::string& occluders) {
+  Pass estimate = mono_pass(p, occluders);
+  estimate.kernel = "environment_estimate";
+  estimate.source = "evidence/environment.cl";
+  estimate.writes = {"environment_raw"};
+  estimate.extras = {"ao_raw", "bent_normal", "cone"};
+  using Method = EnvironmentParams::method_values;
+  estimate.defines.insert(estimate.defines.end(), {{"BY_BENT_NORMAL", p.method == Method::bent_normal},
+                                                   {"BY_NORMAL", p.method == Method::normal},
+                                                   {"RAYS", p.rays}});
+  return with_environment(std::move(estimate), p, EnvironmentLight::coarsest);
+}
+
+std::vector<Pass> environment_over_depth(const EnvironmentParams& p) { return {environment_pass(p, "depth")}; }
+std::vector<Pass> environment_over_layers(const EnvironmentParams& p) { return {environment_pass(p, "peel")}; }
+
+std::string environment_note(const ParameterValues& values, const View& view) {
+  return environment_assumption(
+      values.as<EnvironmentParams>(), view,
+      "environment: no map is given, so light is 1 from all around; give --environment FILE, a lat-long map");
+}
+
 std::vector<Pass> stereo_evidence_passes(const StereoEvidenceParams& p) {
   return stereo_passes({estimate_of(p, "depth", 1)}, "stereo_slices", stereo_choices(p));
 }
@@ -132,10 +155,34 @@ Technique evidence_over_two_eyes() {
   return t;
 }
 
+Technique environment() {
+  Technique t = over_slices(
+      ambient_occlusion("environment", "light of an environment, a lat-long map, from directions that are open",
+                        "Klehm, Ritschel, Eisemann, Seidel 2012; slices after Jimenez, Wu, Pesce, Jarabo 2016",
+                        "evidence/environment.cl"));
+  t.writes = {"environment_raw"};
+  t.outputs = {"environment", "environment_raw"};
+  t.then = "bilateral-environment";
+  t.then_with = {{"half_width", "3"}};
+  t.extras = {"ao_raw", "bent_normal", "cone"};
+  t.may_read = {"back_depth"};
+  t.parameters = EnvironmentParams::table();
+  t.passes = passes_of(environment_over_depth);
+  t.assumes = environment_note;
+  return t;
+}
+
+Technique environment_of_layers() {
+  Technique t = environment();
+  t.passes = passes_of(environment_over_layers);
+  return over_peeled_layers(std::move(t));
+}
+
 }  // namespace
 
 std::vector<Technique> evidence() {
-  return {evidence_over_depth(), evidence_over_layers(), evidence_over_stochastic_depth(), evidence_over_two_eyes()};
+  return {evidence_over_depth(),    evidence_over_layers(), evidence_over_stochastic_depth(),
+          evidence_over_two_eyes(), environment(),          environment_of_layers()};
 }
 
 }  // namespace gloam::techniques

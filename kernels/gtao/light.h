@@ -9,6 +9,7 @@
 #include "shared/sampling/light_source.h"
 #include "shared/sampling/sample.h"
 #include "shared/sampling/slice.h"
+#include "shared/sampling/slice_rays.h"
 
 // What closes a ray: nothing yet, or what sends nothing.
 #define NO_SOURCE (-0x7fffffff)
@@ -59,23 +60,6 @@ static inline void start_rays(LightRay* rays, real shift, real cosine, real sine
 #define START(k) rays[k] = light_ray(k, shift, cosine, sine, mass);
   FOR_EACH_RAY(START)
 #undef START
-}
-
-// Where the rays of a pixel's first slice lie in their ranges: the nine pixels of any 3 x 3 have the nine ninths (columns 1/3, rows 1/9),
-// so that a small filter averages all elevations. Lattices of irrational steps beside those of sample.h read an SSIM lower by up to
-// .014.
-static inline real shift_of_rays(integer x, int y, int seed) {
-#if JITTER
-  return unit_random(to_natural(x) * 0x55555556u + ((uint)y * 0x1c71c71du + (uint)seed * 0x3c6ef372u));
-#else
-  return (real)(0.5f);
-#endif
-}
-
-// In slice d: moved on by the golden section.
-static inline real shift_of_slice(real shift, int d) {
-  const real moved = shift + (scalar)d * (scalar)0.6180339887f;
-  return moved - floor(moved);
 }
 
 // Takes an occluder that reaches from (along, above) to (along_back, back), as seen from the tangent; `back` at most 0: down to it.

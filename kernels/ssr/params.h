@@ -1,4 +1,5 @@
 #include "shared/lanes/params.h"
+#include "shared/rays/environment_params.h"
 
 // How a ray is followed.
 #define RAY_PARAMS(P)                                                                                                 \
@@ -24,6 +25,7 @@
   P(float, environment_r, 0, 0, 1e20f, "", "radiance where a ray finds no hit, red")                              \
   P(float, environment_g, 0, 0, 1e20f, "", "radiance where a ray finds no hit, green")                            \
   P(float, environment_b, 0, 0, 1e20f, "", "radiance where a ray finds no hit, blue")                             \
+  ENVIRONMENT_PARAMS(P, "environment_r, _g, _b from everywhere")                                                  \
   P(bool, jitter, on, "vary the rays from pixel to pixel")
 
 #define STEREO_SSR_PARAMS(P)                                                                                       \

@@ -5,11 +5,13 @@
 //      ray_...             rays.cl and shade.cl, of this eye and, with REPROJECTION, of the other
 //      instance            id of what is seen (REPROJECTION)
 //      specular_occlusion  open share of the pixel's lobe, a factor on the environment (WITH_SPECULAR_OCCLUSION)
+//      environment_light   of a map (environment.h); without ENVIRONMENT_SIZE, params.environment_r, _g, _b
 // out: reflection          radiance towards the eye; a = share of it that the image showed
 //      reach               mean length of the rays that met something, scene units (TEMPORAL)
 // -D RAYS, NEIGHBOURS, OTHER_NEIGHBOURS, REPROJECTION, TEMPORAL, MASKED
 #include "shared/lanes/wanted.h"
 #include "shared/rays/screen_ray.h"
+#include "ssr/environment.h"
 #include "ssr/params.h"
 #include "ssr/reflector.h"
 #if REPROJECTION
@@ -123,10 +125,10 @@ kernel void ssr_resolve(Frame frame,
 #if REPROJECTION
                         Neighbour neighbour,
 #endif
-                        Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE roughness,
-                        PLANE reflectance_r, PLANE reflectance_g, PLANE reflectance_b, PLANE ray_x, PLANE ray_y,
-                        PLANE ray_z, PLANE ray_density, PLANE ray_r, PLANE ray_g, PLANE ray_b, PLANE ray_length,
-                        PLANE ray_confidence,
+                        Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                        PLANE roughness, PLANE reflectance_r, PLANE reflectance_g, PLANE reflectance_b, PLANE ray_x,
+                        PLANE ray_y, PLANE ray_z, PLANE ray_density, PLANE ray_r, PLANE ray_g, PLANE ray_b,
+                        PLANE ray_length, PLANE ray_confidence,
 #if REPROJECTION
                         PLANE instance, PLANE other_depth, PLANE other_instance, PLANE other_ray_x, PLANE other_ray_y,
                         PLANE other_ray_z, PLANE other_ray_density, PLANE other_ray_r, PLANE other_ray_g,
@@ -206,15 +208,20 @@ kernel void ssr_resolve(Frame frame,
   const real reflected = albedo;
 #endif
   const real evenly = choose(has_environment, reflected, (real)(0)), middle = grazing_share(s.to_eye.z);
+#ifdef ENVIRONMENT_SIZE
+  const real3 environment = seen_by_rough_surface(environment_light, s, has_environment);
+#else
+  const real3 environment = even_environment(params);
+#endif
   // straight + grazing is the whole; Fresnel's term takes `reflectance` of the former and all of the latter.
   store(choose(is_known, scale * (f0.x * sum.straight.x + sum.grazing.x),
-               evenly * (f0.x + (1 - f0.x) * middle) * params.environment_r),
+               evenly * (f0.x + (1 - f0.x) * middle) * environment.x),
         reflection_r, here);
   store(choose(is_known, scale * (f0.y * sum.straight.y + sum.grazing.y),
-               evenly * (f0.y + (1 - f0.y) * middle) * params.environment_g),
+               evenly * (f0.y + (1 - f0.y) * middle) * environment.y),
         reflection_g, here);
   store(choose(is_known, scale * (f0.z * sum.straight.z + sum.grazing.z),
-               evenly * (f0.z + (1 - f0.z) * middle) * params.environment_b),
+               evenly * (f0.z + (1 - f0.z) * middle) * environment.z),
         reflection_b, here);
   store(choose(is_known, sum.confidence / choose(is_known, sum.weights, (real)(1)), (real)(0)), reflection_a, here);
 }

@@ -5,12 +5,14 @@
 //                              the color of background is what rays see that meet nothing
 //      ray_x, _y, _z, ray_density, met, met_in_other, left_at  ray.h
 //      specular_occlusion           open share of the pixel's lobe, a factor on the environment (WITH_SPECULAR_OCCLUSION)
+//      environment_light            of a map (environment.h); without ENVIRONMENT_SIZE, params.environment_r, _g, _b
 // out: hit_length       of the first reflected ray, scene units; 0 for a miss and for background
 //      ray_r, _g, _b    what the ray sees
 //      ray_length       scene units, +inf towards background, 0 for a miss
 //      ray_confidence   0 for a miss .. 1
 // -D RAYS, STEREO, TRAVERSAL, FADE
 #include "shared/lanes/pixel_list.h"
+#include "ssr/environment.h"
 #include "ssr/params.h"
 #include "ssr/ray.h"
 
@@ -160,8 +162,9 @@ kernel void ssr_see(Frame frame,
 #if TRAVERSAL || FADE
                     Neighbour neighbour,
 #endif
-                    Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE color_r,
-                    PLANE color_g, PLANE color_b, PLANE ray_x, PLANE ray_y, PLANE ray_z, PLANE ray_density, PLANE met,
+                    Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                    PLANE color_r, PLANE color_g, PLANE color_b, PLANE ray_x, PLANE ray_y, PLANE ray_z,
+                    PLANE ray_density, PLANE met,
 #if TRAVERSAL
                     PLANE met_in_other, PLANE left_at,
 #endif
@@ -216,12 +219,18 @@ kernel void ssr_see(Frame frame,
 #else
     const real missing = 1 - confidence;
 #endif
+#ifdef ENVIRONMENT_SIZE
+    const real3 environment =
+        seen_by_ray(environment_light, direction, load(layer_of(ray_density, frame, k), here), missing > 0);
+#else
+    const real3 environment = even_environment(params);
+#endif
     const real3 color = choose3(sight.is_known, sight.color, make3((real)(0), (real)(0), (real)(0)));
     sight.length = choose(sight.is_known, sight.length, (real)(0));
     if (k == 0) store(choose(isinf(sight.length), (real)(0), sight.length), hit_length, here);
-    store(confidence * color.x + missing * params.environment_r, layer_of_out(ray_r, frame, k), here);
-    store(confidence * color.y + missing * params.environment_g, layer_of_out(ray_g, frame, k), here);
-    store(confidence * color.z + missing * params.environment_b, layer_of_out(ray_b, frame, k), here);
+    store(confidence * color.x + missing * environment.x, layer_of_out(ray_r, frame, k), here);
+    store(confidence * color.y + missing * environment.y, layer_of_out(ray_g, frame, k), here);
+    store(confidence * color.z + missing * environment.z, layer_of_out(ray_b, frame, k), here);
     store(sight.length, layer_of_out(ray_length, frame, k), here);
     store(confidence, layer_of_out(ray_confidence, frame, k), here);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ssr/params.h"
+#include "technique/environment_light.h"
 
 namespace gloam::techniques {
 namespace {
@@ -175,8 +176,14 @@ class Passes {
 
   /// The environment is black by default, and then nothing is read for it.
   Bindings factors_on_environment() const {
-    const bool is_black = p_.environment_r == 0 && p_.environment_g == 0 && p_.environment_b == 0;
+    const bool is_black =
+        p_.environment == 0 && p_.environment_r == 0 && p_.environment_g == 0 && p_.environment_b == 0;
     return is_black ? Bindings{} : Bindings{"specular_occlusion"};
+  }
+
+  /// Texels a side of the map that mirrors show: .8 degrees each.
+  Pass with_map(Pass pass) const {
+    return p_.environment == 0 ? pass : with_environment(std::move(pass), p_, EnvironmentLight::finest);
   }
 
   Pass see() const {
@@ -188,7 +195,7 @@ class Passes {
     pass.may_read = factors_on_environment();
     if (c_.traversal) pass.reads.push_back(plane_of_rays("left_at"));
     if (c_.traversal || c_.fade) pass.reads = pass.reads + of_other_eye(image());
-    return pass;
+    return with_map(std::move(pass));
   }
 
   Pass resolve() const {
@@ -203,7 +210,7 @@ class Passes {
     if (c_.accumulates) pass.writes.push_back({"reach", "ssr_reach"});
     if (c_.reprojection)
       pass.reads = pass.reads + Bindings{"instance"} + of_other_eye(Bindings{"depth", "instance"} + rays() + seen());
-    return pass;
+    return with_map(std::move(pass));
   }
 
   Pass accumulate() const {
@@ -246,6 +253,14 @@ std::vector<Pass> stereo_passes(const StereoSsrParams& p) { return Passes(p).all
 std::vector<Pass> temporal_passes(const TemporalSssrParams& p) { return Passes(p).all(); }
 std::vector<Pass> mask_passes(const ReflectionMaskParams& p) { return Passes(p).mask(); }
 
+template <typename Params>
+std::string assumption(const ParameterValues& values, const View& view) {
+  const Params p = values.as<Params>();
+  if (p.environment != 0 && (p.environment_r > 0 || p.environment_g > 0 || p.environment_b > 0))
+    return "environment: environment_r, _g and _b have no effect with a map; leave them out, or environment";
+  return environment_assumption(p, view, "");
+}
+
 Technique plain() {
   Technique t;
   t.name = "sssr";
@@ -262,6 +277,7 @@ Technique plain() {
                {"high", {{"rays", "2"}, {"neighbours", "21"}}},
                {"ultra", {{"rays", "4"}, {"neighbours", "25"}}}};
   t.passes = passes_of(sssr_passes);
+  t.assumes = assumption<SssrParams>;
   // No mask: rays are listed one by one, so a mask saves little where surfaces reflect at all.
   t.effect = {.name = "reflections",
               .changes = "reflection",
@@ -291,6 +307,7 @@ Technique for_two_eyes() {
     }
   }
   t.passes = passes_of(stereo_passes);
+  t.assumes = assumption<StereoSsrParams>;
   t.effect = {.name = "reflections alike in two views",
               .refines = "sssr",
               .mask = "stereo-visibility",
@@ -313,6 +330,7 @@ Technique over_frames() {
   t.over_time.clear();
   t.parameters = TemporalSssrParams::table();
   t.passes = passes_of(temporal_passes);
+  t.assumes = assumption<TemporalSssrParams>;
   t.effect = {};
   return t;
 }

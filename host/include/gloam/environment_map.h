@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -16,6 +17,10 @@ namespace gloam {
 enum class EnvironmentAxes { openexr, blender };
 /// "openexr" and "blender".
 const std::vector<std::pair<std::string, EnvironmentAxes>>& environment_axes();
+
+/// Turns directions of the world into those of the picture: x where the middle column looks, y to its left, z up. `turn_degrees` as in
+/// EnvironmentMap.
+glm::dmat3 world_to_picture(EnvironmentAxes axes, double turn_degrees);
 
 /// A lat-long map. A texel is an area: its centre lies half a texel from its edges, and the picture's left and right edge are the
 /// same meridian. (ImfEnvmap.h puts the centres of the first and the last texels on the edge; the difference is at most half a

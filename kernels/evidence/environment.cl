@@ -1,0 +1,68 @@
+// Light of an environment from the directions that ambient occlusion leaves open, by the slices of evidence.cl.
+//   slices       light on the open surface, less what closed directions of each slice would send (missing_light.h)
+//   bent_normal  AO times the light on a surface that faces the mean open direction (Klehm, Ritschel, Eisemann, Seidel 2012)
+//   normal       AO times the light on the open surface
+//
+// in : depth              view-space z, scene units, +inf = background
+//      normal             unit, view space
+//      occluders, back_depth, coefficients  as evidence.cl
+//      environment_light  shared/rays/environment.h
+// out: environment_raw    irradiance / pi, in the unit of the map, unfiltered; 0 on background
+//      ao_raw, bent_normal, cone  as evidence makes them (WITH_...)
+// -D as evidence.cl, with ENVIRONMENT_SIZE, BY_BENT_NORMAL, BY_NORMAL, RAYS
+#include "evidence/expected_slices.h"
+
+#if WITH_AO_RAW
+#define AO_RAW_ARGUMENT , PLANE_OUT ao_raw
+#define STORE_AO_RAW(open, r) store_open(open, r, ao_raw);
+#define STORE_NO_AO_RAW store((real)(1), ao_raw, here);
+#else
+#define AO_RAW_ARGUMENT
+#define STORE_AO_RAW(open, r)
+#define STORE_NO_AO_RAW
+#endif
+
+static inline void store_light(real light, Receiver r, PLANE_OUT plane) {
+  store(choose(r.point.background, (real)(0), larger(light, (real)(0))), plane, r.here);
+}
+
+kernel void environment_estimate(Frame frame, Params params, COEFFICIENTS, PLANE environment_light, PLANE depth,
+                                 PLANE normal_x, PLANE normal_y, PLANE normal_z,
+                                 OCCLUDERS_ARGUMENT BACK_ARGUMENT WANTED_ARGUMENT PLANE_OUT environment_raw_r,
+                                 PLANE_OUT environment_raw_g,
+                                 PLANE_OUT environment_raw_b AO_RAW_ARGUMENT OPEN_DIRECTIONS_ARGUMENTS) {
+  SKIP_UNWANTED(frame, store((real)(0), environment_raw_r, here); store((real)(0), environment_raw_g, here);
+                store((real)(0), environment_raw_b, here); STORE_NO_AO_RAW STORE_NO_DIRECTIONS)
+  const DepthLayers layers = LAYERS_FROM(frame, depth);
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
+  leave_out(&r, is_wanted);
+  OpenDirections directions = whole_hemisphere(r.normal);
+  Sum mean = no_sum();
+  coefficients += WITH_BACK_DEPTH * NUMBERS;
+  real3 light = make3((real)(0), (real)(0), (real)(0));
+  if (ANY(!r.point.background)) {
+    Search search = search_of(params, r);
+    search.environment = environment_light;
+#if WITH_BACK_DEPTH
+    search.back = back_depth;
+#endif
+    search_around(frame, params, layers, search, coefficients, depth, normal_x, normal_y, normal_z, &mean, &directions);
+#if MISSING_LIGHT
+    light = light_on_surface(environment_light, r.normal);
+    light = make3(light.x - mean.missing.x, light.y - mean.missing.y, light.z - mean.missing.z);
+#else
+#if BY_BENT_NORMAL
+    const real3 towards = bent_normal_of(directions, r.normal);
+#else
+    const real3 towards = r.normal;
+#endif
+    const real open = smaller(larger(1 - mean.closed, (real)(0)), (real)(1));
+    light = scale3(light_on_surface(environment_light, towards), open);
+#endif
+  }
+  store_light(light.x, r, environment_raw_r);
+  store_light(light.y, r, environment_raw_g);
+  store_light(light.z, r, environment_raw_b);
+  STORE_AO_RAW(1 - mean.closed, r)
+  STORE_OPEN_DIRECTIONS(directions, r)
+}
