@@ -47,9 +47,9 @@ Json samples_of(const Row& row) {
 const char* resolution_name(int resolution) { return resolution == 1 ? "full" : resolution == 2 ? "half" : "quarter"; }
 
 Json document_of(const Ladder& l) {
-  return {{"t0w", number(l.t0w)}, {"t1", number(l.t1)}, {"t2", number(l.t2)},           {"t12", number(l.t12)},
-          {"t3", number(l.t3)},   {"t4_bias", number(l.t4_bias)}, {"t4_noise", number(l.t4_noise)},
-          {"t5", number(l.t5)}};
+  return {{"t0w", number(l.t0w)},           {"t1", number(l.t1)}, {"t2", number(l.t2)},
+          {"t12", number(l.t12)},           {"t3", number(l.t3)}, {"t4_bias", number(l.t4_bias)},
+          {"t4_noise", number(l.t4_noise)}, {"t5", number(l.t5)}};
 }
 
 Json document_of(const AgainstNaive& part) {
@@ -140,9 +140,13 @@ Json document_of(const GrowthFacts& facts) {
 }
 
 Json document_of(const ConvergedFacts& facts) {
-  return {{"technique", facts.technique->name},         {"scene", facts.scene},   {"effect", facts.effect},
-          {"depths", depths_of(*facts.technique)},      {"views", facts.technique->views},
-          {"rmse_to_truth", number(facts.errors.rmse)}, {"bias", number(facts.errors.bias)}};
+  return {{"technique", facts.technique->name},
+          {"scene", facts.scene},
+          {"effect", facts.effect},
+          {"depths", depths_of(*facts.technique)},
+          {"views", facts.technique->views},
+          {"rmse_to_truth", number(facts.errors.rmse)},
+          {"bias", number(facts.errors.bias)}};
 }
 
 Json document_of(const ScaleFacts& facts) {

@@ -42,7 +42,8 @@ Frame with_plane(const Frame& frame, const Plan& plan, const std::string& name, 
   for (const View& view : frame.views) {
     const auto own = image.find(view.name);
     if (own == image.end()) continue;
-    View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light});
+    View& copy = out.views.emplace_back(
+        View{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light});
     for (const std::string& input : plan.inputs) {
       const Plane* plane = input == name ? &own->second : view.find(input);
       if (plane) copy.planes.emplace(input, plane->clone());

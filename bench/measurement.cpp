@@ -70,7 +70,7 @@ class Session {
   }
 
   void add_scene() {
-    SceneFacts facts{subject_.name,           subject_.scene_class,    subject_.effect,
+    SceneFacts facts{subject_.name,          subject_.scene_class,    subject_.effect,
                      subject_.frame.width(), subject_.frame.height(), subject_.radius};
     const MeasuredEffect& effect = effect_of(subject_.effect);
     facts.base = effect.base;

@@ -27,7 +27,9 @@ std::string name_of(const Variation& v) {
 /// A plane of one or three components as displayed within the mask; black in both images elsewhere.
 cv::Mat picture_of(const Plane& plane, const Mask& mask) {
   const Layout& layout = plane.channels[0].layout();
-  const auto component = [&](size_t i) -> const Channel& { return plane.channels[std::min(i, plane.channels.size() - 1)]; };
+  const auto component = [&](size_t i) -> const Channel& {
+    return plane.channels[std::min(i, plane.channels.size() - 1)];
+  };
   cv::Mat picture(layout.height, layout.width, CV_64FC3, cv::Scalar(0, 0, 0));
   for (int y = 0; y < layout.height; ++y) {
     for (int x = 0; x < layout.width; ++x) {

@@ -197,8 +197,7 @@ void add_bench(CLI::App& app) {
                    "planes that are measured: " + enumerate(effect_names()) +
                        ", or all; default: those that --truth holds, or that --techniques make, else ao")
       ->type_name("A,B");
-  command
-      ->add_option("--techniques", flags->techniques, "these only; default: all that make the effects of every view")
+  command->add_option("--techniques", flags->techniques, "these only; default: all that make the effects of every view")
       ->type_name("A,B");
   command->add_option("--presets", flags->presets, "these only; default: all that a technique has")->type_name("A,B");
   CLI::Option* scenes =
@@ -207,9 +206,10 @@ void add_bench(CLI::App& app) {
   CLI::Option* frame =
       command->add_option("--frame", flags->frame, "measure on this frame instead of scenes")->type_name("FRAME.exr");
   command
-      ->add_option("--truth", flags->truths,
-                   "the frame's truth, as gloam reference makes it, once for each effect, of all views, or once for each "
-                   "view (REF_left.exr, REF_right.exr); default: traced where the frame shows a built-in scene")
+      ->add_option(
+          "--truth", flags->truths,
+          "the frame's truth, as gloam reference makes it, once for each effect, of all views, or once for each "
+          "view (REF_left.exr, REF_right.exr); default: traced where the frame shows a built-in scene")
       ->expected(1)
       ->take_all()
       ->type_name("REF.exr");

@@ -141,8 +141,9 @@ void add_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const 
     making.in_sequence = InSequence{.camera_before = {}, .scene_before = nullptr, .seed = frame.number};
     show_status(fmt::format("frame {}", frame.number), double(sequence.frames.size()) / double(frames.size()));
     try {
-      add_frame(sequence, frame.number,
-                own_subject(paths.front(), reading, {paths.begin() + 1, paths.end()}, "ao", options.techniques, making));
+      add_frame(
+          sequence, frame.number,
+          own_subject(paths.front(), reading, {paths.begin() + 1, paths.end()}, "ao", options.techniques, making));
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {

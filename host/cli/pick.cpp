@@ -248,12 +248,15 @@ void add_pick(CLI::App& app) {
              "shot, what moves without reason");
   command
       ->add_option("--truth", flags->truths,
-                   "ambient occlusion, or another effect, as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
+                   "ambient occlusion, or another effect, as gloam reference makes it, of all views, or once for each "
+                   "view (REF_left.exr, "
                    "REF_right.exr); default: traced where the frame shows a built-in scene, else a converged estimate")
       ->expected(1)
       ->take_all()
       ->type_name("REF.exr");
-  command->add_option("--techniques", flags->techniques, "these only; default: all that make the truth's effect of every view, without a truth ao")
+  command
+      ->add_option("--techniques", flags->techniques,
+                   "these only; default: all that make the truth's effect of every view, without a truth ao")
       ->type_name("A,B");
   add_number(*command, "--radius", flags->radius, allowed_radii,
              "scene units; default: the truth's, else the scene's own, else made from the frame")

@@ -141,9 +141,10 @@ unsigned long long planned_memory_of(const FrameFile& file, const FrameFlags& fl
 /// Whether the scene is all that the truth needs; else says what does.
 bool is_of_scene(const Subject& subject) {
   if (effect_of(subject.effect).is_of_scene) return true;
-  note({fmt::format("{}: the truth of {} needs more than the scene; gloam reference {} traces it, and --frame with "
-                    "--truth measures it",
-                    subject.name, subject.effect, subject.effect)});
+  note(
+      {fmt::format("{}: the truth of {} needs more than the scene; gloam reference {} traces it, and --frame with "
+                   "--truth measures it",
+                   subject.name, subject.effect, subject.effect)});
   return false;
 }
 

@@ -37,7 +37,8 @@ bench::Subject builtin_subject(const SceneRecipe& recipe, const std::string& eff
 
 /// The same of a scene at hand. `name`: of the kept files.
 bench::Subject scene_subject(const std::string& name, const std::string& scene_class, Scene scene,
-                             const std::string& effect, const std::vector<const Technique*>& techniques, const bench::SceneOptions& options);
+                             const std::string& effect, const std::vector<const Technique*>& techniques,
+                             const bench::SceneOptions& options);
 
 /// The user's frame, with the planes that the techniques read. Its scene is known if the header names a built-in one. The radius is
 /// that of the options, else the truth's, else the scene's own, else derived from the frame. `truths`: files, one for all views or
