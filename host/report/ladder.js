@@ -147,7 +147,7 @@ function compared() {
 }
 
 function renderLadder() {
-  const rows = compared(), scene = state.scene;
+  const rows = compared(), scene = state.scene, steps = stepsNow();
   byId('chosen').replaceChildren(...rows.map(({key, row, colour, opacity}) => {
     const square = element('span', {class: 'square'});
     square.style.background = `color-mix(in srgb, ${colour} ${100 * opacity}%, transparent)`;

@@ -150,7 +150,7 @@ function wipePane(image, reference, name, state) {
 function differencePane(a, b, name, white, state, valueHere) {
   const canvas = element('canvas', {role: 'img', 'aria-label': 'signed difference of ' + name + ' and the truth'});
   const stage = element('div', {class: 'stage'}, canvas);
-  const shown = (range) => setting(range * white);
+  const shown = (range) => String(Number((range * white).toPrecision(2)));
   const ramp = element('div', {class: 'ramp'}), low = element('span'), high = element('span');
   const choice = element('select', {'aria-label': 'Difference that has the full colour'}, [
     0.05, 0.1, 0.25, 0.5, 1

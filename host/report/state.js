@@ -2,7 +2,7 @@
 
 const data = JSON.parse(byId('data').textContent);
 
-const allSteps = [
+const steps = [
   {key: 't0w', short: 'model', help: 'what the method chooses to compute instead of the truth'},
   {key: 't1', short: 'screen', help: 'estimating on the screen, over all surfaces'},
   {key: 't2', short: 'hidden', help: 'geometry that the picture hides'},
@@ -12,8 +12,6 @@ const allSteps = [
   {key: 't4_noise', short: 'noise left', help: 'noise that the filter leaves'},
   {key: 't5', short: 'rounding', help: 'float and fast maths'},
 ];
-const steps =
-    allSteps.filter(({key}) => key !== 't12' || data.rows.some((row) => is(row.ladder[key])));
 
 const keyOf = (row) => JSON.stringify([row.technique, row.preset, row.variant]);
 const nameOf = (row) => [row.technique, row.preset, row.variant && '(' + row.variant + ')'].filter(Boolean).join(' ');
@@ -49,6 +47,10 @@ const rowsOfEffect = (effect) => {
   const names = scenesOf(effect).map((scene) => scene.name);
   return data.rows.filter((row) => names.includes(row.scene));
 };
+
+/// The steps of the ladder; the one for techniques without a form over layers only where there is such a technique.
+const stepsNow = () =>
+    steps.filter(({key}) => key !== 't12' || rowsOfEffect(effectNow()).some((row) => is(row.ladder[key])));
 
 /// What there is without a technique, as a row; null where nothing is known of it. It takes no time.
 function baseRow(scene) {
