@@ -39,7 +39,7 @@ Json settings_of(const Plan& plan, const Technique& technique) {
 }
 
 Json samples_of(const Row& row) {
-  const Technique& technique = *row.variation.technique;
+  const Technique& technique = source_of(*row.variation.technique);
   const ParameterValues* values = values_of(row.timed->plan(), technique.name);
   return technique.samples && values ? Json(technique.samples(*values)) : Json(nullptr);
 }
@@ -47,9 +47,9 @@ Json samples_of(const Row& row) {
 const char* resolution_name(int resolution) { return resolution == 1 ? "full" : resolution == 2 ? "half" : "quarter"; }
 
 Json document_of(const Ladder& l) {
-  return {{"t0w", number(l.t0w)}, {"t1", number(l.t1)},           {"t2", number(l.t2)},
-          {"t3", number(l.t3)},   {"t4_bias", number(l.t4_bias)}, {"t4_noise", number(l.t4_noise)},
-          {"t5", number(l.t5)}};
+  return {{"t0w", number(l.t0w)},           {"t1", number(l.t1)}, {"t2", number(l.t2)},
+          {"t12", number(l.t12)},           {"t3", number(l.t3)}, {"t4_bias", number(l.t4_bias)},
+          {"t4_noise", number(l.t4_noise)}, {"t5", number(l.t5)}};
 }
 
 Json document_of(const AgainstNaive& part) {
@@ -84,6 +84,7 @@ Json document_of(const Row& row) {
           {"real", v.real == Real::float32 ? "float" : "double"},
           {"storage", v.storage == Storage::float32 ? "float" : "half"},
           {"scene", row.scene},
+          {"effect", row.effect},
           {"width", row.width},
           {"height", row.height},
           {"lanes", row.timed->lanes()},
@@ -108,13 +109,19 @@ Json document_of(const Row& row) {
 Json document_of(const SceneFacts& scene) {
   Json document = {{"name", scene.name},
                    {"class", scene.scene_class},
+                   {"effect", scene.effect},
                    {"size", {scene.width, scene.height}},
                    {"radius", scene.radius.value},
                    {"radius_from", name_of(scene.radius.from)},
                    {"radius_pixels", scene.radius_pixels},
                    {"truth_noise", number(scene.truth_noise)},
                    {"truth_rays", number(scene.truth_rays)},
-                   {"truth_image", text_or_null(scene.truth_image)}};
+                   {"truth_image", text_or_null(scene.truth_image)},
+                   {"white", scene.white},
+                   {"base",
+                    {{"name", scene.base},
+                     {"rmse_to_truth", number(scene.base_errors.rmse)},
+                     {"bias", number(scene.base_errors.bias)}}}};
   if (scene.traced) {
     document["made"] = scene.made;
     document["reused"] = scene.reused;
@@ -133,9 +140,13 @@ Json document_of(const GrowthFacts& facts) {
 }
 
 Json document_of(const ConvergedFacts& facts) {
-  return {{"technique", facts.technique->name},         {"scene", facts.scene},
-          {"depths", depths_of(*facts.technique)},      {"views", facts.technique->views},
-          {"rmse_to_truth", number(facts.errors.rmse)}, {"bias", number(facts.errors.bias)}};
+  return {{"technique", facts.technique->name},
+          {"scene", facts.scene},
+          {"effect", facts.effect},
+          {"depths", depths_of(*facts.technique)},
+          {"views", facts.technique->views},
+          {"rmse_to_truth", number(facts.errors.rmse)},
+          {"bias", number(facts.errors.bias)}};
 }
 
 Json document_of(const ScaleFacts& facts) {

@@ -33,7 +33,7 @@ Channel resampled(const Channel& channel, int width, int height, float outside) 
 }
 
 View copy_of(const View& view) {
-  View copy{.name = view.name, .camera = view.camera, .origin = view.origin, .planes = {}};
+  View copy{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light, .planes = {}};
   for (const auto& [name, plane] : view.planes) copy.planes.emplace(name, plane.clone());
   return copy;
 }
@@ -156,7 +156,8 @@ Frame resized(const Frame& frame, int width, int height) {
   Frame out;
   out.display = out.window = {0, 0, width, height};
   for (const View& view : frame.views) {
-    View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin});
+    View& copy = out.views.emplace_back(
+        View{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light});
     if (Camera* camera = copy.camera ? &*copy.camera : nullptr) {
       camera->fx *= sx;
       camera->fy *= sy;
@@ -184,7 +185,8 @@ Frame with_views(const Frame& frame, int views) {
 Frame with_layers(const Frame& frame, int layers) {
   Frame out = without_views(frame);
   for (const View& view : frame.views) {
-    View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin});
+    View& copy = out.views.emplace_back(
+        View{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light});
     for (const auto& [name, plane] : view.planes) {
       const std::optional<StackLayer> layer = stack_layer(name);
       if (!layer || layer->stack != "peel" || layer->number < layers) copy.planes.emplace(name, plane.clone());

@@ -1,5 +1,6 @@
 #include "bench/ladder.h"
 
+#include "bench/effects.h"
 #include "bench/storage.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
@@ -17,6 +18,9 @@ std::string text_of(const Plan& plan) {
   for (const std::string& input : plan.inputs) text += " " + input;
   return text;
 }
+
+/// Whether a technique computes something other than the truth by choice. Its contribution is to ambient occlusion.
+bool has_own_truth(const Technique& technique) { return technique.contribution && measured_plane(technique) == "ao"; }
 
 /// Options with as little rounding as the device allows.
 RunOptions without_rounding(const Device& device) {
@@ -38,7 +42,8 @@ Frame with_plane(const Frame& frame, const Plan& plan, const std::string& name, 
   for (const View& view : frame.views) {
     const auto own = image.find(view.name);
     if (own == image.end()) continue;
-    View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin});
+    View& copy = out.views.emplace_back(
+        View{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light});
     for (const std::string& input : plan.inputs) {
       const Plane* plane = input == name ? &own->second : view.find(input);
       if (plane) copy.planes.emplace(input, plane->clone());
@@ -72,19 +77,20 @@ const Image& Steps::shared(const Plan& plan, const RunOptions& options) {
 }
 
 const Image* Steps::own_truth(const Technique& technique, const ParameterValues& values) {
-  if (!technique.contribution) return truth_ ? &truth_->ao : nullptr;
-  return truths_ ? &truths_->truth(frame_, technique, values).ao : nullptr;
+  if (!has_own_truth(technique)) return truth_ ? &truth_->image : nullptr;
+  return truths_ ? &truths_->truth(frame_, technique, values).image : nullptr;
 }
 
 /// Null if the technique has no converged settings, or the frame has no layers.
 const Image* Steps::converged(const Technique& technique, const Variation& variation) {
-  if (technique.converged.empty()) return nullptr;
+  const Settings settings = converged_settings(technique);
+  if (settings.empty()) return nullptr;
   Variation full = variation;
   full.technique = &technique;
   full.settings = settings_over_other_layers(variation.settings, *variation.technique, technique);
   full.resolution = 1;
   try {
-    return &shared(unfiltered_plan(full, available_, holds_, technique.converged), for_converged());
+    return &shared(unfiltered_plan(full, available_, holds_, settings), for_converged());
   } catch (const MissingPlanes&) {
     return nullptr;
   }
@@ -123,7 +129,11 @@ Image Steps::shipped(const Variation& variation) {
 
 Errors Steps::errors(const Image& shipped) const {
   if (!truth_) return {};
-  return {rmse(shipped, truth_->ao, foreground_), bias(shipped, truth_->ao, foreground_)};
+  return {rmse(shipped, truth_->image, foreground_), bias(shipped, truth_->image, foreground_)};
+}
+
+Errors Steps::base_errors(const MeasuredEffect& effect) const {
+  return truth_ ? errors(even_image(truth_->image, effect.base_value)) : Errors{};
 }
 
 Errors Steps::converged_errors(const Variation& variation) {
@@ -145,9 +155,10 @@ Ladder Steps::climb(const Variation& variation, const Image& shipped) {
   const Image* given_layers = converged(technique, variation);
 
   Ladder ladder;
-  if (technique.contribution) ladder.t0w = distance(own, truth_ ? &truth_->ao : nullptr);
+  if (has_own_truth(technique)) ladder.t0w = distance(own, truth_ ? &truth_->image : nullptr);
   ladder.t1 = distance(all_layers, own);
   ladder.t2 = distance(given_layers, all_layers);
+  if (!over_layers) ladder.t12 = distance(given_layers, own);
   const Image sampled = computed(unfiltered_plan(variation, available_, holds_), options);
   ladder.t3 = distance(&sampled, given_layers);
   if (filter.passes.empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/effects.h"
 #include "bench/measures.h"
 #include "bench/plans.h"
 #include "bench/subject.h"
@@ -21,10 +22,11 @@ struct Errors {
 
 /// RMSE of each image to the one a step above; none if one of the two is missing.
 struct Ladder {
-  std::optional<double> t0w;       ///< truth with the technique's own contribution, to the truth
-  std::optional<double> t1;        ///< over all peeled layers and converged, to the image above
-  std::optional<double> t2;        ///< over the given layers, converged, to the image above
-  std::optional<double> t3;        ///< with its own samples, in double, to the image above
+  std::optional<double> t0w;  ///< truth with the technique's own contribution, to the truth
+  std::optional<double> t1;   ///< over all peeled layers and converged, to the image above
+  std::optional<double> t2;   ///< over the given layers, converged, to the image above
+  std::optional<double> t12;  ///< the same to T0w, where the registry has no form over peeled layers: both steps in one
+  std::optional<double> t3;   ///< with its own samples, in double, to the image above
   std::optional<double> t4_bias;   ///< filtered converged image, to the converged image
   std::optional<double> t4_noise;  ///< filtered, to the filtered converged image
   std::optional<double> t5;        ///< shipped result, to the same in double
@@ -42,6 +44,9 @@ class Steps {
   Image shipped(const Variation& variation);
 
   Errors errors(const Image& shipped) const;
+
+  /// Errors of what there is without a technique; none without a truth.
+  Errors base_errors(const MeasuredEffect& effect) const;
 
   /// Errors of the technique's own plane, converged and unfiltered, on the given layers; none without a truth or without
   /// converged settings.

@@ -70,18 +70,22 @@ class Session {
   }
 
   void add_scene() {
-    SceneFacts facts{subject_.name, subject_.scene_class, subject_.frame.width(), subject_.frame.height(),
-                     subject_.radius};
+    SceneFacts facts{subject_.name,          subject_.scene_class,    subject_.effect,
+                     subject_.frame.width(), subject_.frame.height(), subject_.radius};
+    const MeasuredEffect& effect = effect_of(subject_.effect);
+    facts.base = effect.base;
+    facts.base_errors = steps_.base_errors(effect);
     facts.radius_pixels = median_reach(subject_.frame, subject_.radius.value);
     if (subject_.truth) {
       facts.truth_noise = subject_.truth->noise;
       facts.truth_rays = subject_.truth->rays;
       try {
-        facts.truth_image = picture("truth", subject_.truth->ao);
+        facts.truth_image = picture("truth", subject_.truth->image);
       } catch (const Error& error) {
         result_.notes.push_back(fmt::format("{}; there is no picture of the truth", error.what()));
       }
     }
+    facts.white = white_.value_or(1);
     if (subject_.truths) {
       facts.traced = true;
       facts.made = subject_.truths->made();
@@ -146,6 +150,7 @@ class Session {
     auto row = std::make_unique<Row>();
     row->variation = variation;
     row->scene = subject_.name;
+    row->effect = subject_.effect;
     row->width = subject_.frame.width();
     row->height = subject_.frame.height();
     const Image shipped = steps_.shipped(variation);
@@ -159,14 +164,15 @@ class Session {
     Errors converged;
     if (with_ladder && !contains(measured_, variation.technique->name)) converged = steps_.converged_errors(variation);
     race_.enter(*row);  // last, since the race keeps a pointer to the row
-    if (converged.rmse) result_.converged.push_back({variation.technique, subject_.name, converged});
+    if (converged.rmse) result_.converged.push_back({variation.technique, subject_.name, subject_.effect, converged});
     return row;
   }
 
   /// Draws the first view; returns the path below the folder, empty if there are to be no pictures.
   std::string picture(const std::string& name, const Image& image) {
     if (options_.folder.empty()) return "";
-    const std::string folder = "images/" + file_name(subject_.name);
+    const std::string of_effect = subject_.effect == "ao" ? "" : "_" + subject_.effect;
+    const std::string folder = "images/" + file_name(subject_.name + of_effect);
     std::string path = fmt::format("{}/{}.png", folder, file_name(name));
     for (int number = 2; contains(pictures_, path); ++number)
       path = fmt::format("{}/{}_{}.png", folder, file_name(name), number);
@@ -176,12 +182,14 @@ class Session {
     if (error) throw Error("{}: cannot be made ({})", (options_.folder / folder).string(), error.message());
     // The first view that image and truth share: the truth may have one view.
     const auto is_known = [&](const View& v) {
-      return image.count(v.name) && (!subject_.truth || subject_.truth->ao.count(v.name));
+      return image.count(v.name) && (!subject_.truth || subject_.truth->image.count(v.name));
     };
     const auto& views = subject_.frame.views;
     const auto known = std::find_if(views.begin(), views.end(), is_known);
     const View& view = known == views.end() ? views.front() : *known;
-    write_share(options_.folder / path, image.at(view.name).channels[0], view.planes.at("depth").channels[0]);
+    const Channel& depth = view.planes.at("depth").channels[0];
+    if (!white_) white_ = white_of((subject_.truth ? subject_.truth->image : image).at(view.name), depth);
+    write_grey(options_.folder / path, image.at(view.name), depth, *white_);
     return path;
   }
 
@@ -197,6 +205,7 @@ class Session {
   Measurement& result_;
   std::vector<std::unique_ptr<Row>> rows_;
   std::vector<std::string> measured_, pictures_;
+  std::optional<double> white_;  ///< what all pictures show as white
   Race race_;
   Steps steps_;
 };
@@ -205,10 +214,10 @@ class Session {
 
 std::vector<std::string> presets_of(const Technique& technique, const MeasureOptions& options) {
   std::vector<std::string> names;
-  for (const Preset& preset : technique.presets) {
+  for (const Preset& preset : source_of(technique).presets) {
     if (options.presets.empty() || contains(options.presets, preset.name)) names.push_back(preset.name);
   }
-  if (technique.presets.empty() && options.presets.empty()) names.push_back("");
+  if (source_of(technique).presets.empty() && options.presets.empty()) names.push_back("");
   return names;
 }
 
@@ -226,6 +235,15 @@ std::vector<Variation> variations_of(const Technique& technique, double radius, 
   for (const std::string& name : options.variants) all.push_back(with_variant(base, name));
   for (Variation& each : swept(base, options.sweeps)) all.push_back(std::move(each));
   return all;
+}
+
+MeasureOptions for_effect(const MeasureOptions& options, const std::string& plane) {
+  MeasureOptions of_effect = options;
+  const auto is_of_another = [&](const Technique* t) { return measured_plane(*t) != plane; };
+  std::erase_if(of_effect.techniques, is_of_another);
+  std::erase_if(of_effect.growth, is_of_another);
+  if (plane != "ao") of_effect.checks = false;
+  return of_effect;
 }
 
 void measure(Subject& subject, const MeasureOptions& options, bool is_first, Device& device, Measurement& result) {

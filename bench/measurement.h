@@ -39,6 +39,7 @@ struct MeasureOptions {
 /// A frame to measure on.
 struct Subject {
   std::string name, scene_class;  ///< "own" for the user's frame
+  std::string effect = "ao";      ///< the plane that is measured (effects.h)
   Frame frame;
   std::string holds;  ///< "beauty.exr has only R, G, B"
   Radius radius;
@@ -50,7 +51,7 @@ struct Subject {
 
 /// One row of the table.
 struct Row : Racer {
-  std::string scene;
+  std::string scene, effect;
   int width = 0, height = 0;
   Errors errors;
   Ladder ladder;
@@ -61,13 +62,17 @@ struct Skipped {
   std::string technique, preset, scene, why;  ///< no preset: all presets; no scene: all scenes
 };
 
+/// One scene, and one effect on it.
 struct SceneFacts {
-  std::string name, scene_class;
+  std::string name, scene_class, effect;
   int width = 0, height = 0;
   Radius radius;
   double radius_pixels = 0;
   std::optional<double> truth_noise,
       truth_rays;           ///< noise: RMS; rays: per pixel, for a given truth if its header states them
+  std::string base;         ///< what there is without a technique: "white", "black"
+  Errors base_errors;       ///< its errors; none without a truth
+  double white = 1;         ///< the value that pictures show as white
   std::string truth_image;  ///< below the folder; empty: none
   bool traced = false;      ///< the truth was traced from the scene
   std::vector<std::string> made, reused;
@@ -81,7 +86,7 @@ struct GrowthFacts {
 /// The limit for many samples, without a filter.
 struct ConvergedFacts {
   const Technique* technique = nullptr;
-  std::string scene;
+  std::string scene, effect;
   Errors errors;
 };
 
@@ -96,7 +101,7 @@ struct Measurement {
   std::vector<std::string> notes;  ///< one sentence each
 };
 
-/// The presets of a technique that were asked for; "" if it has none and all were asked for.
+/// The presets of a technique, or of its source (effects.h), that were asked for; "" if it has none and all were asked for.
 std::vector<std::string> presets_of(const Technique& technique, const MeasureOptions& options);
 
 /// Whether a technique is measured with one preset only.
@@ -105,7 +110,10 @@ bool in_short(const Technique& technique, const MeasureOptions& options);
 /// All variations of one technique: its presets, and variants of one of them.
 std::vector<Variation> variations_of(const Technique& technique, double radius, const MeasureOptions& options);
 
-/// Measures on one frame; with `is_first`, also everything that is measured only once. What the frame or the device does not
+/// The same options for the techniques of one effect. Other resolutions and bare planes are checked for ambient occlusion alone.
+MeasureOptions for_effect(const MeasureOptions& options, const std::string& plane);
+
+/// Measures one effect on one frame, all of whose techniques make it; with `is_first`, also everything that is measured only once. What the frame or the device does not
 /// allow is skipped and listed.
 void measure(Subject& subject, const MeasureOptions& options, bool is_first, Device& device, Measurement& result);
 

@@ -17,13 +17,15 @@ double mean_over(const Image& test, const Image& truth, const Foreground& foregr
   for (const auto& [view, mask] : foreground) {
     const auto tested = test.find(view), expected = truth.find(view);
     if (tested == test.end() || expected == truth.end()) continue;
-    const Channel &a = tested->second.channels[0], &b = expected->second.channels[0];
-    const int width = a.layout().width, height = a.layout().height;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        if (!mask[size_t(y) * size_t(width) + size_t(x)]) continue;
-        sum += function(double(a.at(x, y)) - double(b.at(x, y)));
-        ++count;
+    const std::vector<Channel>&a = tested->second.channels, &b = expected->second.channels;
+    const int width = a[0].layout().width, height = a[0].layout().height;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          if (!mask[size_t(y) * size_t(width) + size_t(x)]) continue;
+          sum += function(double(a[i].at(x, y)) - double(b[i].at(x, y)));
+          ++count;
+        }
       }
     }
   }
@@ -51,6 +53,15 @@ Image image_of(Frame frame, const std::string& plane) {
   for (View& view : frame.views) {
     if (const auto made = view.planes.find(plane); made != view.planes.end())
       image.emplace(view.name, std::move(made->second));
+  }
+  return image;
+}
+
+Image even_image(const Image& like, float value) {
+  Image image;
+  for (const auto& [view, plane] : like) {
+    Plane& even = image.emplace(view, Plane{plane.name, {}}).first->second;
+    for (const Channel& channel : plane.channels) even.channels.emplace_back(channel.layout(), value);
   }
   return image;
 }

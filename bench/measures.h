@@ -20,11 +20,14 @@ Foreground foreground(const Frame& frame, bool first_view_only = false);
 /// Moves a plane out of every view that has it.
 Image image_of(Frame frame, const std::string& plane);
 
-/// Root of the mean squared difference over the foreground of views that both images have.
+/// Root of the mean squared difference, of all components, over the foreground of views that both images have.
 double rmse(const Image& test, const Image& truth, const Foreground& foreground);
 
-/// Mean of test - truth over the foreground of views that both images have; above 0: the test is too bright.
+/// Mean of test - truth, of all components, over the foreground of views that both images have; above 0: the test is too bright.
 double bias(const Image& test, const Image& truth, const Foreground& foreground);
+
+/// An image of one value, as large as another.
+Image even_image(const Image& like, float value);
 
 /// Mean absolute difference over all pixels.
 double mean_difference(const Channel& a, const Channel& b);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bench/effects.h"
 #include "compare/flip.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
@@ -11,7 +12,8 @@
 namespace gloam::bench {
 namespace {
 
-/// The technique nearest to ray-traced truth on the built-in scenes, with a single layer (kernels/evidence/README.md).
+/// The technique of ambient occlusion that is nearest to ray-traced truth on the built-in scenes, with a single layer
+/// (kernels/evidence/README.md).
 const std::string stand_in = "evidence";
 /// Number of settings timed in turn at the end.
 constexpr size_t most_finalists = 12;
@@ -22,20 +24,25 @@ std::string name_of(const Variation& v) {
   return v.technique->name + " " + v.name() + (v.variant.empty() ? "" : ", " + v.variant);
 }
 
-/// AO as displayed within the mask; black in both images elsewhere.
-cv::Mat grey_picture(const Channel& ao, const Mask& mask) {
-  const Layout& layout = ao.layout();
+/// A plane of one or three components as displayed within the mask; black in both images elsewhere.
+cv::Mat picture_of(const Plane& plane, const Mask& mask) {
+  const Layout& layout = plane.channels[0].layout();
+  const auto component = [&](size_t i) -> const Channel& {
+    return plane.channels[std::min(i, plane.channels.size() - 1)];
+  };
   cv::Mat picture(layout.height, layout.width, CV_64FC3, cv::Scalar(0, 0, 0));
   for (int y = 0; y < layout.height; ++y) {
     for (int x = 0; x < layout.width; ++x) {
-      if (mask[size_t(y) * size_t(layout.width) + size_t(x)]) picture.at<cv::Vec3d>(y, x) = cv::Vec3d::all(ao.at(x, y));
+      if (mask[size_t(y) * size_t(layout.width) + size_t(x)]) {
+        for (int i = 0; i < 3; ++i) picture.at<cv::Vec3d>(y, x)[i] = component(size_t(i)).at(x, y);
+      }
     }
   }
   return picture;
 }
 
-double mean_flip(const Channel& test, const Channel& truth, const Mask& mask) {
-  const cv::Mat map = flip_map(grey_picture(test, mask), grey_picture(truth, mask));
+double mean_flip(const Plane& test, const Plane& truth, const Mask& mask) {
+  const cv::Mat map = flip_map(picture_of(test, mask), picture_of(truth, mask));
   const cv::Mat counted(map.rows, map.cols, CV_8U, const_cast<unsigned char*>(mask.data()));
   return cv::mean(map, counted)[0];
 }
@@ -75,22 +82,42 @@ class Search {
   }
 
   Image image_of(const Plan& plan, const RunOptions& run_options) const {
-    return bench::image_of(gloam::run(plan, subject_.frame, device_, run_options).frame, "ao");
+    return bench::image_of(gloam::run(plan, subject_.frame, device_, run_options).frame, subject_.effect);
   }
 
   void find_truth() {
     if (subject_.truth) {
-      for (const auto& [view, plane] : subject_.truth->ao) truth_.emplace(view, plane.clone());
+      for (const auto& [view, plane] : subject_.truth->image) truth_.emplace(view, plane.clone());
       picked_.truth = "the truth";
       return;
     }
+    if (subject_.effect != "ao") return stand_in_for_truth();
     const Technique* technique = &find_technique(stand_in);
     if (const Technique* layers = over_all_layers(*technique); layers && has_layers()) technique = layers;
-    tell("converged " + technique->name, 0, 1);
-    Variation converged{.technique = technique, .radius = subject_.radius.value};
-    converged.settings = technique->converged;
+    converge(*technique);
+  }
+
+  void converge(const Technique& technique) {
+    tell("converged " + technique.name, 0, 1);
+    Variation converged{.technique = &technique, .radius = subject_.radius.value};
+    converged.settings = converged_settings(technique);
     truth_ = image_of(whole_plan(converged, available_, subject_.holds), {});
-    picked_.truth = "converged " + technique->name + ", as no truth is at hand";
+    picked_.truth = "converged " + technique.name + ", as no truth is at hand";
+  }
+
+  /// Of an effect other than ambient occlusion: the first technique over layers that the frame has, else the first.
+  void stand_in_for_truth() {
+    for (const bool over_layers : {true, false}) {
+      for (const Technique* technique : options_.techniques) {
+        if (reads_layers(*technique) != over_layers || converged_settings(*technique).empty()) continue;
+        try {
+          return converge(*technique);
+        } catch (const MissingPlanes&) {
+          continue;
+        }
+      }
+    }
+    throw Error("{}: has no truth of {}, and no technique tells one; --truth gives it", subject_.name, subject_.effect);
   }
 
   bool has_layers() const {
@@ -102,7 +129,7 @@ class Search {
     std::vector<Variation> all;
     for (const Technique* technique : options_.techniques) {
       std::vector<std::string> presets;
-      for (const Preset& preset : technique->presets) presets.push_back(preset.name);
+      for (const Preset& preset : source_of(*technique).presets) presets.push_back(preset.name);
       if (presets.empty()) presets.push_back("");
       for (const std::string& preset : presets) {
         Variation v{.technique = technique, .preset = preset, .radius = subject_.radius.value};
@@ -147,7 +174,7 @@ class Search {
       if (test == image.end() || truth == truth_.end()) continue;
       if (std::all_of(mask.begin(), mask.end(), [](unsigned char m) { return m == 0; })) continue;
       ssim += compare(test->second, truth->second, mask).ssim;
-      if (options_.by == PickBy::flip) flip += mean_flip(test->second.channels[0], truth->second.channels[0], mask);
+      if (options_.by == PickBy::flip) flip += mean_flip(test->second, truth->second, mask);
       ++views;
     }
     if (views == 0) return;

@@ -29,7 +29,7 @@ struct Choice {
   double ms = 0;               ///< median, the filter included
   double rmse = 0;             ///< to the truth
   double ssim = 0;             ///< 1: the same
-  std::optional<double> flip;  ///< of the grey picture; only if it decides
+  std::optional<double> flip;  ///< of the picture as displayed; only if it decides
 };
 
 /// Error of an image by the deciding figure: RMSE, 1 - SSIM, or FLIP.
@@ -50,7 +50,7 @@ std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOpt
 
 /// Tries every preset of the techniques at full and at half resolution, once; then times those that may win, in turn. If the
 /// subject has no truth, errors are to the converged image of the technique that is nearest to ray-traced truth on the built-in
-/// scenes. If one of the techniques makes an image of only the first of two views, times and errors of all are those of the first
+/// scenes (of effects other than ambient occlusion: of the first technique). If one of the techniques makes an image of only the first of two views, times and errors of all are those of the first
 /// view. Throws Error that names the nearest miss if nothing is within the bound.
 Picked pick(const Subject& subject, const PickOptions& options, Device& device);
 

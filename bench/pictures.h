@@ -12,7 +12,11 @@ namespace gloam::bench {
 /// characters one '-'.
 std::string file_name(const std::string& name);
 
-/// Values of 0 to 1 as an 8-bit PNG of grey and alpha, background transparent. Throws Error naming `path`.
-void write_share(const std::filesystem::path& path, const Channel& values, const Channel& depth);
+/// The mean of a plane's components as an 8-bit PNG of grey and alpha, background transparent: `white` is drawn as white. Throws Error
+/// naming `path`.
+void write_grey(const std::filesystem::path& path, const Plane& plane, const Channel& depth, double white);
+
+/// The value to draw as white: 1 for shares; of light what 99 of 100 surfaces are below, so that a lamp does not make the rest black.
+double white_of(const Plane& plane, const Channel& depth);
 
 }  // namespace gloam::bench

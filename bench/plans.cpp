@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/lists.h"
+#include "bench/effects.h"
 #include "gloam/history.h"
 #include "gloam/planes.h"
 #include "shared/sampling/ambient_occlusion.h"
@@ -19,6 +20,7 @@ PlanRequest request_for(const Variation& variation) {
       .outputs = {variation.technique->name}, .preset = variation.preset, .resolution = variation.resolution};
   if (ParameterValues(variation.technique->parameters).has("radius"))
     request.settings.emplace_back("radius", fmt::format("{}", float(variation.radius)));
+  request.radius = variation.radius;  // of others: the technique that makes what this one reads
   request.settings.insert(request.settings.end(), variation.settings.begin(), variation.settings.end());
   request.temporal = variation.temporal;
   return request;
@@ -34,18 +36,20 @@ RunOptions Variation::run_options() const {
 }
 
 bool is_filter(const Technique& technique) {
+  const std::string plane = measured_plane(technique);
   return std::any_of(registry().begin(), registry().end(), [&](const Technique& other) {
-    return &other != &technique && contains(outputs_of(other), "ao") && reads_from(technique, other);
+    return &other != &technique && contains(outputs_of(other), plane) && reads_from(technique, other);
   });
 }
 
 std::string own_plane(const Technique& technique) {
-  if (technique.then.empty() || contains(technique.writes, "ao")) return "ao";
+  const std::string measured = measured_plane(technique);
+  if (technique.then.empty() || contains(technique.writes, measured)) return measured;
   const Technique& filter = find_technique(technique.then);
   for (const std::string& plane : technique.writes) {
     if (contains(filter.reads, plane)) return plane;
   }
-  return "ao";
+  return measured;
 }
 
 std::vector<std::string> depths_of(const Technique& technique) {
@@ -100,7 +104,7 @@ std::vector<std::string> planes_of(const Frame& frame) {
 
 Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds) {
   PlanRequest request = request_for(variation);
-  request.only = {"ao"};
+  request.only = {measured_plane(*variation.technique)};
   if (!variation.temporal) return make_plan(request, available, holds);
   check_temporal(request);
   for (const std::string& plane : planes_for_history()) {

@@ -1,4 +1,4 @@
-// The plans that the benchmarks run for a technique that makes `ao`.
+// The plans that the benchmarks run for a technique.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace gloam::bench {
 
-/// Whether a technique makes `ao` only from the result that another technique with the output `ao` leaves to it.
+/// Whether a technique makes its plane only from the result that another technique with this output leaves to it.
 bool is_filter(const Technique& technique);
 
-/// The plane of ambient occlusion that the technique itself writes: `ao_raw` if a filter follows, else `ao`.
+/// The plane that the technique itself writes: `ao_raw` if a filter follows, else `ao`; of light `indirect_raw` and `indirect`.
 std::string own_plane(const Technique& technique);
 
 /// The depths among its inputs: "depth", and stacks such as "peel" and "stochastic".
@@ -56,7 +56,7 @@ Settings settings_over_other_layers(const Settings& settings, const Technique& f
 /// The names of a frame's planes that every view has.
 std::vector<std::string> planes_of(const Frame& frame);
 
-/// The whole plan for `ao`, with the filter; of one that goes on over time also the planes from which a history is made. Throws as
+/// The whole plan for the measured plane (effects.h), with the filter; of one that goes on over time also the planes from which a history is made. Throws as
 /// `make_plan` does.
 Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds);
 

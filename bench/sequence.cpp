@@ -205,7 +205,7 @@ void add_frame(MeasuredSequence& sequence, int number, Subject subject) {
   }
   MeasuredFrame& frame = sequence.frames.emplace_back();
   frame.number = number;
-  for (const auto& [view, plane] : subject.truth->ao) frame.truth.emplace(view, plane.clone());
+  for (const auto& [view, plane] : subject.truth->image) frame.truth.emplace(view, plane.clone());
   frame.frame = std::move(subject.frame);
   frame.foreground = foreground(frame.frame);
   if (const auto rays = subject.truth->rays) sequence.truth_rays = std::min(*rays, sequence.truth_rays.value_or(*rays));

@@ -38,7 +38,8 @@ Frame stored_in_half(const Frame& frame) {
   out.display = frame.display;
   out.window = frame.window;
   for (const View& view : frame.views) {
-    View& copy = out.views.emplace_back(View{.name = view.name, .camera = view.camera, .origin = view.origin});
+    View& copy = out.views.emplace_back(
+        View{.name = view.name, .camera = view.camera, .origin = view.origin, .light = view.light});
     const double depth = median_depth(view);
     for (const auto& [name, plane] : view.planes) {
       Plane& target = copy.planes.emplace(name, plane.clone()).first->second;

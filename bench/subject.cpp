@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "base/lists.h"
+#include "bench/effects.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/reference.h"
 #include "scene/fingerprint.h"
+#include "scene/reference_kinds.h"
 
 namespace gloam::bench {
 namespace {
@@ -91,14 +93,16 @@ bool Truths::is_there(const std::string& file, const std::string& recipe) {
 
 std::filesystem::path Truths::frame_file() {
   const std::string file = name_ + ".exr";
-  const std::string recipe = fmt::format("{} {} {}x{} layers={}{}", name_, recipe_, options_.width, options_.height,
-                                         options_.layers, digest_of(options_.in_sequence));
+  const std::string recipe =
+      fmt::format("{} {} {}x{} layers={}{}{}", name_, recipe_, options_.width, options_.height, options_.layers,
+                  options_.peel_light ? " with light" : "", digest_of(options_.in_sequence));
   const std::filesystem::path path = options_.folder / file;
   if (is_there(file, recipe)) return path;
   CaptureOptions capturing;
   capturing.width = options_.width;
   capturing.height = options_.height;
   capturing.peel = options_.layers;
+  capturing.peel_light = options_.peel_light;
   capturing.views = {{"", camera_for(scene_.cameras.front(), options_.width, options_.height), {}}};
   for (const std::string& plane : capture_planes()) {
     if (plane != "motion" || options_.in_sequence) capturing.planes.push_back(plane);
@@ -124,34 +128,57 @@ Frame Truths::captured(int width, int height) {
   return capture(tracer(), capturing).frame;
 }
 
-const Truth& Truths::traced(const Frame& frame, const std::string& file, const Contribution& contribution,
-                            const std::string& falloff) {
-  std::string recipe =
-      fmt::format("{} {} frame={} {}x{} radius={} rays={} contribution={}", name_, recipe_, digest_of(frame),
-                  frame.width(), frame.height(), radius_, options_.rays, digest_of(contribution));
+std::string Truths::recipe_for(const Frame& frame) const {
+  return fmt::format("{} {} frame={} {}x{} radius={} rays={}", name_, recipe_, digest_of(frame), frame.width(),
+                     frame.height(), radius_, options_.rays);
+}
+
+const Truth& Truths::traced(const Frame& frame, const std::string& file, const std::string& plane, std::string recipe,
+                            const Tracing& trace) {
   const int seed = options_.in_sequence ? options_.in_sequence->seed : 0;
   if (seed != 0) recipe += fmt::format(" seed={}", seed);
   if (!is_there(file, recipe)) {
-    AoReferenceOptions options;
-    options.radius = radius_;
-    options.samples = options_.rays;
-    options.seed = uint32_t(seed);
-    options.contribution = contribution;
-    options.falloff = falloff;
-    const std::string what = contribution ? fmt::format("truth with the falloff of {}", falloff) : "truth";
-    options.progress = [&](double share) { tell(what, share); };
-    AoReference reference = ao_reference(tracer(), frame, options);
+    Reference reference = trace();
     reference.frame.attributes[recipe_attribute] = recipe;
     write_frame(options_.folder / file, reference.frame);
   }
   std::vector<std::string> none;
-  return truths_.emplace(file, read_truth({(options_.folder / file).string()}, frame, none)).first->second;
+  return truths_.emplace(file, read_truth({(options_.folder / file).string()}, plane, frame, none)).first->second;
 }
 
-const Truth& Truths::truth(const Frame& frame) {
-  const std::string file = name_ + "_ao_ref.exr";
+const Truth& Truths::traced_ao(const Frame& frame, const std::string& file, const Contribution& contribution,
+                               const std::string& falloff) {
+  return traced(frame, file, "ao", recipe_for(frame) + " contribution=" + digest_of(contribution), [&] {
+    AoReferenceOptions options;
+    options.radius = radius_;
+    options.samples = options_.rays;
+    options.seed = uint32_t(options_.in_sequence ? options_.in_sequence->seed : 0);
+    options.contribution = contribution;
+    options.falloff = falloff;
+    const std::string what = contribution ? fmt::format("truth with the falloff of {}", falloff) : "truth";
+    options.progress = [&](double share) { tell(what, share); };
+    return ao_reference(tracer(), frame, options);
+  });
+}
+
+const Truth& Truths::truth(const Frame& frame, const std::string& plane) {
+  const std::string file = fmt::format("{}_{}_ref.exr", name_, plane);
   const auto known = truths_.find(file);
-  return known != truths_.end() ? known->second : traced(frame, file, {}, "none");
+  if (known != truths_.end()) return known->second;
+  if (plane == "ao") return traced_ao(frame, file, {}, "none");
+  ReferenceRequest request;
+  request.what = plane;
+  request.samples = options_.rays;
+  const ReferenceJob job = job_of(request, as_flag);
+  Fingerprint surfaces;
+  surfaces.add_light(scene_);
+  surfaces.add_gloss(frame);
+  return traced(frame, file, plane, fmt::format("{} {}={}", recipe_for(frame), plane, surfaces.text()), [&] {
+    ReferenceOptions options;
+    options.radius = radius_;
+    options.progress = [&](double share) { tell("truth of " + plane, share); };
+    return job.trace(tracer(), frame, options);
+  });
 }
 
 const Truth& Truths::truth(const Frame& frame, const Technique& technique, const ParameterValues& values) {
@@ -165,7 +192,7 @@ const Truth& Truths::truth(const Frame& frame, const Technique& technique, const
   // Presets with another contribution get files of their own.
   for (int number = 2; truths_.count(file) != 0; ++number)
     file = fmt::format("{}_ao_ref_{}_{}.exr", name_, technique.name, number);
-  const Truth& truth = traced(frame, file, contribution, technique.name);
+  const Truth& truth = traced_ao(frame, file, contribution, technique.name);
   own_truths_.emplace(digest, file);
   return truth;
 }
@@ -193,36 +220,60 @@ std::vector<std::pair<std::string, const View*>> views_for(const Frame& truth, c
   return found;
 }
 
-void add_truth(const std::string& path, const Frame& frame, Truth& result) {
+FrameFile truth_file(const std::string& path) {
   ReadOptions options;
   options.as_stored = true;
-  FrameFile file(path, options);
-  if (!contains(file.common_planes(), "ao"))
-    throw Error("{}: has no plane 'ao' to measure against; it has {}", path, enumerate(file.all_channels()));
-  const Frame truth = file.read({"ao"});
+  return FrameFile(path, options);
+}
+
+void add_truth(FrameFile& file, const std::string& plane, const Frame& frame, Truth& result) {
+  const std::string path = file.path().string();
+  const Frame truth = file.read({plane});
   if (truth.width() != frame.width() || truth.height() != frame.height())
     throw Error("{} is {}x{} and the frame is {}x{}; only images of one size can be compared", path, truth.width(),
                 truth.height(), frame.width(), frame.height());
   for (const auto& [name, view] : views_for(truth, file, frame)) {
-    if (!result.ao.emplace(name, view->planes.at("ao").clone()).second)
+    if (!result.image.emplace(name, view->planes.at(plane).clone()).second)
       throw Error("{}: is a truth of view '{}', as the one before it; give one for each view", path, name);
   }
-  const std::optional<double> radius = file.number_attribute("aoRadius");
+  std::optional<double> radius = file.number_attribute(plane + "Radius");
+  if (!radius) radius = file.number_attribute(plane + "Length");
   if (radius && result.radius && std::abs(*radius - *result.radius) > 1e-6 * *radius)
     throw Error("{}: was made with radius {:g}, and the truth before it with {:g}", path, *radius, *result.radius);
   if (radius) result.radius = radius;
-  if (const auto noise = file.number_attribute("aoNoise")) result.noise = std::max(*noise, result.noise.value_or(0));
-  const std::optional<double> rays = file.number_attribute("aoSamples");
+  if (const auto noise = file.number_attribute(plane + "Noise"))
+    result.noise = std::max(*noise, result.noise.value_or(0));
+  const std::optional<double> rays = file.number_attribute(plane + "Samples");
   if (rays) result.rays = std::min(*rays, result.rays.value_or(*rays));
 }
 
 }  // namespace
 
-Truth read_truth(const std::vector<std::string>& paths, const Frame& frame, std::vector<std::string>& notes) {
+std::vector<std::string> effects_in(const std::vector<std::string>& paths) {
+  std::vector<std::string> held, effects;
+  for (const std::string& path : paths) {
+    for (const std::string& plane : truth_file(path).common_planes()) add_new(held, plane);
+  }
+  for (const std::string& plane : effect_names()) {
+    if (contains(held, plane)) effects.push_back(plane);
+  }
+  return effects;
+}
+
+Truth read_truth(const std::vector<std::string>& paths, const std::string& plane, const Frame& frame,
+                 std::vector<std::string>& notes) {
   Truth result;
-  for (const std::string& path : paths) add_truth(path, frame, result);
+  for (const std::string& path : paths) {
+    FrameFile file = truth_file(path);
+    if (contains(file.common_planes(), plane))
+      add_truth(file, plane, frame, result);
+    else if (effects_in({path}).empty())
+      throw Error("{}: has no plane '{}' to measure against; it has {}", path, plane, enumerate(file.all_channels()));
+  }
+  if (result.image.empty())
+    throw Error("{}: {} no plane '{}' to measure against", enumerate(paths), paths.size() == 1 ? "has" : "have", plane);
   std::vector<std::string> known, missing;
-  for (const View& view : frame.views) (result.ao.count(view.name) ? known : missing).push_back(view.name);
+  for (const View& view : frame.views) (result.image.count(view.name) ? known : missing).push_back(view.name);
   if (!missing.empty())
     notes.push_back(fmt::format("errors are of {} alone, as the truth has no {}; --truth once for each view gives both",
                                 enumerate(known), enumerate(missing)));

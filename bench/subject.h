@@ -11,6 +11,7 @@
 
 #include "bench/measures.h"
 #include "gloam/frame.h"
+#include "gloam/scene/reference.h"
 #include "gloam/scene/tracer.h"
 #include "gloam/technique.h"
 
@@ -18,7 +19,7 @@ namespace gloam::bench {
 
 /// A truth, and its distance from the limit of infinitely many rays.
 struct Truth {
-  Image ao;
+  Image image;
   std::optional<double> noise, radius, rays;  ///< RMS, scene units, and per pixel, if its file states them
 };
 
@@ -34,6 +35,7 @@ struct SceneOptions {
   std::filesystem::path folder;
   int width = 960, height = 540;
   int layers = 8;                ///< peeled layers per pixel
+  bool peel_light = false;       ///< also what each layer sends
   int rays = 256;                ///< rays per pixel, for a truth
   std::optional<double> radius;  ///< scene units; none: the scene's own
   std::optional<InSequence> in_sequence;
@@ -60,10 +62,11 @@ class Truths {
   /// Depth and normals of the scene from its first camera, in another size.
   Frame captured(int width, int height);
 
-  /// Ambient occlusion without falloff (NAME_ao_ref.exr). Throws as `ao_reference` does.
-  const Truth& truth(const Frame& frame);
+  /// A plane of `measured_effects` (NAME_PLANE_ref.exr), of `ao` without falloff. Throws as its reference does, and UsageError for one
+  /// that needs more than the scene.
+  const Truth& truth(const Frame& frame, const std::string& plane);
 
-  /// With the technique's own contribution (NAME_ao_ref_TECHNIQUE.exr), shared by techniques of the same contribution.
+  /// Ambient occlusion with the technique's own contribution (NAME_ao_ref_TECHNIQUE.exr), shared by techniques of the same contribution.
   const Truth& truth(const Frame& frame, const Technique& technique, const ParameterValues& values);
 
   /// Names of files that were made, and of earlier files that were reused.
@@ -74,8 +77,12 @@ class Truths {
   using Contribution = std::function<double(double cosine, double distance)>;
   const Tracer& tracer();
   bool is_there(const std::string& file, const std::string& recipe);
-  const Truth& traced(const Frame& frame, const std::string& file, const Contribution& contribution,
-                      const std::string& falloff);
+  using Tracing = std::function<Reference()>;
+  const Truth& traced(const Frame& frame, const std::string& file, const std::string& plane, std::string recipe,
+                      const Tracing& trace);
+  const Truth& traced_ao(const Frame& frame, const std::string& file, const Contribution& contribution,
+                         const std::string& falloff);
+  std::string recipe_for(const Frame& frame) const;
   void tell(const std::string& what, double share) const;
 
   std::string name_;
@@ -89,9 +96,13 @@ class Truths {
   std::vector<std::string> made_, reused_;
 };
 
-/// The plane `ao` of files for the views of a frame. A file of one view is for the view that the file's name ends in, else for
+/// The planes of `measured_effects` that truths' files hold, in their order.
+std::vector<std::string> effects_in(const std::vector<std::string>& paths);
+
+/// One plane of files for the views of a frame; files that hold only other effects are left out. A file of one view is for the view that the file's name ends in, else for
 /// the one of the same name, or for the only one. Views without a file are left out, and `notes` says so. Throws Error if size or
 /// views do not fit, if two files have the same view, or if they state different radii.
-Truth read_truth(const std::vector<std::string>& paths, const Frame& frame, std::vector<std::string>& notes);
+Truth read_truth(const std::vector<std::string>& paths, const std::string& plane, const Frame& frame,
+                 std::vector<std::string>& notes);
 
 }  // namespace gloam::bench

@@ -56,6 +56,7 @@ std::vector<std::string> cells_of(const Entry& e) {
           cell(l.t0w),
           cell(l.t1),
           cell(l.t2),
+          cell(l.t12),
           cell(l.t3),
           cell(l.t4_bias),
           cell(l.t4_noise),
@@ -88,10 +89,25 @@ void add_variants(const std::vector<Entry>& variants, Table& table) {
   if (!others.empty()) table.below.push_back(folded(others));
 }
 
-std::vector<Entry> entries_of(const Measurement& measurement, const std::string& scene) {
+/// "courtyard", or "courtyard: indirect".
+std::string title_of(const SceneFacts& scene) {
+  return scene.effect == "ao" ? scene.name : scene.name + ": " + scene.effect;
+}
+
+/// What there is without a technique takes no time.
+std::vector<std::string> base_cells(const SceneFacts& scene, size_t columns) {
+  std::vector<std::string> cells(columns, "-");
+  cells[0] = cells[2] = "";
+  cells[1] = scene.base;
+  cells[6] = cell(scene.base_errors.rmse);
+  cells[7] = cell(scene.base_errors.bias, "{:+.4f}");
+  return cells;
+}
+
+std::vector<Entry> entries_of(const Measurement& measurement, const SceneFacts& scene) {
   std::vector<Entry> entries;
   for (const auto& row : measurement.rows) {
-    if (row->scene == scene) entries.push_back({row.get(), median(row->ms)});
+    if (row->scene == scene.name && row->effect == scene.effect) entries.push_back({row.get(), median(row->ms)});
   }
   set_times(entries);
   mark_front(entries);
@@ -101,10 +117,10 @@ std::vector<Entry> entries_of(const Measurement& measurement, const std::string&
 
 }  // namespace
 
-Table table_of_scene(const Measurement& measurement, const std::string& scene) {
-  Table table{scene, {}, 3, {}};
+Table table_of_scene(const Measurement& measurement, const SceneFacts& scene) {
+  Table table{title_of(scene), {}, 3, {}};
   table.rows = {{"", "technique", "preset", "ms", "/hbao+", "/floor", "RMSE", "bias", "t0w model", "t1 screen",
-                 "t2 hidden", "t3 noise", "t4 bias", "t4 noise", "t5"}};
+                 "t2 hidden", "t12 both", "t3 noise", "t4 bias", "t4 noise", "t5"}};
   const std::vector<Entry> entries = entries_of(measurement, scene);
   std::vector<Entry> heads;
   for (const Entry& e : entries) {
@@ -118,11 +134,12 @@ Table table_of_scene(const Measurement& measurement, const std::string& scene) {
     }
     add_variants(variants, table);
   }
+  if (scene.base_errors.rmse) table.rows.push_back(base_cells(scene, table.rows.front().size()));
   return table;
 }
 
-Table table_of_baselines(const Measurement& measurement, const std::string& scene) {
-  Table table{scene + ": what else computes the same, in ms", {}, 3, {}};
+Table table_of_baselines(const Measurement& measurement, const SceneFacts& scene) {
+  Table table{title_of(scene) + ": what else computes the same, in ms", {}, 3, {}};
   table.rows = {{"technique", "preset", "part", "gloam", "naive", "ratio", "mean difference", "maximum", "copy floor"}};
   for (const Entry& e : entries_of(measurement, scene)) {
     const Row& row = *e.row;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/document.h"
+#include "bench/effects.h"
 #include "bench/measurement.h"
 #include "bench/native.h"
 #include "bench/tables.h"
@@ -53,8 +54,8 @@ void print(const Measurement& result, const BenchOptions& options, const DeviceI
       "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: no other is as fast\nand as close, "
       "and better in one of the two.\n");
   for (const SceneFacts& scene : result.scenes) {
-    print(table_of_scene(result, scene.name));
-    if (const Table table = table_of_baselines(result, scene.name); table.rows.size() > 1 || !table.below.empty())
+    print(table_of_scene(result, scene));
+    if (const Table table = table_of_baselines(result, scene); table.rows.size() > 1 || !table.below.empty())
       print(table);
   }
   if (const std::vector<std::string> names = measured_in_short(result, options); !names.empty())
@@ -114,6 +115,8 @@ SequenceBenchFlags sequence_flags(const BenchCommand& flags) {
 /// Throws UsageError for flags about frames without frames.
 void check_flags(const BenchCommand& flags) {
   if (flags.sequence.empty() && flags.choice.frames) throw UsageError("--frames: is for a shot; --sequence names one");
+  if (!flags.sequence.empty() && !flags.effects.empty())
+    throw UsageError("--effects {}: of a shot ambient occlusion alone is measured; leave it out", flags.effects);
   if (flags.sequence.empty() && flags.frame.empty() && !flags.truths.empty())
     throw UsageError("--truth {}: whose truth it is has to be said: --frame FRAME.exr, or --sequence 'shot.####.exr'",
                      flags.truths.front());
@@ -147,15 +150,22 @@ void bench_command(const BenchCommand& flags) {
   std::vector<std::pair<std::string, RadiusReport>> radii;
   unsigned long long memory = 0;
   if (!flags.frame.empty()) {
-    Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, options.scene);
-    memory = subject.memory_bytes;
-    radii.emplace_back(subject.name, report_of(subject, options.techniques));
-    measure(subject, options, true, device, result);
+    for (const std::string& effect : options.effects) {
+      const MeasureOptions of_effect = for_effect(options, effect);
+      Subject subject =
+          own_subject(flags.frame, flags.frame_flags, flags.truths, effect, of_effect.techniques, options.scene);
+      memory = std::max(memory, subject.memory_bytes);
+      if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      measure(subject, of_effect, true, device, result);
+    }
   }
   for (size_t i = 0; i < options.scenes.size(); ++i) {
-    Subject subject = builtin_subject(*options.scenes[i], options.techniques, options.scene);
-    radii.emplace_back(subject.name, report_of(subject, options.techniques));
-    measure(subject, options, i == 0, device, result);
+    for (const std::string& effect : options.effects) {
+      const MeasureOptions of_effect = for_effect(options, effect);
+      Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene);
+      if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      measure(subject, of_effect, i == 0, device, result);
+    }
   }
   erase_status();
   note(result.notes);
@@ -182,7 +192,12 @@ void add_bench(CLI::App& app) {
                    "folder for bench.json, images/ and scenes/; made where it is not there")
       ->required()
       ->type_name("DIR");
-  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao of every view")
+  command
+      ->add_option("--effects", flags->effects,
+                   "planes that are measured: " + enumerate(effect_names()) +
+                       ", or all; default: those that --truth holds, or that --techniques make, else ao")
+      ->type_name("A,B");
+  command->add_option("--techniques", flags->techniques, "these only; default: all that make the effects of every view")
       ->type_name("A,B");
   command->add_option("--presets", flags->presets, "these only; default: all that a technique has")->type_name("A,B");
   CLI::Option* scenes =
@@ -191,9 +206,10 @@ void add_bench(CLI::App& app) {
   CLI::Option* frame =
       command->add_option("--frame", flags->frame, "measure on this frame instead of scenes")->type_name("FRAME.exr");
   command
-      ->add_option("--truth", flags->truths,
-                   "the frame's truth, as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
-                   "REF_right.exr); default: traced where the frame shows a built-in scene")
+      ->add_option(
+          "--truth", flags->truths,
+          "the frame's truth, as gloam reference makes it, once for each effect, of all views, or once for each "
+          "view (REF_left.exr, REF_right.exr); default: traced where the frame shows a built-in scene")
       ->expected(1)
       ->take_all()
       ->type_name("REF.exr");
@@ -264,7 +280,8 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/shi2022 --paper shi2022\n"
       "  gloam bench -o out/odssao2020 --paper odssao2020\n"
       "  gloam bench -o out/walk --sequence gallery:walk --techniques hbao+,gtao\n"
-      "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium");
+      "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium\n"
+      "  gloam bench -o out/light --effects indirect,bounces,specular_occlusion,contact --scenes all");
   command->callback([flags, command] {
     if (flags->chunks > 0) flags->repeated = repeated_words(*command, not_of_bench_chunks());
     bench_command(*flags);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/effects.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -14,10 +15,21 @@ constexpr int peeled_layers = 8;
 constexpr size_t most_swept = 1000;
 constexpr Size sequence_size = {640, 360};
 
-void choose_techniques(BenchOptions& options, const std::string& list, Measurement& result) {
+/// Those asked for, else those of the truths' files; where neither says, none, and the techniques decide.
+std::vector<std::string> asked_effects(const BenchCommand& flags) {
+  if (!flags.sequence.empty()) return {"ao"};
+  if (!flags.effects.empty()) return parse_effects(flags.effects);
+  if (!flags.truths.empty() && flags.techniques.empty()) return effects_in(flags.truths);
+  return {};
+}
+
+void choose_techniques(BenchOptions& options, const BenchCommand& flags, Measurement& result) {
+  const std::string& list = flags.techniques;
+  const std::vector<std::string> asked = asked_effects(flags);
+  options.effects = !asked.empty() ? asked : list.empty() ? std::vector<std::string>{"ao"} : effect_names();
   for (const Technique& t : registry()) {
     if (!list.empty()) continue;
-    const std::string why = no_ao(t).empty() ? needs_naming(t) : no_ao(t);
+    const std::string unlike = why_not_measured(t, options.effects), why = unlike.empty() ? needs_naming(t) : unlike;
     if (why.empty())
       options.techniques.push_back(&t);
     else
@@ -29,18 +41,31 @@ void choose_techniques(BenchOptions& options, const std::string& list, Measureme
   if (list.empty()) return;
   for (const std::string& name : split_list(list, "--techniques")) {
     const Technique& t = find_technique(name);
-    if (const std::string why = no_ao(t); !why.empty())
-      throw UsageError("--techniques {}: {}; {} can be measured", name, why, enumerate(techniques_with_ao()));
+    if (const std::string why = why_not_measured(t, options.effects); !why.empty())
+      throw UsageError("--techniques {}: {}; {} can be measured", name, why,
+                       enumerate(techniques_making(options.effects)));
     if (std::find(options.techniques.begin(), options.techniques.end(), &t) == options.techniques.end())
       options.techniques.push_back(&t);
   }
+  std::erase_if(options.effects, [&](const std::string& effect) {
+    return std::none_of(options.techniques.begin(), options.techniques.end(),
+                        [&](const Technique* t) { return measured_plane(*t) == effect; });
+  });
+}
+
+/// Whether hidden layers must hold light, for a technique or its form over layers.
+bool reads_light_of_layers(const BenchOptions& options) {
+  return std::any_of(options.techniques.begin(), options.techniques.end(), [](const Technique* t) {
+    const Technique* over_layers = over_all_layers(*t);
+    return over_layers && contains(over_layers->reads, "peel_color_r");
+  });
 }
 
 void choose_presets(BenchOptions& options, const std::string& list) {
   if (list.empty()) return;
   std::vector<std::string> known;
   for (const Technique* t : options.techniques) {
-    for (const Preset& preset : t->presets) add_new(known, preset.name);
+    for (const Preset& preset : source_of(*t).presets) add_new(known, preset.name);
   }
   for (const std::string& name : split_list(list, "--presets")) {
     if (!contains(known, name))
@@ -141,7 +166,7 @@ const std::vector<std::string> default_scenes = {"courtyard", "corridor", "colon
 
 BenchOptions options_of(const BenchCommand& flags, const DeviceInfo& device, Measurement& result) {
   BenchOptions options;
-  choose_techniques(options, flags.techniques, result);
+  choose_techniques(options, flags, result);
   choose_presets(options, flags.presets);
   choose_variants(options, flags.variants, device);
   if (!flags.sweeps.empty()) choose_sweeps(options, flags.sweeps, result);
@@ -152,6 +177,7 @@ BenchOptions options_of(const BenchCommand& flags, const DeviceInfo& device, Mea
   const std::optional<Size> size = flags.sequence.empty() ? flags.size : flags.size.value_or(sequence_size);
   if (size) std::tie(options.scene.width, options.scene.height) = *size;
   options.scene.layers = peeled_layers;
+  options.scene.peel_light = reads_light_of_layers(options);
   options.scene.rays = flags.rays.value_or(options.scene.rays);
   options.scene.radius = flags.radius;
   options.scene.folder = std::filesystem::path(flags.folder) / "scenes";

@@ -15,7 +15,7 @@ namespace gloam::cli {
 /// The flags as given.
 struct BenchCommand : DeviceFlags {
   std::vector<std::string> truths;
-  std::string paper, folder, techniques, scenes, presets, frame, sequence, variants;
+  std::string paper, folder, effects, techniques, scenes, presets, frame, sequence, variants;
   std::vector<std::string> sweeps;
   std::optional<Size> size;
   std::optional<int> rays;
@@ -33,6 +33,7 @@ struct BenchCommand : DeviceFlags {
 
 /// The request, checked.
 struct BenchOptions : bench::MeasureOptions {
+  std::vector<std::string> effects;  ///< planes that are measured
   std::vector<const SceneRecipe*> scenes;
   bench::SceneOptions scene;
 };

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "bench/effects.h"
 #include "cli/pick_shot.h"
 #include "cli/shot_flags.h"
 #include "cli/subjects.h"
@@ -52,8 +53,23 @@ double parse_budget(const std::string& text, const std::string& flag) {
   }
 }
 
+/// The plane that is picked for: that of the truths, else of the techniques that are named.
+std::string effect_for(const PickCommand& flags) {
+  if (FramePattern::is_pattern(flags.frame)) return "ao";
+  std::vector<std::string> effects;
+  if (flags.techniques.empty()) {
+    effects = effects_in(flags.truths);
+  } else {
+    for (const std::string& name : split_list(flags.techniques, "--techniques"))
+      add_new(effects, measured_plane(find_technique(name)));
+  }
+  if (effects.size() > 1)
+    throw UsageError("pick: {} are several effects; give the truth, or the techniques, of one", enumerate(effects));
+  return effects.empty() || effects.front().empty() ? "ao" : effects.front();
+}
+
 /// `left_out`: techniques that are tried only if the user names them.
-PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out) {
+PickOptions options_of(const PickCommand& flags, const std::string& effect, std::vector<Skipped>& left_out) {
   if (flags.budget.has_value() == flags.error.has_value())
     throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
   PickOptions options;
@@ -63,10 +79,10 @@ PickOptions options_of(const PickCommand& flags, std::vector<Skipped>& left_out)
   options.rounds = flags.rounds;
   options.progress = show_status;
   const bool all = flags.techniques.empty();
-  for (const std::string& name : all ? techniques_with_ao() : split_list(flags.techniques, "--techniques")) {
+  for (const std::string& name : all ? techniques_making({effect}) : split_list(flags.techniques, "--techniques")) {
     const Technique& technique = find_technique(name);
-    if (const std::string why = no_ao(technique); !why.empty())
-      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_with_ao()));
+    if (const std::string why = why_not_measured(technique, {effect}); !why.empty())
+      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_making({effect})));
     if (const std::string why = needs_naming(technique); all && !why.empty())
       left_out.push_back({name, "", "", why});
     else if (std::find(options.techniques.begin(), options.techniques.end(), &technique) == options.techniques.end())
@@ -88,10 +104,12 @@ std::string reading_flags(const CLI::App& app) {
 std::string run_line(const PickCommand& flags, const Variation& v) {
   const bool is_shot = FramePattern::is_pattern(flags.frame);
   std::string line = fmt::format("gloam run {} {} -o {}", v.technique->name, quoted(flags.frame),
-                                 is_shot ? "'ao.####.exr'" : "ao.exr");
+                                 is_shot ? "'ao.####.exr'" : measured_plane(*v.technique) + ".exr");
   if (v.temporal) line += " --temporal";
   if (!v.preset.empty()) line += " --preset " + v.preset;
-  if (ParameterValues(v.technique->parameters).has("radius")) line += fmt::format(" --radius {}", float(v.radius));
+  std::string radius = radius_parameter(v.technique->parameters);
+  if (radius.empty()) radius = radius_parameter(source_of(*v.technique).parameters);
+  if (!radius.empty()) line += fmt::format(" --{} {}", radius, float(v.radius));
   if (v.resolution > 1) line += " --resolution " + v.variant;
   return line + flags.as_text() + reading_flags(*flags.app);
 }
@@ -181,7 +199,8 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
 
 void pick_command(const PickCommand& flags) {
   std::vector<Skipped> left_out;
-  const PickOptions options = options_of(flags, left_out);
+  const std::string effect = effect_for(flags);
+  const PickOptions options = options_of(flags, effect, left_out);
   if (FramePattern::is_pattern(flags.frame)) return pick_shot(flags, options, left_out);
   if (flags.choice.frames) throw UsageError("--frames: is for a shot, and {} is one frame", flags.frame);
   if (options.by == PickBy::flicker)
@@ -193,7 +212,7 @@ void pick_command(const PickCommand& flags) {
   const ScratchFolder scratch;
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
-  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, options.techniques, scene);
+  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, effect, options.techniques, scene);
   const RadiusReport radius = report_of(subject, options.techniques);
   Picked picked = pick(subject, options, device);
   picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
@@ -218,7 +237,7 @@ void add_pick(CLI::App& app) {
   flags->app = command;
   command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
   add_frames(*command, flags->choice);
-  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of ao, its filter included")
+  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included")
       ->type_name("20ms");
   add_number(*command, "--error", flags->error, {0, 1},
              "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
@@ -229,12 +248,15 @@ void add_pick(CLI::App& app) {
              "shot, what moves without reason");
   command
       ->add_option("--truth", flags->truths,
-                   "ambient occlusion as gloam reference makes it, of all views, or once for each view (REF_left.exr, "
+                   "ambient occlusion, or another effect, as gloam reference makes it, of all views, or once for each "
+                   "view (REF_left.exr, "
                    "REF_right.exr); default: traced where the frame shows a built-in scene, else a converged estimate")
       ->expected(1)
       ->take_all()
       ->type_name("REF.exr");
-  command->add_option("--techniques", flags->techniques, "these only; default: all that make ao of every view")
+  command
+      ->add_option("--techniques", flags->techniques,
+                   "these only; default: all that make the truth's effect of every view, without a truth ao")
       ->type_name("A,B");
   add_number(*command, "--radius", flags->radius, allowed_radii,
              "scene units; default: the truth's, else the scene's own, else made from the frame")

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/effects.h"
 #include "cli/memory.h"
 #include "cli/notes.h"
 #include "gloam/error.h"
@@ -29,19 +30,35 @@ void make_output_folder(const std::filesystem::path& folder) {
   if (error) throw Error("-o {}: cannot be made ({})", folder.string(), error.message());
 }
 
-std::vector<std::string> techniques_with_ao() {
+std::vector<std::string> techniques_making(const std::vector<std::string>& effects) {
   std::vector<std::string> names;
   for (const Technique& t : registry()) {
-    if (contains(outputs_of(t), "ao") && !is_filter(t)) names.push_back(t.name);
+    if (why_not_measured(t, effects).empty()) names.push_back(t.name);
   }
   return names;
 }
 
-/// Why a technique is not in the table; else empty.
-std::string no_ao(const Technique& technique) {
+std::string why_not_measured(const Technique& technique, const std::vector<std::string>& effects) {
   if (is_filter(technique)) return "is a filter: its time is part of the techniques that it follows";
-  if (!contains(outputs_of(technique), "ao")) return fmt::format("makes {}, not ao", enumerate(technique.writes));
-  return "";
+  if (contains(effects, measured_plane(technique))) return "";
+  return fmt::format("makes {}, {} {}", enumerate(technique.writes), effects.size() == 1 ? "not" : "none of",
+                     enumerate(effects));
+}
+
+std::vector<std::string> parse_effects(const std::string& list) {
+  const std::vector<std::string> known = effect_names();
+  if (list == "all") return known;
+  const std::vector<std::string> named = split_list(list, "--effects");
+  for (const std::string& name : named) {
+    if (!contains(known, name))
+      throw UsageError("--effects: no effect '{}' is measured{}; there are {} and all", name, suggestion(name, known),
+                       enumerate(known));
+  }
+  std::vector<std::string> chosen;
+  for (const std::string& name : known) {
+    if (contains(named, name)) chosen.push_back(name);
+  }
+  return chosen;
 }
 
 std::string needs_naming(const Technique& technique) {
@@ -121,9 +138,20 @@ unsigned long long planned_memory_of(const FrameFile& file, const FrameFlags& fl
   return planned_memory(flags, file.path().string(), bytes, "name fewer --techniques, or crop or shrink the frame");
 }
 
+/// Whether the scene is all that the truth needs; else says what does.
+bool is_of_scene(const Subject& subject) {
+  if (effect_of(subject.effect).is_of_scene) return true;
+  note(
+      {fmt::format("{}: the truth of {} needs more than the scene; gloam reference {} traces it, and --frame with "
+                   "--truth measures it",
+                   subject.name, subject.effect, subject.effect)});
+  return false;
+}
+
 void trace_truth(Subject& subject) {
+  if (!is_of_scene(subject)) return;
   try {
-    subject.truth = &subject.truths->truth(subject.frame);
+    subject.truth = &subject.truths->truth(subject.frame, subject.effect);
   } catch (const UsageError&) {
     throw;
   } catch (const Error& error) {  // another camera, another scene: then there is no truth
@@ -147,29 +175,32 @@ RadiusReport report_of(const Subject& subject, const std::vector<const Technique
   return RadiusReport(subject.radius, subject.frame, default_cap(techniques));
 }
 
-Subject builtin_subject(const SceneRecipe& recipe, const std::vector<const Technique*>& techniques,
-                        const SceneOptions& options) {
+Subject builtin_subject(const SceneRecipe& recipe, const std::string& effect,
+                        const std::vector<const Technique*>& techniques, const SceneOptions& options) {
   show_status(recipe.name + ": scene", 0);
-  return scene_subject(recipe.name, recipe.kind, load_scene(recipe.name, {}), techniques, options);
+  return scene_subject(recipe.name, recipe.kind, load_scene(recipe.name, {}), effect, techniques, options);
 }
 
-Subject scene_subject(const std::string& name, const std::string& scene_class, Scene scene,
+Subject scene_subject(const std::string& name, const std::string& scene_class, Scene scene, const std::string& effect,
                       const std::vector<const Technique*>& techniques, const SceneOptions& options) {
   Subject subject;
   subject.name = name;
+  subject.effect = effect;
   subject.scene_class = scene_class;
   subject.truths = std::make_unique<Truths>(name, std::move(scene), options);
   subject.radius = {subject.truths->radius(), options.radius ? RadiusSource::flag : RadiusSource::scene};
   FrameFile file(subject.truths->frame_file(), {});
   read_frame(subject, file, techniques, options.more_planes);
-  subject.truth = &subject.truths->truth(subject.frame);
+  if (is_of_scene(subject)) subject.truth = &subject.truths->truth(subject.frame, effect);
   return subject;
 }
 
 /// The user's frame. Its scene is known if the header names a built-in one.
 Subject own_subject(const std::string& frame, const FrameFlags& flags, const std::vector<std::string>& truths,
-                    const std::vector<const Technique*>& techniques, const SceneOptions& options) {
+                    const std::string& effect, const std::vector<const Technique*>& techniques,
+                    const SceneOptions& options) {
   Subject subject;
+  subject.effect = effect;
   FrameFile file(frame, flags.read_options());
   subject.name = file.path().stem().string();
   subject.scene_class = "own";
@@ -179,7 +210,7 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   bool is_known = options.radius.has_value();
   if (!truths.empty()) {
     std::vector<std::string> notes;
-    subject.given = read_truth(truths, subject.frame, notes);
+    subject.given = read_truth(truths, effect, subject.frame, notes);
     note(notes);
     subject.truth = &*subject.given;
     const std::optional<double> traced = subject.given->radius;

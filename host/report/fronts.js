@@ -33,7 +33,7 @@ function techniqueSentence(each) {
 }
 
 function renderFronts() {
-  byId('class-fronts').replaceChildren(...data.classes.map((each) => {
+  byId('class-fronts').replaceChildren(...classesOf(effectNow()).map((each) => {
     const front = each.points.filter((point) => point.on_front), table = element('div'), total = each.scenes.length;
     sortedTable(
         table,
@@ -71,7 +71,7 @@ function renderFronts() {
   byId('scene-fronts')
       .replaceChildren(
           element('h3', {}, 'Scene by scene, fastest first'),
-          ...data.scenes.filter((scene) => rowsOf(scene.name).length).map((scene) => {
+          ...scenesOf(effectNow()).filter((scene) => rowsOf(scene.name).length).map((scene) => {
             const chain = scene.front.flatMap(
                 (index, i) =>
                     [i ? element('span', {class: 'arrow'}, '→') : null, settingButton(data.rows[index], scene.name)]);

@@ -2,7 +2,7 @@
 
 function renderHead() {
   const settings = unique(data.rows.map(keyOf)).length,
-        used = data.scenes.filter((scene) => rowsOf(scene.name).length).length;
+        used = unique(data.scenes.filter((scene) => rowsOf(scene.name).length).map((scene) => scene.title)).length;
   const on = data.rows.length ?
       `${many(settings, 'setting')} of ${many(techniques.length, 'technique')} on ${many(used, 'scene')}` :
       `${many(sequenceRows.length, 'setting')} of ${many(techniquesWithSequence.length, 'technique')} on a shot`;
@@ -17,15 +17,24 @@ function renderHead() {
           .map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, String(value)))));
 }
 
+/// To another effect on the same scene, or on its first one.
+function effectButton(effect, shown) {
+  const there = scenesOf(effect).filter((scene) => rowsOf(scene.name).length);
+  const same = there.find((scene) => scene.title === sceneNow().title) || there[0];
+  return pressButton(
+      effectTitle(effect), effect === shown, () => same && goTo(same.name, null), {class: 'effect', disabled: !same});
+}
+
 function renderScenes() {
-  const parts = [];
-  for (const name of unique(data.scenes.map((scene) => scene.class))) {
-    const scenes = data.scenes.filter((scene) => scene.class === name && rowsOf(scene.name).length);
+  const parts = [], effect = effectNow();
+  if (effects.length > 1) parts.push(...effects.map((each) => effectButton(each, effect)));
+  for (const name of unique(scenesOf(effect).map((scene) => scene.class))) {
+    const scenes = scenesOf(effect).filter((scene) => scene.class === name && rowsOf(scene.name).length);
     const means = data.classes.find((each) => each.name === name);
     if (name && scenes.length) parts.push(element('span', {class: 'class-name'}, name));
     for (const scene of scenes)
       parts.push(
-          pressButton(scene.name, state.mean === null && scene.name === state.scene, () => goTo(scene.name, null)));
+          pressButton(scene.title, state.mean === null && scene.name === state.scene, () => goTo(scene.name, null)));
     if (means && means.scenes.length > 1)
       parts.push(pressButton('mean of ' + means.scenes.length, state.mean === name, () => goTo(state.scene, name)));
   }

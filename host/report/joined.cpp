@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "gloam/error.h"
@@ -14,8 +15,11 @@ namespace {
 /// Order of the classes; other classes follow.
 constexpr std::array<const char*, 5> class_order{"architecture", "thin", "object", "flat", "own"};
 
-size_t rank(const Scene& scene) {
-  return size_t(std::find(class_order.begin(), class_order.end(), scene.scene_class) - class_order.begin());
+/// Ambient occlusion first, then other effects; within an effect by class.
+std::tuple<bool, std::string, size_t> rank(const Scene& scene) {
+  const std::string scene_class = scene.scene_class.substr(0, scene.scene_class.find(','));
+  return {scene.effect != "ao", scene.effect,
+          size_t(std::find(class_order.begin(), class_order.end(), scene_class) - class_order.begin())};
 }
 
 std::string size_of(const Scene& scene) {

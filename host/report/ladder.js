@@ -147,7 +147,7 @@ function compared() {
 }
 
 function renderLadder() {
-  const rows = compared(), scene = state.scene;
+  const rows = compared(), scene = state.scene, steps = stepsNow();
   byId('chosen').replaceChildren(...rows.map(({key, row, colour, opacity}) => {
     const square = element('span', {class: 'square'});
     square.style.background = `color-mix(in srgb, ${colour} ${100 * opacity}%, transparent)`;
@@ -193,6 +193,16 @@ function renderLadder() {
                             label: nameOf(row) + ' ' + errorFigure(row.rmse),
                             hover: {title: nameOf(row), lines: [['total to the truth', errorFigure(row.rmse)]]}
                           }));
+  const base = baseRow(sceneNow());
+  if (base)
+    totals.push({
+      value: base.rmse,
+      colour: theme().faint,
+      opacity: 0.9,
+      dash: [1, 3],
+      label: `${base.technique}, no technique ${errorFigure(base.rmse)}`,
+      hover: {title: base.technique + ', no technique', lines: [['to the truth', errorFigure(base.rmse)]]}
+    });
   const width = place.clientWidth || place.parentElement.clientWidth;
   draw(place, ladderSpec({steps, count: rows.length, bars, totals, width}), width);
   sortedTable(
@@ -214,7 +224,7 @@ function renderLadder() {
                        text: atHand
                      })),
       ],
-      rows);
+      base ? [...rows, {row: base}] : rows);
 }
 
 const atHand = (value) => (is(value) ? errorFigure(value) : 'not at hand');

@@ -176,7 +176,8 @@ class Sheets {
     if (found.techniques > 0) {
       page_.notes.insert(page_.notes.end(), found.notes.begin(), found.notes.end());
       page_.pictures.push_back(
-          {path, sheet_png("Ambient occlusion: " + scene.name, about(scene), found.tiles, most_bytes)});
+          {path, sheet_png((scene.effect == "ao" ? "Ambient occlusion: " : "Effect of light: ") + scene.name,
+                           about(scene), found.tiles, most_bytes)});
     } else if (fs::is_regular_file(path, unknown)) {
       // The old sheet is kept, so that a page can be generated again from a bench.json alone.
       page_.notes.push_back(fmt::format("{}: its pictures are not beside bench.json; kept as it is", path.string()));

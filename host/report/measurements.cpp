@@ -120,8 +120,20 @@ Milliseconds milliseconds_of(const Object& object) {
 }
 
 Ladder ladder_of(const Object& l) {
-  return {l.number("t0w"),     l.number("t1"),       l.number("t2"), l.number("t3"),
-          l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
+  return {l.number("t0w"), l.number("t1"),      l.number("t2"),       l.number("t12"),
+          l.number("t3"),  l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
+}
+
+/// The plane that was measured; older files know ambient occlusion alone.
+std::string effect_of(const Object& o) {
+  const std::string effect = o.text("effect");
+  return effect.empty() ? "ao" : effect;
+}
+
+/// What one effect was measured on, apart from the same scene of another.
+std::string with_effect(const std::string& text, const std::string& effect) {
+  if (effect == "ao") return text;
+  return text.empty() ? effect : text + ", " + effect;
 }
 
 /// For files that do not state what a technique reads.
@@ -143,7 +155,8 @@ Row row_of(const Object& o) {
   row.technique = o.needed_text("technique");
   row.preset = o.text("preset");
   row.variant = o.text("variant");
-  row.scene = o.needed_text("scene");
+  row.effect = effect_of(o);
+  row.scene = with_effect(o.needed_text("scene"), row.effect);
   row.reads = reads_of(o);
   row.ms = milliseconds_of(o.needed_object("ms"));
   row.rmse_to_truth = o.number("rmse_to_truth");
@@ -174,13 +187,21 @@ Row row_of(const Object& o) {
 
 Scene scene_of(const Object& o) {
   Scene scene;
-  scene.name = o.needed_text("name");
+  scene.title = o.needed_text("name");
+  scene.effect = effect_of(o);
+  scene.name = with_effect(scene.title, scene.effect);
   scene.scene_class = o.text("class");
+  if (scene.scene_class != "own") scene.scene_class = with_effect(scene.scene_class, scene.effect);
   std::tie(scene.width, scene.height) = o.size("size");
   scene.radius = o.number("radius");
   scene.radius_pixels = o.number("radius_pixels");
   scene.truth_noise = o.number("truth_noise");
   scene.truth_image = o.text("truth_image");
+  const Object base = o.object("base");
+  scene.base = base.text("name");
+  scene.base_rmse = base.number("rmse_to_truth");
+  scene.base_bias = base.number("bias");
+  scene.white = o.number("white").value_or(1);
   return scene;
 }
 
@@ -201,7 +222,12 @@ PaperFigure paper_figure_of(const Object& o) {
 }
 
 Converged converged_of(const Object& o) {
-  return {o.needed_text("technique"), o.needed_text("scene"), o.number("rmse_to_truth"), o.number("bias"), reads_of(o)};
+  return {o.needed_text("technique"),
+          with_effect(o.needed_text("scene"), effect_of(o)),
+          o.number("rmse_to_truth"),
+          o.number("bias"),
+          reads_of(o),
+          effect_of(o)};
 }
 
 ScaleChange scale_change_of(const Object& o) {
@@ -271,7 +297,8 @@ void add_scenes_of_rows(Measurements& m) {
     const auto is_it = [&](const Scene& scene) { return scene.name == row.scene; };
     if (std::any_of(m.scenes.begin(), m.scenes.end(), is_it)) continue;
     Scene scene;
-    scene.name = row.scene;
+    scene.name = scene.title = row.scene;
+    scene.effect = row.effect;
     scene.width = row.width;
     scene.height = row.height;
     m.scenes.push_back(scene);

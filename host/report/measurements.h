@@ -29,7 +29,7 @@ struct Share {
 
 /// The ladder: RMSE of each image to the one a step above it (docs/benchmarking.md).
 struct Ladder {
-  Number t0w, t1, t2, t3, t4_bias, t4_noise, t5;
+  Number t0w, t1, t2, t12, t3, t4_bias, t4_noise, t5;
 };
 
 /// Time of a part of a technique relative to naive kernels that compute the same.
@@ -52,6 +52,7 @@ bool reads_one_layer(const Reads& reads);
 /// One technique with one preset, in one variant, on one scene.
 struct Row {
   std::string technique, preset, variant, scene;
+  std::string effect;  ///< of its scene
   Reads reads;
   Milliseconds ms;
   Number rmse_to_truth, bias;
@@ -68,11 +69,16 @@ struct Row {
   size_t source = 0;  ///< index of its file, of several (joined.h)
 };
 
+/// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery, indirect".
 struct Scene {
   std::string name, scene_class;
+  std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"
   Number width, height, radius, radius_pixels, truth_noise;
   std::string truth_image;  ///< path below the folder; empty: none
-  size_t source = 0;        ///< index of its file, of several (joined.h)
+  std::string base;         ///< what there is without a technique: "white"; empty in older files
+  Number base_rmse, base_bias;
+  double white = 1;   ///< value that pictures show as white
+  size_t source = 0;  ///< index of its file, of several (joined.h)
 };
 
 struct Growth {
@@ -96,6 +102,7 @@ struct Converged {
   std::string technique, scene;
   Number rmse_to_truth, bias;
   Reads reads;
+  std::string effect;
 };
 
 /// Difference between an image computed at one size and the same image computed at another.

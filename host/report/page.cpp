@@ -108,9 +108,9 @@ Json json(const Number& number) { return number ? Json(*number) : Json(nullptr);
 Json json(const Milliseconds& ms) { return {{"median", ms.median}, {"min", ms.min}, {"max", ms.max}}; }
 
 Json json(const Ladder& l) {
-  return {{"t0w", json(l.t0w)}, {"t1", json(l.t1)},           {"t2", json(l.t2)},
-          {"t3", json(l.t3)},   {"t4_bias", json(l.t4_bias)}, {"t4_noise", json(l.t4_noise)},
-          {"t5", json(l.t5)}};
+  return {{"t0w", json(l.t0w)},           {"t1", json(l.t1)}, {"t2", json(l.t2)},
+          {"t12", json(l.t12)},           {"t3", json(l.t3)}, {"t4_bias", json(l.t4_bias)},
+          {"t4_noise", json(l.t4_noise)}, {"t5", json(l.t5)}};
 }
 
 Json json(const Row& row, const Pictures& pictures) {
@@ -148,7 +148,11 @@ Json json(const Row& row, const Pictures& pictures) {
 Json json(const Scene& scene, const std::vector<Row>& rows, const Pictures& pictures) {
   const SceneFront front = front_of_scene(rows, scene.name);
   return {{"name", scene.name},
+          {"title", scene.title},
+          {"effect", scene.effect},
           {"class", scene.scene_class},
+          {"base", {{"name", scene.base}, {"rmse", json(scene.base_rmse)}, {"bias", json(scene.base_bias)}}},
+          {"white", scene.white},
           {"width", json(scene.width)},
           {"height", json(scene.height)},
           {"radius", json(scene.radius)},

@@ -68,5 +68,5 @@ function renderPictures() {
             renderPictures();
           })));
   if (!row) return;
-  showPictures(place, {name: nameOf(row), picture: row.picture, truth: sceneNow().truth_picture}, state.pictures);
+  showPictures(place, {name: nameOf(row), picture: row.picture, truth: sceneNow().truth_picture, white: sceneNow().white}, state.pictures);
 }

@@ -62,9 +62,9 @@ function paintDifference(canvas, image, truth, range) {
   context.putImageData(out, 0, 0);
 }
 
-/// Shows a picture and the truth if there are both, else the one that exists. `state`: {wipe (0 to 1), range, fullSize}. Returns
+/// Shows a picture and the truth if there are both, else the one that exists. `white`: the value of white pixels. `state`: {wipe (0 to 1), range, fullSize}. Returns
 /// at once; the pictures follow. A later call cancels an earlier one.
-async function showPictures(place, {name, picture, truth}, state) {
+async function showPictures(place, {name, picture, truth, white}, state) {
   const turn = (place.turn = (place.turn || 0) + 1);
   const images = await Promise.all([picture, truth].map((index) => (is(index) ? loadPicture(index) : null)));
   if (turn !== place.turn) return;
@@ -79,7 +79,7 @@ async function showPictures(place, {name, picture, truth}, state) {
         element('p', {class: 'remark'}, 'There is no picture of the truth on this scene.'),
         element('div', {class: 'panes'}, singlePane(image, name)));
   } else {
-    place.replaceChildren(element('div', {class: 'panes'}, ...comparison(image, reference, name, state)));
+    place.replaceChildren(element('div', {class: 'panes'}, ...comparison(image, reference, name, white, state)));
   }
   place.dataset.shown = name;
 }
@@ -91,7 +91,7 @@ function singlePane(image, name) {
       element('figcaption', {}, name));
 }
 
-function comparison(a, b, name, state) {
+function comparison(a, b, name, white, state) {
   const valueHere = [element('span', {class: 'at'}), element('span', {class: 'at'})];
   const wipe = wipePane(a, b, name, state);
   const panes = [element(
@@ -105,11 +105,11 @@ function comparison(a, b, name, state) {
             b.height}: there is no difference to show.`));
     return panes;
   }
-  const difference = differencePane(a, b, name, state, valueHere[1]);
+  const difference = differencePane(a, b, name, white, state, valueHere[1]);
   panes.push(difference.figure);
   for (const stage of [wipe.stage, difference.stage]) {
     stage.addEventListener(
-        'pointermove', (event) => valueHere.forEach((place) => (place.textContent = valuesAt(stage, event, a, b))));
+        'pointermove', (event) => valueHere.forEach((place) => (place.textContent = valuesAt(stage, event, a, b, white))));
     stage.addEventListener('pointerleave', () => valueHere.forEach((place) => (place.textContent = '')));
   }
   return panes;
@@ -147,20 +147,21 @@ function wipePane(image, reference, name, state) {
   return {stage, slider};
 }
 
-function differencePane(a, b, name, state, valueHere) {
+function differencePane(a, b, name, white, state, valueHere) {
   const canvas = element('canvas', {role: 'img', 'aria-label': 'signed difference of ' + name + ' and the truth'});
   const stage = element('div', {class: 'stage'}, canvas);
+  const shown = (range) => String(Number((range * white).toPrecision(2)));
   const ramp = element('div', {class: 'ramp'}), low = element('span'), high = element('span');
   const choice = element('select', {'aria-label': 'Difference that has the full colour'}, [
     0.05, 0.1, 0.25, 0.5, 1
-  ].map((range) => element('option', {value: range, selected: range === state.range}, '± ' + range)));
+  ].map((range) => element('option', {value: range, selected: range === state.range}, '± ' + shown(range))));
   const paint = () => {
     const colours = differenceColours(), css = (rgb) => `rgb(${rgb.join(',')})`;
     paintDifference(canvas, a, b, state.range);
     ramp.style.background =
         `linear-gradient(90deg, ${css(colours.below)}, ${css(colours.zero)}, ${css(colours.above)})`;
-    low.textContent = '\u2212' + state.range + ' darker than the truth';
-    high.textContent = 'brighter +' + state.range;
+    low.textContent = '\u2212' + shown(state.range) + ' darker than the truth';
+    high.textContent = 'brighter +' + shown(state.range);
   };
   choice.addEventListener('change', () => {
     state.range = Number(choice.value);
@@ -176,14 +177,14 @@ function differencePane(a, b, name, state, valueHere) {
 }
 
 /// "image 0.53, truth 0.61, difference -0.08" at the pointer
-function valuesAt(stage, event, a, b) {
+function valuesAt(stage, event, a, b, white) {
   const box = stage.getBoundingClientRect();
   const x = Math.floor(((event.clientX - box.left) / box.width) * a.width),
         y = Math.floor(((event.clientY - box.top) / box.height) * a.height);
   if (x < 0 || y < 0 || x >= a.width || y >= a.height) return '';
   const i = y * a.width + x;
   if (!a.isThere(i) || !b.isThere(i)) return `${x}, ${y}: background`;
-  const [image, truth] = [a.grey(i) / 255, b.grey(i) / 255];
+  const [image, truth] = [(a.grey(i) / 255) * white, (b.grey(i) / 255) * white];
   return minus(
       `${x}, ${y}: image ${image.toFixed(2)}, truth ${truth.toFixed(2)}, difference ${(image - truth).toFixed(2)}`);
 }

@@ -7,13 +7,14 @@ function rowColumns(allScenes) {
     {
       name: 'technique',
       value: (row) => row.technique,
-      cell: (row) => [swatch(techniqueOf(row), row.variant !== ''), row.technique]
+      cell: (row) => [row.isBase ? null : swatch(techniqueOf(row), row.variant !== ''), row.technique]
     },
     {name: 'preset', value: (row) => row.preset || null},
     {name: 'variant', value: (row) => row.variant || null},
     number('ms', (row) => row.ms.median, figure, 'median over the rounds'),
     number(
-        'range', (row) => row.ms.max, (value, row) => figure(row.ms.min) + ' to ' + figure(row.ms.max),
+        'range', (row) => row.ms.max,
+        (value, row) => (is(value) ? figure(row.ms.min) + ' to ' + figure(row.ms.max) : '–'),
         'fastest and slowest round'),
     number('/ HBAO+', (row) => row.ratio, figure, 'time over that of HBAO+ medium'),
     number('/ own floor', (row) => row.to_own_floor, figure, 'time over that of its own gathers alone'),
@@ -32,10 +33,12 @@ function rowColumns(allScenes) {
 
 function renderRows() {
   const allScenes = byId('all-scenes').checked;
-  const rows = data.rows.filter((row) => (allScenes || row.scene === state.scene) && isShown(row));
+  const scenes = allScenes ? scenesOf(effectNow()) : [sceneNow()];
+  const rows = scenes.flatMap((scene) => [...rowsOf(scene.name).filter(isShown), baseRow(scene)]).filter(Boolean);
   sortedTable(byId('rows-table'), rowColumns(allScenes), rows, {
     isPicked: (row) => row.scene === state.scene && keyOf(row) === state.picked,
     pick: (row) => {
+      if (row.isBase) return;
       state.picked = keyOf(row);
       if (row.scene === state.scene && state.mean === null)
         renderPicked();

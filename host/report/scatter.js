@@ -2,10 +2,12 @@
 
 /// Specification of the chart. `points`: {key, x, y, technique (number), label, size, hollow, onFront, hover}; `front`: points of
 /// the front, which may be hidden among `points`.
-function scatterSpec({points, front, picked, timeTitle, isRatio, width}) {
+function scatterSpec({points, front, base, picked, timeTitle, isRatio, width}) {
   const colours = theme();
   const all = [...points, ...front];
-  const x = logDomain(all.map((p) => p.x)), y = linearDomain(all.map((p) => p.y));
+  // What there is without a technique is drawn where it does not squeeze the points together.
+  const errors = all.map((p) => p.y), bases = is(base) && base <= 2 * Math.max(...errors) ? [base] : [];
+  const x = logDomain(all.map((p) => p.x)), y = linearDomain([...errors, ...bases]);
   const ordered = [...front].sort((a, b) => a.x - b.x || b.y - a.y);
   const line =
       ordered.length ? [{x: ordered[0].x, y: y[1]}, ...ordered, {x: x[1], y: ordered[ordered.length - 1].y}] : [];
@@ -15,6 +17,7 @@ function scatterSpec({points, front, picked, timeTitle, isRatio, width}) {
     signals: [{name: 'picked', value: picked}],
     data: [
       {name: 'points', values: points.map((p) => ({...p, colour: colourOf(p.technique), shape: shapeOf(p.technique)}))},
+      {name: 'base', values: bases.map((value) => ({y: value}))},
       {name: 'line', values: line.map((p) => ({x: p.x, y: p.y}))},
       {name: 'on_front', source: 'points', transform: [{type: 'filter', expr: 'datum.onFront'}]},
       {name: 'picked_point', source: 'points', transform: [{type: 'filter', expr: 'datum.key === picked'}]},
@@ -80,6 +83,21 @@ function scatterSpec({points, front, picked, timeTitle, isRatio, width}) {
         }
       }] :
                     []),
+      {
+        type: 'rule',
+        name: 'base_line',
+        from: {data: 'base'},
+        interactive: false,
+        encode: {
+          enter: {
+            x: {value: 0},
+            x2: {signal: 'width'},
+            y: at.y,
+            stroke: {value: colours.faint},
+            strokeDash: {value: [1, 3]}
+          }
+        }
+      },
       {
         type: 'line',
         name: 'front_line',
@@ -201,6 +219,7 @@ function renderScatter() {
       place, scatterSpec({
         points: shown.map((row) => pointOf(row, front)),
         front: front.map((row) => ({x: timeOf(row), y: row.rmse})),
+        base: state.mean === null ? sceneNow().base.rmse : null,
         picked: state.picked,
         width,
         isRatio: timeShown() === 'ratio',
@@ -246,6 +265,8 @@ function remarkOn(points, shown, front) {
           (is(scene.radius_pixels) ? ` (${figure(scene.radius_pixels)} pixels at the median depth)` : ''));
     if (is(scene.truth_noise)) facts.push(`noise of the truth itself ${errorFigure(scene.truth_noise)}`);
     if (facts.length) about.push(scene.name + ': ' + facts.join(', ') + '.');
+    if (is(scene.base.rmse))
+      about.push(`Without a technique (${scene.base.name}, dotted) the error is ${errorFigure(scene.base.rmse)}.`);
     if (!points.length) about.push('There is no truth for this scene, so no error to draw; its times are below.');
     if (!hasRatios() && state.time === 'ratio') about.push('HBAO+ medium was not measured here, so the axis is in ms.');
   }
@@ -284,7 +305,7 @@ function renderTimeSwitch() {
 function renderFilters() {
   const boxes = [];
   for (const [what, title] of [['technique', 'Techniques'], ['preset', 'Presets'], ['variant', 'Variants']]) {
-    const values = unique(data.rows.map((row) => row[what]));
+    const values = unique(rowsOfEffect(effectNow()).map((row) => row[what]));
     if (values.length < 2) continue;
     const hidden = state.hidden[what];
     const checks = values.map((value) => {

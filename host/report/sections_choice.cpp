@@ -120,7 +120,14 @@ std::string table_of_scene(const Material& material, const Scene& scene) {
     }
     table.add(cells);
   }
-  return table.empty() ? "" : table.text();
+  if (table.empty()) return "";
+  if (scene.base_rmse) {
+    std::vector<std::string> cells(heading.size());
+    cells[0] = plain_text(scene.base) + ", no technique";
+    cells[1] = error_and_bias(scene.base_rmse, scene.base_bias);
+    table.add(cells);
+  }
+  return table.text();
 }
 
 /// A preset and the next larger one, which is farther from the truth on some scenes.

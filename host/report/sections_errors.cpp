@@ -111,7 +111,7 @@ struct Step {
   Number Ladder::*figure;
 };
 
-constexpr std::array<Step, 7> steps{
+constexpr std::array<Step, 8> steps{
     {{"model",
       "the integral of the technique's own contribution and falloff, traced, against the truth: what the method "
       "chooses to compute instead",
@@ -122,6 +122,10 @@ constexpr std::array<Step, 7> steps{
       &Ladder::t1},
      {"hidden", "the converged technique on the layers that it is given against all layers: geometry that is hidden",
       &Ladder::t2},
+     {"screen and hidden",
+      "the converged technique against the truth, or the technique's own contribution, where there is no form over all "
+      "layers",
+      &Ladder::t12},
      {"noise", "its own number of samples against the converged image, unfiltered", &Ladder::t3},
      {"filter", "the filter on the converged image: what it blurs away", &Ladder::t4_bias},
      {"noise left", "samples and filter against the filter on the converged image", &Ladder::t4_noise},
@@ -165,11 +169,20 @@ const PlaneReading* least_of(const std::vector<PlaneReading>& readings, const st
 
 }  // namespace
 
-std::string converged_section(const Material& material) {
-  const std::vector<Converged>& list = material.all.converged;
-  if (list.empty()) return "";
+namespace {
+
+/// The table of one effect.
+std::string converged_table(const Material& material, const std::string& effect) {
+  std::vector<Converged> list;
+  std::vector<std::string> scenes;
+  for (const Converged& each : material.all.converged) {
+    if (each.effect == effect) list.push_back(each);
+  }
+  for (const std::string& scene : scenes_of(material)) {
+    if (std::any_of(list.begin(), list.end(), [&](const Converged& each) { return each.scene == scene; }))
+      scenes.push_back(scene);
+  }
   const std::vector<Pair> pairs = pairs_of(list);
-  const std::vector<std::string> scenes = scenes_of(material);
   std::vector<std::string> heading{"scene"}, means{"mean"}, biases{"bias, mean"};
   for (const Pair& pair : pairs) {
     heading.push_back(plain_text(pair.name));
@@ -184,6 +197,31 @@ std::string converged_section(const Material& material) {
     table.add(means);
     table.add(biases);
   }
+  return table.text();
+}
+
+/// Those that any row has a figure of; all but the one for techniques without a form over layers, which few results hold.
+std::vector<Step> steps_in(const std::vector<Row>& rows) {
+  std::vector<Step> found;
+  for (const Step& step : steps) {
+    const bool is_there =
+        std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return (row.ladder.*step.figure).has_value(); });
+    if (is_there || step.figure != &Ladder::t12) found.push_back(step);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string converged_section(const Material& material) {
+  std::vector<std::string> effects;
+  for (const Converged& each : material.all.converged) add_new(effects, each.effect);
+  if (effects.empty()) return "";
+  std::string tables;
+  for (const std::string& effect : effects) {
+    if (effects.size() > 1) tables += fmt::format("### {}\n\n", plain_text(effect));
+    tables += converged_table(material, effect);
+  }
   return "## Converged\n\n" +
          paragraph(
              "RMSE to the truth with so many samples that more change nothing, unfiltered: what no time buys. Two "
@@ -191,19 +229,20 @@ std::string converged_section(const Material& material) {
              "surfaces are worth. The least over one layer is bold; what looks at stochastic depths or at a second "
              "view "
              "has a column of its own.") +
-         table.text();
+         tables;
 }
 
 std::string ladder_section(const Material& material) {
+  const std::vector<Step> shown = steps_in(material.all.rows);
   std::vector<std::string> heading{"setting"};
-  for (const Step& step : steps) heading.push_back(step.heading);
+  for (const Step& step : shown) heading.push_back(step.heading);
   heading.push_back("in all");
   Table table(heading, "lr");
   for (const std::string& technique : techniques_of(material.all.rows)) {
     const std::vector<Row> rows = default_rows(material.all.rows, technique);
     std::vector<std::string> cells{setting_text(technique, rows.empty() ? "" : rows.front().preset)};
     bool known = false;
-    for (const Step& step : steps) {
+    for (const Step& step : shown) {
       std::vector<double> values;
       for (const Row& row : rows) {
         if (const Number& value = row.ladder.*step.figure) values.push_back(*value);
@@ -223,7 +262,7 @@ std::string ladder_section(const Material& material) {
   text += paragraph(
       "Each column is the RMSE between two images that differ in one thing; medians over the scenes. They do not add "
       "up; the last column is the whole way to the truth.");
-  for (const Step& step : steps) text += list_item(fmt::format("*{}*: {}.", step.heading, step.says));
+  for (const Step& step : shown) text += list_item(fmt::format("*{}*: {}.", step.heading, step.says));
   return text + "\n" + table.text();
 }
 

@@ -6,6 +6,7 @@ const steps = [
   {key: 't0w', short: 'model', help: 'what the method chooses to compute instead of the truth'},
   {key: 't1', short: 'screen', help: 'estimating on the screen, over all surfaces'},
   {key: 't2', short: 'hidden', help: 'geometry that the picture hides'},
+  {key: 't12', short: 'screen and hidden', help: 'both at once, where there is no form over all layers'},
   {key: 't3', short: 'samples', help: 'noise of sampling'},
   {key: 't4_bias', short: 'filter bias', help: 'what the filter blurs away'},
   {key: 't4_noise', short: 'noise left', help: 'noise that the filter leaves'},
@@ -33,6 +34,33 @@ const state = {
 };
 
 // --- What is shown now
+
+const effects = unique(data.scenes.map((scene) => scene.effect));
+const effectTitle = (plane) => (plane === 'ao' ? 'ambient occlusion' : plane.replace(/_/g, ' '));
+const effectNow = () => sceneNow().effect;
+const scenesOf = (effect) => data.scenes.filter((scene) => scene.effect === effect);
+const classesOf = (effect) => {
+  const names = scenesOf(effect).map((scene) => scene.class);
+  return data.classes.filter((each) => names.includes(each.name));
+};
+const rowsOfEffect = (effect) => {
+  const names = scenesOf(effect).map((scene) => scene.name);
+  return data.rows.filter((row) => names.includes(row.scene));
+};
+
+/// The steps of the ladder; the one for techniques without a form over layers only where there is such a technique.
+const stepsNow = () =>
+    steps.filter(({key}) => key !== 't12' || rowsOfEffect(effectNow()).some((row) => is(row.ladder[key])));
+
+/// What there is without a technique, as a row; null where nothing is known of it. It takes no time.
+function baseRow(scene) {
+  if (!is(scene.base.rmse)) return null;
+  const none = {median: null, min: null, max: null};
+  return {
+    isBase: true, scene: scene.name, technique: scene.base.name, preset: '', variant: '', ms: none, rmse: scene.base.rmse,
+        bias: scene.base.bias, ladder: {}
+  };
+}
 
 const sceneNow = () => data.scenes.find((scene) => scene.name === state.scene);
 const rowsOf = (scene) => data.rows.filter((row) => row.scene === scene);
@@ -79,8 +107,15 @@ function drop(key) {
 }
 
 function goTo(scene, mean) {
+  const effect = effectNow();
   state.scene = scene;
   state.mean = mean;
+  if (effectNow() !== effect) {
+    state.picked = bestKey();
+    state.chosen = firstChosen();
+    renderFilters();
+    renderFronts();
+  }
   if (state.mean === null && !rowNow(state.picked)) state.picked = bestKey();
   render();
 }

@@ -104,7 +104,8 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
     EXPECT_NEAR(spent, 1, 1e-9);
     EXPECT_TRUE(row["rmse_to_truth"].is_number());
     EXPECT_LE(std::abs(row["bias"].get<double>()), row["rmse_to_truth"]);
-    ASSERT_EQ(row["ladder"].size(), 7u);
+    ASSERT_EQ(row["ladder"].size(), 8u);
+    EXPECT_TRUE(row["ladder"]["t12"].is_null());  // it has a form over layers
     for (const char* key : {"t0w", "t1", "t2", "t3", "t4_bias", "t4_noise", "t5"}) {
       ASSERT_TRUE(row["ladder"][key].is_number()) << key;
       EXPECT_GE(row["ladder"][key], 0) << key;
@@ -542,7 +543,10 @@ TEST_F(Cli, BenchSaysWhatIsWrong) {
   };
   const std::vector<Wrong> all = {
       {{"--techniques", "gtoa"}, "did you mean 'gtao'?"},
-      {{"--techniques", "normals"}, "not ao"},
+      {{"--techniques", "normals"}, "none of ao, bounces"},
+      {{"--techniques", "indirect", "--effects", "ao"}, "not ao"},
+      {{"--effects", "indirekt"}, "did you mean 'indirect'?"},
+      {{"--effects", "bounces", "--sequence", "gallery:walk"}, "ambient occlusion alone"},
       {{"--scenes", "plan"}, "did you mean 'plane'?"},
       {{"--presets", "mediun"}, "did you mean 'medium'?"},
       {{"--rounds", "0"}, "--rounds 0"},

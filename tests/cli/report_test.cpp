@@ -389,6 +389,55 @@ TEST_F(ReportInBrowser, SwitchesScenesAndAxes) {
   EXPECT_EQ(result["floor"], Json({"2.00", "2.00"}));  // rows without one are last in both orders
 }
 
+TEST_F(ReportInBrowser, GivesEachEffectItsOwnSections) {
+  Json document = measurements();
+  Json hall = document["scenes"][0], light = row("hall", "indirect", "low", 0.9, 0.03);
+  hall["effect"] = light["effect"] = "indirect";
+  hall["base"] = {{"name", "black"}, {"rmse_to_truth", 0.0345}, {"bias", -0.01}};
+  hall["white"] = 0.5;
+  hall["truth_image"] = "images/hall/truth.png";
+  light["image"] = "images/hall/low.png";
+  document["scenes"].push_back(hall);
+  document["results"].push_back(light);
+  write(document);
+  ASSERT_EQ(report().status, 0);
+  const Json result = in_browser(R"js(
+    const named = (place) => [...document.querySelectorAll(place)].map((each) => each.innerText);
+    const effects = () => [...document.querySelectorAll('#scenes .effect')];
+    const rules = () => document.querySelectorAll('#ladder-chart .total_rules line').length;
+    const lines = () => document.querySelectorAll('#scatter .base_line line').length;
+    await until(() => rules() > 0);
+    result.effects = effects().map((button) => button.innerText);
+    result.of_ao = [points().length, named('#rows-table tbody tr').length, lines(), rules()];
+    effects()[1].click();
+    await until(() => points().length === 1 && lines() === 1 && document.getElementById('viewer').dataset.shown === 'indirect low');
+    result.of_light = [points().length, named('#rows-table tbody tr').length, lines(), rules()];
+    result.base = named('#rows-table tbody tr').pop();
+    result.ladder = named('#ladder-table tbody tr');
+    result.fronts = named('#class-fronts h3');
+    result.range = document.querySelector('#viewer .scale').innerText;
+    result.remark = document.getElementById('scatter-remark').innerText;
+    document.querySelector('#rows-table tbody tr:last-child').click();
+    result.picked = document.getElementById('picked').innerText;
+  )js");
+  EXPECT_EQ(result["effects"], Json({"ambient occlusion", "indirect"}));
+  EXPECT_EQ(result["of_ao"][0], 4);
+  EXPECT_EQ(result["of_ao"][1], 4);  // older scenes know no base line
+  EXPECT_EQ(result["of_ao"][2], 0);
+  EXPECT_EQ(result["of_light"], Json({1, 2, 1, 2}));
+  const auto holds = [&](const Json& text, const char* words) {
+    EXPECT_NE(text.get<std::string>().find(words), std::string::npos) << text;
+  };
+  holds(result["base"], "black");
+  holds(result["base"], "0.0345");
+  ASSERT_EQ(result["ladder"].size(), 2u);
+  holds(result["ladder"][1], "black");
+  EXPECT_EQ(result["fronts"], Json({"architecture, indirect"}));
+  holds(result["range"], "0.13 darker");  // a quarter of what is shown as white
+  holds(result["remark"], "Without a technique (black, dotted) the error is 0.0345");
+  holds(result["picked"], "indirect low");  // the base line is nothing to pick
+}
+
 TEST_F(ReportInBrowser, FitsWideAndNarrowPages) {
   for (const int width : {1280, 400}) {
     const Json result = in_browser(

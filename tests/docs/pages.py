@@ -53,7 +53,8 @@ PAGES = {
     "bench/README.md": Page(
         prepare=SHOT,
         instead={"bench_hbao_plus ": ("bench_hbao_plus --size=96x54 --benchmark_min_time=0.01 ", MINUTES),
-                 "bench_denormals  ": ("bench_denormals --size=96x54 gtao bilateral  ", MINUTES)},
+                 "bench_denormals  ": ("bench_denormals --size=96x54 gtao bilateral  ", MINUTES),
+                 "out/bounces gallery plane ": ("out/bounces plane --size 96x54 --samples 32 ", MINUTES)},
         not_run={"script/build": BUILD},
         check="grep -q hbao+_8x4/gloam_fast hbao_plus.json && [ -s floor.0004.exr ]"),
     "data/README.md": Page(
@@ -72,11 +73,12 @@ PAGES = {
             "--sweep steps=4,9,18": ("--sweep steps=4,9,18 --scenes plane --size 96x54 --rays 8", MINUTES),
             " # your own frame": (" --techniques gtao --presets low --variants none --no-growth # ", MINUTES),
             "--size 1920x1080 --rays 1": ("--size 320x180 --rays 1", MINUTES),
+            "--scenes gallery,lounge": ("--scenes plane --size 96x54 --rays 8 --presets low --variants none --no-growth", MINUTES),
             "--folder out/fit": ("--folder out/fit --scenes plane,gallery --occluders depth --presets medium --frames 2 --rays 16", MINUTES),
             "--folder out/interiors": ("--folder out/interiors --presets medium --frames 2 --rays 16", MINUTES),
             "--folder out/own": ("--folder out/own --frames 2 --rays 16", MINUTES)},
         not_run={"build/gloam bench -o out/vermeer2021": "takes 6 minutes; cli.Cli.APaperIsMeasuredAgain of script/test --long runs it, smaller"},
-        check="""for n in bench steps mine naive walk shot; do [ -s out/$n/bench.json ]; done
+        check="""for n in bench steps mine light naive walk shot; do [ -s out/$n/bench.json ]; done
             python3 -c 'import json; assert len(json.load(open("out/walk/bench.json"))["sequence"]["frames"]) == 4'"""),
     "docs/blender.md": Page(
         prepare="""export BLENDER_USER_CONFIG=$PWD/config BLENDER_USER_SCRIPTS=$PWD/scripts
