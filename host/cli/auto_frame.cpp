@@ -90,6 +90,14 @@ Outcome impossible(const Technique& technique, std::string why) {
   return outcome;
 }
 
+/// Whether a parameter that the effect needs is set.
+bool has_needed_setting(const Technique& technique, const PlanRequest& asked) {
+  const std::string& needs = technique.effect.needs;
+  return needs.empty() || std::any_of(asked.settings.begin(), asked.settings.end(), [&](const auto& setting) {
+           return setting.first == needs || setting.first == technique.name + "." + needs;
+         });
+}
+
 /// Why an effect has no place in the picture of a frame; empty if it has one, or if the frame has no picture and the effect needs none.
 std::string hindrance_in_picture(const Technique& technique, const FrameFiles& files, const ComposeOptions& composing) {
   const Effect& effect = technique.effect;
@@ -113,6 +121,11 @@ Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const Comp
       if (!has_effect_for_displays(technique->effect.name))
         found.impossible.push_back(
             impossible(*technique, "its kernels need a single centre of projection, and a display has none"));
+      continue;
+    }
+    if (!has_needed_setting(*technique, asked)) {
+      const std::string& needs = technique->effect.needs;
+      found.impossible.push_back(impossible(*technique, fmt::format("none is given (--set {}=FILE)", needs)));
       continue;
     }
     if (const std::string why = hindrance_in_picture(*technique, files, composing); !why.empty()) {

@@ -130,10 +130,15 @@ void probe_mask(EffectChoice& choice, const EffectProbe& probe, const Settings& 
 EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
   EffectChoice choice{.technique = &technique};
   const Effect& effect = technique.effect;
-  probe_mask(choice, probe, effect.probe, effect.probe_resolution);
-  choice.is_everywhere = choice.share > effect.most_share;
-  // The mask may find what a probe overlooks.
-  if (choice.share == 0 && effect.least_share == 0) probe_mask(choice, probe, {}, 1);
+  if (effect.mask.empty()) {
+    choice.share = 1;
+    choice.is_everywhere = true;
+  } else {
+    probe_mask(choice, probe, effect.probe, effect.probe_resolution);
+    choice.is_everywhere = choice.share > effect.most_share;
+    // The mask may find what a probe overlooks.
+    if (choice.share == 0 && effect.least_share == 0) probe_mask(choice, probe, {}, 1);
+  }
   choice.is_wanted = choice.share > effect.least_share;
   if (choice.is_wanted && probe.change && *probe.change < effect.least_change) {
     choice.is_wanted = false;
@@ -142,9 +147,11 @@ EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
         fmt::format("{}, but that changes the picture by {} only", effect.somewhere, in_percent(*probe.change));
     return choice;
   }
-  choice.why = choice.is_wanted ? fmt::format("{} on {} of the image{}", effect.somewhere, in_percent(choice.share),
-                                              choice.is_everywhere ? ", so a mask would cost more than it saves" : "")
-                                : effect.nowhere;
+  choice.why =
+      choice.is_wanted
+          ? fmt::format("{} on {} of the image{}", effect.somewhere, in_percent(choice.share),
+                        choice.is_everywhere && !effect.mask.empty() ? ", so a mask would cost more than it saves" : "")
+          : effect.nowhere;
   return choice;
 }
 
@@ -335,6 +342,7 @@ Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use) {
 }
 
 void probe_closely(EffectChoice& choice, const EffectProbe& probe) {
+  if (choice.technique->effect.mask.empty()) return;
   EffectChoice closer{.technique = choice.technique};
   probe_mask(closer, probe, {}, choice.technique->effect.probe_resolution);
   choice.seen = std::move(closer.seen);

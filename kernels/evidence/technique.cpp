@@ -169,6 +169,10 @@ Technique environment() {
   t.parameters = EnvironmentParams::table();
   t.passes = passes_of(environment_over_depth);
   t.assumes = environment_note;
+  t.effect = {.name = "light of an environment",
+              .changes = "environment",
+              .needs = "environment",
+              .somewhere = "the environment lights what is open"};
   return t;
 }
 

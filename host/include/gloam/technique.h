@@ -131,7 +131,9 @@ struct Effect {
   std::string completes;
   std::string changes;        ///< plane that it gives to the picture (composite.h): "ao"; empty: none
   bool for_displays = false;  ///< only for frames of light-field displays, which need `any_projection`
-  std::string mask;           ///< technique whose mask tells where the effect is called for
+  std::string mask;  ///< technique whose mask tells where the effect is called for; empty: everywhere
+  /// Parameter without which the effect has nothing to compute, such as the file of a map. Empty: none.
+  std::string needs;
   /// The probe: settings and resolution with which the mask is very cheap and still tells how many pixels call for the effect.
   Settings probe;
   int probe_resolution = 1;
