@@ -178,6 +178,7 @@ const std::vector<Spelling>& spellings() {
       {"contact", "*", "contact", own},
       {"contact_noise", "*", "contact_noise", own},
       {"environment", "environment", "r,g,b", own},
+      {"color_noise", "*", "color_noise", own},
       {"environment_noise", "*", "environment_noise", own},
       {"hit", "hit", "z", own},
   };

@@ -93,6 +93,7 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("contact", {""}, {"contact"}, 1, K::unit_interval, "share of a light that arrives; 1 is lit"),
       kind("contact_noise", {""}, {"contact_noise"}, 0, K::value, "estimated error of ray-traced contact shadows"),
       colour("environment", 0, "light of the environment from open directions, irradiance / pi"),
+      kind("color_noise", {""}, {"color_noise"}, 0, K::value, "estimated error of a picture of ray-traced parts"),
       kind("environment_noise", {""}, {"environment_noise"}, 0, K::value,
            "estimated error of ray-traced environment light"),
       kind("hit", {""}, {"hit.Z"}, 0, K::length, "length of the reflected ray, scene units; 0 where it meets nothing"),
