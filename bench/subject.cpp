@@ -104,9 +104,8 @@ std::filesystem::path Truths::frame_file() {
   capturing.peel = options_.layers;
   capturing.peel_light = options_.peel_light;
   capturing.views = {{"", camera_for(scene_.cameras.front(), options_.width, options_.height), {}}};
-  for (const std::string& plane : capture_planes()) {
-    if (plane != "motion" || options_.in_sequence) capturing.planes.push_back(plane);
-  }
+  capturing.planes = usual_capture_planes();
+  if (options_.in_sequence) capturing.planes.push_back("motion");
   if (const auto& in = options_.in_sequence) {
     capturing.views.front().previous_camera = camera_for(in->camera_before, options_.width, options_.height);
     capturing.previous_scene = in->scene_before.get();

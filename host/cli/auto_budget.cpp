@@ -42,12 +42,14 @@ std::vector<std::string> planes_of(const Technique& technique) {
   return planes;
 }
 
-BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, const EffectProbe& probe) {
+BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool with_mask, const EffectProbe& probe) {
   BudgetedEffect effect;
   effect.technique = candidate.technique;
   const PlanRequest& request = outcome.decision.request;
-  effect.mask = request.mask;
-  effect.elsewhere = request.elsewhere;
+  if (with_mask) {
+    effect.mask = request.mask;
+    effect.elsewhere = request.elsewhere;
+  }
   effect.options = options_of(find_technique(request.outputs.front()), probe);
   return effect;
 }
@@ -106,7 +108,8 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
     Outcome& outcome = result.outcomes[i];
     probing_ms += outcome.decision.effect.classify_ms;
     if (!outcome.decision.effect.is_wanted) continue;
-    effects.push_back(budgeted(candidates.possible[i], outcome, probe_for(candidates.possible[i])));
+    effects.push_back(
+        budgeted(candidates.possible[i], outcome, settings.mask != MaskUse::never, probe_for(candidates.possible[i])));
     owners.push_back(&outcome);
   }
   const EffectProbe probe = probe_for(candidates.possible.front());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/auto_composite.h"
 #include "cli/options.h"
 #include "cli/shot_flags.h"
 #include "plan/automatic.h"
@@ -21,6 +22,7 @@ struct AutoCommand {
   TechniqueFlags technique_flags;
   RunFlags run_flags;
   ShotFlags shot;
+  AutoCompositeFlags composite;
   JsonFlag json;
   std::string given;  ///< flags that decide what is written, as text
 };

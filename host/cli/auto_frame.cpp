@@ -77,6 +77,25 @@ void compute_decided(Outcome& outcome, const AutoSettings& settings, const Effec
   }
 }
 
+Outcome computed_as_fixed(const Candidate& candidate, const FixedEffect& fixed, const EffectProbe& probe, Frame& out) {
+  Outcome outcome;
+  EffectChoice& effect = outcome.decision.effect;
+  effect.technique = candidate.technique;
+  effect.is_wanted = fixed.runs;
+  effect.is_everywhere = fixed.runs;
+  effect.is_too_faint = !fixed.runs;
+  effect.why = fixed.why;
+  outcome.setting = fixed.setting;
+  outcome.decision.request = fixed.request;
+  if (!fixed.runs) return outcome;
+  outcome.plan = make_plan(fixed.request, probe.available, probe.holds);
+  outcome.outputs = outcome.plan->outputs;
+  RunResult result = run(*outcome.plan, probe.frame, probe.device, probe.options);
+  outcome.ms = best(result);
+  take_planes(result.frame, out);
+  return outcome;
+}
+
 bool has_effect_for_displays(const std::string& name) {
   const std::vector<const Technique*> all = techniques_with_effects();
   return std::any_of(all.begin(), all.end(),
@@ -158,11 +177,6 @@ Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const Comp
   return found;
 }
 
-bool looks_at_changes(const Candidates& candidates) {
-  return std::any_of(candidates.possible.begin(), candidates.possible.end(),
-                     [](const Candidate& candidate) { return candidate.technique->effect.least_change > 0; });
-}
-
 std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vector<std::string>& planes) {
   std::vector<std::string> found;
   for (const std::string& plane : planes) {
@@ -173,6 +187,11 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
 }
 
 }  // namespace
+
+bool looks_at_changes(const Candidates& candidates) {
+  return std::any_of(candidates.possible.begin(), candidates.possible.end(),
+                     [](const Candidate& candidate) { return candidate.technique->effect.least_change > 0; });
+}
 
 bool is_of_display(const FrameFiles& files) {
   for (const FrameFile& file : files.files()) {
@@ -232,6 +251,20 @@ unsigned long long bytes_of_results(const AutoFrame& planned) {
   return bytes;
 }
 
+FixedEffects fixed_by(const AutoResult& first) {
+  FixedEffects fixed;
+  for (const Outcome& outcome : first.outcomes) {
+    const EffectChoice& effect = outcome.decision.effect;
+    const bool is_possible = outcome.plan || outcome.is_left_out;
+    if (!is_possible || (!first.spent && !effect.is_too_faint)) continue;
+    std::string why = effect.why;
+    if (outcome.is_left_out) why = "the budget does without";
+    fixed[effect.technique->name] = {outcome.runs(), outcome.decision.request, why + ", on the first frame",
+                                     outcome.setting};
+  }
+  return fixed;
+}
+
 AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, const Frame& frame, Device& device,
                            const RunOptions& options) {
   const std::vector<std::string> available = planes_of_every_view(frame, planned.planes);
@@ -241,22 +274,28 @@ AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, con
     return EffectProbe{candidate.asked, frame, available, holds, device, options};
   };
   std::optional<Glance> glance;
-  if (contains(available, "color") &&
+  if (!settings.fixed && contains(available, "color") &&
       (settings.purpose.explains || settings.goal || looks_at_changes(planned.candidates)))
     glance = glance_at(planned.candidates, settings.purpose.explains || settings.goal, settings.purpose.composing,
                        probe_for);
   for (const Candidate& candidate : planned.candidates.possible) {
     EffectProbe probe = probe_for(candidate);
+    if (settings.fixed && settings.fixed->count(candidate.technique->name)) {
+      const FixedEffect& fixed = settings.fixed->at(candidate.technique->name);
+      result.outcomes.push_back(computed_as_fixed(candidate, fixed, probe, result.frame));
+      continue;
+    }
     const double change = glance ? change_by(*candidate.technique, *glance) : not_known;
     if (!std::isnan(change)) probe.change = change / std::max(glance->rms(), 1e-30);
     Outcome outcome = decided(*candidate.technique, settings, probe);
     outcome.change = change;
     if (settings.purpose.explains && glance) add_changes(outcome, *glance);
-    if (!settings.goal || !outcome.decision.effect.is_wanted) compute_decided(outcome, settings, probe, result.frame);
+    if (settings.fixed || !settings.goal || !outcome.decision.effect.is_wanted)
+      compute_decided(outcome, settings, probe, result.frame);
     result.outcomes.push_back(std::move(outcome));
   }
   if (glance) result.glance_ms = glance->ms();
-  if (settings.goal) spend_budget(planned.candidates, settings, *glance, probe_for, result);
+  if (settings.goal && !settings.fixed) spend_budget(planned.candidates, settings, *glance, probe_for, result);
   for (const Outcome& outcome : result.outcomes) {
     if (result.radius || !outcome.plan) continue;
     result.used_radius = radius_of(*outcome.plan, outcome.decision.request, settings.radius_from);

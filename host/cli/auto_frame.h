@@ -73,12 +73,23 @@ void set_radius(AutoFrame& planned, std::optional<double> radius);
 unsigned long long bytes_of_auto(const AutoFrame& planned, bool shares_memory);
 unsigned long long bytes_of_results(const AutoFrame& planned);
 
+/// What was decided on the first frame of a shot, for all its frames.
+struct FixedEffect {
+  bool runs = false;
+  PlanRequest request;
+  std::string why, setting;
+};
+/// By the effect's technique.
+using FixedEffects = std::map<std::string, FixedEffect>;
+
 struct AutoSettings {
   MaskUse mask = MaskUse::measured;
   bool measures = false;  ///< --measure
   AutoPurpose purpose;
   RadiusSource radius_from = RadiusSource::frame;
   BudgetGoal goal;  ///< empty: effects are computed at the preset and the resolution asked for
+  /// If set, nothing is weighed on the frame: effects that are not among these are decided by their masks alone.
+  std::optional<FixedEffects> fixed = {};
   std::function<void(int done, int of)> measuring = {};  ///< progress of the table of speeds, made once on a device
 };
 
@@ -91,6 +102,13 @@ struct AutoResult {
   std::optional<Spent> spent;  ///< of a budget
   double glance_ms = 0;        ///< device time of looking at the picture
 };
+
+/// Whether what effects change in the picture decides about any of them.
+bool looks_at_changes(const Candidates& candidates);
+
+/// What other frames of a shot take over from the first: all effects if a budget was spent, else those that were too faint, so that no
+/// effect comes and goes by what it changes.
+FixedEffects fixed_by(const AutoResult& first);
 
 /// Decides and computes. `frame`: as decoded, with its radius set. Takes the effects that cannot be computed from `planned`.
 AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, const Frame& frame, Device& device,

@@ -17,9 +17,6 @@ namespace gloam::cli {
 namespace {
 
 void check_flags(const AutoCommand& flags) {
-  if (flags.goal)
-    throw UsageError("{}: is for one frame; choose by it on one frame, and give a shot the preset and the resolution",
-                     in_words(flags.goal));
   if (!flags.explain.empty())
     throw UsageError("--explain {}: is a picture of one frame; leave it out, or explain that frame alone",
                      flags.explain);
@@ -34,6 +31,13 @@ void check_flags(const AutoCommand& flags) {
                      flags.frame.frame);
 }
 
+FramePattern composite_pattern(const AutoCommand& flags) {
+  if (!FramePattern::is_pattern(flags.composite.path))
+    throw UsageError("--composite {}: is one file, and {} a shot; write both as patterns, such as picture.####.exr",
+                     flags.composite.path, flags.frame.frame);
+  return FramePattern(flags.composite.path, "--composite");
+}
+
 /// What all frames have in common.
 struct AutoShotSettings {
   PlanRequest asked;
@@ -42,15 +46,17 @@ struct AutoShotSettings {
   RunOptions options;
   WriteOptions writing;
   FramePattern output;
+  AutoCompositeFlags composite;
+  std::optional<FramePattern> composite_output = {};  ///< none: no composite
   bool keeps_depth = false, resumes = false;
   std::string version, contents;  ///< as in FrameMaking
   Window display;
   unsigned long long frame_bytes = 0;
 };
 
-unsigned long long bytes_in_flight(const AutoFrame& planned) {
+unsigned long long bytes_in_flight(const AutoFrame& planned, const std::optional<CompositeSource>& source) {
   const unsigned long long results = bytes_of_results(planned);
-  return bytes_to_read(planned.files, planned.planes) + results + results / 2;
+  return bytes_to_read(planned.files, planned.planes) + bytes_of(source) + results + results / 2;
 }
 
 /// The frames that called for an effect, by what was done there: a technique's name; "" where it was not wanted.
@@ -97,16 +103,40 @@ class AutoShotWork {
                std::function<void()> stop)
       : files_(files),
         settings_(settings),
+        computing_(settings.computing),
         device_(device.open()),
         report_(report),
         steps_(files, report, std::move(stop)),
         flights_(files.frames().size()) {}
+
+  /// Decides on the first frame what all frames take over: nothing comes and goes by what it changes, and a budget is spent once. Says
+  /// what was decided, as text that tells results by other decisions apart.
+  std::string decide_on(AutoFrame& first) {
+    if (!computing_.goal && !looks_at_changes(first.candidates)) return "";
+    const Frame frame = first.files.read(first.planes);
+    set_radius(first, settings_.radius);
+    const AutoResult result = compute_effects(first, computing_, frame, device_, settings_.options);
+    computing_.fixed = fixed_by(result);
+    std::vector<std::string> lines;
+    for (const auto& [technique, fixed] : *computing_.fixed) {
+      const std::string& effect = find_technique(technique).effect.name;
+      lines.push_back(fixed.runs ? fmt::format("{}: {}, {} in all frames, as chosen on the first", effect,
+                                               fmt::join(fixed.request.outputs, " + "), fixed.setting)
+                                 : fmt::format("{}: in no frame; {}", effect, fixed.why));
+    }
+    if (result.spent)
+      if (const std::string missed = note_on_goal(*result.spent, computing_.goal); !missed.empty())
+        lines.push_back(missed);
+    note(lines);
+    return fmt::format("{}", fmt::join(lines, "; "));
+  }
 
   bool decode(size_t i) {
     flights_[i] = std::make_unique<InFlight>();
     return step(i, &StepTimes::decode, [&](InFlight& flight) {
       if (!open(i, flight)) return false;
       flight.frame = flight.planned->files.read(flight.planned->planes);
+      if (flight.source) read_colour(*flight.source);
       steps_.add_notes(i, flight.frame.assumed);
       return true;
     });
@@ -115,9 +145,9 @@ class AutoShotWork {
   /// On one thread.
   bool compute(size_t i) {
     return step(i, &StepTimes::compute, [&](InFlight& flight) {
-      AutoResult result =
-          compute_effects(*flight.planned, settings_.computing, flight.frame, device_, settings_.options);
+      AutoResult result = compute_effects(*flight.planned, computing_, flight.frame, device_, settings_.options);
       flight.result = std::move(result.frame);
+      compose(i, flight);
       keep_first_outputs(flight.result, result.outcomes);
       if (settings_.keeps_depth) take_depth(flight.frame, flight.result);
       flight.result.attributes.merge(attributes_of(flight.making));
@@ -134,6 +164,7 @@ class AutoShotWork {
   bool write(size_t i) {
     const bool is_written = step(i, &StepTimes::write, [&](InFlight& flight) {
       write_frame(output_of(i), flight.result, settings_.writing);
+      if (flight.composite) write_composite(composite_of(i), *flight.composite, settings_.writing.compression);
       return true;
     });
     if (!is_written) return false;
@@ -147,6 +178,8 @@ class AutoShotWork {
  private:
   struct InFlight {
     std::optional<AutoFrame> planned;
+    std::optional<CompositeSource> source;
+    std::optional<Composite> composite;
     Frame frame, result;
     FrameMaking making;
     StepTimes times;
@@ -154,16 +187,45 @@ class AutoShotWork {
 
   std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(files_.frames()[i].number); }
 
+  std::filesystem::path composite_of(size_t i) const {
+    return settings_.composite_output->path_of(files_.frames()[i].number);
+  }
+
+  /// The first of a frame's files that --resume makes again, and why; empty if none is.
+  std::pair<std::filesystem::path, std::string> first_to_write_again(size_t i, const FrameMaking& making) const {
+    std::vector<std::filesystem::path> paths = {output_of(i)};
+    if (settings_.composite_output) paths.push_back(composite_of(i));
+    for (const std::filesystem::path& path : paths) {
+      if (std::string why = why_again(path, making); !why.empty()) return {path, why};
+    }
+    return {paths.front(), ""};
+  }
+
+  /// The picture, if one is asked for, while all planes of the effects are at hand.
+  void compose(size_t i, InFlight& flight) {
+    if (!flight.source) return;
+    flight.composite.emplace(make_composite(*flight.source, flight.result));
+    flight.composite->picture.attributes.merge(attributes_of(flight.making));
+    steps_.add_notes(i, flight.composite->composition.notes);
+    if (!is_composition_told_) note({composition_in_words(flight.composite->composition)});
+    is_composition_told_ = true;
+    flight.source.reset();
+  }
+
   bool open(size_t i, InFlight& flight) {
     const SequenceFrame& frame = files_.frames()[i];
     FrameFiles files = files_.open(frame);
     flight.making = {settings_.version, settings_.contents, identity_of(files)};
-    if (settings_.resumes && report_.leaves_alone(frame.number, output_of(i), why_again(output_of(i), flight.making)))
-      return false;
+    if (settings_.resumes) {
+      const auto [path, why] = first_to_write_again(i, flight.making);
+      if (report_.leaves_alone(frame.number, path, why)) return false;
+    }
     check_size_in_shot(files, settings_.display);
-    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, {}));
+    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, computing_.purpose));
     set_radius(*flight.planned, settings_.radius);
-    check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned), settings_.frame_bytes);
+    if (auto source = open_composite(settings_.composite, files_.paths_of(frame), files_.options_for(frame)))
+      flight.source.emplace(std::move(*source));
+    check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned, flight.source), settings_.frame_bytes);
     return true;
   }
 
@@ -187,10 +249,12 @@ class AutoShotWork {
 
   const ShotFiles& files_;
   const AutoShotSettings& settings_;
+  AutoSettings computing_;
   Device device_;
   ShotReport& report_;
   ShotSteps steps_;
   Tally tally_;
+  bool is_composition_told_ = false;
   std::vector<std::unique_ptr<InFlight>> flights_;
 };
 
@@ -198,14 +262,23 @@ class AutoShotWork {
 struct FirstFrame {
   AutoFrame planned;
   Radius radius;
+  std::optional<CompositeSource> source;
+  AutoPurpose purpose;
 };
 
-FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked) {
+FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked, const AutoCommand& flags) {
   std::optional<FirstFrame> first;
   first_that_can(shot, [&](const SequenceFrame& frame) {
-    AutoFrame planned = planned_auto(shot.open(frame), asked, {});
+    FrameFiles files = shot.open(frame);
+    std::vector<std::string> notes;
+    const AutoPurpose purpose{false, flags.goal || !flags.composite.path.empty(),
+                              compose_options(flags.composite.light, files, notes)};
+    AutoFrame planned = planned_auto(std::move(files), asked, purpose);
+    check_goal(flags.goal, planned);
     const Radius radius = default_radius(planned.files.read({"depth"}), stated_radius(planned.files));
-    first.emplace(FirstFrame{std::move(planned), radius});
+    if (flags.goal && flags.composite.path.empty()) note(notes);
+    first.emplace(FirstFrame{std::move(planned), radius,
+                             open_composite(flags.composite, shot.paths_of(frame), shot.options_for(frame)), purpose});
   });
   return std::move(*first);
 }
@@ -215,26 +288,32 @@ FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked) {
 void run_auto_on_shot(const AutoCommand& flags) {
   check_flags(flags);
   const FramePattern output(flags.out, "-o");
-  const NamedPatterns outputs = {{"-o", output}};
+  NamedPatterns outputs = {{"-o", output}};
+  if (!flags.composite.path.empty()) outputs.emplace_back("--composite", composite_pattern(flags));
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(outputs, shot, {{"--json", flags.json.file()}});
   const PlanRequest asked = flags.technique_flags.request({});
-  const FirstFrame first = first_frame(shot, asked);
-  AutoShotSettings settings{
-      .asked = asked,
-      .computing = {.mask = flags.mask.value_or(MaskUse::never), .radius_from = first.radius.from},
-      .radius = first.radius.value,
-      .options = flags.run_flags.run_options(),
-      .writing = {!flags.shot.as_float, flags.compression},
-      .output = output,
-      .keeps_depth = flags.shot.keep_depth,
-      .resumes = flags.shot.resume,
-      .version = version_with_kernels(GLOAM_VERSION),
-      .contents = fmt::format("auto{} radius {}", flags.given, first.radius.value),
-      .display = first.planned.files.files().front().display()};
+  FirstFrame first = first_frame(shot, asked, flags);
+  AutoShotSettings settings{.asked = asked,
+                            .computing = {.mask = flags.mask.value_or(MaskUse::never),
+                                          .purpose = first.purpose,
+                                          .radius_from = first.radius.from,
+                                          .goal = flags.goal,
+                                          .measuring = progress_bar()},
+                            .radius = first.radius.value,
+                            .options = flags.run_flags.run_options(),
+                            .writing = {!flags.shot.as_float, flags.compression},
+                            .output = output,
+                            .composite = flags.composite,
+                            .keeps_depth = flags.shot.keep_depth,
+                            .resumes = flags.shot.resume,
+                            .version = version_with_kernels(GLOAM_VERSION),
+                            .contents = fmt::format("auto{} radius {}", flags.given, first.radius.value),
+                            .display = first.planned.files.files().front().display()};
+  if (outputs.size() > 1) settings.composite_output = outputs.back().second;
   const ShotMemory memory =
-      shot_memory(first.planned.files.name(), bytes_in_flight(first.planned), bytes_of_auto(first.planned, true),
-                  limit_of(flags.frame_flags, flags.shot.memory),
+      shot_memory(first.planned.files.name(), bytes_in_flight(first.planned, first.source),
+                  bytes_of_auto(first.planned, true), limit_of(flags.frame_flags, flags.shot.memory),
                   "ask for --resolution half, for one view (--view), or allow more");
   settings.frame_bytes = memory.frame;
   const PageReuse reuse(memory.all - process_bytes_with_device);
@@ -245,10 +324,14 @@ void run_auto_on_shot(const AutoCommand& flags) {
   Pipeline pipeline(shot.frames().size(), memory.size,
                     {[&](size_t i) { return work.decode(i); }, [&](size_t i) { return work.compute(i); },
                      [&](size_t i) { return work.write(i); }});
+  settings.contents += work.decide_on(first.planned);
   running = &pipeline;
   pipeline.run();
   note(work.tally().in_words());
-  report.finish(flags.out, "effects");
+  if (settings.composite_output)
+    report.finish(fmt::format("{}, {}", flags.out, flags.composite.path), "effects, composite");
+  else
+    report.finish(flags.out, "effects");
 }
 
 }  // namespace gloam::cli

@@ -25,25 +25,37 @@ void run_on_one_frame(const AutoCommand& flags) {
   const WriteOptions writing{flags.half, flags.compression};
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
-  check_paths(inputs, {{"-o", flags.out}, {"--explain", flags.explain}, {"--json", flags.json.file()}});
+  check_paths(inputs, {{"-o", flags.out},
+                       {"--composite", flags.composite.path},
+                       {"--explain", flags.explain},
+                       {"--json", flags.json.file()}});
   const bool explains = !flags.explain.empty();
-  const AutoPurpose purpose{explains, bool(flags.goal), {}};
-  AutoFrame planned =
-      planned_auto(flags.frame.open(flags.frame_flags.read_options()), flags.technique_flags.request({}), purpose);
+  FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
+  std::vector<std::string> notes_on_light;
+  const AutoPurpose purpose{explains, flags.goal || !flags.composite.path.empty(),
+                            compose_options(flags.composite.light, files, notes_on_light)};
+  AutoFrame planned = planned_auto(std::move(files), flags.technique_flags.request({}), purpose);
   check_goal(flags.goal, planned);
+  std::optional<CompositeSource> source =
+      open_composite(flags.composite, flags.frame.files(), flags.frame_flags.read_options());
   const unsigned long long memory = planned_memory(
       flags.frame_flags, planned.files.name(), flags.run_flags.device,
-      [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory); },
+      [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory) + bytes_of(source); },
       "crop or shrink the frame, ask for --resolution half, or for one view (--view)");
   Device device = flags.run_flags.open();
   Frame frame = planned.files.read(planned.planes);
   note(frame.assumed);
+  if (flags.goal && !source) note(notes_on_light);
   const Radius made = default_radius(frame, stated_radius(planned.files));
   set_radius(planned, made.value);
   options.progress = progress_bar();
-  AutoResult result = compute_effects(
-      planned, {flags.mask.value_or(MaskUse::measured), flags.measure, purpose, made.from, flags.goal, progress_bar()},
-      frame, device, options);
+  const AutoSettings settings{.mask = flags.mask.value_or(MaskUse::measured),
+                              .measures = flags.measure,
+                              .purpose = purpose,
+                              .radius_from = made.from,
+                              .goal = flags.goal,
+                              .measuring = progress_bar()};
+  AutoResult result = compute_effects(planned, settings, frame, device, options);
   std::vector<std::string> written = {flags.out};
   if (explains) {
     for (const View& view : frame.views) {
@@ -52,17 +64,28 @@ void run_on_one_frame(const AutoCommand& flags) {
                         {planned.files.name(), totals_in_words(result, flags.goal)});
     }
   }
+  std::optional<Composition> composition;
+  if (source) {
+    read_colour(*source);
+    const Composite composite = make_composite(*source, result.frame);
+    composition = composite.composition;
+    note(composition->notes);
+    write_composite(flags.composite.path, composite, flags.compression);
+    written.push_back(flags.composite.path);
+  }
   for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
   write_frame(flags.out, result.frame, writing);
   if (result.spent)
     if (const std::string missed = note_on_goal(*result.spent, flags.goal); !missed.empty()) note({missed});
   Json document = document_of(result, flags.goal, device.info());
   document["memory_bytes"] = memory;
+  if (composition) document["composite"] = composition_document(*composition);
   if (result.radius) result.radius->add_to(document);
   flags.json.write(document, written);
   if (flags.json.only_json()) return;
   print(result, flags.goal);
   if (result.radius) result.radius->print();
+  if (composition) fmt::print("{}\n", composition_in_words(*composition));
   for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }
 
@@ -70,6 +93,7 @@ void auto_command(const AutoCommand& given, const CLI::App& command) {
   AutoCommand flags = given;
   check_frame_name(flags.out, "-o");
   check_picture_name(flags.explain, "--explain");
+  if (!flags.composite.path.empty()) check_frame_name(flags.composite.path, "--composite");
   if (!flags.frame.history.empty())
     throw UsageError("--history {}: auto takes nothing over from the frame before; leave it out, or use gloam run",
                      flags.frame.history);
@@ -77,7 +101,7 @@ void auto_command(const AutoCommand& given, const CLI::App& command) {
     flags.given = contents_in_words(command);
     return run_auto_on_shot(flags);
   }
-  check_no_shot(flags.frame, {{"-o", flags.out}}, flags.shot.any());
+  check_no_shot(flags.frame, {{"-o", flags.out}, {"--composite", flags.composite.path}}, flags.shot.any());
   run_on_one_frame(flags);
 }
 
@@ -101,7 +125,7 @@ void add_auto(CLI::App& app) {
                                    "resolutions are chosen for the least error of the picture");
   budget->type_name("TIME");
   add_number(*command, "--error", flags->goal.error, {1e-9, 1e9},
-             "RMS error of the picture: effects, presets and resolutions are chosen for the least time")
+             "RMS error of the picture (--composite): effects, presets and resolutions are chosen for the least time")
       ->excludes(budget);
   CLI::Option* half = command->add_flag("--half", flags->half, "write results as half instead of float");
   add_compression(*command, flags->compression);
@@ -109,6 +133,7 @@ void add_auto(CLI::App& app) {
   flags->run_flags.add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->shot.add_to(*command, false);
+  flags->composite.add_to(*command);
   command->get_option("--float")->excludes(half);
   flags->json.add_to(*command);
   command->footer(
@@ -117,6 +142,7 @@ void add_auto(CLI::App& app) {
       "  gloam auto frame.exr -o out.exr\n"
       "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"
       "  gloam auto frame.exr -o out.exr --budget 30ms\n"
+      "  gloam auto frame.exr -o out.exr --composite picture.exr\n"
       "  gloam auto 'shot.####.exr' -o 'out.####.exr' --frames 1-48 --radius 0.5\n"
       "Parameters are set with --set NAME=VALUE (gloam list techniques).");
   command->callback([flags, command] { auto_command(*flags, *command); });

@@ -7,11 +7,8 @@
 namespace gloam::cli {
 
 std::vector<std::string> planes_of(const CaptureCommand& flags) {
-  std::vector<std::string> planes;
-  if (!flags.planes.empty()) planes = split_list(flags.planes, "--planes");
-  for (const std::string& plane : capture_planes()) {
-    if (flags.planes.empty() && plane != "motion") planes.push_back(plane);
-  }
+  std::vector<std::string> planes =
+      flags.planes.empty() ? usual_capture_planes() : split_list(flags.planes, "--planes");
   const bool moves = !flags.moving().empty();
   if (contains(planes, "motion") && !moves)
     throw UsageError("--planes motion needs cameras of two moments; give --camera-path FILE.json or --shot NAME");

@@ -1,6 +1,7 @@
 // gloam reference KIND FRAME.exr --scene SCENE -o REF.exr
 #include <memory>
 
+#include "cli/auto_composite.h"
 #include "cli/given_flags.h"
 #include "cli/radius.h"
 #include "cli/reference_job.h"
@@ -39,8 +40,7 @@ void print(const Reference& result, const ReferenceJob& job, const Scene& scene,
   fmt::print("{}: {} faces; {}, {} rays per pixel\n", printable(scene.name), scene.faces(), job.heading,
              samples_of(result, job));
   if (result.resumed_share > 0) fmt::print("went on with {:.0f} % of an interrupted run\n", 100 * result.resumed_share);
-  fmt::print("noise {:.5f} RMS, largest {:.4f} (from two independent halves of the rays)\n", result.noise,
-             result.largest_noise);
+  fmt::print("noise {:.5f} RMS, largest {:.4f} (from {})\n", result.noise, result.largest_noise, job.noise_from);
   fmt::print("{:.1f} million rays in {:.1f} s, {:.1f} million per second\n", double(result.rays) * 1e-6, result.seconds,
              result.seconds > 0 ? double(result.rays) / result.seconds * 1e-6 : 0.0);
   fmt::print("wrote {}\n", printable(flags.out));
@@ -141,13 +141,16 @@ void add_kind_flags(CLI::App& command, ReferenceRequest& request) {
   add_number(command, "--light-angle", request.light_angle, {0, most_light_angle},
              "of contact: angular radius of the light's disc; default 0, a point")
       ->type_name("DEGREES");
-  command.add_option("--environment", request.environment, "of environment: the light, a lat-long map")
+  add_color_holds(command, request.color_holds, "of composite: ");
+  add_ambient(command, request.ambient, "of composite: ");
+  command.add_option("--environment", request.environment, "of environment and composite: the light, a lat-long map")
       ->type_name("FILE.exr");
   add_choice(command, "--environment-axes", request.environment_axes, environment_axes(),
-             "of environment: how the world lies in the map; openexr (default): +y is up and its middle looks along "
+             "of environment and composite: how the world lies in the map; openexr (default): +y is up and its middle "
+             "looks along "
              "+z; blender: +z is up and its middle looks along +x");
   add_number(command, "--environment-turn", request.environment_turn, {-360, 360},
-             "of environment: turns it about the up axis, counter-clockwise seen from above")
+             "of environment and composite: turns it about the up axis, counter-clockwise seen from above")
       ->type_name("DEGREES");
 }
 
@@ -203,7 +206,8 @@ void add_reference(CLI::App& app) {
       "  gloam reference reflection gallery.exr -o gallery_reflection_ref.exr --samples 1024\n"
       "  gloam reference bounces courtyard.exr -o courtyard_bounces_ref.exr --samples 1024\n"
       "  gloam reference contact courtyard.exr -o courtyard_contact_ref.exr --length 0.5 --light-angle 1.5\n"
-      "  gloam reference environment statue.exr -o statue_light_ref.exr --environment sky.exr --radius inf");
+      "  gloam reference environment statue.exr -o statue_light_ref.exr --environment sky.exr --radius inf\n"
+      "  gloam reference composite gallery.exr -o gallery_picture_ref.exr --samples 512");
   command->callback([flags, command] { reference_command(*flags, *command); });
 }
 

@@ -17,6 +17,8 @@ TracedFrame trace_frame(const ReferenceCommand& flags, const ReferenceJob& job, 
                  "crop or shrink the frame");
   TracedFrame traced;
   traced.frame = files.read(job.reads);
+  if (contains(job.reads, "color"))
+    traced.frame.attributes[color_holds_attribute] = file.text_attribute(color_holds_attribute);
   note(traced.frame.assumed);
   if (job.has_radius) {
     traced.radius = radius_of_truth(job.radius, stated_radius(file), shown, traced.frame);

@@ -1,5 +1,6 @@
 #include "cli/run_outputs.h"
 
+#include "gloam/color_holds.h"
 #include "gloam/error.h"
 #include "gloam/exr_copy.h"
 
@@ -38,6 +39,17 @@ std::string plane_to_composite(const CompositeFlags& flags, const Plan& plan) {
   return plane;
 }
 
+/// What the composite holds; empty if the file does not state what its colour does.
+std::string holds_of_composite(const OutputSources& sources, const std::string& plane) {
+  if (sources.holds.empty()) return "";
+  ColorHolds holds = parse_color_holds(sources.holds, fmt::format("{}: {}", sources.file, color_holds_attribute));
+  if (plane == "reflection")
+    holds.reflection = true;
+  else
+    holds.ambient = holds.ao = true;
+  return in_words(holds);
+}
+
 /// Lays the result over the colour, and takes over how it was made.
 void make_composite(OutputSources& sources, const Frame& result, const OutputSettings& settings) {
   const Compositing& how = settings.compositing;
@@ -45,6 +57,8 @@ void make_composite(OutputSources& sources, const Frame& result, const OutputSet
   sources.colour.attributes = result.attributes;
   sources.colour.attributes["gloamComposite"] =
       fmt::format("{} strength={} tint={}", settings.composited, how.strength, fmt::join(how.tint, ","));
+  if (const std::string holds = holds_of_composite(sources, settings.composited); !holds.empty())
+    sources.colour.attributes[color_holds_attribute] = holds;
   for (View& view : sources.colour.views) {
     if (!settings.has_cameras) view.camera.reset();
   }
@@ -95,6 +109,7 @@ OutputSources read_sources(PlannedFrame& planned) {
   sources.colour = planned.colour->files.read(planned.colour->planes);
   sources.half_planes = planned.colour->half_planes;
   sources.part = planned.colour->part;
+  sources.holds = planned.colour->files.files().front().text_attribute(color_holds_attribute);
   return sources;
 }
 

@@ -47,6 +47,7 @@ struct OutputSources {
   Frame colour;
   std::vector<std::string> half_planes;
   int part = 0;
+  std::string holds;  ///< what colour holds, as the file states it; empty: it does not
 };
 
 /// Reads the colour, if a composite is asked for.

@@ -179,6 +179,7 @@ const std::vector<Spelling>& spellings() {
       {"contact_noise", "*", "contact_noise", own},
       {"environment", "environment", "r,g,b", own},
       {"environment_raw", "environmentraw", "r,g,b", own},
+      {"color_noise", "*", "color_noise", own},
       {"environment_noise", "*", "environment_noise", own},
       {"hit", "hit", "z", own},
   };

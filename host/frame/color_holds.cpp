@@ -61,4 +61,9 @@ std::string in_words(const ColorHolds& holds) {
   return words.empty() ? nothing : fmt::format("{}", fmt::join(words, ","));
 }
 
+std::string note_on_assumed_holds() {
+  return fmt::format("color: what it holds beside direct light is not stated ({}); taken as {} (--color-holds LIST)",
+                     color_holds_attribute, in_words(ColorHolds()));
+}
+
 }  // namespace gloam

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -270,6 +271,31 @@ Composition composition_of(const Names& frame, const Names& computed, const Comp
   if (!options.holds.ambient && composition.ambient != Ambient::unknown)
     composition.notes.push_back("the colour holds no ambient light, so the picture gets it beside the colour");
   return composition;
+}
+
+ColorHolds holds_of_picture(const Composition& composition) {
+  ColorHolds holds = composition.options.holds;
+  holds.ambient |= composition.ambient != Ambient::unknown || composition.uses("environment");
+  holds.ao |= composition.uses("ao") || composition.uses("bounces") || composition.uses("environment");
+  holds.indirect |= composition.uses("indirect");
+  holds.reflection |= composition.uses("reflection");
+  holds.shadows |= composition.uses("contact");
+  return holds;
+}
+
+std::map<std::string, std::string> attributes_of(const Composition& composition) {
+  static const Choices<Ambient> words = {{"plane", Ambient::plane},
+                                         {"even sky", Ambient::even_sky},
+                                         {"all of color", Ambient::colour},
+                                         {"unknown", Ambient::unknown}};
+  Names used;
+  for (const ComposedPart& part : composition.parts) {
+    if (part.is_used) used.push_back(part.plane);
+  }
+  return {{color_holds_attribute, in_words(holds_of_picture(composition))},
+          {"gloamComposite", fmt::format("{}; color had {}; ambient: {}",
+                                         used.empty() ? "nothing" : fmt::format("{}", fmt::join(used, " ")),
+                                         in_words(composition.options.holds), word_for(composition.ambient, words))}};
 }
 
 void compose(View& colour, const View& computed, const Composition& composition) {

@@ -94,6 +94,7 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("contact_noise", {""}, {"contact_noise"}, 0, K::value, "estimated error of ray-traced contact shadows"),
       colour("environment", 0, "light of the environment from open directions, irradiance / pi"),
       colour("environment_raw", 0, "light of the environment before filtering"),
+      kind("color_noise", {""}, {"color_noise"}, 0, K::value, "estimated error of a picture of ray-traced parts"),
       kind("environment_noise", {""}, {"environment_noise"}, 0, K::value,
            "estimated error of ray-traced environment light"),
       kind("hit", {""}, {"hit.Z"}, 0, K::length, "length of the reflected ray, scene units; 0 where it meets nothing"),

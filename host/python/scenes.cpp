@@ -69,13 +69,6 @@ Camera camera_at(const Place& place, const Scene& scene, int width, int height) 
   return camera_for(chosen, width, height);
 }
 
-/// The planes that are made without a word: all but motion, which needs the frame before.
-std::vector<std::string> default_planes() {
-  std::vector<std::string> planes = capture_planes();
-  std::erase(planes, "motion");
-  return planes;
-}
-
 Place place_from(const py::dict& words) {
   Place place;
   const py::object camera = words["camera"];
@@ -93,7 +86,8 @@ CaptureOptions options_from(const py::dict& words) {
   CaptureOptions options;
   options.width = py::cast<int>(words["width"]);
   options.height = py::cast<int>(words["height"]);
-  options.planes = words["planes"].is_none() ? default_planes() : py::cast<std::vector<std::string>>(words["planes"]);
+  options.planes =
+      words["planes"].is_none() ? usual_capture_planes() : py::cast<std::vector<std::string>>(words["planes"]);
   options.peel = py::cast<int>(words["peel"]);
   options.peel_light = py::cast<bool>(words["peel_light"]);
   options.stochastic.samples = py::cast<int>(words["stochastic"]);
@@ -167,6 +161,9 @@ ReferenceRequest request_from(const py::dict& words) {
   const std::string axes = py::cast<std::string>(words["environment_axes"]);
   if (!axes.empty()) request.environment_axes = value_of(axes, "environment_axes", environment_axes());
   request.environment_turn = py::cast<std::optional<double>>(words["environment_turn"]);
+  if (const std::string holds = py::cast<std::string>(words["color_holds"]); !holds.empty())
+    request.color_holds = parse_color_holds(holds, "color_holds");
+  request.ambient = py::cast<std::optional<std::array<double, 3>>>(words["ambient"]);
   check_reach("radius", request.radius);
   check_reach("length", request.length);
   return request;

@@ -12,6 +12,8 @@
 #include <mutex>
 
 #include "base/elapsed.h"
+#include "base/lists.h"
+#include "gloam/color_holds.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
@@ -108,12 +110,16 @@ class Capturer {
   }
 
   void material(int x, int y, const Surface& surface, uint32_t seed) const {
-    if (!target_.albedo[0] && !target_.color[0] && !target_.roughness && !target_.reflectance[0]) return;
+    if (!target_.has_material) return;
     const SurfaceMaterial material = tracer_.material(surface);
     put(target_.albedo, x, y, material.albedo);
     put(target_.reflectance, x, y, material.reflectance);
     if (target_.roughness) target_.roughness->at(x, y) = material.roughness;
-    if (target_.color[0]) put(target_.color, x, y, radiance(tracer_, surface, seed));
+    if (target_.metallic) target_.metallic->at(x, y) = material.metallic;
+    if (!target_.color[0] && !target_.ambient[0]) return;
+    const Radiance light = radiance(tracer_, surface, seed);
+    put(target_.color, x, y, light.all);
+    put(target_.ambient, x, y, light.ambient);
   }
 
   /// Light and normals of all surfaces. Of a hidden back face the other side: the outside of what it closes.
@@ -124,7 +130,7 @@ class Capturer {
         surface.normal = -surface.normal;
         surface.facing = -surface.facing;
       }
-      put(target_.peel_color[i], x, y, radiance(tracer_, surface, seed));
+      put(target_.peel_color[i], x, y, radiance(tracer_, surface, seed).all);
       put(target_.peel_normal[i], x, y, glm::normalize(view_.camera.pose->world_to_view * surface.normal));
     }
   }
@@ -249,8 +255,15 @@ void say_outlines(Frame& frame, const OutlineOptions& options) {
 }  // namespace
 
 const std::vector<std::string>& capture_planes() {
-  static const std::vector<std::string> planes = {"depth",       "normal",   "albedo",     "color",    "roughness",
-                                                  "reflectance", "position", "back_depth", "instance", "motion"};
+  static const std::vector<std::string> planes = {"depth",     "normal",      "albedo",   "color",
+                                                  "roughness", "reflectance", "position", "back_depth",
+                                                  "instance",  "motion",      "ambient",  "metallic"};
+  return planes;
+}
+
+std::vector<std::string> usual_capture_planes() {
+  std::vector<std::string> planes = capture_planes();
+  for (const char* special : {"motion", "ambient", "metallic"}) std::erase(planes, special);
   return planes;
 }
 
@@ -263,6 +276,7 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
   Frame& frame = result.frame;
   frame.display = frame.window = {0, 0, options.width, options.height};
   frame.attributes["gloamScene"] = tracer.scene().name;
+  if (contains(options.planes, "color")) frame.attributes[color_holds_attribute] = in_words(ColorHolds());
   for (const CaptureView& view : options.views) capture_view(tracer, view, options, result);
   if (options.second_view) {
     if (frame.views[0].name.empty()) frame.views[0].name = "main";

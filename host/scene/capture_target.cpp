@@ -37,12 +37,16 @@ CaptureTarget capture_target(View& view, const CaptureOptions& options, const La
   several("normal", target.normal);
   several("albedo", target.albedo);
   several("color", target.color);
+  several("ambient", target.ambient);
   several("reflectance", target.reflectance);
   several("position", target.position);
   several("motion", target.motion);
   single("roughness", target.roughness);
+  single("metallic", target.metallic);
   single("back_depth", target.back_depth);
   single("instance", target.instance);
+  target.has_material = target.albedo[0] || target.color[0] || target.ambient[0] || target.reflectance[0] ||
+                        target.roughness || target.metallic;
   if (options.peel > 0) target.peel_count = add_channel(view, "peel_count", layout);
   if (options.outlines) target.outline_count = add_channel(view, "outline_count", layout);
   for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, layer_name("peel", i), layout));

@@ -21,7 +21,7 @@ dvec3 half_of(const Tracer& tracer, const Site& site, double radius, int samples
       const std::optional<Surface> met = tracer.first_from(site.origin, dvec3(rays.directions[i]), radius);
       rays_traced += met ? 2 : 1;  // the second towards the sun
       // Each hit asks for one point of the sun: there are many hits.
-      if (met) sum += dvec3(radiance(tracer, *met, hash(seed + uint32_t(first + i)), 1));
+      if (met) sum += dvec3(radiance(tracer, *met, hash(seed + uint32_t(first + i)), 1).all);
     }
   }
   return sum / double(samples);

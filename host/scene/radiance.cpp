@@ -20,14 +20,15 @@ vec3 sky_radiance(const Scene& scene, const dvec3& direction) {
   return glm::mix(light.horizon, light.zenith, std::sqrt(height));
 }
 
-vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays) {
+Radiance radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays) {
   const Scene& scene = tracer.scene();
   const Light& light = scene.light;
   const SurfaceMaterial material = tracer.material(surface);
   const vec3 diffuse = material.albedo * (1 - material.metallic);
   // The sky as a blend of its zenith and the ground, by how far the surface faces up.
   const float facing_up = 0.5f + 0.5f * float(glm::dot(surface.normal, glm::normalize(scene.up)));
-  vec3 irradiance = glm::pi<float>() * glm::mix(light.ground, 0.5f * (light.zenith + light.horizon), facing_up);
+  const vec3 of_sky = glm::pi<float>() * glm::mix(light.ground, 0.5f * (light.zenith + light.horizon), facing_up);
+  vec3 irradiance = of_sky;
   const dvec3 to_sun = glm::normalize(dvec3(light.to_sun));
   if (light.sun != vec3(0) && glm::dot(to_sun, surface.normal) > -0.1) {
     vec3 directions[most_sun_rays];
@@ -48,7 +49,7 @@ vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int s
     }
     irradiance += light.sun * (cosines / float(sun_rays));
   }
-  return material.emission + diffuse * irradiance / glm::pi<float>();
+  return {material.emission + diffuse * irradiance / glm::pi<float>(), diffuse * of_sky / glm::pi<float>()};
 }
 
 }  // namespace gloam

@@ -9,6 +9,7 @@
 #include "base/words.h"
 #include "gloam/error.h"
 #include "gloam/scene/bounces_reference.h"
+#include "gloam/scene/composite_reference.h"
 #include "gloam/scene/contact_reference.h"
 #include "gloam/scene/environment_reference.h"
 #include "gloam/scene/indirect_reference.h"
@@ -89,12 +90,23 @@ ReferenceJob indirect_job(const ReferenceRequest& request, const OptionSpelling&
   return job;
 }
 
+std::shared_ptr<const EnvironmentMap> environment_of(const ReferenceRequest& request) {
+  return std::make_shared<EnvironmentMap>(read_environment(request.environment,
+                                                           request.environment_axes.value_or(EnvironmentAxes::openexr),
+                                                           request.environment_turn.value_or(0)));
+}
+
+/// Says what the light is, in place of the name of its file.
+std::string identity_of(const EnvironmentMap& map) {
+  Fingerprint print;
+  print.add(map.texels());
+  return "environment " + print.text();
+}
+
 ReferenceJob environment_job(const ReferenceRequest& request, const OptionSpelling& spelled) {
   if (request.environment.empty())
     throw UsageError("reference environment: needs the light; give {} FILE.exr", spelled("environment"));
-  const auto map = std::make_shared<EnvironmentMap>(
-      read_environment(request.environment, request.environment_axes.value_or(EnvironmentAxes::openexr),
-                       request.environment_turn.value_or(0)));
+  const auto map = environment_of(request);
   ReferenceOptions options;
   options.samples = request.samples.value_or(options.samples);
   ReferenceJob job;
@@ -102,9 +114,7 @@ ReferenceJob environment_job(const ReferenceRequest& request, const OptionSpelli
   job.radius = request.radius;
   job.heading = fmt::format("environment of {} x {}", map->width(), map->height());
   job.words = {{"environment", request.environment}};
-  Fingerprint print;
-  print.add(map->texels());
-  job.identity = "environment " + print.text();
+  job.identity = identity_of(*map);
   job.trace = [options, map](const Tracer& tracer, const Frame& frame, const ReferenceOptions& of_frame) {
     return environment_reference(tracer, frame, *map, for_frame(options, of_frame));
   };
@@ -129,6 +139,37 @@ ReferenceJob contact_job(const ReferenceRequest& request, const OptionSpelling& 
   return job;
 }
 
+ReferenceJob composite_job(const ReferenceRequest& request, const OptionSpelling& spelled) {
+  CompositeReferenceOptions options;
+  options.samples = request.samples.value_or(options.samples);
+  options.reflection_samples = request.samples.value_or(options.reflection_samples);
+  options.holds = request.color_holds;
+  options.ambient = request.ambient;
+  if (request.environment.empty() && (request.environment_axes || request.environment_turn))
+    throw UsageError("{}: is of an environment; give {} FILE.exr too",
+                     spelled(request.environment_axes ? "environment_axes" : "environment_turn"),
+                     spelled("environment"));
+  if (request.ambient &&
+      std::any_of(request.ambient->begin(), request.ambient->end(), [](double x) { return !(x >= 0); }))
+    throw UsageError("{} {:g}: is a radiance; numbers from 0 on are allowed", spelled("ambient"),
+                     fmt::join(*request.ambient, ","));
+  ReferenceJob job;
+  if (!request.environment.empty()) {
+    options.environment = environment_of(request);
+    job.words = {{"environment", request.environment}};
+    job.identity = identity_of(*options.environment);
+  }
+  job.plane = "color";
+  job.reads = {"depth", "normal", "roughness", "reflectance", "color", "ambient", "albedo", "metallic"};
+  job.radius = request.radius;
+  job.heading = "the whole picture";
+  job.noise_from = "the noises of its parts";
+  job.trace = [options](const Tracer& tracer, const Frame& frame, const ReferenceOptions& of_frame) {
+    return composite_reference(tracer, frame, for_frame(options, of_frame));
+  };
+  return job;
+}
+
 /// Options that not all kinds take, with what was given for them.
 std::vector<std::pair<std::string, std::string>> special_options(const ReferenceRequest& request) {
   std::vector<std::pair<std::string, std::string>> given;
@@ -143,6 +184,8 @@ std::vector<std::pair<std::string, std::string>> special_options(const Reference
   if (request.environment_axes)
     given.emplace_back("environment_axes", word_for(*request.environment_axes, environment_axes()));
   if (request.environment_turn) given.emplace_back("environment_turn", fmt::format("{:g}", *request.environment_turn));
+  if (request.color_holds) given.emplace_back("color_holds", in_words(*request.color_holds));
+  if (request.ambient) given.emplace_back("ambient", fmt::format("{:g}", fmt::join(*request.ambient, ",")));
   return given;
 }
 
@@ -197,6 +240,11 @@ const std::vector<ReferenceKind>& reference_kinds() {
        256,
        {"length", "light_direction", "light_position", "light_angle"},
        contact_job},
+      {"composite",
+       "colour with all of these parts of its light, each once",
+       256,
+       {"radius", "environment", "environment_axes", "environment_turn", "color_holds", "ambient"},
+       composite_job},
   };
   return kinds;
 }
@@ -212,7 +260,7 @@ ReferenceJob job_of(const ReferenceRequest& request, const OptionSpelling& spell
     if (kind.name != request.what) continue;
     check_options(kind, request, spelled);
     ReferenceJob job = kind.job(request, spelled);
-    job.plane = kind.name;
+    if (job.plane.empty()) job.plane = kind.name;
     return job;
   }
   const std::vector<std::string> names = reference_names();

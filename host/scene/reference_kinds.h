@@ -1,6 +1,7 @@
 // All kinds of reference: what the command and the Python module ask for by name.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <map>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gloam/color_holds.h"
 #include "gloam/environment_map.h"
 #include "gloam/parameters.h"
 #include "gloam/scene/reference.h"
@@ -28,6 +30,8 @@ struct ReferenceRequest {
   std::string environment;            ///< path of a lat-long map
   std::optional<EnvironmentAxes> environment_axes;
   std::optional<double> environment_turn;  ///< degrees
+  std::optional<ColorHolds> color_holds;
+  std::optional<std::array<double, 3>> ambient;  ///< radiance
 };
 
 /// How a user spells an option's name: "light_angle" as "--light-angle" or as it is.
@@ -37,12 +41,13 @@ std::string as_keyword(const std::string& name);
 
 /// A request made ready to trace frames.
 struct ReferenceJob {
-  std::string plane;
+  std::string plane;  ///< where the kind's is of another name than the kind
   std::vector<std::string> reads;
-  std::string heading;                         ///< "falloff none"
-  std::map<std::string, std::string> words;    ///< settings, for JSON
-  std::map<std::string, double> numbers = {};  ///< likewise
-  std::string identity = {};                   ///< of files that were read, by what is in them
+  std::string heading;                                            ///< "falloff none"
+  std::map<std::string, std::string> words;                       ///< settings, for JSON
+  std::map<std::string, double> numbers = {};                     ///< likewise
+  std::string identity = {};                                      ///< of files that were read, by what is in them
+  std::string noise_from = "two independent halves of the rays";  ///< for people
   bool has_radius = true;
   std::optional<double> radius;  ///< given; of contact the length
   /// `options`: with the radius of this frame, a seed, a checkpoint and what to call; its samples do not count.
@@ -51,7 +56,7 @@ struct ReferenceJob {
 
 /// A kind of reference.
 struct ReferenceKind {
-  std::string name;                  ///< of its plane
+  std::string name;                  ///< of its plane; of `composite` that is color
   std::string help;                  ///< one line
   int samples;                       ///< default
   std::vector<std::string> options;  ///< that not all kinds take

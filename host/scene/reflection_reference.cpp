@@ -123,7 +123,7 @@ class ReflectionTracer {
     sum.weights += mean_weight;
     if (glm::dot(direction, dvec3(site.facing)) <= 0) return;
     const std::optional<Surface> met = tracer_.first_from(site.origin, direction);
-    const vec3 light = met ? radiance(tracer_, *met, seed, 1) : sky_radiance(tracer_.scene(), direction);
+    const vec3 light = met ? radiance(tracer_, *met, seed, 1).all : sky_radiance(tracer_.scene(), direction);
     sum.radiance += weight * dvec3(light);
     if (met ? shown_.point(met->position) : shown_.sky(direction)) sum.shown += mean_weight;
   }

@@ -41,8 +41,22 @@ TEST_F(CaptureCommand, WritesEveryPlane) {
   for (const char* plane : {"depth", "normal", "albedo", "color", "roughness", "reflectance", "position", "back_depth",
                             "instance", "peel_count", "peel.00", "peel.02"})
     EXPECT_TRUE(std::find(planes.begin(), planes.end(), plane) != planes.end()) << plane << " in " << info["planes"];
+  for (const char* plane : {"motion", "ambient", "metallic"})
+    EXPECT_TRUE(std::find(planes.begin(), planes.end(), plane) == planes.end()) << plane << " is written unasked";
   EXPECT_EQ(info["camera"]["source"], "scene camera 'main'") << info["camera"];
   EXPECT_EQ(files(), (std::vector<std::string>{"p.exr", "p.png"}));
+}
+
+TEST_F(CaptureCommand, AmbientLightAndWhatColourHolds) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", file("g.exr"), "--size", "48x27", "--planes", "color,ambient,metallic"})
+                .status,
+            0);
+  FrameFile frame(file("g.exr"), {});
+  EXPECT_EQ(frame.common_planes(), (std::vector<std::string>{"depth", "color", "ambient", "metallic"}));
+  EXPECT_EQ(frame.text_attribute("gloamColorHolds"), "ambient,shadows");
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", file("n.exr"), "--size", "48x27", "--planes", "normal,ambient"}).status,
+            0);
+  EXPECT_EQ(FrameFile(file("n.exr"), {}).text_attribute("gloamColorHolds"), "") << "has no colour";
 }
 
 TEST_F(CaptureCommand, EyeAndTargetOverTheScenesCamera) {
@@ -358,7 +372,7 @@ TEST_F(CaptureCommand, ReferenceRefusesInOneLine) {
   refused("contact", "--light-angle", "81", "a number from 0 to 80 is");
   refused("environment", "--radius", "1", "give --environment FILE.exr");
   refused("environment", "--environment-axes", "openxr", "did you mean 'openexr'?");
-  refused("ao", "--environment", loggia.c_str(), "is for environment, and ao has none; leave it out");
+  refused("ao", "--environment", loggia.c_str(), "is for environment and composite, and ao has none; leave it out");
   expect_refused({"reference", "environment", loggia, "--scene", "plane", "-o", out, "--environment", loggia}, 1,
                  "no lat-long environment");
   expect_refused({"reference", "contact", loggia, "--scene", "plane", "-o", out, "--light-position", "0,1,0",
@@ -372,21 +386,23 @@ TEST_F(CaptureCommand, EveryKindOfReferenceStatesWhatItIs) {
   ASSERT_EQ(gloam({"capture", "slab", "-o", file("s.exr"), "--size", "64x36"}).status, 0);
   ASSERT_EQ(gloam({"capture", "plane", "-o", file("sky.exr"), "--size", "64x32", "--planes", "color"}).status, 0);
   for (const std::string kind :
-       {"ao", "reflection", "bounces", "specular_occlusion", "indirect", "environment", "contact"}) {
+       {"ao", "reflection", "bounces", "specular_occlusion", "indirect", "environment", "contact", "composite"}) {
+    const std::string plane = kind == "composite" ? "color" : kind;
     Arguments arguments = {"reference", kind, file("s.exr"), "-o", file("r.exr"), "--samples", "40", "--json", "-"};
     if (kind == "environment") arguments.insert(arguments.end(), {"--environment", file("sky.exr")});
     if (kind == "contact") arguments.insert(arguments.end(), {"--light-direction", "1,0.1,0.5", "--light-angle", "10"});
     const Result result = gloam(arguments);
     ASSERT_EQ(result.status, 0) << kind << result.err;
     FrameFile reference(file("r.exr"), {});
-    EXPECT_EQ(reference.number_attribute(kind + "Samples"), 64) << kind;
-    EXPECT_NEAR(reference.number_attribute(kind + "Noise").value(), double(result.json()["noise"]), 1e-6) << kind;
+    EXPECT_EQ(reference.number_attribute(plane + "Samples"), 64) << kind;
+    EXPECT_NEAR(reference.number_attribute(plane + "Noise").value(), double(result.json()["noise"]), 1e-6) << kind;
     EXPECT_GT(double(result.json()["noise"]), 0) << kind;
-    EXPECT_EQ(reference.number_attribute(kind + "Radius").has_value(), kind != "reflection" && kind != "contact")
+    EXPECT_EQ(reference.number_attribute(plane + "Radius").has_value(),
+              kind != "reflection" && kind != "contact" && kind != "composite")
         << kind;
-    EXPECT_NE(reference.text_attribute(kind + "Definition"), "") << kind;
+    EXPECT_NE(reference.text_attribute(plane + "Definition"), "") << kind;
     EXPECT_EQ(reference.text_attribute("gloamScene"), "slab: height=1");
-    EXPECT_TRUE(contains(reference.common_planes(), kind) && contains(reference.common_planes(), kind + "_noise"));
+    EXPECT_TRUE(contains(reference.common_planes(), plane) && contains(reference.common_planes(), plane + "_noise"));
     // Compared with itself there is no error.
     const nlohmann::json same = gloam({"compare", file("r.exr"), file("r.exr"), "--json", "-"}).json();
     EXPECT_EQ(same["rmse"], 0) << kind;

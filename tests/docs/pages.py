@@ -100,6 +100,9 @@ PAGES = {
         not_run={"parallel": "GNU parallel is not among the packages of script/bootstrap; `sh -e` runs the same list above",
                  "sbatch": "needs a cluster; slurm.* run such a list where Slurm is installed"},
         check="[ $(wc -l < stress.txt) = 8 ] && [ $(wc -l < bench.txt) = 7 ] && [ -s ao.0004.exr ] && [ -s page.md ]"),
+    "docs/composite.md": Page(
+        instead={"--size 480x270": ("--size 96x54", MINUTES)},
+        check="[ -s picture.exr ] && [ -s effects.exr ]"),
     "docs/fuzzing.md": Page(
         not_run={"script/": SANITIZED},
         instead={"--runs 1000000 --seed 2": ("--runs 5000 --seed 2", MINUTES)}),

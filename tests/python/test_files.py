@@ -163,6 +163,19 @@ def test_every_kind_of_reference_is_the_commands(command, tmp_path):
             assert numpy.array_equal(truth[plane], stored[plane]), plane
 
 
+def test_whole_picture_is_the_commands(command, tmp_path):
+    frame = gloam.capture("colonnade", 32, 24, ["normal", "color", "ambient", "albedo", "metallic", "roughness", "reflectance"])
+    assert frame.attributes["gloamColorHolds"] == "ambient,shadows"
+    gloam.write(tmp_path / "frame.exr", frame)
+    command("reference", "composite", tmp_path / "frame.exr", "-o", tmp_path / "truth.exr", "--samples", "32", "--color-holds", "ambient,shadows,reflection",
+            "--ambient", "0.1,0.2,0.3")
+    truth = gloam.reference(tmp_path / "frame.exr", what="composite", samples=32, color_holds="ambient,shadows,reflection", ambient=(0.1, 0.2, 0.3))
+    stored = gloam.read(tmp_path / "truth.exr", as_stored=True)
+    assert truth.planes == ["ao", "ao_noise", "color", "color_noise", "depth", "indirect", "indirect_noise"]
+    for plane in truth.planes:
+        assert numpy.array_equal(truth[plane], stored[plane]), plane
+
+
 @pytest.mark.parametrize("call, sentence", [
     (lambda f: gloam.capture("colonade"), "no scene 'colonade' (did you mean 'colonnade'?)"),
     (lambda f: gloam.capture("statue", 8, 8, fases=3), "fases"),
@@ -186,6 +199,9 @@ def test_every_kind_of_reference_is_the_commands(command, tmp_path):
     (lambda f: gloam.reference(f, what="contact", light_position=(0, 0)), "light_position (0, 0) is not a point"),
     (lambda f: gloam.reference(f, what="contact", length=-1), "length -1 is not allowed"),
     (lambda f: gloam.reference(f, what="bounces", bounces=-1), "-1 bounces are not allowed"),
+    (lambda f: gloam.reference(f, what="composite", color_holds="sun"), "color_holds sun is not allowed"),
+    (lambda f: gloam.reference(f, what="composite", ambient=(1, 1, -1)), "ambient 1,1,-1: is a radiance"),
+    (lambda f: gloam.reference(f, what="ao", ambient=(1, 1, 1)), "ambient 1,1,1: is for composite"),
     (lambda f: gloam.reference(f, what="environment"), "give environment FILE.exr"),
     (lambda f: gloam.reference(f, what="environment", environment="/none.exr"), "/none.exr"),
     (lambda f: gloam.reference(3), "frame is of type int"),

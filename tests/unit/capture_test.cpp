@@ -117,6 +117,34 @@ TEST(Capture, Materials) {
   EXPECT_FLOAT_EQ(value(frame, "roughness", 16, 16), 0.2f);
   EXPECT_FLOAT_EQ(value(frame, "reflectance", 16, 16, 2), 0.3f) << "a metal reflects its base colour";
   EXPECT_EQ(value(frame, "color", 16, 16), 0) << "a metal has no diffuse light";
+  EXPECT_EQ(value(frame, "ambient", 16, 16), 0);
+  EXPECT_EQ(value(frame, "metallic", 16, 16), 1);
+}
+
+TEST(Capture, AmbientLightIsThePartOfColourThatIsOfTheSky) {
+  Scene scene = boxes();
+  for (Material& material : scene.materials) material.metallic = 0;
+  scene.light.sun = {3, 2, 1};
+  const Camera camera = camera_for(scene.cameras[0], 65, 33);
+  const Frame lit = captured(scene, camera, 65, 33).frame;
+  EXPECT_EQ(lit.attributes.at("gloamColorHolds"), "ambient,shadows");
+  scene.light.sun = {0, 0, 0};
+  const Frame dark = captured(scene, camera, 65, 33).frame;
+  int sunny = 0;
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 65; ++x)
+      for (size_t i = 0; i < 3; ++i) {
+        const float ambient = value(lit, "ambient", x, y, i);
+        if (is_background(value(lit, "depth", x, y))) {
+          EXPECT_EQ(ambient, 0);
+          continue;
+        }
+        EXPECT_GT(ambient, 0);
+        EXPECT_EQ(ambient, value(dark, "color", x, y, i)) << x << " " << y;
+        EXPECT_LE(ambient, value(lit, "color", x, y, i)) << x << " " << y;
+        sunny += ambient < value(lit, "color", x, y, i);
+      }
+  EXPECT_GT(sunny, 100);
 }
 
 /// Position, depth and pixel are consistent for every kind of camera.

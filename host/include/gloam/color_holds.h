@@ -23,5 +23,7 @@ inline constexpr const char* color_holds_attribute = "gloamColorHolds";
 ColorHolds parse_color_holds(const std::string& text, const std::string& what);
 /// The same as text.
 std::string in_words(const ColorHolds& holds);
+/// What to tell where neither file nor user says what colour holds.
+std::string note_on_assumed_holds();
 
 }  // namespace gloam

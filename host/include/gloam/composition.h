@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,11 @@ const std::vector<std::string>& planes_to_compose();
 /// for `ComposeOptions::ambient` where the frame has no albedo, and Error for a frame without color.
 Composition composition_of(const std::vector<std::string>& frame, const std::vector<std::string>& computed,
                            const ComposeOptions& options);
+
+/// What the picture holds, as a frame's color.
+ColorHolds holds_of_picture(const Composition& composition);
+/// Text for the picture's header: gloamColorHolds, and gloamComposite: "ao reflection; color had ambient,shadows; ambient: plane".
+std::map<std::string, std::string> attributes_of(const Composition& composition);
 
 /// Makes the view's color the whole picture. With C its color, A its ambient light, D its diffuse albedo (albedo (1 - metallic)),
 /// scene-linear, for each pixel and channel:

@@ -193,7 +193,8 @@ def reference(frame: Union[Frame, Path], scene: Union[Scene, Path, None] = None,
               radius: Optional[float] = None, what: str = "ao", falloff: str = "none", bounces: Optional[int] = None,
               length: Optional[float] = None, light_direction: Optional[Point] = None,
               light_position: Optional[Point] = None, light_angle: Optional[float] = None, environment: Optional[Path] = None,
-              environment_axes: Optional[str] = None, environment_turn: Optional[float] = None, seed: int = 0, checkpoint: Optional[Path] = None,
+              environment_axes: Optional[str] = None, environment_turn: Optional[float] = None, color_holds: Optional[str] = None,
+              ambient: Optional[Point] = None, seed: int = 0, checkpoint: Optional[Path] = None,
               settings: Optional[Dict[str, Setting]] = None, **scene_settings: Setting) -> Frame: ...
 def techniques() -> Dict[str, Technique]: ...
 def devices() -> List[DeviceInfo]: ...

@@ -57,7 +57,8 @@ def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=Non
     """A G-buffer of a scene, a gloam.Frame of width x height pixels, sampled at pixel centres.
 
     scene: a gloam.Scene, a name of gloam.scenes(), or a path; settings of a built-in scene by keyword.
-    planes: names of planes beside depth: normal, albedo, color, roughness, reflectance, position, back_depth, instance; default: all.
+    planes: names of planes beside depth: normal, albedo, color, roughness, reflectance, position, back_depth, instance (default: these), ambient,
+        metallic.
     camera: the name of one of the scene's cameras, or a gloam.Camera with a pose; or eye and target, points (x, y, z) in scene units; default: the
         scene's first.  fov: horizontal field of view, degrees.
     peel: depth layers to store, 0 to 64.  peel_light: also colour and normal of each layer, for dp-indirect.
@@ -78,14 +79,15 @@ def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=Non
 
 
 def reference(frame, scene=None, *, samples=None, radius=None, what="ao", falloff="none", bounces=None, length=None,
-              light_direction=None, light_position=None, light_angle=None, environment=None, environment_axes=None, environment_turn=None, seed=0,
+              light_direction=None, light_position=None, light_angle=None, environment=None, environment_axes=None, environment_turn=None, color_holds=None,
+              ambient=None, seed=0,
               checkpoint=None, settings=None, **scene_settings):
     """The ray-traced truth of a frame: a gloam.Frame with the planes ao and ao_noise (or those of another kind), depth and cameras.
 
     frame: a gloam.Frame with depth and a camera with a pose, or a path.  scene: as for gloam.capture; default: the built-in one that the frame
     names.  what: "ao", "reflection", "bounces" (ambient light with light reflected between surfaces), "specular_occlusion" (openness of a
-        glossy lobe), "indirect" (light from the surfaces around), "environment" (light of an environment from open directions) or "contact"
-        (share of a light that arrives past what is near).
+        glossy lobe), "indirect" (light from the surfaces around), "environment" (light of an environment from open directions) "contact"
+        (share of a light that arrives past what is near) or "composite" (color with all of these parts of its light, each once).
     samples: rays (of bounces: paths) per pixel, rounded up to a multiple of 32; default 256, of reflections 1024.
     radius: reach of an occluder, scene units, or inf; default: the frame's, else the scene's, else made from the frame.
     falloff: "none", or a technique whose contribution is traced (settings={"hbao+.bias": 0.2}).  bounces: reflections after which a path of
@@ -94,6 +96,8 @@ def reference(frame, scene=None, *, samples=None, radius=None, what="ao", fallof
         units, as (x, y, z) in the world; default: the scene's sun.  light_angle: angular radius of the light, degrees; default 0.
     environment: path of a lat-long EXR file.  environment_axes: "openexr" (default: +y is up, the middle looks along +z) or "blender" (+z is up,
         the middle looks along +x).  environment_turn: degrees about the up axis, counter-clockwise seen from above.
+    color_holds: of composite, what color holds beside direct light ("ambient,shadows"); default: as the frame's attribute gloamColorHolds says.
+    ambient: of composite, radiance (r, g, b) of an even sky, for frames without the plane ambient.
     checkpoint: path of a file in which the work is saved every 15 s; after Ctrl-C the same call goes on from there.
     `numbers` of the result has aoRadius (scene units), aoSamples, aoNoise (RMS), of other kinds with the name of their plane.
     Raises gloam.Error, also if the frame does not show the scene. Ctrl-C ends the call within a moment.
@@ -110,6 +114,7 @@ def reference(frame, scene=None, *, samples=None, radius=None, what="ao", fallof
              "environment": "" if environment is None else _words.path("environment", environment),
              "environment_axes": "" if environment_axes is None else _words.text("environment_axes", environment_axes),
              "environment_turn": _words.number("environment_turn", environment_turn),
+             "color_holds": _words.text("color_holds", color_holds) or "", "ambient": _words.point("ambient", ambient),
              "checkpoint": "" if checkpoint is None else _words.path("checkpoint", checkpoint),
              "settings": _words.settings(scene_settings), "falloff_settings": _words.settings(settings)}
     held = None if scene is None else _scene(scene, scene_settings)

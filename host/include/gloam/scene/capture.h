@@ -59,13 +59,16 @@ struct CaptureResult {
   std::optional<VisibleDepths> visible;  ///< depths that the second view is made to cover
 };
 
-/// The planes that can be captured: depth, normal, albedo, color, roughness, reflectance, position, back_depth, instance, motion.
+/// The planes that can be captured: depth, normal, albedo, color, roughness, reflectance, position, back_depth, instance, motion,
+/// ambient, metallic.
 const std::vector<std::string>& capture_planes();
+/// Those that are captured without a word: all but motion, which needs the frame before, ambient and metallic.
+std::vector<std::string> usual_capture_planes();
 
 /// Samples a scene at pixel centres. Planes as in docs/gbuffer.md; `peel_count` is the number of all surfaces under the pixel
 /// centre, stored or not. `instance` is the mesh's index + 1; 0 is background. `outline_count` is the number of outlines that
 /// contain the eye (`Outlines::around`) plus the signed crossings from there to the visible surface, or to the far plane.
-/// Attributes of the frame: its scene (gloamScene), how its stochastic depths were made (gloamStochasticAlpha,
+/// Attributes of the frame: its scene (gloamScene), what its colour holds (gloamColorHolds: "ambient,shadows"), how its stochastic depths were made (gloamStochasticAlpha,
 /// gloamStochasticSeed), its outlines (gloamOutlines, their extent in scene units, gloamOutlineMethod, and gloamOutlineAngle,
 /// degrees), the turn of its second view (gloamSecondView, degrees) and the placement of its eyes (gloamStereo and
 /// gloamConvergence, scene units, gloamToeIn, degrees). Near and far planes of cameras clip.

@@ -9,11 +9,16 @@
 
 namespace gloam {
 
-/// Direct light that leaves a surface, the same in every direction: emission, and diffuse light of the sun (with shadows) and of
-/// the sky (without occlusion, so that ambient occlusion can be multiplied in without counting it twice). Scene-linear. `seed`
-/// picks `sun_rays` points of the sun's disc, at most 16.
+/// Direct light that leaves a surface, the same in every direction. Scene-linear.
+struct Radiance {
+  glm::vec3 all;  ///< emission, and diffuse light of the sun (with shadows) and of the sky
+  glm::vec3
+      ambient;  ///< of `all` the light of the sky: without occlusion, so that ambient occlusion does not count twice
+};
+
+/// `seed` picks `sun_rays` points of the sun's disc, at most 16.
 inline constexpr int most_sun_rays = 16;
-glm::vec3 radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays = most_sun_rays);
+Radiance radiance(const Tracer& tracer, const Surface& surface, uint32_t seed, int sun_rays = most_sun_rays);
 
 /// Radiance of the sky, for rays that meet nothing.
 glm::vec3 sky_radiance(const Scene& scene, const glm::dvec3& direction);
