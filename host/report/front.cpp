@@ -70,7 +70,7 @@ void mark_fronts(std::vector<ClassPoint>& points) {
 
 ClassFront front_of_class(const std::string& name, const std::vector<std::string>& scenes,
                           const std::vector<Row>& rows) {
-  ClassFront found{name, scenes, {}, 0};
+  ClassFront found{.name = name, .scenes = scenes};
   std::map<std::string, std::vector<Setting>> on_front;
   for (const std::string& scene : scenes) {
     for (const size_t i : front_of_scene(rows, scene).all) on_front[scene].push_back(setting_of(rows[i]));
@@ -127,16 +127,21 @@ SceneFront front_of_scene(const std::vector<Row>& rows, const std::string& scene
 std::vector<ClassFront> fronts_of_classes(const Measurements& measurements) {
   std::vector<std::string> names;
   std::map<std::string, std::vector<std::string>> scenes_of;
+  std::map<std::string, std::string> effect_of;  ///< the name of a class tells its effect
   for (const Scene& scene : measurements.scenes) {
     const auto has_both = [&](const Row& row) {
       return row.scene == scene.name && row.rmse_to_truth && row.ratio_to_hbao_plus;
     };
     if (std::none_of(measurements.rows.begin(), measurements.rows.end(), has_both)) continue;
     add_new(names, scene.scene_class);
+    effect_of[scene.scene_class] = scene.effect;
     scenes_of[scene.scene_class].push_back(scene.name);
   }
   std::vector<ClassFront> fronts;
-  for (const std::string& name : names) fronts.push_back(front_of_class(name, scenes_of[name], measurements.rows));
+  for (const std::string& name : names) {
+    fronts.push_back(front_of_class(name, scenes_of[name], measurements.rows));
+    fronts.back().effect = effect_of[name];
+  }
   return fronts;
 }
 

@@ -17,7 +17,7 @@ constexpr std::array<const char*, 5> class_order{"architecture", "thin", "object
 
 /// Ambient occlusion first, then other effects; within an effect by class.
 std::tuple<bool, std::string, size_t> rank(const Scene& scene) {
-  const std::string scene_class = scene.scene_class.substr(0, scene.scene_class.find(','));
+  const std::string scene_class = scene.scene_class.substr(0, scene.scene_class.find(" ("));
   return {scene.effect != "ao", scene.effect,
           size_t(std::find(class_order.begin(), class_order.end(), scene_class) - class_order.begin())};
 }

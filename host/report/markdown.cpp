@@ -35,7 +35,19 @@ std::string measured_on(const Measurements& m) {
   return plain_text(text);
 }
 
-std::string head(const std::vector<Source>& sources, const std::string& command) {
+/// What the errors are to.
+std::string truth_in_words(const Measurements& all) {
+  const bool of_ao =
+      std::all_of(all.scenes.begin(), all.scenes.end(), [](const Scene& scene) { return scene.effect == "ao"; });
+  if (of_ao)
+    return "RMSE of ambient occlusion against ray-traced truth: cosine-weighted rays, binary visibility within the "
+           "radius, no falloff; background does not count.";
+  return "RMSE of effects of light, each a plane of its own, against ray-traced truth within the radius (`gloam "
+         "reference`), over all components; background does not count. The last row of a scene is what there is "
+         "without a technique.";
+}
+
+std::string head(const std::vector<Source>& sources, const Measurements& all, const std::string& command) {
   std::vector<std::string> from;
   for (const Source& source : sources)
     from.push_back(fmt::format("{} (measured on {})", code(source.name), measured_on(source.measurements)));
@@ -44,8 +56,8 @@ std::string head(const std::vector<Source>& sources, const std::string& command)
                                "(`gloam bench`), then generate.",
                                enumerate(from), code(command))) +
          paragraph(
-             "RMSE of ambient occlusion against ray-traced truth: cosine-weighted rays, binary visibility within "
-             "the radius, no falloff; background does not count. In parentheses the bias, the mean difference: + is "
+             truth_in_words(all) +
+             " In parentheses the bias, the mean difference: + is "
              "too bright. *Time* is that of the whole plan, the filter included, over that of HBAO+ medium in the "
              "same round of the same process; such a ratio travels between machines of a kind, milliseconds do not. "
              "A *setting* is a technique with a preset:") +
@@ -204,7 +216,7 @@ class Sheets {
 MarkdownPage make_markdown(const std::vector<Source>& sources, const MarkdownOptions& options) {
   const Material material = material_of(sources);
   MarkdownPage page;
-  page.text = head(sources, options.command) + table_of_scenes(material.all);
+  page.text = head(sources, material.all, options.command) + table_of_scenes(material.all);
   for (const auto section :
        {needs_section, fronts_section, scenes_section, presets_section, converged_section, ladder_section,
         sequence_section, floor_section, scales_section, planes_section, others_section})

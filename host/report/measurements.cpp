@@ -133,7 +133,7 @@ std::string effect_of(const Object& o) {
 /// What one effect was measured on, apart from the same scene of another.
 std::string with_effect(const std::string& text, const std::string& effect) {
   if (effect == "ao") return text;
-  return text.empty() ? effect : text + ", " + effect;
+  return text.empty() ? effect : fmt::format("{} ({})", text, effect);
 }
 
 /// For files that do not state what a technique reads.

@@ -69,7 +69,7 @@ struct Row {
   size_t source = 0;  ///< index of its file, of several (joined.h)
 };
 
-/// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery, indirect".
+/// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery (indirect)".
 struct Scene {
   std::string name, scene_class;
   std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"

@@ -32,16 +32,16 @@ std::string left_out(const ClassFront& group) {
 }
 
 /// The settings of all groups side by side: a row per need.
-std::string overview(const Material& material) {
+std::string overview(const std::vector<ClassFront>& groups) {
   std::vector<std::string> heading{"need"}, needs;
-  for (const ClassFront& group : material.measured) {
+  for (const ClassFront& group : groups) {
     heading.push_back(plain_text(group.name));
     for (const Choice& choice : choices(group)) add_new(needs, choice.need);
   }
   Table table(heading, "l");
   for (const std::string& need : needs) {
     std::vector<std::string> cells{need};
-    for (const ClassFront& group : material.measured) {
+    for (const ClassFront& group : groups) {
       const std::vector<Choice> of_group = choices(group);
       const auto found =
           std::find_if(of_group.begin(), of_group.end(), [&](const Choice& c) { return c.need == need; });
@@ -50,6 +50,20 @@ std::string overview(const Material& material) {
     table.add(cells);
   }
   return table.text();
+}
+
+/// A table for each effect that has several groups.
+std::string overviews(const Material& material) {
+  std::vector<std::string> effects;
+  for (const ClassFront& group : material.measured) add_new(effects, group.effect);
+  std::string text;
+  for (const std::string& effect : effects) {
+    std::vector<ClassFront> groups;
+    std::copy_if(material.measured.begin(), material.measured.end(), std::back_inserter(groups),
+                 [&](const ClassFront& group) { return group.effect == effect; });
+    if (groups.size() > 1) text += overview(groups) + (effects.size() > 1 ? "\n" : "");
+  }
+  return text;
 }
 
 std::string needs_of_group(const ClassFront& group) {
@@ -173,7 +187,7 @@ std::string needs_section(const Material& material) {
       "to make first, and that is not in the time. At a lower resolution every 2nd (half) or 4th pixel (quarter) each "
       "way is estimated and filtered, then "
       "upsampled.");
-  if (material.measured.size() > 1) text += overview(material);
+  text += overviews(material);
   for (const ClassFront& group : material.measured) text += needs_of_group(group);
   return text;
 }

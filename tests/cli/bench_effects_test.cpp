@@ -94,7 +94,7 @@ TEST_F(BenchEffects, AreMeasuredByTheirOwnTruths) {
   const Result page = gloam({"report", path("out"), "--markdown", path("page.md")});
   ASSERT_EQ(page.status, 0) << page.err;
   const std::string text = slurp(path("page.md"));
-  for (const char* words : {"### gallery, indirect\n", "### architecture, contact\n", "| black, no technique | ",
+  for (const char* words : {"### gallery (indirect)\n", "### architecture (contact)\n", "| black, no technique | ",
                             "### specular\\_occlusion\n", "screen and hidden"})
     EXPECT_NE(text.find(words), std::string::npos) << words;
 }

@@ -432,7 +432,7 @@ TEST_F(ReportInBrowser, GivesEachEffectItsOwnSections) {
   holds(result["base"], "0.0345");
   ASSERT_EQ(result["ladder"].size(), 2u);
   holds(result["ladder"][1], "black");
-  EXPECT_EQ(result["fronts"], Json({"architecture, indirect"}));
+  EXPECT_EQ(result["fronts"], Json({"architecture (indirect)"}));
   holds(result["range"], "0.13 darker");  // a quarter of what is shown as white
   holds(result["remark"], "Without a technique (black, dotted) the error is 0.0345");
   holds(result["picked"], "indirect low");  // the base line is nothing to pick
