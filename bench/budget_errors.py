@@ -34,7 +34,7 @@ class Scene:
         self.gloam, self.folder, self.name = gloam_path, folder, name
         self.frame = folder / f"{name}.exr"
         if not self.frame.exists():
-            planes = "depth,normal,color,albedo,ambient,roughness,reflectance,back_depth,instance"
+            planes = "depth,normal,color,albedo,metallic,ambient,roughness,reflectance,back_depth,instance"
             call(gloam_path, "capture", name, "-o", self.frame, "--size", size, "--planes", planes)
         self.truth = {}
         for kind in ("ao", "indirect", "reflection"):
@@ -42,9 +42,10 @@ class Scene:
             if not path.exists():
                 call(gloam_path, "reference", kind, self.frame, "-o", path, "--samples", samples)
             self.truth[kind] = gloam.read(path, planes=[kind])[kind]
-        own = gloam.read(self.frame, planes=["depth", "color", "albedo", "ambient"])
+        own = gloam.read(self.frame, planes=["depth", "color", "albedo", "metallic", "ambient"])
         self.surface = numpy.isfinite(own["depth"])
-        self.color, self.albedo, self.ambient = (own[plane][self.surface].astype(float) for plane in ("color", "albedo", "ambient"))
+        self.color, self.albedo, self.ambient, metallic = (self.at_surfaces(own[plane]) for plane in ("color", "albedo", "ambient", "metallic"))
+        self.albedo *= 1 - metallic[:, None]
         self.picture_of_truth = self.picture({kind: self.at_surfaces(plane) for kind, plane in self.truth.items()})
 
     def at_surfaces(self, plane):

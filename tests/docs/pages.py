@@ -100,6 +100,10 @@ PAGES = {
         not_run={"parallel": "GNU parallel is not among the packages of script/bootstrap; `sh -e` runs the same list above",
                  "sbatch": "needs a cluster; slurm.* run such a list where Slurm is installed"},
         check="[ $(wc -l < stress.txt) = 8 ] && [ $(wc -l < bench.txt) = 7 ] && [ -s ao.0004.exr ] && [ -s page.md ]"),
+    "docs/choosing.md": Page(
+        instead={"--size 960x540": ("--size 160x90", MINUTES)},
+        not_run={"PYTHONPATH=build/python python3 bench/budget_errors.py": "takes an hour"},
+        check="for file in effects.exr picture.exr why.png; do [ -s $file ]; done"),
     "docs/composite.md": Page(
         instead={"--size 480x270": ("--size 96x54", MINUTES)},
         check="[ -s picture.exr ] && [ -s effects.exr ]"),
