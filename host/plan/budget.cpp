@@ -24,7 +24,7 @@ RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means, 
 }
 
 /// An option's error beside the one of the effect's sign and size, which the glance's losses hold already.
-double remaining_error(const Technique& technique, const EffectOption& option) {
+double unsigned_error(const Technique& technique, const EffectOption& option) {
   const double missing = 1 - 1 / true_per_seen_change(technique);
   return std::sqrt(std::max(0.0, option.relative_error * option.relative_error - missing * missing));
 }
@@ -64,8 +64,8 @@ class Spending {
       problem.effects.emplace_back();
       for (size_t k = 0; k < effects_[i].options.size(); ++k) {
         const EffectOption& option = effects_[i].options[k];
-        problem.effects.back().push_back(
-            {option.makes, ms_with_its_part(i, int(k)), remaining_error(*effects_[i].technique, option)});
+        problem.effects.back().push_back({option.makes, ms_with_its_part(i, int(k)), option.relative_error,
+                                          unsigned_error(*effects_[i].technique, option)});
       }
       problem.loss_without.push_back(effects_[i].without);
     }

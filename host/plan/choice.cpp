@@ -32,15 +32,21 @@ class Losses {
 };
 
 Choice figures_with(const ChoiceProblem& problem, const std::vector<int>& options, Losses& losses) {
-  Choice choice{options, 0, 0};
-  double squares = std::pow(losses.of(options), 2);
+  Choice choice{options, 0, 0, 0};
+  double squares = std::pow(losses.of(options), 2), squares_of_each = 0;
   for (size_t i = 0; i < options.size(); ++i) {
-    if (options[i] == left_out) continue;
+    const double without = problem.loss_without[i];
+    if (options[i] == left_out) {
+      squares_of_each += without * without;
+      continue;
+    }
     const OptionFigures& option = problem.effects[i][size_t(options[i])];
     choice.ms += option.ms;
-    squares += std::pow(option.relative_error * problem.loss_without[i], 2);
+    squares += std::pow(option.unsigned_error * without, 2);
+    squares_of_each += std::pow(option.relative_error * without, 2);
   }
   choice.error = std::sqrt(squares);
+  choice.without_luck = std::sqrt(squares_of_each);
   return choice;
 }
 
@@ -60,7 +66,12 @@ void for_each_choice(const ChoiceProblem& problem, const Look& look) {
   }
 }
 
-bool is_better(const Choice& a, const Choice& b) { return a.error < b.error || (a.error == b.error && a.ms < b.ms); }
+/// Errors that differ by less are taken for equal.
+constexpr double least_difference = 1.03;
+
+bool relies_less_on_luck(const Choice& a, const Choice& b) {
+  return a.without_luck < b.without_luck || (a.without_luck == b.without_luck && a.ms < b.ms);
+}
 
 }  // namespace
 
@@ -70,9 +81,14 @@ Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options)
 }
 
 std::optional<Choice> best_within_time(const ChoiceProblem& problem, double ms) {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_choice(problem, [&](const Choice& choice) {
+    if (choice.ms <= ms) least = std::min(least, choice.error);
+  });
   std::optional<Choice> best;
   for_each_choice(problem, [&](const Choice& choice) {
-    if (choice.ms <= ms && (!best || is_better(choice, *best))) best = choice;
+    if (choice.ms > ms || choice.error > least * least_difference) return;
+    if (!best || relies_less_on_luck(choice, *best)) best = choice;
   });
   return best;
 }

@@ -12,8 +12,9 @@ namespace gloam {
 struct OptionFigures {
   std::vector<std::string> makes;  ///< planes that the picture takes: {"ao"}
   double ms = 0;                   ///< on the device
-  double relative_error =
-      0;  ///< RMS error of the picture by this option, as a share of the error of a picture without the effect
+  /// RMS error of the picture by this option alone, as a share of the error of a picture without the effect.
+  double relative_error = 0;
+  double unsigned_error = 0;  ///< the part of it that `ChoiceProblem::loss_with` does not hold
 };
 
 /// The options of each effect, and what the picture loses.
@@ -29,6 +30,7 @@ struct Choice {
   std::vector<int> options;  ///< by effect; `left_out`: the effect is not computed
   double ms = 0;             ///< sum over effects
   double error = 0;          ///< expected RMS error of the picture
+  double without_luck = 0;   ///< the same if errors of different effects never cancelled
 };
 
 inline constexpr int left_out = -1;
@@ -37,7 +39,8 @@ inline constexpr int left_out = -1;
 /// have different causes.
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options);
 
-/// The choice of least error within a time; of equal ones the faster. None if even the empty choice takes longer (`ms` below 0).
+/// The choice of least error within a time. Errors of different effects may cancel, which is luck in part: of choices whose errors
+/// differ by 3 % or less, the one that relies on it least, then the faster. None if even the empty choice takes longer (`ms` below 0).
 std::optional<Choice> best_within_time(const ChoiceProblem& problem, double ms);
 
 /// The fastest choice within an error; none if no choice is expected to reach it.

@@ -11,7 +11,8 @@ namespace {
 /// Two effects that change the picture by 3 and by 4, independently: without both it is 5 off.
 ChoiceProblem two_effects() {
   ChoiceProblem problem;
-  problem.effects = {{{{"ao"}, 2, 0.5}, {{"ao"}, 10, 0.1}}, {{{"reflection"}, 4, 0.25}, {{"reflection"}, 20, 0}}};
+  problem.effects = {{{{"ao"}, 2, 0.5, 0.5}, {{"ao"}, 10, 0.1, 0.1}},
+                     {{{"reflection"}, 4, 0.25, 0.25}, {{"reflection"}, 20, 0, 0}}};
   problem.loss_without = {3, 4};
   problem.loss_with = [](const std::vector<std::string>& planes) {
     const bool ao = std::find(planes.begin(), planes.end(), "ao") != planes.end();
@@ -55,8 +56,23 @@ TEST(Choice, TheLeastTimeWithinAnError) {
 
 TEST(Choice, OfEqualErrorsTheFaster) {
   ChoiceProblem problem = two_effects();
-  problem.effects[0] = {{{"ao"}, 9, 0.5}, {{"ao"}, 2, 0.5}};
+  problem.effects[0] = {{{"ao"}, 9, 0.5, 0.5}, {{"ao"}, 2, 0.5, 0.5}};
   EXPECT_EQ(best_within_time(problem, 100)->options[0], 1);
+}
+
+// Leaving both out has nearly the least error, since one darkens what the other brightens.
+TEST(Choice, LuckDecidesNothing) {
+  ChoiceProblem problem;
+  problem.effects = {{{{"ao"}, 1, 0.5, 0}}, {{{"indirect"}, 1, 0.5, 0}}};
+  problem.loss_without = {1, 1};
+  for (const double of_none : {0.98, 0.9}) {
+    problem.loss_with = [=](const std::vector<std::string>& planes) {
+      return planes.empty() ? of_none : planes.size() == 2 ? 1.0 : 2.0;
+    };
+    const Choice best = *best_within_time(problem, 10);
+    EXPECT_EQ(best.options, of_none == 0.98 ? (Options{0, 0}) : (Options{left_out, left_out})) << of_none;
+  }
+  EXPECT_DOUBLE_EQ(figures_of(problem, {0, left_out}).without_luck, std::sqrt(1.25));
 }
 
 TEST(Choice, WithoutEffectsThereIsNothingToChoose) {
