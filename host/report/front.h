@@ -45,10 +45,10 @@ struct ClassPoint {
 /// The front of a class of scenes.
 struct ClassFront {
   std::string name;
-  std::string effect;               ///< of its scenes: "ao", "indirect"
   std::vector<std::string> scenes;  ///< those with an error and a ratio; the means are over all of them
   std::vector<ClassPoint> points;   ///< settings measured in all of the scenes, fastest first
   size_t left_out = 0;              ///< settings measured in only some of the scenes: their means would not compare
+  std::string effect;               ///< of its scenes: "ao", "indirect"
 };
 
 /// One front per class, in order of first appearance; none for a class without a scene that has errors and ratios.
