@@ -21,10 +21,10 @@ const Choices<bool ColorHolds::*>& parts() {
   return all;
 }
 
-std::vector<std::string> words_allowed() {
-  std::vector<std::string> words = words_of(parts());
-  words.emplace_back(nothing);
-  return words;
+[[noreturn]] void refuse(const std::string& item, const std::string& text, const std::string& what) {
+  const std::vector<std::string> words = words_of(parts());
+  throw UsageError("{} {}: '{}' is not known{}; a list of {} is allowed, or {}", what, text, item,
+                   suggestion(item, words), enumerate(words), nothing);
 }
 
 /// The text between commas, without spaces around.
@@ -45,7 +45,7 @@ ColorHolds parse_color_holds(const std::string& text, const std::string& what) {
   for (const std::string& item : items_of(text)) {
     const auto known =
         std::find_if(parts().begin(), parts().end(), [&](const auto& part) { return part.first == item; });
-    if (known == parts().end()) refuse_word(item.empty() ? "''" : item, what, words_allowed());
+    if (known == parts().end()) refuse(item, text, what);
     holds.*known->second = true;
   }
   if (holds.ao && !holds.ambient)

@@ -199,7 +199,7 @@ def test_whole_picture_is_the_commands(command, tmp_path):
     (lambda f: gloam.reference(f, what="contact", light_position=(0, 0)), "light_position (0, 0) is not a point"),
     (lambda f: gloam.reference(f, what="contact", length=-1), "length -1 is not allowed"),
     (lambda f: gloam.reference(f, what="bounces", bounces=-1), "-1 bounces are not allowed"),
-    (lambda f: gloam.reference(f, what="composite", color_holds="sun"), "color_holds sun is not allowed"),
+    (lambda f: gloam.reference(f, what="composite", color_holds="sun"), "color_holds sun: 'sun' is not known"),
     (lambda f: gloam.reference(f, what="composite", ambient=(1, 1, -1)), "ambient 1,1,-1: is a radiance"),
     (lambda f: gloam.reference(f, what="ao", ambient=(1, 1, 1)), "ambient 1,1,1: is for composite"),
     (lambda f: gloam.reference(f, what="environment"), "give environment FILE.exr"),
