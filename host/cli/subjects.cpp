@@ -127,11 +127,11 @@ unsigned long long bytes_of_plans(const FrameFile& file, const std::vector<const
 }
 
 /// Counts the plans, the truth, an image that is measured against it, and masks.
-unsigned long long planned_memory_of(const FrameFile& file, const FrameFlags& flags,
+unsigned long long planned_memory_of(const FrameFile& file, const FrameFlags& flags, const std::string& effect,
                                      const std::vector<const Technique*>& techniques) {
   constexpr unsigned long long images = 4;
   const int width = file.window().width();
-  const unsigned long long image = Layout(width, file.window().height()).bytes();
+  const unsigned long long image = plane_kind(effect).components.size() * Layout(width, file.window().height()).bytes();
   const unsigned long long bytes = process_bytes_with_device + file.bytes_to_read(planes_to_read(file, techniques)) +
                                    bytes_of_plans(file, techniques) + images * file.views().size() * image +
                                    Comparison::bytes(width, 1);
@@ -204,7 +204,7 @@ Subject own_subject(const std::string& frame, const FrameFlags& flags, const std
   FrameFile file(frame, flags.read_options());
   subject.name = file.path().stem().string();
   subject.scene_class = "own";
-  subject.memory_bytes = planned_memory_of(file, flags, techniques);
+  subject.memory_bytes = planned_memory_of(file, flags, effect, techniques);
   read_frame(subject, file, techniques, options.more_planes);
   if (options.radius) subject.radius = {*options.radius, RadiusSource::flag};
   bool is_known = options.radius.has_value();
