@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/lists.h"
+#include "base/statistics.h"
 #include "run/effect_speeds.h"
 
 namespace gloam::cli {
@@ -73,6 +74,11 @@ void take_budgeted(BudgetedEffect& effect, Outcome& outcome, Frame& out) {
     for (auto& [name, plane] : view.planes) out.view(view.name).planes[name] = std::move(plane);
 }
 
+double ms_everywhere(const Decision& decision, const EffectProbe& probe) {
+  const Plan plan = make_plan(decision.everywhere, probe.available, probe.holds);
+  return median(run(plan, probe.frame, probe.device, probe.options).total_ms);
+}
+
 }  // namespace
 
 Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions& composing,
@@ -114,11 +120,20 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
   }
   const EffectProbe probe = probe_for(candidates.possible.front());
   EffectSpeeds speeds(probe.device.info());
-  result.spent = spend(
-      effects, settings.goal,
-      {probe.frame, probe.available, probe.holds, probe.device, probe.options, glance, probing_ms, settings.measuring},
-      speeds);
-  for (size_t i = 0; i < effects.size(); ++i) take_budgeted(effects[i], *owners[i], result.frame);
+  const BudgetMeans means{.frame = probe.frame,
+                          .available = probe.available,
+                          .holds = probe.holds,
+                          .device = probe.device,
+                          .options = probe.options,
+                          .glance = glance,
+                          .probing_ms = probing_ms,
+                          .always_masked = settings.mask == MaskUse::always,
+                          .measuring = settings.measuring};
+  result.spent = spend(effects, settings.goal, means, speeds);
+  for (size_t i = 0; i < effects.size(); ++i) {
+    if (settings.measures) owners[i]->ms_everywhere = ms_everywhere(owners[i]->decision, probe);
+    take_budgeted(effects[i], *owners[i], result.frame);
+  }
 }
 
 }  // namespace gloam::cli

@@ -139,7 +139,7 @@ class Spending {
     request.elsewhere = effect.elsewhere;
     Plan plan = make_plan(request, means_.available, means_.holds);
     RunResult result = timed(plan, means_.frame, means_, 3);
-    if (median(result.total_ms) <= most_of_everywhere * effect.ms)
+    if (means_.always_masked || median(result.total_ms) <= most_of_everywhere * effect.ms)
       take(effect, std::move(plan), std::move(result), true);
   }
 
