@@ -401,11 +401,14 @@ static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Pa
   return sum->closed;
 }
 
-// All slices of a row of pixels that is not background alone.
+// All slices of a row of pixels that is not background alone. (Not `restrict`: oclgrind does not know what Clang makes of it in an inlined
+// function.)
 static inline __attribute__((always_inline)) void search_around(Frame frame, Params params, DepthLayers layers,
-                                                                Search search, COEFFICIENTS, PLANE depth,
-                                                                PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                                                                Sum* sum, OpenDirections* directions) {
+                                                                Search search, COEFFICIENTS, global const float* depth,
+                                                                global const float* normal_x,
+                                                                global const float* normal_y,
+                                                                global const float* normal_z, Sum* sum,
+                                                                OpenDirections* directions) {
   const Receiver r = search.receiver;
 #if EDGE_FACTOR > 1
   const mask isolated =
