@@ -7,6 +7,7 @@
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
 //      color      radiance that leaves each pixel, the same in every direction
+//      other_depth, other_sources  of the other eye (shared/stereo/slices.h)
 //      occluders  further depth layers (layers.h); light_r ... light_normal_z  their radiance and normals. Without these, and of
 //                 stochastic depths, hidden surfaces close sectors and send nothing
 // out: indirect_raw  irradiance / pi, in the unit of color, unfiltered; 0 on background
@@ -72,3 +73,7 @@ kernel void indirect_estimate(Frame frame, Params params, PLANE depth, PLANE nor
   STORE_AO_RAW(open, r)
   STORE_OPEN_DIRECTIONS(directions, r)
 }
+
+#if STEREO
+#include "gtao/both_eyes.h"
+#endif
