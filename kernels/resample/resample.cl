@@ -69,8 +69,8 @@ kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour
                                    PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES(other_source),
                                    PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z,
                                    PLANES_OUT(result)) {
-  const Sources sources = SOURCES(source), other_sources = SOURCES(other_source);
-  const Results results = RESULTS(result);
+  const Sources sources = SOURCE_PLANES(source), other_sources = SOURCE_PLANES(other_source);
+  const Results results = RESULT_PLANES(result);
   const scalar distance = params.depth_tolerance * params.radius;
   const Site s = site_at(frame, other, distance, params.normal_tolerance, depth, normal_x, normal_y, normal_z);
   const Weights w = weights_of_same(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);

@@ -84,8 +84,8 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
 
 kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANES(now), PLANE depth, PLANES(before),
                                 PLANE before_frames, PLANE tiles_away, PLANES_OUT(result), PLANE_OUT frames) {
-  const Sources nows = SOURCES(now), befores = SOURCES(before);
-  const Results results = RESULTS(result);
+  const Sources nows = SOURCE_PLANES(now), befores = SOURCE_PLANES(before);
+  const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here);
   const mask is_surface = !is_background(z);

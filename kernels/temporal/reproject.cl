@@ -87,8 +87,8 @@ kernel void temporal_reproject(Frame frame, Neighbour neighbour, Params params, 
                                PLANE normal_y, PLANE normal_z, PLANES(history), PLANE history_depth,
                                PLANE history_frames, MOTION_ARGUMENTS PLANES_OUT(before), PLANE_OUT before_frames,
                                PLANE_OUT moved) {
-  const Sources histories = SOURCES(history);
-  const Results befores = RESULTS(before);
+  const Sources histories = SOURCE_PLANES(history);
+  const Results befores = RESULT_PLANES(before);
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here);
   const mask is_surface = !is_background(z);

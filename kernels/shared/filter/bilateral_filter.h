@@ -29,8 +29,8 @@ static inline Taps filtered_taps(Frame frame, Params params, Sources sources, PL
 kernel void bilateral(Frame frame, Params params, PLANES(source), PLANE depth, PLANE normal_x, PLANE normal_y,
                       PLANE normal_z, WANTED_ARGUMENT PLANES_OUT(result)) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  const Sources sources = SOURCES(source);
-  const Results results = RESULTS(result);
+  const Sources sources = SOURCE_PLANES(source);
+  const Results results = RESULT_PLANES(result);
   SKIP_UNWANTED(frame, store_all(FILTER_OUTSIDE, results, here))
   const Taps taps = filtered_taps(frame, params, sources, depth, normal_x, normal_y, normal_z);
   const mask counts = !is_background(load(depth, here)) & is_wanted;

@@ -1,5 +1,5 @@
 // Planes of one component or of a colour, for kernels that treat all components alike: `PLANES(source)` among a kernel's arguments is the
-// plane `source`, or source_r, source_g and source_b; SOURCES(source) gathers them.
+// plane `source`, or source_r, source_g and source_b; SOURCE_PLANES(source) gathers them.
 // -D COMPONENTS: 1 (the default) or 3
 #ifndef GLOAM_COMPONENTS_H
 #define GLOAM_COMPONENTS_H
@@ -22,19 +22,19 @@ typedef struct {
 #if COMPONENTS == 1
 #define PLANES(name) PLANE name
 #define PLANES_OUT(name) PLANE_OUT name
-#define SOURCES(name) \
-  {                   \
-    { name }          \
+#define SOURCE_PLANES(name) \
+  {                         \
+    { name }                \
   }
 #else
 #define PLANES(name) PLANE name##_r, PLANE name##_g, PLANE name##_b
 #define PLANES_OUT(name) PLANE_OUT name##_r, PLANE_OUT name##_g, PLANE_OUT name##_b
-#define SOURCES(name)                \
+#define SOURCE_PLANES(name)          \
   {                                  \
     { name##_r, name##_g, name##_b } \
   }
 #endif
-#define RESULTS(name) SOURCES(name)
+#define RESULT_PLANES(name) SOURCE_PLANES(name)
 
 // The result of background: open, or no light.
 #if COMPONENTS == 1

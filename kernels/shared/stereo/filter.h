@@ -27,8 +27,8 @@
 kernel void bilateral_weighted(Frame frame, Params params, PLANES(source), SOURCE_WEIGHTS_ARGUMENT PLANE depth,
                                PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES_OUT(result),
                                PLANE_OUT result_weights) {
-  const Sources sources = SOURCES(source);
-  const Results results = RESULTS(result);
+  const Sources sources = SOURCE_PLANES(source);
+  const Results results = RESULT_PLANES(result);
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
   const integer x = FIRST_X + IOTA;
   const real z = load(depth, here);
@@ -59,8 +59,8 @@ kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANES
                          PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES(other_source),
                          PLANE other_weights, PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y,
                          PLANE other_normal_z, PLANES_OUT(result)) {
-  const Sources sources = SOURCES(source), others = SOURCES(other_source);
-  const Results results = RESULTS(result);
+  const Sources sources = SOURCE_PLANES(source), others = SOURCE_PLANES(other_source);
+  const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here), own_weight = load(source_weights, here);
   Between b;

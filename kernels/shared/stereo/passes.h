@@ -61,8 +61,8 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
                              PLANE normal_y, PLANE normal_z, PLANE other_depth, PLANE other_normal_x,
                              PLANE other_normal_y, PLANE other_normal_z, PLANES(other), PLANES_OUT(result),
                              PIXEL_LIST_OUT newly_visible) {
-  const Sources others = SOURCES(other);
-  const Results results = RESULTS(result);
+  const Sources others = SOURCE_PLANES(other);
+  const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real stored_depth = load(depth, here), z = fabs(stored_depth);
   const Projection there = project_row(frame, neighbour, z);
