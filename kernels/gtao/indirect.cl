@@ -19,7 +19,8 @@
 kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE color_r,
                          PLANE color_g, PLANE color_b, PLANE_OUT sources) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  store_light_source(load3(color_r, color_g, color_b, here), load3(normal_x, normal_y, normal_z, here), sources, here);
+  const real3 color = bounded_radiance(load3(color_r, color_g, color_b, here), params.brightest);
+  store_light_source(color, load3(normal_x, normal_y, normal_z, here), sources, here);
 }
 
 #ifdef LIGHT_R_LAYERS
@@ -27,7 +28,7 @@ kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE norma
   OCCLUDERS_ARGUMENT PLANE light_r, PLANE light_g, PLANE light_b, PLANE light_normal_x, PLANE light_normal_y, \
       PLANE light_normal_z,
 #define LIGHT_SOURCES \
-  { light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z }
+  { light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z, params.brightest }
 #else
 #define SOURCES_ARGUMENT PLANE sources, OCCLUDERS_ARGUMENT
 #define LIGHT_SOURCES \

@@ -48,8 +48,8 @@ static inline Change change_of(real sum, real squares, real sum_before, real sha
 
 // The frames that the history counts for, 1 / (1 / count + excess): the excess of the squared difference of two means over what noise
 // explains, in variances of a single frame. Neighbours: every second pixel of 5 x 5, since samples of neighbours that touch differ most.
-static inline real frames_alike(Frame frame, Params params, real z, real count, Sources now, PLANE depth,
-                                Sources before, PLANE before_frames) {
+static inline real frames_alike(Frame frame, Params params, real z, real count, real tolerance, Sources now,
+                                PLANE depth, Sources before, PLANE before_frames) {
   real pixels = 0, sum[COMPONENTS], squares[COMPONENTS], sum_before[COMPONENTS];
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c) sum[c] = squares[c] = sum_before[c] = (real)(0);
@@ -78,7 +78,7 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
     difference += change.difference;
     variance += change.variance;
   }
-  const real excess = difference / variance - params.change_tolerance * share;
+  const real excess = difference / variance - tolerance * share;
   return (scalar)1 / ((scalar)1 / count + larger(excess, (real)(0)));
 }
 
@@ -95,10 +95,16 @@ kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANES(
   const scalar pixels = (tiles - 1) * TILE;
   const real reach = (scalar)params.radius / ((scalar)frame.scale_x * (frame.perspective * z + frame.parallel));
   // Nothing within REACH tiles: the radius may be infinite too.
-  const mask may_change = tiles <= REACH ? is_surface & (count > 0) & (reach >= pixels) : (mask)(0);
+  mask may_change = tiles <= REACH ? is_surface & (count > 0) & (reach >= pixels) : (mask)(0);
+  real tolerance = (real)(params.change_tolerance);
+#if COMPONENTS > 1
+  // Light also changes where nothing moves, as a lamp goes out.
+  tolerance = choose(may_change, tolerance, (real)(params.light_tolerance));
+  may_change = is_surface & (count > 0);
+#endif
   if (ANY(may_change)) {
-    const real alike =
-        frames_alike(frame, params, z, choose(may_change, count, (real)(1)), nows, depth, befores, before_frames);
+    const real alike = frames_alike(frame, params, z, choose(may_change, count, (real)(1)), tolerance, nows, depth,
+                                    befores, before_frames);
     count = choose(may_change, alike, count);
   }
 #pragma unroll
