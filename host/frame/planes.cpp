@@ -71,7 +71,7 @@ const std::vector<PlaneKind>& plane_kinds() {
            "gloam run --history PREVIOUS.exr"),
       {"history_indirect",
        {"r", "g", "b"},
-       {"history.indirect.R", "history.indirect.G", "history.indirect.B"},
+       {"history_indirect.R", "history_indirect.G", "history_indirect.B"},
        0,
        K::value,
        "raw indirect light of the frame before",
