@@ -177,6 +177,8 @@ Runs runs_of_plans(const Coverage& coverage) {
     runs.push_back(planned(with_motion ? "over time, with motion" : "over time",
                            frame_over_time(find_technique("ssao"), shot, with_motion),
                            {.outputs = {"ssao"}, .temporal = true}));
+  runs.push_back(planned("light over time", frame_over_time(find_technique("indirect"), shot, true),
+                         {.outputs = {"indirect"}, .temporal = true}));
   return runs;
 }
 
