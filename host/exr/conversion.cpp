@@ -3,6 +3,7 @@
 #include "base/lists.h"
 #include "exr/assumed_camera.h"
 #include "exr/depth.h"
+#include "exr/radiance.h"
 #include "exr/reflectance.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
@@ -57,15 +58,18 @@ void note_assumptions(const ExrFile& file, const FileCameras& cameras, const std
 
 void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& frame, Conventions& conventions) {
   bool has_background = false;
+  LightCounts light;
   for (View& view : frame.views) {
     assume_missing_camera(file, cameras, view, frame);
     has_background |= has_named_background(file, view);
     conventions.take(convert_depth(file, cameras, view, frame));
     conventions.take(convert_normals(file, view, frame));
     check_reflectance(file, view, frame);
+    light.add(view);
     if (!file.options.as_stored) drop_positions_without_pose(cameras, view, frame);
   }
   if (!has_background) note_missing_background(file, frame);
+  note_light(file, light, frame);
 }
 
 void finish_frame(const ExrFile& file, Frame& frame) {

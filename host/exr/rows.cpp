@@ -7,6 +7,7 @@
 #include "exr/decode_planes.h"
 #include "exr/depth.h"
 #include "exr/memory.h"
+#include "exr/radiance.h"
 #include "exr/reflectance.h"
 #include "gloam/error.h"
 #include "normalise/normalise.h"
@@ -52,18 +53,23 @@ std::vector<std::string> planes_to_survey(const ExrFile& file, const Frame& fram
   const auto may_be_white = [&](const View& view) { return may_be_white_by_default(file, view); };
   if (contains(asked, "reflectance") && std::any_of(frame.views.begin(), frame.views.end(), may_be_white))
     planes.push_back("reflectance");
+  for (const char* plane : {"color", "albedo"})
+    if (contains(asked, plane)) planes.emplace_back(plane);
   return planes;
 }
 
-/// One entry per view of the frame.
+/// One entry per view of the frame. `light`: of all views.
 std::vector<ViewSums> sums_of(const ExrFile& file, const FileCameras& cameras, const Frame& frame,
-                              const std::vector<std::string>& planes) {
+                              const std::vector<std::string>& planes, LightCounts& light) {
   const Layout image(file.window.width(), file.window.height());
   std::vector<ViewSums> sums(frame.views.size(), ViewSums(image));
   const int step = rows_at_once(file, planes);
   for (int first = 0; !planes.empty() && first < image.height; first += step) {
     const Frame rows = decode_rows(file, cameras, planes, first, std::min(first + step, image.height));
-    for (size_t i = 0; i < sums.size(); ++i) add_rows(sums[i], rows.views[i], frame.views[i], first);
+    for (size_t i = 0; i < sums.size(); ++i) {
+      add_rows(sums[i], rows.views[i], frame.views[i], first);
+      light.add(rows.views[i]);
+    }
   }
   return sums;
 }
@@ -119,7 +125,8 @@ Survey survey_planes(const ExrFile& file, const FileCameras& cameras, const std:
   note_assumptions(file, cameras, asked, survey.frame);
   const bool has_background = convert_depths(file, cameras, survey);
   const std::vector<std::string> planes = planes_to_survey(file, survey.frame, asked);
-  const std::vector<ViewSums> sums = sums_of(file, cameras, survey.frame, planes);
+  LightCounts light;
+  const std::vector<ViewSums> sums = sums_of(file, cameras, survey.frame, planes, light);
   for (size_t i = 0; i < sums.size(); ++i) {
     const View& view = survey.frame.views[i];
     if (contains(planes, "normal") && file.source("normal", view.name)) settle_normals(file, view, sums[i], survey);
@@ -127,6 +134,7 @@ Survey survey_planes(const ExrFile& file, const FileCameras& cameras, const std:
       note_white_reflectance(sums[i].white.share(), survey.frame);
   }
   if (!has_background) note_missing_background(file, survey.frame);
+  note_light(file, light, survey.frame);
   finish_frame(file, survey.frame);
   return survey;
 }

@@ -10,6 +10,7 @@
 #include "gloam/planes.h"
 #include "normalise/each_row.h"
 #include "normalise/normalise.h"
+#include "normalise/radiance.h"
 
 namespace gloam {
 namespace {
@@ -64,7 +65,7 @@ void fill_row(Plane& plane, std::span<const float> values, int y) {
 }
 
 /// Values are copied and cleaned row by row: each is then taken from memory once.
-View view_from(const Arrays& arrays) {
+View view_from(const Arrays& arrays, LightCounts& light) {
   View view;
   view.camera = arrays.camera;
   if (view.camera->source.empty()) view.camera->source = "memory";
@@ -76,6 +77,7 @@ View view_from(const Arrays& arrays) {
   }
   normalise_while_filling(view, layout, [&](int y) {
     for (const auto& [plane, values] : sources) fill_row(*plane, values, y);
+    light.add_row(view, y);
   });
   return view;
 }
@@ -93,7 +95,9 @@ Frame frame_from(const Arrays& arrays) {
   Frame frame;
   frame.display = frame.window = {0, 0, arrays.width, arrays.height};
   try {
-    frame.views.push_back(view_from(arrays));
+    LightCounts light;
+    frame.views.push_back(view_from(arrays, light));
+    frame.assumed = light.notes();
   } catch (const std::bad_alloc&) {
     throw Error("out of memory for {} planes of {} x {} pixels; use a smaller image", arrays.planes.size(),
                 arrays.width, arrays.height);

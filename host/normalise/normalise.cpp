@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists.h"
 #include "gloam/planes.h"
 #include "normalise/background.h"
 #include "normalise/each_row.h"
+#include "normalise/radiance.h"
 
 namespace gloam {
 
@@ -147,10 +149,13 @@ void normalise_planes(Frame& frame, std::optional<float> background, bool as_sto
 }
 
 void normalise(Frame& frame, std::optional<float> background) {
+  LightCounts light;
   for (View& view : frame.views) {
+    light.add(view);
     clean_rows(cleaners_of(view, background_in(view, background), false, true), layout_of(view));
     fill_paddings(view);
   }
+  add_new(frame.assumed, light.notes());
 }
 
 void normalise_while_filling(View& view, const Layout& layout, const std::function<void(int y)>& fill) {

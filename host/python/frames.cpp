@@ -77,6 +77,7 @@ SharedFrame frame_of_arrays(const std::vector<py::dict>& planes, const std::vect
       held->frame.display = one.display;
       held->frame.window = one.window;
       held->frame.views.push_back(std::move(one.views.front()));
+      add_new(held->frame.assumed, one.assumed);
     }
     return held;
   });

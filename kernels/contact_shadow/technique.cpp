@@ -4,6 +4,7 @@
 
 #include "contact_shadow/params.h"
 #include "gloam/error.h"
+#include "gloam/projection.h"
 #include "technique/cell_masks.h"
 
 namespace gloam::techniques {
@@ -60,6 +61,20 @@ std::vector<float> table_of(const Params& p, const View& view) {
   return {float(light.x), float(light.y), float(light.z)};
 }
 
+/// How far a point light lies behind the surface that the view shows there, where occluders reach that far: in them, for the
+/// shadows. 0: it lies in none.
+template <typename Params>
+double depth_inside(const Params& p, const View& view) {
+  const Plane* depth = view.find("depth");
+  if (!is_point(p) || !depth) return 0;
+  const glm::dvec3 light = light_in_view(p, view);
+  const std::optional<glm::dvec2> place = pixel_of(*view.camera, light);
+  const Layout& layout = depth->channels.front().layout();
+  if (!place || !(place->x >= 0 && place->y >= 0 && place->x < layout.width && place->y < layout.height)) return 0;
+  const double behind = -light.z - double(depth->channels.front().at(int(place->x), int(place->y)));
+  return behind > 0 && behind <= p.thickness * p.length ? behind : 0;
+}
+
 /// What is taken for the light where the frame leaves it open, or settings have no effect.
 template <typename Params>
 std::string assumption(const ParameterValues& values, const View& view) {
@@ -76,6 +91,13 @@ std::string assumption(const ParameterValues& values, const View& view) {
                        view.camera->pose ? "light_in is view" : without_pose, another_light);
   if (!in_world && p.light_in == Params::light_in_values::world)
     return fmt::format("light: {}, so light_x, light_y and light_z are taken for view space", without_pose);
+  if (const double inside = depth_inside(p, view); inside > 0)
+    return fmt::format(
+        "light: {},{},{} lies {:.3g} scene units behind the surface that the frame shows there, inside of it if it is "
+        "as thick as "
+        "thickness says ({} lengths of {:g}): all within a length of the light is in its shadow; move the light, or "
+        "lower thickness",
+        p.light_x, p.light_y, p.light_z, inside, p.thickness, p.length);
   return "";
 }
 

@@ -27,6 +27,7 @@
 //    planes), JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED, STEREO, ESTIMATE_MONO,
 //    WITH_HALF_OCCLUSION
 #include "evidence/expected_slices.h"
+#include "shared/lanes/components.h"
 
 #ifdef COLUMNS
 #if !STEREO

@@ -84,6 +84,13 @@ std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
   return stereo_passes({bitmask_pass(p)}, "stereo_slices", stereo_choices(p));
 }
 
+/// Each eye's pixels send their own light.
+std::vector<Pass> stereo_indirect_passes(const StereoIndirectParams& p) {
+  Pass estimate = indirect_pass(p);
+  estimate.reads.push_back(sources());
+  return stereo_passes({pack_pass(estimate.defines), std::move(estimate)}, "stereo_slices", stereo_choices(p));
+}
+
 Technique row(std::string name, std::string summary, std::string paper) {
   Technique t = over_slices(ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl"));
   t.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
@@ -132,6 +139,18 @@ Technique indirect_over_depth() {
   return t;
 }
 
+Technique indirect_over_two_eyes() {
+  Technique t = over_two_eyes(indirect_over_depth(), StereoIndirectParams::table(), passes_of(stereo_indirect_passes));
+  t.effect = {.name = "light alike in two views",
+              .refines = "indirect",
+              .mask = "stereo-visibility",
+              .probe_resolution = 4,
+              .least_share = 0.5,
+              .somewhere = "the two views have to agree, and both see the same",
+              .nowhere = "the two views have too little in common"};
+  return t;
+}
+
 Technique indirect_over_layers() {
   Technique t = over_peeled_layers(indirect_over_depth());
   t.reads = {"depth", "normal", "peel"};
@@ -154,7 +173,8 @@ std::vector<Technique> gtao() {
           over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
           over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
           over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
-          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes))};
+          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes)),
+          indirect_over_two_eyes()};
 }
 
 }  // namespace gloam::techniques

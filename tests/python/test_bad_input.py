@@ -76,6 +76,21 @@ def test_none_is_the_default():
     assert numpy.array_equal(truth["ao"], gloam.reference(small, samples=32)["ao"])
 
 
+def test_light_that_is_none(depth, camera):
+    color = numpy.random.default_rng(1).random((90, 150, 3), numpy.float32)
+
+    def notes_on(color):
+        return [note for note in gloam.run("indirect", depth=depth, color=color, camera=camera, radius=0.5).notes if note.startswith("color")]
+
+    assert notes_on(color) == []
+    odd = color.copy()
+    odd[3, :4, 1] = -1
+    odd[5, 7, 2] = numpy.inf
+    infinite, negative = notes_on(odd)
+    assert "1 pixel of 13500 is infinite or NaN" in infinite and "4 pixels of 13500 are negative" in negative
+    assert "8-bit picture" in notes_on(numpy.round(color * 255) / numpy.float32(255))[0]
+
+
 @pytest.mark.parametrize("mask", ["ao", "ao_raw"])
 def test_a_mask_that_the_technique_makes(mask, depth, camera):
     refused(lambda: gloam.run("gtao", depth=depth, camera=camera, only=mask), f"gtao makes '{mask}' itself", gloam.UsageError)

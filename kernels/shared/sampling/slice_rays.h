@@ -8,9 +8,9 @@
 // Where the rays of a pixel's first slice lie in their ranges: the nine pixels of any 3 x 3 have the nine ninths (columns 1/3, rows 1/9),
 // so that a small filter averages all elevations. Lattices of irrational steps beside those of sample.h read an SSIM lower by up to
 // .014.
-static inline real shift_of_rays(integer x, int y, int seed) {
+static inline real shift_of_rays(natural x, natural y, int seed) {
 #if JITTER
-  return unit_random(to_natural(x) * 0x55555556u + ((uint)y * 0x1c71c71du + (uint)seed * 0x3c6ef372u));
+  return unit_random(x * 0x55555556u + (y * 0x1c71c71du + (uint)seed * 0x3c6ef372u));
 #else
   return (real)(0.5f);
 #endif

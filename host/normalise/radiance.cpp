@@ -1,0 +1,177 @@
+#include "normalise/radiance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gloam/error.h"
+#include "normalise/each_row.h"
+
+namespace gloam {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Components of a row that are compared with the steps of 8 bits.
+constexpr int tried_of_row = 64;
+/// A picture of fewer values, or of fewer different ones, tells nothing.
+constexpr long long least_tried = 256;
+constexpr size_t least_levels = 16;
+/// Share of the values that may lie between the steps.
+constexpr double most_between = 0.001;
+
+/// The sRGB curve (IEC 61966-2-1), of light from 0 to 1.
+double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
+/// Sets the level of a value that is a multiple of 1/255, but for rounding to half (up to 2^-11 of the value).
+bool is_step(double value, std::bitset<256>& levels) {
+  const double k = std::round(255 * value);
+  if (std::abs(255 * value - k) > 5e-4 * k + 1e-4) return false;
+  levels.set(size_t(k));
+  return true;
+}
+
+void try_steps(const float* row, int width, ColourCounts& counts) {
+  const int stride = std::max(1, width / tried_of_row);
+  for (int x = 0; x < width; x += stride) {
+    if (!(row[x] > 0 && row[x] < 1)) continue;
+    ++counts.tried;
+    counts.steps += is_step(row[x], counts.levels);
+    counts.steps_of_light += is_step(encoded(row[x]), counts.levels_of_light);
+  }
+}
+
+ColourCounts colour_of_row(const Plane& plane, int y) {
+  ColourCounts counts;
+  const int width = plane.channels.front().layout().width;
+  counts.pixels = width;
+  std::vector<unsigned char> negative(size_t(width), 0), nonfinite(size_t(width), 0);
+  for (const Channel& channel : plane.channels) {
+    const float* row = channel.row(y);
+    for (int x = 0; x < width; ++x) {
+      negative[size_t(x)] |= row[x] < 0 && row[x] > -infinity;
+      nonfinite[size_t(x)] |= !(std::abs(row[x]) < infinity);
+      counts.outside += row[x] < 0 || row[x] > 1;
+    }
+    try_steps(row, width, counts);
+  }
+  counts.negative = std::count(negative.begin(), negative.end(), 1);
+  counts.nonfinite = std::count(nonfinite.begin(), nonfinite.end(), 1);
+  return counts;
+}
+
+void merge(ColourCounts& sum, const ColourCounts& counts) {
+  sum.pixels += counts.pixels;
+  sum.negative += counts.negative;
+  sum.nonfinite += counts.nonfinite;
+  sum.outside += counts.outside;
+  sum.tried += counts.tried;
+  sum.steps += counts.steps;
+  sum.steps_of_light += counts.steps_of_light;
+  sum.levels |= counts.levels;
+  sum.levels_of_light |= counts.levels_of_light;
+}
+
+bool has_eight_bits(const ColourCounts& counts, long long steps, const std::bitset<256>& levels) {
+  return counts.outside == 0 && counts.tried >= least_tried && levels.count() >= least_levels &&
+         double(counts.tried - steps) <= most_between * double(counts.tried);
+}
+
+/// "3 pixels are" of 100 pixels.
+std::string pixels_are(long long count, long long pixels) {
+  return fmt::format("{} pixel{} of {} {}", count, count == 1 ? "" : "s", pixels, count == 1 ? "is" : "are");
+}
+
+AlbedoCounts albedo_of_row(const Plane& plane, int y) {
+  AlbedoCounts counts;
+  const int width = plane.channels.front().layout().width;
+  counts.pixels = width;
+  for (int x = 0; x < width; ++x) {
+    bool above = false, below = false;
+    for (const Channel& channel : plane.channels) {
+      above |= channel.at(x, y) > 1;
+      below |= !(channel.at(x, y) >= 0);
+    }
+    counts.above_one += above;
+    counts.negative += below;
+  }
+  return counts;
+}
+
+void merge(AlbedoCounts& sum, const AlbedoCounts& counts) {
+  sum.pixels += counts.pixels;
+  sum.above_one += counts.above_one;
+  sum.negative += counts.negative;
+}
+
+std::vector<std::string> notes_on(const ColourCounts& counts) {
+  std::vector<std::string> notes;
+  if (counts.nonfinite > 0)
+    notes.push_back(fmt::format("color: {} infinite or NaN and taken for black: their light is missing",
+                                pixels_are(counts.nonfinite, counts.pixels)));
+  if (counts.negative > 0)
+    notes.push_back(
+        fmt::format("color: {} negative; as a source of light or in a reflection, a negative component is 0",
+                    pixels_are(counts.negative, counts.pixels)));
+  if (has_eight_bits(counts, counts.steps, counts.levels))
+    notes.push_back(
+        "color: holds the steps of an 8-bit picture from 0 to 1, as the sRGB curve of a display has them, and is taken "
+        "for "
+        "scene-linear light: what is computed from it will be too bright in the dark and too dark in the bright; give "
+        "the "
+        "renderer's linear colour (--plane color=CHANNELS names another)");
+  else if (has_eight_bits(counts, counts.steps_of_light, counts.levels_of_light))
+    notes.push_back(
+        "color: holds the steps of an 8-bit sRGB picture made linear, and nothing above 1: light of lamps and of the "
+        "sky may "
+        "have been cut off; give the renderer's own colour (--plane color=CHANNELS names another)");
+  return notes;
+}
+
+std::vector<std::string> notes_on(const AlbedoCounts& counts) {
+  std::vector<std::string> notes;
+  if (counts.above_one > 0)
+    notes.push_back(
+        fmt::format("albedo: {} above 1, which no surface reflects, and cut to 1; is it a colour with light in it?",
+                    pixels_are(counts.above_one, counts.pixels)));
+  if (counts.negative > 0)
+    notes.push_back(fmt::format("albedo: {} negative or NaN, and black", pixels_are(counts.negative, counts.pixels)));
+  return notes;
+}
+
+}  // namespace
+
+void LightCounts::add_row(const View& view, int y) {
+  if (const Plane* plane = view.find("color")) {
+    const ColourCounts row = colour_of_row(*plane, y);
+#pragma omp critical(light_counts)
+    merge(color, row);
+  }
+  if (const Plane* plane = view.find("albedo")) {
+    const AlbedoCounts row = albedo_of_row(*plane, y);
+#pragma omp critical(light_counts)
+    merge(albedo, row);
+  }
+}
+
+void LightCounts::add(const View& view) {
+  for (const char* name : {"color", "albedo"}) {
+    if (const Plane* plane = view.find(name)) {
+      for_each_row(plane->channels.front().layout(), [&](int y) { add_row(view, y); });
+      return;
+    }
+  }
+}
+
+std::vector<std::string> LightCounts::notes() const {
+  std::vector<std::string> notes = notes_on(color);
+  for (std::string& note : notes_on(albedo)) notes.push_back(std::move(note));
+  return notes;
+}
+
+bool is_linear(const std::string& color_interop_id) {
+  return color_interop_id.empty() || color_interop_id.starts_with("lin_") || color_interop_id == "data" ||
+         color_interop_id == "unknown";
+}
+
+}  // namespace gloam

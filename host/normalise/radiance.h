@@ -1,0 +1,41 @@
+// Values of colour and albedo that are no light: counted before they are cleaned. And colour that was made for a display.
+#pragma once
+
+#include <bitset>
+#include <string>
+#include <vector>
+
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// Sums over pixels. They do not depend on the order of the rows.
+struct ColourCounts {
+  long long pixels = 0, negative = 0, nonfinite = 0;  ///< `negative`, `nonfinite`: pixels with such a component
+  long long outside = 0;                              ///< components below 0 or above 1
+  /// Some components of each row that lie between 0 and 1, and those of them that an 8-bit picture can have: as k/255, and as the
+  /// light for which the sRGB curve has k/255.
+  long long tried = 0, steps = 0, steps_of_light = 0;
+  std::bitset<256> levels, levels_of_light;  ///< the k found
+};
+
+struct AlbedoCounts {
+  long long pixels = 0, above_one = 0, negative = 0;  ///< pixels with such a component; NaN counts as negative
+};
+
+/// What the planes `color` and `albedo` hold that is no light.
+struct LightCounts {
+  ColourCounts color;
+  AlbedoCounts albedo;
+
+  /// Adds a row of a view's planes, of those that it has. Threads may add rows at the same time.
+  void add_row(const View& view, int y);
+  void add(const View& view);
+  /// One sentence each for what is found and what becomes of it.
+  std::vector<std::string> notes() const;
+};
+
+/// Whether values of a colour space, by its name in the list of the Color Interop Forum, are in proportion to light: "lin_rec709_scene".
+bool is_linear(const std::string& color_interop_id);
+
+}  // namespace gloam
