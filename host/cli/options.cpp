@@ -150,8 +150,9 @@ namespace {
 /// Adds a note for a history that no pass reads: most likely it was meant for another technique.
 void check_history(const Plan& plan, const FrameFiles& files) {
   if (!files.history() || reads_history(plan)) return;
-  note({fmt::format("--history: '{}' takes nothing over from the frame before; ambient occlusion and reflections do",
-                    plan.technique)});
+  note({fmt::format(
+      "--history: '{}' takes nothing over from the frame before; ambient occlusion, indirect light and reflections do",
+      plan.technique)});
 }
 
 }  // namespace

@@ -158,6 +158,7 @@ const std::vector<Spelling>& spellings() {
       {"frames", "", "frames", own},
       {"history", "history", "r,g,b,a", own},
       {"history_ao", "history", "visibility", own},
+      {"history_indirect", "historyindirect", "r,g,b", own},
       {"history_depth", "history", "z", own},
       {"history_frames", "history", "frames", own},
       {"reflection_noise", "*", "reflection_noise", own},

@@ -19,8 +19,11 @@ struct PlaneOfHistory {
 using PlanesOfHistory = std::vector<PlaneOfHistory>;
 
 const PlanesOfHistory& table() {
-  static const PlanesOfHistory planes = {
-      {"history", "reflection"}, {"history_ao", "ao_raw"}, {"history_depth", "depth"}, {"history_frames", "frames"}};
+  static const PlanesOfHistory planes = {{"history", "reflection"},
+                                         {"history_ao", "ao_raw"},
+                                         {"history_indirect", "indirect_raw"},
+                                         {"history_depth", "depth"},
+                                         {"history_frames", "frames"}};
   return planes;
 }
 
@@ -173,7 +176,10 @@ History::History(const std::filesystem::path& path) : file_(path, {}) {
     throw Error("--history {}: has no {}; give the file that gloam run wrote for the frame before, without --bare",
                 path.string(), lacks);
   };
-  if (!contains(there, "reflection") && !contains(there, "ao_raw")) refuse("'reflection' and no 'ao_raw'");
+  const bool has_result = std::any_of(there.begin(), there.end(), [](const std::string& plane) {
+    return plane == "reflection" || plane == "ao_raw" || plane == "indirect_raw";
+  });
+  if (!has_result) refuse("'reflection', 'ao_raw' or 'indirect_raw'");
   if (!contains(there, "depth")) refuse("'depth'");
 }
 

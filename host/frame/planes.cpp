@@ -69,6 +69,8 @@ const std::vector<PlaneKind>& plane_kinds() {
            "reflected radiance of the frame before", "gloam run --history PREVIOUS.exr"),
       kind("history_ao", {""}, {"history.visibility"}, 1, K::value, "raw ambient occlusion of the frame before",
            "gloam run --history PREVIOUS.exr"),
+      kind("history_indirect", {"r", "g", "b"}, {"history_indirect.R", "history_indirect.G", "history_indirect.B"}, 0,
+           K::value, "raw indirect light of the frame before", "gloam run --history PREVIOUS.exr"),
       kind("history_depth", {""}, {"history.Z"}, inf, K::view_depth, "depth of the frame before",
            "gloam run --history PREVIOUS.exr"),
       kind("history_frames", {""}, {"history.frames"}, 0, K::value, "how many frames the frame before was made of",

@@ -100,10 +100,12 @@ void check_full_resolution(const PlanRequest& request, const Techniques& techniq
   }
 }
 
-/// Adds what accumulation after a technique reads.
-void want_history(const std::vector<std::string>& available, std::vector<std::string>& also) {
-  std::copy_if(accumulating().reads.begin(), accumulating().reads.end(), std::back_inserter(also),
-               [](const std::string& plane) { return plane != "ao_raw"; });
+/// Adds what accumulation after a technique reads, but for what that makes.
+void want_history(const Technique& technique, const std::vector<std::string>& available,
+                  std::vector<std::string>& also) {
+  const std::vector<std::string>& reads = accumulating(technique).reads;
+  std::copy_if(reads.begin(), reads.end(), std::back_inserter(also),
+               [&](const std::string& plane) { return !contains(technique.writes, plane); });
   if (contains(available, "motion")) also.push_back("motion");
 }
 
@@ -147,7 +149,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   }
   if (request.temporal) check_temporal(request);
   const bool accumulates_after = request.temporal && !accumulates_by_itself(*asked_for.front());
-  if (accumulates_after) want_history(available, also);
+  if (accumulates_after) want_history(*asked_for.front(), available, also);
   Walk walk(wanted, request, with_stacks(available), also, mask);
   check_full_resolution(request, walk.order);
   Plan plan;
@@ -156,7 +158,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (!walk.missing.empty()) throw_missing(plan.technique, wanted, walk, holds);
   if (elsewhere) walk.order.insert(std::find(walk.order.begin(), walk.order.end(), asked_for.front()), elsewhere);
   if (is_adaptive(request)) walk.order.push_back(&adapting());
-  if (accumulates_after) walk.order.push_back(&accumulating());
+  if (accumulates_after) walk.order.push_back(&accumulating(*asked_for.front()));
   if (is_reduced) walk.order.push_back(&resampling());
   const Technique* restricted = mask.empty() || asked_for.empty() ? nullptr : asked_for.front();
   const std::vector<ParameterValues> values = values_of(request, walk.order, plan.technique, restricted, mask);

@@ -84,7 +84,7 @@ void set_followers(const Techniques& order, std::vector<ParameterValues>& values
 void inherit(const Techniques& order, std::vector<ParameterValues>& values) {
   for (size_t from = 0; from < order.size(); ++from) {
     for (size_t to = from + 1; to < order.size(); ++to) {
-      if (order[from]->then.empty() && order[to] != &accumulating()) continue;
+      if (order[from]->then.empty() && !is_accumulating(*order[to])) continue;
       if (order[to] != &resampling() && !reads_from(*order[to], *order[from])) continue;
       for (const Parameter& p : order[from]->parameters) {
         if (values[to].has(p.name)) values[to].set(p.name, values[from].text(p.name), order[to]->name);

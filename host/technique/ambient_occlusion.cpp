@@ -8,7 +8,7 @@ namespace {
 Pass bilateral_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows) {
   const int components = int(plane_kind(to).components.size());
   return {.name = name,
-          .kernel = components == 1 ? "bilateral" : "bilateral_color",
+          .kernel = "bilateral",
           .reads = {{"source", from}, "depth", "normal"},
           .writes = {{"result", to}},
           .defines = {{"COLUMNS", columns}, {"ROWS", rows}, {"COMPONENTS", components}},

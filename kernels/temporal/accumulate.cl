@@ -1,50 +1,93 @@
-// Raw ambient occlusion as the mean over the frames of a sequence that showed each surface (Yang, Liu, Salvi 2020, sections 3 and 4).
+// Raw ambient occlusion, or indirect light, as the mean over the frames of a sequence that showed each surface (Yang, Liu, Salvi 2020, sections 3 and 4).
 // What follows filters the mean. In a scene at rest the AO of a surface does not change, so the history counts as it is. Near something
 // that moves it is compared with this frame: where their means over neighbours differ by more than the noise of these means, the history
 // counts for as many frames as have that error.
 //
-// in : now            raw AO of this frame, 1 = open .. 0 = closed
+// in : now            raw AO of this frame, 1 = open .. 0 = closed; or its raw light
 //      depth          view-space z, scene units, +inf = background
 //      before, before_frames  of reproject.cl
 //      tiles_away     of moving.cl, in tiles
-// out: ao_raw         mean over the frames; 1 on background
+// out: result         mean over the frames; AO of 1 and light of 0 on background
 //      frames         how many frames that is the mean of; 0 on background
-// -D TILE (pixels), REACH (tiles)
+// -D TILE (pixels), REACH (tiles), COMPONENTS
 #include "shared/frame/camera.h"
+#include "shared/lanes/components.h"
 #include "shared/lanes/load.h"
 #include "shared/sampling/sample.h"
 #include "temporal/params.h"
 
+// Of a value over neighbours: the squared difference of this frame's mean from that of the frame before, and the variance in this
+// frame.
+typedef struct {
+  real difference, variance;
+} Change;
+
+// As far as squares can hold.
+static inline real compared(Sources sources, int component, int there) {
+  const real value = load(sources.planes[component], there);
+#if COMPONENTS == 1
+  return value;
+#else
+  return smaller(value, (real)(1e17f));
+#endif
+}
+
+static inline Change change_of(real sum, real squares, real sum_before, real share) {
+  const real mean = sum * share, difference = mean - sum_before * share;
+  Change change;
+  change.difference = difference * difference;
+  // Never 0, so that equal pixels divide too: a step of 8 bits is no change. Light has no scale but its own.
+#if COMPONENTS == 1
+  const real least = (scalar)1e-4f;
+#else
+  const real least = (scalar)1e-4f * mean * mean + (scalar)1e-30f;
+#endif
+  change.variance = larger(squares * share - mean * mean, (real)(0)) + least;
+  return change;
+}
+
 // The frames that the history counts for, 1 / (1 / count + excess): the excess of the squared difference of two means over what noise
 // explains, in variances of a single frame. Neighbours: every second pixel of 5 x 5, since samples of neighbours that touch differ most.
-static inline real frames_alike(Frame frame, Params params, real z, real count, PLANE now, PLANE depth, PLANE before,
-                                PLANE before_frames) {
-  real pixels = 0, sum = 0, squares = 0, sum_before = 0;
+static inline real frames_alike(Frame frame, Params params, real z, real count, real tolerance, Sources now,
+                                PLANE depth, Sources before, PLANE before_frames) {
+  real pixels = 0, sum[COMPONENTS], squares[COMPONENTS], sum_before[COMPONENTS];
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) sum[c] = squares[c] = sum_before[c] = (real)(0);
   for (int k = 0; k < 9; ++k) {
     const int dx = 2 * (k % 3) - 2, dy = 2 * (k / 3) - 2;
     if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;
     const int there = index_of(frame, FIRST_X + dx, ROW_Y + dy);
-    const real depth_there = load(depth, there), value = load(now, there), value_before = load(before, there);
+    const real depth_there = load(depth, there);
     const mask counts = to_mask(to_natural(FIRST_X + dx + IOTA) < (natural)((uint)frame.width)) &
                         (load(before_frames, there) > 0) & !is_background(depth_there) &
                         (fabs(depth_there - z) <= params.depth_change * z);
     pixels += choose(counts, (real)(1), (real)(0));
-    sum += choose(counts, value, (real)(0));
-    squares += choose(counts, value * value, (real)(0));
-    sum_before += choose(counts, value_before, (real)(0));
+#pragma unroll
+    for (int c = 0; c < COMPONENTS; ++c) {
+      const real value = compared(now, c, there), value_before = compared(before, c, there);
+      sum[c] += choose(counts, value, (real)(0));
+      squares[c] += choose(counts, value * value, (real)(0));
+      sum_before[c] += choose(counts, value_before, (real)(0));
+    }
   }
   const real share = (scalar)1 / larger(pixels, (real)(1));
-  const real mean = sum * share, difference = mean - sum_before * share;
-  // Never 0, so that equal pixels divide too: a step of 8 bits is no change.
-  const real variance = larger(squares * share - mean * mean, (real)(0)) + (scalar)1e-4f;
-  const real excess = difference * difference / variance - params.change_tolerance * share;
+  real difference = 0, variance = 0;
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) {
+    const Change change = change_of(sum[c], squares[c], sum_before[c], share);
+    difference += change.difference;
+    variance += change.variance;
+  }
+  const real excess = difference / variance - tolerance * share;
   return (scalar)1 / ((scalar)1 / count + larger(excess, (real)(0)));
 }
 
-kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANE now, PLANE depth, PLANE before,
-                                PLANE before_frames, PLANE tiles_away, PLANE_OUT ao_raw, PLANE_OUT frames) {
+kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANES(now), PLANE depth, PLANES(before),
+                                PLANE before_frames, PLANE tiles_away, PLANES_OUT(result), PLANE_OUT frames) {
+  const Sources nows = SOURCE_PLANES(now), befores = SOURCE_PLANES(before);
+  const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  const real z = load(depth, here), own = load(now, here);
+  const real z = load(depth, here);
   const mask is_surface = !is_background(z);
   real count = load(before_frames, here);
   const scalar tiles = tiles_away[index_of(other, FIRST_X / TILE, ROW_Y / TILE)];
@@ -52,13 +95,22 @@ kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANE n
   const scalar pixels = (tiles - 1) * TILE;
   const real reach = (scalar)params.radius / ((scalar)frame.scale_x * (frame.perspective * z + frame.parallel));
   // Nothing within REACH tiles: the radius may be infinite too.
-  const mask may_change = tiles <= REACH ? is_surface & (count > 0) & (reach >= pixels) : (mask)(0);
+  mask may_change = tiles <= REACH ? is_surface & (count > 0) & (reach >= pixels) : (mask)(0);
+  real tolerance = (real)(params.change_tolerance);
+#if COMPONENTS > 1
+  // Light also changes where nothing moves, as a lamp goes out.
+  tolerance = choose(may_change, tolerance, (real)(params.light_tolerance));
+  may_change = is_surface & (count > 0);
+#endif
   if (ANY(may_change)) {
-    const real alike =
-        frames_alike(frame, params, z, choose(may_change, count, (real)(1)), now, depth, before, before_frames);
+    const real alike = frames_alike(frame, params, z, choose(may_change, count, (real)(1)), tolerance, nows, depth,
+                                    befores, before_frames);
     count = choose(may_change, alike, count);
   }
-  const real mean = (load(before, here) * count + own) / (count + 1);
-  store(choose(is_surface, mean, (real)(1)), ao_raw, here);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) {
+    const real mean = (load(befores.planes[c], here) * count + load(nows.planes[c], here)) / (count + 1);
+    store(choose(is_surface, mean, NO_RESULT), results.planes[c], here);
+  }
   store(choose(is_surface, count + 1, (real)(0)), frames, here);
 }

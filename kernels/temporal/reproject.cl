@@ -1,15 +1,16 @@
-// What the frames before knew of the AO of the surfaces that this frame shows (temporal reprojection: Yang, Liu, Salvi 2020, "A Survey
+// What the frames before knew of the AO, or of the light, of the surfaces that this frame shows (temporal reprojection: Yang, Liu, Salvi 2020, "A Survey
 // of Temporal Antialiasing Techniques", section 3), and where something moves by itself.
 //
 // in : depth, normal  view-space z, scene units, +inf = background; unit, view space
 //      motion         pixels, from this frame to the one before, y down (WITH_MOTION); without it, nothing moves but the camera
-//      history_ao, history_depth, history_frames  of the frame before, which `neighbour` shows
-// out: before         mean AO over earlier frames; 0 where nothing is known
+//      history, history_depth, history_frames  of the frame before, which `neighbour` shows
+// out: before         mean of `history` over earlier frames; 0 where nothing is known
 //      before_frames  how many frames that mean counts for; 0 where nothing is known
 //      moved          1 where a surface moves by itself, or where one has come or gone; else 0
-// -D WITH_MOTION
+// -D WITH_MOTION, COMPONENTS (of `history`)
 #include "shared/frame/history.h"
 #include "shared/frame/neighbour.h"
+#include "shared/lanes/components.h"
 #include "temporal/params.h"
 
 #ifndef WITH_MOTION
@@ -76,21 +77,23 @@ static inline mask has_gone(Frame frame, Neighbour neighbour, Params params, PLA
   return now.is_seen & (gather(depth, pixel) > now.depth * (1 + (scalar)params.depth_change));
 }
 
-static inline void store_nothing(PLANE_OUT before, PLANE_OUT before_frames, PLANE_OUT moved, int here) {
-  store((real)(0), before, here);
+static inline void store_nothing(Results before, PLANE_OUT before_frames, PLANE_OUT moved, int here) {
+  store_all((real)(0), before, here);
   store((real)(0), before_frames, here);
   store((real)(0), moved, here);
 }
 
 kernel void temporal_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                               PLANE normal_y, PLANE normal_z, PLANE history_ao, PLANE history_depth,
-                               PLANE history_frames, MOTION_ARGUMENTS PLANE_OUT before, PLANE_OUT before_frames,
+                               PLANE normal_y, PLANE normal_z, PLANES(history), PLANE history_depth,
+                               PLANE history_frames, MOTION_ARGUMENTS PLANES_OUT(before), PLANE_OUT before_frames,
                                PLANE_OUT moved) {
+  const Sources histories = SOURCE_PLANES(history);
+  const Results befores = RESULT_PLANES(before);
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here);
   const mask is_surface = !is_background(z);
   if (!ANY(is_surface)) {
-    store_nothing(before, before_frames, moved, here);
+    store_nothing(befores, before_frames, moved, here);
     return;
   }
   const real depth_here = choose(is_surface, z, (real)(1));
@@ -116,7 +119,9 @@ kernel void temporal_reproject(Frame frame, Neighbour neighbour, Params params, 
   const real count = value_of(same, history_frames);
   const real known = (scalar)1 / ((scalar)1 / larger(count, (real)(1)) + params.edge_loss * (1 - share));
   const mask is_known = same.is_known & is_surface;
-  store(choose(is_known, value_of(same, history_ao), (real)(0)), before, here);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c)
+    store(choose(is_known, value_of(same, histories.planes[c]), (real)(0)), befores.planes[c], here);
   store(choose(is_known, smaller(known, (real)((scalar)params.most_frames - 1)), (real)(0)), before_frames, here);
   // Without both poses (frame.h), nothing tells what moves by itself: all may.
   const int has_poses = neighbour.translation[0] == neighbour.translation[0];

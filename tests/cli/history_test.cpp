@@ -81,7 +81,7 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
     more.insert(more.begin(), run.begin(), run.end());
     return more;
   };
-  refused(with({"--history", frame(1)}), 1, "has no 'reflection' and no 'ao_raw'");
+  refused(with({"--history", frame(1)}), 1, "has no 'reflection', 'ao_raw' or 'indirect_raw'");
   refused(with({"--history", path("none.exr")}), 1, "none.exr");
   ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1)}).status, 0);
   refused(with({"--history", result(1), "--resolution", "half"}), 2, "--resolution");

@@ -137,7 +137,8 @@ Runs module_runs(const Technique& technique, const Coverage& coverage) {
 /// A frame with a history; with `motion` its objects have moved.
 Frame frame_over_time(const Technique& technique, const Shot& shot, bool with_motion) {
   Frame frame = complete_frame(technique, shot);
-  for (const char* plane : {"history_ao", "history_depth", "history_frames"}) plane_of(frame, plane);
+  for (const char* plane : {"history_ao", "history_indirect", "history_depth", "history_frames"})
+    plane_of(frame, plane);
   if (with_motion) plane_of(frame, "motion");
   for (View& view : frame.views) {
     view.camera->pose = Pose();
@@ -176,6 +177,8 @@ Runs runs_of_plans(const Coverage& coverage) {
     runs.push_back(planned(with_motion ? "over time, with motion" : "over time",
                            frame_over_time(find_technique("ssao"), shot, with_motion),
                            {.outputs = {"ssao"}, .temporal = true}));
+  runs.push_back(planned("light over time", frame_over_time(find_technique("indirect"), shot, true),
+                         {.outputs = {"indirect"}, .temporal = true}));
   return runs;
 }
 

@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// The planes that a history adds to a frame: `history` (of a reflection) or `history_ao` (of raw AO), `history_depth` and
-/// `history_frames`.
+/// The planes that a history adds to a frame: `history` (of a reflection), `history_ao` (of raw AO) or `history_indirect` (of raw
+/// indirect light), `history_depth` and `history_frames`.
 const std::vector<std::string>& history_planes();
 bool is_of_history(const std::string& plane);
 /// Whether one of the planes is of a history.
@@ -32,13 +32,14 @@ bool knows_where_surfaces_were(const Frame& frame);
 /// Whether a result shows what the frame before showed: 5 % or more of its surfaces are means over more than one frame. Less is chance.
 bool goes_on_from_before(const Frame& result);
 
-/// The planes of a result from which a history is made, of those that it has: `reflection`, `ao_raw`, `depth`, `frames`.
+/// The planes of a result from which a history is made, of those that it has: `reflection`, `ao_raw`, `indirect_raw`, `depth`,
+/// `frames`.
 const std::vector<std::string>& planes_for_history();
 
-/// A file written by `gloam run`, with `depth` and `ao_raw` or `reflection` of every view, and mostly `frames`.
+/// A file written by `gloam run`, with `depth` and `ao_raw`, `indirect_raw` or `reflection` of every view, and mostly `frames`.
 class History {
  public:
-  /// Throws as `FrameFile` does, and Error for a file that lacks one of the two planes.
+  /// Throws as `FrameFile` does, and Error for a file without a result to go on from, or without depth.
   explicit History(const std::filesystem::path& path);
 
   /// Those of `history_planes` that it can add.

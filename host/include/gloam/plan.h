@@ -41,7 +41,7 @@ struct PlanRequest {
   /// Preset of the first technique asked for in tiles where AO hardly varies, found by a base pass with a fourth of the columns and
   /// rows and the preset low (kernels/adaptive). Empty or "none": the whole image is computed alike.
   std::string adaptive = {};
-  /// Goes on from the frame before: raw AO is accumulated over time (kernels/temporal) before it is filtered, and a technique with a
+  /// Goes on from the frame before: raw AO or indirect light is accumulated over time (kernels/temporal) before it is filtered, and a technique with a
   /// form of its own for sequences (`Technique::over_time`) is run in that form. Needs the planes of a history (history.h).
   bool temporal = false;
 };

@@ -5,36 +5,12 @@
 #define GLOAM_BILATERAL_H
 
 #include "shared/frame/surface.h"
+#include "shared/lanes/components.h"
 
 // Biweight: 1 at the pixel, 0 one pixel beyond the last tap.
 static inline scalar window_at(int k, int taps) {
   const scalar t = (scalar)k * ((scalar)1 / (taps + 1));
   return (1 - t * t) * (1 - t * t);
-}
-
-// Values that are filtered alike: 1, or the components of a colour.
-#ifndef COMPONENTS
-#define COMPONENTS 1
-#endif
-
-typedef struct {
-  global const float* planes[COMPONENTS];
-} Sources;
-
-static inline Sources one_source(PLANE source) {
-  Sources s;
-  s.planes[0] = source;
-  return s;
-}
-
-// Light is kept to what sums can hold.
-static inline real source_at(Sources sources, int component, int i) {
-  const real value = load(sources.planes[component], i);
-#if COMPONENTS == 1
-  return value;
-#else
-  return kept_radiance(value);
-#endif
 }
 
 typedef struct {

@@ -1,0 +1,62 @@
+// Planes of one component or of a colour, for kernels that treat all components alike: `PLANES(source)` among a kernel's arguments is the
+// plane `source`, or source_r, source_g and source_b; SOURCE_PLANES(source) gathers them.
+// -D COMPONENTS: 1 (the default) or 3
+#ifndef GLOAM_COMPONENTS_H
+#define GLOAM_COMPONENTS_H
+
+#include "shared/lanes/load.h"
+#include "shared/lanes/math.h"
+
+#ifndef COMPONENTS
+#define COMPONENTS 1
+#endif
+
+typedef struct {
+  global const float* planes[COMPONENTS];
+} Sources;
+
+typedef struct {
+  global float* planes[COMPONENTS];
+} Results;
+
+#if COMPONENTS == 1
+#define PLANES(name) PLANE name
+#define PLANES_OUT(name) PLANE_OUT name
+#define SOURCE_PLANES(name) \
+  {                         \
+    { name }                \
+  }
+#else
+#define PLANES(name) PLANE name##_r, PLANE name##_g, PLANE name##_b
+#define PLANES_OUT(name) PLANE_OUT name##_r, PLANE_OUT name##_g, PLANE_OUT name##_b
+#define SOURCE_PLANES(name)          \
+  {                                  \
+    { name##_r, name##_g, name##_b } \
+  }
+#endif
+#define RESULT_PLANES(name) SOURCE_PLANES(name)
+
+// The result of background: open, or no light.
+#if COMPONENTS == 1
+#define NO_RESULT ((real)(1))
+#else
+#define NO_RESULT ((real)(0))
+#endif
+
+// Light is kept to what sums can hold.
+static inline real source_at(Sources sources, int component, int i) {
+  const real value = load(sources.planes[component], i);
+#if COMPONENTS == 1
+  return value;
+#else
+  return kept_radiance(value);
+#endif
+}
+
+// The same value for all components.
+static inline void store_all(real value, Results results, int here) {
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) store(value, results.planes[c], here);
+}
+
+#endif
