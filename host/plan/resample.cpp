@@ -59,9 +59,9 @@ Pass upsample(const std::string& plane, int resolution) {
 /// Upsamples from the reduced pixels of both views, so that the views agree where both see a surface.
 Pass upsample_of_both(const std::string& plane, int resolution) {
   Pass pass = upsample(plane, resolution);
-  pass.kernel = kernel_for("joint_upsample_of_both", plane);
+  pass.kernel = "joint_upsample_of_both";
   pass.can_skip = false;
-  pass.defines.emplace_back("TWO_VIEWS", 1);
+  pass.defines.insert(pass.defines.end(), {{"TWO_VIEWS", 1}, {"COMPONENTS", int(plane_kind(plane).components.size())}});
   for (const Binding& other : {Binding("other_source", reduced_name(plane, resolution)),
                                Binding("other_depth", reduced_name("depth", resolution)),
                                Binding("other_normal", reduced_name("normal", resolution))})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gloam/planes.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam {
@@ -41,15 +42,15 @@ Pass from_both(Pass estimate, const std::string& kernel) {
   return estimate;
 }
 
-Pass reprojection(const StereoChoices& c) {
+Pass reprojection(const std::string& raw, const StereoChoices& c) {
   return {.name = "reproject",
           .kernel = "stereo_reproject",
           .reads = {{"depth", "stereo_depth"},
                     "normal",
                     from(From::other_view, {"other_depth", "stereo_depth"}),
                     from(From::other_view, {"other_normal", "normal"}),
-                    from(From::other_view, {"other", "ao_raw"})},
-          .writes = {{"result", "ao_raw"}, "newly_visible"},
+                    from(From::other_view, {"other", raw})},
+          .writes = {{"result", raw}, "newly_visible"},
           .defines = {{"NO_BACK_CHECK", !c.back_check}},
           .on = on_view(1 - c.primary)};
 }
@@ -70,16 +71,16 @@ void keep_weights(std::vector<Pass>& passes) {
     Pass& pass = passes[i];
     pass.kernel = "bilateral_weighted";
     if (i > 0) pass.reads.insert(pass.reads.begin() + 1, Binding("source_weights", passes[i - 1].writes.back().plane));
-    pass.writes.push_back({"result_weights", pass.writes.front().plane + "_weights"});
+    pass.writes.push_back({"result_weights", "weights_of_" + pass.writes.front().plane});
     pass.defines.emplace_back("WITH_SOURCE_WEIGHTS", i > 0);
   }
 }
 
-Pass blend(const Pass& last) {
+Pass blend(const Pass& last, const std::string& result) {
   Pass pass{.name = "blend",
             .kernel = "stereo_blend",
             .reads = {{"source", last.writes[0].plane}, {"source_weights", last.writes[1].plane}, "depth", "normal"},
-            .writes = {{"result", "ao"}},
+            .writes = {{"result", result}},
             .defines = last.defines,
             .views_agree = true};
   for (const Binding& other :
@@ -96,6 +97,9 @@ void set_initial(ParameterList& parameters, const std::string& name, const std::
   }
 }
 
+/// The plane that a filter makes of raw AO or light: "indirect" of "indirect_raw".
+std::string filtered(const std::string& raw) { return raw.substr(0, raw.rfind("_raw")); }
+
 }  // namespace
 
 Technique over_two_eyes(Technique mono, ParameterList parameters,
@@ -105,7 +109,7 @@ Technique over_two_eyes(Technique mono, ParameterList parameters,
   t.name.insert(0, "stereo-");
   t.paper += "; for two eyes Shi, Billeter, Eisemann 2022";
   t.views = 2;
-  t.writes = t.outputs = {"ao", "ao_raw"};
+  t.writes = t.outputs;
   t.default_for.clear();
   t.may_read.clear();
   t.effect = {};
@@ -118,16 +122,17 @@ Technique over_two_eyes(Technique mono, ParameterList parameters,
   return t;
 }
 
-std::vector<Pass> stereo_filter_passes(Filter filter, int taps) {
-  if (filter == Filter::mono) return bilateral_passes(taps, false, "ao_raw", "ao");
-  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, "ao_raw", "ao_of_one_eye");
+std::vector<Pass> stereo_filter_passes(Filter filter, int taps, const std::string& raw, const std::string& result) {
+  if (filter == Filter::mono) return bilateral_passes(taps, false, raw, result);
+  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, raw, result + "@one_eye");
   keep_weights(passes);
-  passes.push_back(blend(passes.back()));
+  passes.push_back(blend(passes.back(), result));
   return passes;
 }
 
 std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& c) {
   Pass estimate = std::move(mono.back());
+  const std::string raw = estimate.writes.front().plane;
   estimate.extras.clear();
   estimate.may_read.clear();
   mono.pop_back();
@@ -140,12 +145,14 @@ std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both,
   }
   if (c.reproject) {
     passes.back().on = on_view(c.primary);
-    passes.push_back(reprojection(c));
+    passes.push_back(reprojection(raw, c));
     passes.push_back(newly_visible(estimate, both, c));
   }
-  for (Pass& pass : stereo_filter_passes(c.filter, c.half_width)) passes.push_back(std::move(pass));
+  for (Pass& pass : stereo_filter_passes(c.filter, c.half_width, raw, filtered(raw))) passes.push_back(std::move(pass));
+  estimate.defines.emplace_back("COMPONENTS", int(plane_kind(raw).components.size()));
   for (Pass& pass : passes) {
-    // The whole program needs the defines of its estimate.
+    if (!estimate.source.empty()) pass.source = estimate.source;
+    // The whole program needs the defines of its estimate, and the components of what it makes.
     for (const auto& define : estimate.defines) {
       if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
         pass.defines.push_back(define);

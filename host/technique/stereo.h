@@ -21,7 +21,7 @@ struct StereoChoices {
 };
 
 /// The passes of a technique for two eyes. `mono`: its passes for one eye; the last is the estimate, from "depth" and "normal"
-/// (its first two reads) to "ao_raw". `both` is the kernel for both eyes, `both`_list the one for a list of pixels. Their
+/// (its first two reads) to "ao_raw" or "indirect_raw". `both` is the kernel for both eyes, `both`_list the one for a list of pixels. Their
 /// arguments are the estimate's, with stereo_depth (shared/stereo/passes.h) instead of the depth, the list, and the same planes
 /// of the other eye except normals; the first also takes HALF_OCCLUDED_ARGUMENT (shared/stereo/half_occlusion.h). Extras are not
 /// made.
@@ -32,8 +32,9 @@ std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both,
 Technique over_two_eyes(Technique mono, ParameterList parameters,
                         std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
-/// The filter alone, from "ao_raw" to "ao". Kernels: shared/filter/bilateral_filter.h, shared/stereo/filter.h.
-std::vector<Pass> stereo_filter_passes(StereoChoices::Filter filter, int half_width);
+/// The filter alone. Kernels: shared/filter/bilateral_filter.h, shared/stereo/filter.h.
+std::vector<Pass> stereo_filter_passes(StereoChoices::Filter filter, int half_width, const std::string& raw = "ao_raw",
+                                       const std::string& result = "ao");
 
 template <typename Params>
 StereoChoices stereo_choices(const Params& p) {

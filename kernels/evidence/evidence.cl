@@ -32,6 +32,7 @@
 #include "estimators/sectors.h"
 #include "evidence/params.h"
 #include "shared/filter/isolated.h"
+#include "shared/lanes/components.h"
 #include "shared/sampling/slice_steps.h"
 
 #if STOCHASTIC

@@ -13,6 +13,7 @@
 #if LIGHT
 #include "gtao/light.h"
 #else
+#define SOURCE_AT(place, by_both) place
 #define SOURCE_BEHIND(frame, place, layer) place
 #endif
 #if STOCHASTIC
@@ -97,7 +98,8 @@ static inline void take_point(Closed* closed, Side* side, Params params, Search 
     closed->covered |= covered & bits_of(floats);
   }
 #if LIGHT
-#define FOLLOW(k) follow(&side->rays[k], along, above, along + side->deeper_along, back, counts, source);
+  const real distance = square * search.receiver.depth * search.receiver.depth;
+#define FOLLOW(k) follow(&side->rays[k], along, above, along + side->deeper_along, back, distance, counts, source);
   FOR_EACH_RAY(FOLLOW)
 #undef FOLLOW
 #endif
@@ -137,12 +139,12 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
   const real depth = depth_seen(gather(layers.first + here, place), &by_both);
 #if STEREO
   by_both &= is_shared;
-  take_depth(frame, params, search, side, depth, in_frame & by_both, place, &side->closed_for_both);
+  take_depth(frame, params, search, side, depth, in_frame & by_both, SOURCE_AT(place, 1), &side->closed_for_both);
   in_frame &= !by_both;
 #endif
-  const mask asked = take_depth(frame, params, search, side, depth, in_frame, place, &side->closed);
+  const mask asked = take_depth(frame, params, search, side, depth, in_frame, SOURCE_AT(place, 0), &side->closed);
 #if COMPENSATED
-  take_depth(frame, params, search, side, depth, in_frame, place, &side->closed_by_depth);
+  take_depth(frame, params, search, side, depth, in_frame, SOURCE_AT(place, 0), &side->closed_by_depth);
 #endif
   FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {
     take_depth(frame, params, search, side, behind.next, behind.counts, SOURCE_BEHIND(frame, place, layer),
@@ -202,14 +204,8 @@ static inline real closed_towards(const Side* side, real along, real up) {
 // Adds the light of a side's rays. `sign`: of the side.
 static inline void add_light_of_side(real3* light, real importance, Search search, Slice slice, scalar sign,
                                      const Side* side) {
-  const real3 v = search.surface.to_eye, t = slice.tangent;
-  // Up from the surface's tangent, and along it to this side.
-  const real3 up = make3(slice.sine * t.x + slice.cosine * v.x, slice.sine * t.y + slice.cosine * v.y,
-                         slice.sine * t.z + slice.cosine * v.z);
-  const real3 out =
-      make3(sign * (slice.cosine * t.x - slice.sine * v.x), sign * (slice.cosine * t.y - slice.sine * v.y),
-            sign * (slice.cosine * t.z - slice.sine * v.z));
-#define ADD(k) add_light(light, importance, side->rays[k], search.sources, search.receiver.here, up, out);
+  const SideAxes axes = axes_of_side(slice, search.surface.to_eye, sign);
+#define ADD(k) add_light(light, importance, side->rays[k], search.sources, search.receiver.here, axes);
   FOR_EACH_RAY(ADD)
 #undef ADD
 }
@@ -224,7 +220,7 @@ static inline __attribute__((always_inline)) real open_share(Frame frame, Params
   real all_closed = 0;
   *light = make3((real)(0), (real)(0), (real)(0));
 #if LIGHT
-  const real ray_shift = shift_of_rays(r.x, r.y, frame.seed);
+  const real ray_shift = shift_of_rays(to_natural(r.x), (natural)((uint)r.y), frame.seed);
 #endif
   for (int d = 0; d < DIRECTIONS; ++d) {
     real cosine, sine;

@@ -38,40 +38,5 @@ kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_
 }
 
 #if STEREO
-#include "shared/stereo/slice_view.h"
-
-static inline Taken taken_by_either(Taken a, Taken b) {
-#if BITMASK
-  return a | b;
-#else
-  return larger(a, b);
-#endif
-}
-
-// A surface that both eyes see closes each eye's slice as that eye sees it, and the mean of both counts; a surface that one eye
-// alone sees closes both, and counts as in the slice of the eye that it closes more of. Section 3.1 combines obscurance sample by
-// sample. Horizons combined so are too low, as two samples rarely meet the highest occluder alike; sectors of one eye alone are
-// noisier.
-static inline real closed_by_both(View* own, View* other, real sine, real other_sine, Side* side, Side* other_side) {
-  const Taken by_own_alone = taken_of(own->slice, sine, side->scale, &side->closed);
-  const Taken by_other_alone = taken_of(other->slice, other_sine, other_side->scale, &other_side->closed);
-  const Taken alone = taken_by_either(by_own_alone, by_other_alone);
-  const real own_alone = share_of(by_own_alone), other_alone = share_of(by_other_alone), by_one = share_of(alone);
-  const Taken by_own = taken_of(own->slice, sine, side->scale, &side->closed_for_both);
-  const Taken by_other = taken_of(other->slice, other_sine, other_side->scale, &other_side->closed_for_both);
-  const real more_by_own = share_of(taken_by_either(by_own, alone)) - by_one;
-  const real more_by_other = share_of(taken_by_either(by_other, alone)) - by_one;
-  const real mean = (scalar)0.5 * (own->importance + other->importance);
-  const real of_larger =
-      choose(own_alone > other_alone, own->importance, choose(own_alone < other_alone, other->importance, mean));
-  return of_larger * by_one + (scalar)0.5 * (own->importance * more_by_own + other->importance * more_by_other);
-}
-
-// Both sides of a slice, times its importance.
-static inline real closed_to_both(Search here, Search there, View* own, View* other, mask is_seen) {
-  return closed_by_both(own, other, own->slice.sine, other->slice.sine, &own->right, &other->right) +
-         closed_by_both(own, other, -own->slice.sine, -other->slice.sine, &own->left, &other->left);
-}
-
-#include "shared/stereo/slices.h"
+#include "gtao/both_eyes.h"
 #endif

@@ -7,6 +7,7 @@
 // in : depth      view-space z, scene units, +inf = background
 //      normal     unit, view space
 //      color      radiance that leaves each pixel, the same in every direction
+//      other_depth, other_sources  of the other eye (shared/stereo/slices.h)
 //      occluders  further depth layers (layers.h); light_r ... light_normal_z  their radiance and normals. Without these, and of
 //                 stochastic depths, hidden surfaces close sectors and send nothing
 // out: indirect_raw  irradiance / pi, in the unit of color, unfiltered; 0 on background
@@ -18,7 +19,8 @@
 kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE color_r,
                          PLANE color_g, PLANE color_b, PLANE_OUT sources) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  store_light_source(load3(color_r, color_g, color_b, here), load3(normal_x, normal_y, normal_z, here), sources, here);
+  const real3 color = bounded_radiance(load3(color_r, color_g, color_b, here), params.brightest);
+  store_light_source(color, load3(normal_x, normal_y, normal_z, here), sources, here);
 }
 
 #ifdef LIGHT_R_LAYERS
@@ -26,7 +28,7 @@ kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE norma
   OCCLUDERS_ARGUMENT PLANE light_r, PLANE light_g, PLANE light_b, PLANE light_normal_x, PLANE light_normal_y, \
       PLANE light_normal_z,
 #define LIGHT_SOURCES \
-  { light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z }
+  { light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z, params.brightest }
 #else
 #define SOURCES_ARGUMENT PLANE sources, OCCLUDERS_ARGUMENT
 #define LIGHT_SOURCES \
@@ -72,3 +74,7 @@ kernel void indirect_estimate(Frame frame, Params params, PLANE depth, PLANE nor
   STORE_AO_RAW(open, r)
   STORE_OPEN_DIRECTIONS(directions, r)
 }
+
+#if STEREO
+#include "gtao/both_eyes.h"
+#endif

@@ -14,6 +14,15 @@
 #define NO_SOURCE (-0x7fffffff)
 #define DARK_SOURCE (-0x7ffffffe)
 
+// A source as rays hold it: the index of a pixel, and with two eyes whether both see the surface.
+#if STEREO
+#define SOURCE_AT(place, by_both) (2 * (place) + (by_both))
+#define PLACE_OF(source) ((source) >> 1)
+#else
+#define SOURCE_AT(place, by_both) (place)
+#define PLACE_OF(source) (source)
+#endif
+
 // The source that layer `layer` behind the first sends from an index.
 #ifdef LIGHT_R_LAYERS
 #define SOURCE_BEHIND(frame, place, layer) \
@@ -37,7 +46,10 @@
 typedef struct {
   real cotangent;  // of its elevation above the tangent
   real weight;     // the share of the slice's mass that it stands for
-  integer source;  // index of what closes it, from the pixel's own; NO_SOURCE, DARK_SOURCE
+  integer source;  // SOURCE_AT of what closes it; the place is from the pixel's own; NO_SOURCE, DARK_SOURCE
+#if STEREO
+  real distance;  // squared, of what closes it, scene units
+#endif
 } LightRay;
 
 // Ray k of a side to which the normal leans by (cosine, sine). `shift`: 0 to 1, its place in its range.
@@ -52,6 +64,9 @@ static inline LightRay light_ray(int k, real shift, real cosine, real sine, real
   ray.cotangent = c / above;
   ray.weight = larger(measure, (real)(0)) * (1 + sine) / root * (scalar)(0.5f / RAYS) * quick_inverse(mass);
   ray.source = (integer)(NO_SOURCE);
+#if STEREO
+  ray.distance = 0;
+#endif
   return ray;
 }
 
@@ -64,9 +79,9 @@ static inline void start_rays(LightRay* rays, real shift, real cosine, real sine
 // Where the rays of a pixel's first slice lie in their ranges: the nine pixels of any 3 x 3 have the nine ninths (columns 1/3, rows 1/9),
 // so that a small filter averages all elevations. Lattices of irrational steps beside those of sample.h read an SSIM lower by up to
 // .014.
-static inline real shift_of_rays(integer x, int y, int seed) {
+static inline real shift_of_rays(natural x, natural y, int seed) {
 #if JITTER
-  return unit_random(to_natural(x) * 0x55555556u + ((uint)y * 0x1c71c71du + (uint)seed * 0x3c6ef372u));
+  return unit_random(x * 0x55555556u + (y * 0x1c71c71du + (uint)seed * 0x3c6ef372u));
 #else
   return (real)(0.5f);
 #endif
@@ -79,23 +94,59 @@ static inline real shift_of_slice(real shift, int d) {
 }
 
 // Takes an occluder that reaches from (along, above) to (along_back, back), as seen from the tangent; `back` at most 0: down to it.
-static inline void follow(LightRay* ray, real along, real above, real along_back, real back, mask counts,
+// `distance`: squared, scene units.
+static inline void follow(LightRay* ray, real along, real above, real along_back, real back, real distance, mask counts,
                           integer source) {
   const mask closes = counts & (along < ray->cotangent * above) & ((back <= 0) | (along_back >= ray->cotangent * back));
-  ray->source = choose_integer(closes & to_mask(ray->source == NO_SOURCE), source, ray->source);
+  const mask is_first = closes & to_mask(ray->source == NO_SOURCE);
+  ray->source = choose_integer(is_first, source, ray->source);
+#if STEREO
+  ray->distance = choose(is_first, distance, ray->distance);
+#endif
 }
 
-// Adds what a side's ray sees. `importance`: of the slice. `up`, `out`: up from the tangent and along it, view space.
-static inline void add_light(real3* light, real importance, LightRay ray, LightSources sources, int here, real3 up,
-                             real3 out) {
-  const mask is_sent = to_mask(ray.source > DARK_SOURCE);
+// Up from the surface's tangent, and along it to a side of its slice, view space.
+typedef struct {
+  real3 up, out;
+} SideAxes;
+
+static inline SideAxes axes_of_side(Slice slice, real3 to_eye, scalar sign) {
+  const real3 t = slice.tangent, v = to_eye;
+  SideAxes axes;
+  axes.up = make3(slice.sine * t.x + slice.cosine * v.x, slice.sine * t.y + slice.cosine * v.y,
+                  slice.sine * t.z + slice.cosine * v.z);
+  axes.out = make3(sign * (slice.cosine * t.x - slice.sine * v.x), sign * (slice.cosine * t.y - slice.sine * v.y),
+                   sign * (slice.cosine * t.z - slice.sine * v.z));
+  return axes;
+}
+
+// What a side's ray sees, and the share of the pixel's light that it is, 0 where nothing is sent. `importance`: of the slice.
+typedef struct {
+  LightSource source;
+  real share;
+} RayLight;
+
+static inline RayLight light_of_ray(real importance, LightRay ray, LightSources sources, int here, SideAxes axes,
+                                    mask is_sent) {
+  RayLight light;
+  light.source = light_source(sources, here, PLACE_OF(choose_integer(is_sent, ray.source, (integer)(0))));
+  const real3 n = light.source.normal;
+  const mask faces = dot3(n, axes.up) + ray.cotangent * dot3(n, axes.out) < 0;
+  light.share = choose(is_sent & faces, importance * ray.weight, (real)(0));
+  return light;
+}
+
+static inline mask sends(LightRay ray) { return to_mask(ray.source > DARK_SOURCE); }
+
+// Adds what a side's ray sees.
+static inline void add_light(real3* light, real importance, LightRay ray, LightSources sources, int here,
+                             SideAxes axes) {
+  const mask is_sent = sends(ray);
   if (!ANY(is_sent)) return;
-  const LightSource source = light_source(sources, here, choose_integer(is_sent, ray.source, (integer)(0)));
-  const real share = choose(is_sent & (dot3(source.normal, up) + ray.cotangent * dot3(source.normal, out) < 0),
-                            importance * ray.weight, (real)(0));
-  light->x = multiply_add(share, source.radiance.x, light->x);
-  light->y = multiply_add(share, source.radiance.y, light->y);
-  light->z = multiply_add(share, source.radiance.z, light->z);
+  const RayLight seen = light_of_ray(importance, ray, sources, here, axes, is_sent);
+  light->x = multiply_add(seen.share, seen.source.radiance.x, light->x);
+  light->y = multiply_add(seen.share, seen.source.radiance.y, light->y);
+  light->z = multiply_add(seen.share, seen.source.radiance.z, light->z);
 }
 
 #endif

@@ -18,9 +18,12 @@
   P(float, thickness, 0.4f, 0, INFINITY, "radii", "how far an occluder reaches behind its visible front")
 
 // RAYS of light.h.
-#define INDIRECT_PARAMS(P) \
-  BITMASK_PARAMS(P)        \
-  P(int, rays, 2, 1, 4, "", "directions on each side of a slice in which light is looked for")
+#define INDIRECT_PARAMS(P)                                                                                         \
+  BITMASK_PARAMS(P)                                                                                                \
+  P(int, rays, 2, 1, 4, "", "directions on each side of a slice in which light is looked for")                     \
+  P(float, brightest, 1e20f, 0, 1e20f, "unit of color",                                                            \
+    "a source of light counts up to this, in its colour: fewer fireflies beside small lamps, and less light from " \
+    "them")
 
 #define SD_GTAO_PARAMS(P) \
   GTAO_PARAMS(P)          \
@@ -42,6 +45,10 @@
   BITMASK_PARAMS(P)              \
   STEREO_PARAMS(P)
 
+#define STEREO_INDIRECT_PARAMS(P) \
+  INDIRECT_PARAMS(P)              \
+  STEREO_PARAMS(P)
+
 PARAMS(GtaoParams, GTAO_PARAMS)
 PARAMS(BitmaskParams, BITMASK_PARAMS)
 PARAMS(IndirectParams, INDIRECT_PARAMS)
@@ -50,3 +57,4 @@ PARAMS(SdGtaoParams, SD_GTAO_PARAMS)
 PARAMS(SdBitmaskParams, SD_BITMASK_PARAMS)
 PARAMS(StereoGtaoParams, STEREO_GTAO_PARAMS)
 PARAMS(StereoBitmaskParams, STEREO_BITMASK_PARAMS)
+PARAMS(StereoIndirectParams, STEREO_INDIRECT_PARAMS)

@@ -84,6 +84,13 @@ std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
   return stereo_passes({bitmask_pass(p)}, "stereo_slices", stereo_choices(p));
 }
 
+/// Each eye's pixels send their own light.
+std::vector<Pass> stereo_indirect_passes(const StereoIndirectParams& p) {
+  Pass estimate = indirect_pass(p);
+  estimate.reads.push_back(sources());
+  return stereo_passes({pack_pass(estimate.defines), std::move(estimate)}, "stereo_slices", stereo_choices(p));
+}
+
 Technique row(std::string name, std::string summary, std::string paper) {
   Technique t = over_slices(ambient_occlusion(std::move(name), std::move(summary), std::move(paper), "gtao/gtao.cl"));
   t.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
@@ -145,7 +152,8 @@ std::vector<Technique> gtao() {
           over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
           over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
           over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
-          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes))};
+          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes)),
+          over_two_eyes(indirect_over_depth(), StereoIndirectParams::table(), passes_of(stereo_indirect_passes))};
 }
 
 }  // namespace gloam::techniques

@@ -6,11 +6,12 @@
 // joint_upsample_of_both: from the reduced pixels of two views that agree (shared/stereo/upsample.h); `neighbour`: the other view,
 // reduced.
 // -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample, _color, _color_alpha: the value of background and of unknown
-//    pixels), TWO_VIEWS (joint_upsample_of_both)
+//    pixels), TWO_VIEWS, COMPONENTS (joint_upsample_of_both)
 #include "resample/params.h"
 #include "shared/filter/upsample.h"
 #include "shared/lanes/wanted.h"
 #if TWO_VIEWS
+#include "shared/lanes/components.h"
 #include "shared/stereo/upsample.h"
 #endif
 
@@ -63,11 +64,13 @@ kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLAN
 #endif
 
 #if TWO_VIEWS
-kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour, ResampleParams params, PLANE source,
+kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour, ResampleParams params, PLANES(source),
                                    PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z,
-                                   PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE other_source,
+                                   PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES(other_source),
                                    PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z,
-                                   PLANE_OUT result) {
+                                   PLANES_OUT(result)) {
+  const Sources sources = SOURCE_PLANES(source), other_sources = SOURCE_PLANES(other_source);
+  const Results results = RESULT_PLANES(result);
   const scalar distance = params.depth_tolerance * params.radius;
   const Site s = site_at(frame, other, distance, params.normal_tolerance, depth, normal_x, normal_y, normal_z);
   const Weights w = weights_of_same(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
@@ -77,19 +80,22 @@ kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour
   Between b;
   between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, s.here), distance, params.normal_tolerance,
                  others, WITHIN_A_LOAD, &b);
-  Mixture m;
-  m.sum = weighted(w, s, source);
-  m.total = w.total;
-  mix_between(&m, &b, there, neighbour.frame, other_source);
   const mask is_surface = !is_background(s.plane.depth);
-  const real counts = choose(is_surface, share_of_farther(m), (real)(0));
-  if (ANY(counts > 0)) {
-    mix_around_own(&m, s, other, counts, planes, source);
-    mix_around_other(&m, &b, there, neighbour.frame, counts, others, other_source);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) {
+    Mixture m;
+    m.sum = weighted(w, s, sources.planes[c]);
+    m.total = w.total;
+    mix_between(&m, &b, there, neighbour.frame, other_sources.planes[c]);
+    const real counts = choose(is_surface, share_of_farther(m), (real)(0));
+    if (ANY(counts > 0)) {
+      mix_around_own(&m, s, other, counts, planes, sources.planes[c]);
+      mix_around_other(&m, &b, there, neighbour.frame, counts, others, other_sources.planes[c]);
+    }
+    const mask known = is_surface & (m.total > 0);
+    // Divided exactly, as above.
+    store(choose(known, m.sum / choose(known, m.total, (real)(1)), (real)(OUTSIDE)), results.planes[c], s.here);
   }
-  const mask known = is_surface & (m.total > 0);
-  // Divided exactly, as above.
-  store(choose(known, m.sum / choose(known, m.total, (real)(1)), (real)(OUTSIDE)), result, s.here);
 }
 #endif
 

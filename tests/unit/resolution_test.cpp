@@ -144,6 +144,9 @@ TEST(Resolution, WhatTwoViewsAgreeOnIsUpsampledFromBoth) {
       EXPECT_FALSE(looks_at_other_view(upsampling_of(plan, "ao_raw"))) << what;
     }
   }
+  const Plan light = plan_of({.outputs = {"stereo-indirect"}, .resolution = 2}, {"depth", "normal", "color"});
+  EXPECT_TRUE(looks_at_other_view(upsampling_of(light, "indirect")));
+  EXPECT_FALSE(looks_at_other_view(upsampling_of(light, "indirect_raw")));
   const PlanRequest filtered{.outputs = {"gtao"}, .then = "stereo-bilateral", .resolution = 4};
   EXPECT_TRUE(looks_at_other_view(upsampling_of(plan_of(filtered), "ao"))) << "as --filter";
   const Pass pass = upsampling_of(plan_of(filtered), "ao");

@@ -41,6 +41,13 @@ static inline real3 unpacked_normal(natural bits) {
   return make3(x, y, z);
 }
 
+// A colour whose largest component is at most `brightest`. A colour within it keeps its bits.
+static inline real3 bounded_radiance(real3 c, scalar brightest) {
+  const real largest = larger(kept_radiance(c.x), larger(kept_radiance(c.y), kept_radiance(c.z)));
+  const real scale = choose(largest > brightest, brightest / larger(largest, (real)(1e-30f)), (real)(1));
+  return make3(kept_radiance(c.x) * scale, kept_radiance(c.y) * scale, kept_radiance(c.z) * scale);
+}
+
 // Writes the sources of the row of pixels from index `here` on.
 static inline void store_light_source(real3 color, real3 normal, global float* sources, int here) {
   const natural red_green = (upper_bits(kept_radiance(color.x)) << 16) | upper_bits(kept_radiance(color.y));
@@ -52,6 +59,7 @@ static inline void store_light_source(real3 color, real3 normal, global float* s
 // Of layers of depth, unpacked: one stack for each component.
 typedef struct {
   global const float *r, *g, *b, *normal_x, *normal_y, *normal_z;
+  scalar brightest;  // bounded_radiance
 } LightSources;
 
 #define LESSER(a, b) ((a) < (b) ? (a) : (b))
@@ -72,8 +80,8 @@ typedef struct {
 static inline LightSource light_source(LightSources sources, int here, integer place) {
   LightSource s;
 #ifdef LIGHT_R_LAYERS
-  s.radiance = gather3(sources.r + here, sources.g + here, sources.b + here, place);
-  s.radiance = make3(kept_radiance(s.radiance.x), kept_radiance(s.radiance.y), kept_radiance(s.radiance.z));
+  s.radiance =
+      bounded_radiance(gather3(sources.r + here, sources.g + here, sources.b + here, place), sources.brightest);
   s.normal = gather3(sources.normal_x + here, sources.normal_y + here, sources.normal_z + here, place);
 #else
   natural red_green, blue_normal;

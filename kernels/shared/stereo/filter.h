@@ -9,8 +9,9 @@
 // bilateral_weighted  in : source, source_weights, depth, normal  source_weights: from the pass before (WITH_SOURCE_WEIGHTS)
 //                     out: result, result_weights                 F and W
 // stereo_blend        in : source, source_weights, depth, normal  of this eye, and of the other
-//                     out: result                                 1 on background
-// -D COLUMNS, ROWS
+//                     out: result
+// Sources and results have COMPONENTS components each, weights one; background is as components.h says.
+// -D COLUMNS, ROWS, COMPONENTS
 #ifndef GLOAM_STEREO_FILTER_H
 #define GLOAM_STEREO_FILTER_H
 
@@ -23,18 +24,22 @@
 #define SOURCE_WEIGHTS_ARGUMENT
 #endif
 
-kernel void bilateral_weighted(Frame frame, Params params, PLANE source, SOURCE_WEIGHTS_ARGUMENT PLANE depth,
-                               PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE_OUT result,
+kernel void bilateral_weighted(Frame frame, Params params, PLANES(source), SOURCE_WEIGHTS_ARGUMENT PLANE depth,
+                               PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES_OUT(result),
                                PLANE_OUT result_weights) {
+  const Sources sources = SOURCE_PLANES(source);
+  const Results results = RESULT_PLANES(result);
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
   const integer x = FIRST_X + IOTA;
   const real z = load(depth, here);
   const TangentPlane plane =
       tangent_plane_at(frame, to_real(x), (real)(y), z, load3(normal_x, normal_y, normal_z, here),
                        params.depth_tolerance * params.radius, params.normal_tolerance);
-  const Taps taps = taps_around(frame, plane, x, y, here, one_source(source), depth, normal_x, normal_y, normal_z);
+  const Taps taps = taps_around(frame, plane, x, y, here, sources, depth, normal_x, normal_y, normal_z);
   const mask is_surface = !is_background(z);
-  store(choose(is_surface, taps.sums[0] / taps.weights, (real)(1)), result, here);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c)
+    store(choose(is_surface, taps.sums[c] / taps.weights, NO_RESULT), results.planes[c], here);
 #if WITH_SOURCE_WEIGHTS
   const real before = load(source_weights, here);
 #else
@@ -50,24 +55,32 @@ static inline real smooth_step(scalar from, scalar to, real value) {
   return t * t * (3 - 2 * t);
 }
 
-kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANE source, PLANE source_weights,
-                         PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE other_source,
+kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANES(source), PLANE source_weights,
+                         PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES(other_source),
                          PLANE other_weights, PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y,
-                         PLANE other_normal_z, PLANE_OUT result) {
+                         PLANE other_normal_z, PLANES_OUT(result)) {
+  const Sources sources = SOURCE_PLANES(source), others = SOURCE_PLANES(other_source);
+  const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  const real z = load(depth, here), own = load(source, here), own_weight = load(source_weights, here);
+  const real z = load(depth, here), own_weight = load(source_weights, here);
   Between b;
   between_pixels(neighbour, project_row(frame, neighbour, z), load3(normal_x, normal_y, normal_z, here),
                  params.depth_tolerance * params.radius, params.normal_tolerance,
                  surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z), IN_A_ROW, &b);
-  real open = own;
+  real w = (real)(1);
   if (ANY(b.is_known)) {
     const real weight = b.share * fetch_between(&b, neighbour.frame, other_weights);
-    const real found = fetch_between(&b, neighbour.frame, other_source);
-    const real w =
-        smooth_step((scalar)0.5 - params.blend, (scalar)0.5 + params.blend, own_weight / (own_weight + weight));
-    open = choose(b.is_known, found + w * (own - found), own);
+    w = smooth_step((scalar)0.5 - params.blend, (scalar)0.5 + params.blend, own_weight / (own_weight + weight));
   }
-  store(open, result, here);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) {
+    const real own = load(sources.planes[c], here);
+    real blended = own;
+    if (ANY(b.is_known)) {
+      const real found = fetch_between(&b, neighbour.frame, others.planes[c]);
+      blended = choose(b.is_known, found + w * (own - found), own);
+    }
+    store(blended, results.planes[c], here);
+  }
 }
 #endif

@@ -4,15 +4,17 @@
 //                     out: stereo_depth        negative where both eyes see the surface
 // stereo_reproject    in : depth, other_depth    as left by stereo_visibility
 //                          normal, other_normal  unit, view space
-//                          other                 the other eye's result, 0 to 1
-//                     out: result                the other eye's result where both see the surface and its pixels show it; else 1
+//                          other                 the other eye's result
+//                     out: result                the other eye's result where both see the surface and its pixels show it; else that
+//                                                of background
 //                          newly_visible         pixels left to be computed (pixel_list.h)
 // stereo_half_occlusion in : depth           as left by stereo_visibility
 //                       out: half_occluded   cells near surfaces that this eye alone sees (half_occlusion.h)
-// -D NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST, WITH_HALF_OCCLUSION (stereo_visibility empties these)
+// -D COMPONENTS (of results), NO_BACK_CHECK (stereo_reproject), WITH_PIXEL_LIST, WITH_HALF_OCCLUSION (stereo_visibility empties these)
 #ifndef GLOAM_STEREO_PASSES_H
 #define GLOAM_STEREO_PASSES_H
 
+#include "shared/lanes/components.h"
 #include "shared/lanes/pixel_list.h"
 #include "shared/stereo/fetch.h"
 #include "shared/stereo/half_occlusion.h"
@@ -57,8 +59,10 @@ kernel void stereo_half_occlusion(Frame frame, Params params, PLANE depth, PLANE
 
 kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
                              PLANE normal_y, PLANE normal_z, PLANE other_depth, PLANE other_normal_x,
-                             PLANE other_normal_y, PLANE other_normal_z, PLANE other, PLANE_OUT result,
+                             PLANE other_normal_y, PLANE other_normal_z, PLANES(other), PLANES_OUT(result),
                              PIXEL_LIST_OUT newly_visible) {
+  const Sources others = SOURCE_PLANES(other);
+  const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real stored_depth = load(depth, here), z = fabs(stored_depth);
   const Projection there = project_row(frame, neighbour, z);
@@ -72,14 +76,17 @@ kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PL
   between_pixels(neighbour, there, load3(normal_x, normal_y, normal_z, here), params.depth_tolerance * params.radius,
                  params.normal_tolerance, surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z),
                  IN_A_ROW, &b);
-  real found = (real)(1);
 #if !NO_BACK_CHECK
   is_found &= b.is_known;
 #endif
-  if (ANY(is_found))
-    found = choose(b.is_known, fetch_between(&b, neighbour.frame, other),
-                   gather(other, nearest_index(neighbour.frame, there)));
-  store(choose(is_found, found, (real)(1)), result, here);
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) {
+    real found = NO_RESULT;
+    if (ANY(is_found))
+      found = choose(b.is_known, fetch_between(&b, neighbour.frame, others.planes[c]),
+                     gather(others.planes[c], nearest_index(neighbour.frame, there)));
+    store(choose(is_found, found, NO_RESULT), results.planes[c], here);
+  }
   const mask in_row = to_mask(FIRST_X + IOTA < frame.width);
   append_pixels(newly_visible, here, !is_found & !is_background(z) & in_row);
 }

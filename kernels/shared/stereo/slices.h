@@ -3,12 +3,16 @@
 //   search_of(params, receiver), side_of(slice, search, sign),
 //   look(frame, params, layers, search, here, place, in_frame, is_shared, side)   takes a sample; `here`: what `place` starts from
 //   closed_to_both(TABLES here, there, own, other, is_seen)                       closed share of a slice, times its importance
+// With LIGHT also Search::sources, and
+//   start_rays_of_view(view, shift), add_light_to_both(light, here, there, own, other)
 // A technique with tables defines TABLES_ARGUMENT and TABLES: the tables as parameters and as arguments, each with a comma.
 //
 // in : depth, other_depth  view-space z of either eye, scene units, +inf = background; with the sign of visibility.h
 //      normal              unit, view space
 //      newly_visible       the pixels that stereo_slices_list computes
-// out: ao_raw              1 = open .. 0 = closed, unfiltered; 1 on background
+//      sources, other_sources  what the pixels of either eye send (light_source.h; LIGHT)
+// out: ao_raw              1 = open .. 0 = closed, unfiltered; 1 on background; or with LIGHT
+//      indirect_raw        the light that arrives, unfiltered; 0 on background
 // -D DIRECTIONS, STEPS, OUTSIDE_OPEN, OCCLUDERS_LAYERS, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #ifndef GLOAM_STEREO_SLICES_H
 #define GLOAM_STEREO_SLICES_H
@@ -20,6 +24,25 @@
 #ifndef TABLES_ARGUMENT
 #define TABLES_ARGUMENT
 #define TABLES
+#endif
+
+#if LIGHT
+#define SOURCES_OF_EYE PLANE sources,
+#define SOURCES_OF_OTHER PLANE other_sources,
+#define BOTH_SOURCES_ARGUMENT PLANE sources, PLANE other_sources,
+#define BOTH_SOURCES sources, other_sources,
+#define ESTIMATE_OUT PLANE_OUT indirect_raw_r, PLANE_OUT indirect_raw_g, PLANE_OUT indirect_raw_b
+#define PUT(put, open, light, at)       \
+  put((light).x, indirect_raw_r, (at)); \
+  put((light).y, indirect_raw_g, (at)); \
+  put((light).z, indirect_raw_b, (at));
+#else
+#define SOURCES_OF_EYE
+#define SOURCES_OF_OTHER
+#define BOTH_SOURCES_ARGUMENT
+#define BOTH_SOURCES
+#define ESTIMATE_OUT PLANE_OUT ao_raw
+#define PUT(put, open, light, at) put(open, ao_raw, (at));
 #endif
 
 static inline void start_view(View* view, Search search, real turn) {
@@ -77,61 +100,90 @@ static inline __attribute__((always_inline)) void search_view(Frame frame, Param
 static inline __attribute__((always_inline)) real share_open_to_both(TABLES_ARGUMENT Frame frame, Frame other,
                                                                      Params params, DepthLayers layers,
                                                                      DepthLayers other_layers, Search here,
-                                                                     Search there, mask is_seen, int within) {
+                                                                     Search there, mask is_seen, int within,
+                                                                     real3* light) {
   real all_closed = 0;
+  *light = make3((real)(0), (real)(0), (real)(0));
+#if LIGHT
+  const Receiver r = here.receiver;
+  const real ray_shift =
+      shift_of_rays(to_natural(to_integer(r.point.x)), to_natural(to_integer(r.point.y)), frame.seed);
+#endif
   for (int d = 0; d < DIRECTIONS; ++d) {
     const real turn = (scalar)d + here.receiver.noise.turn;
     View own, others;
     start_view(&own, here, turn);
     start_view(&others, there, turn);
+#if LIGHT
+    const real shift = shift_of_slice(ray_shift, d);
+    start_rays_of_view(&own, shift);
+    start_rays_of_view(&others, shift);
+#endif
     search_view(frame, params, layers, here, EVERY_LANE, is_seen, within, &own);
     if (ANY(is_seen)) search_view(other, params, other_layers, there, is_seen, is_seen, within, &others);
     all_closed += closed_to_both(TABLES here, there, &own, &others, is_seen);
+#if LIGHT
+    add_light_to_both(light, here, there, &own, &others);
+#endif
   }
   return 1 - all_closed * (scalar)(1.0f / DIRECTIONS);
 }
 
-// AO of one point per lane. `may_differ`: lanes that use the other eye.
-static inline real open_to_both(TABLES_ARGUMENT Frame frame, Neighbour neighbour, Params params, DepthLayers layers,
-                                DepthLayers other_layers, Receiver receiver, mask may_differ) {
+// AO of one point per lane, and its light. `may_differ`: lanes that use the other eye.
+static inline real open_to_both(TABLES_ARGUMENT BOTH_SOURCES_ARGUMENT Frame frame, Neighbour neighbour, Params params,
+                                DepthLayers layers, DepthLayers other_layers, Receiver receiver, mask may_differ,
+                                real3* light) {
   const Frame other = neighbour.frame;
   mask is_seen;
   Receiver receiver_of_other =
       receiver_there(frame, neighbour, params.radius, params.max_reach, receiver, may_differ, &is_seen);
   receiver_of_other.noise = receiver.noise;
-  const Search here = search_of(params, receiver), there = search_of(params, receiver_of_other);
+  Search here = search_of(params, receiver), there = search_of(params, receiver_of_other);
+#if LIGHT
+  here.sources.packed = sources;
+  there.sources.packed = other_sources;
+#endif
   real open;
   if (frame.pitch < SHORT_PITCH &&
       reaches_only_inside(frame, receiver.point, longer(receiver.reach, here.surface.length)) &&
       reaches_only_inside(other, receiver_of_other.point, longer(receiver_of_other.reach, there.surface.length)))
-    open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE);
+    open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE,
+                              light);
   else
-    open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED);
-  return choose(receiver.point.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1)));
+    open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_CLAMPED,
+                              light);
+  const mask is_surface = !receiver.point.background;
+  light->x = choose(is_surface, light->x, (real)(0));
+  light->y = choose(is_surface, light->y, (real)(0));
+  light->z = choose(is_surface, light->z, (real)(0));
+  return choose(is_surface, smaller(larger(open, (real)(0)), (real)(1)), (real)(1));
 }
 
 kernel void stereo_slices(Frame frame, Neighbour neighbour, Params params, TABLES_ARGUMENT PLANE depth, PLANE normal_x,
-                          PLANE normal_y, PLANE normal_z, PLANE other_depth, HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
+                          PLANE normal_y, PLANE normal_z, SOURCES_OF_EYE PLANE other_depth,
+                          SOURCES_OF_OTHER HALF_OCCLUDED_ARGUMENT ESTIMATE_OUT) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real open = (real)(1);
+  real3 light = make3((real)(0), (real)(0), (real)(0));
   if (ANY(!r.point.background))
-    open = open_to_both(TABLES frame, neighbour, params, LAYERS_FROM(frame, depth),
+    open = open_to_both(TABLES BOTH_SOURCES frame, neighbour, params, LAYERS_FROM(frame, depth),
                         OTHER_LAYERS_FROM(neighbour.frame, other_depth), r,
-                        MAY_DIFFER(frame, neighbour, params.radius, r));
-  store(open, ao_raw, r.here);
+                        MAY_DIFFER(frame, neighbour, params.radius, r), &light);
+  PUT(store, open, light, r.here)
 }
 
 // stereo_slices for the pixels of a list.
 kernel void stereo_slices_list(Frame frame, Neighbour neighbour, Params params, TABLES_ARGUMENT PLANE depth,
-                               PLANE normal_x, PLANE normal_y, PLANE normal_z, PIXEL_LIST newly_visible,
-                               PLANE other_depth, PLANE_OUT ao_raw) {
+                               PLANE normal_x, PLANE normal_y, PLANE normal_z, SOURCES_OF_EYE PIXEL_LIST newly_visible,
+                               PLANE other_depth, SOURCES_OF_OTHER ESTIMATE_OUT) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
   const Receiver r =
       receiver_at_index(frame, params.radius, params.max_reach, index, depth, normal_x, normal_y, normal_z);
-  scatter(open_to_both(TABLES frame, neighbour, params, LAYERS_FROM(frame, depth),
-                       OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE),
-          ao_raw, index);
+  real3 light;
+  const real open = open_to_both(TABLES BOTH_SOURCES frame, neighbour, params, LAYERS_FROM(frame, depth),
+                                 OTHER_LAYERS_FROM(neighbour.frame, other_depth), r, EVERY_LANE, &light);
+  PUT(scatter, open, light, index)
 }
 
 #endif
