@@ -25,6 +25,8 @@ PRESETS, RESOLUTIONS = ["low", "medium", "high", "ultra"], ["full", "half", "qua
 EFFECTS = {"ambient": [("evidence", "ao"), ("multi-bounce", "bounces")], "indirect": [("indirect", "indirect")],
            "reflection": [("sssr", "reflection")]}
 BUDGETS = [0.25, 0.5, 1]
+# Measured for the table only: light of the scene's own sky, in place of ambient light.
+ENVIRONMENT = ("environment", "environment")
 
 
 class Scene:
@@ -32,21 +34,26 @@ class Scene:
 
     def __init__(self, gloam_path, folder, name, size, samples):
         self.gloam, self.folder, self.name = gloam_path, folder, name
-        self.frame = folder / f"{name}.exr"
-        if not self.frame.exists():
+        self.frame, self.sky = folder / f"{name}.exr", folder / f"{name}_sky.exr"
+        if not self.frame.exists() or not self.sky.exists():
             planes = "depth,normal,color,albedo,metallic,ambient,roughness,reflectance,back_depth,instance"
-            call(gloam_path, "capture", name, "-o", self.frame, "--size", size, "--planes", planes)
+            call(gloam_path, "capture", name, "-o", self.frame, "--size", size, "--planes", planes, "--sky", self.sky)
         self.truth = {}
-        for kind in ("ao", "indirect", "reflection"):
+        for kind in ("ao", "indirect", "reflection", "environment"):
             path = folder / f"{name}_{kind}.exr"
             if not path.exists():
-                call(gloam_path, "reference", kind, self.frame, "-o", path, "--samples", samples)
+                call(gloam_path, "reference", kind, self.frame, "-o", path, "--samples", samples, *self.light(kind))
             self.truth[kind] = gloam.read(path, planes=[kind])[kind]
         own = gloam.read(self.frame, planes=["depth", "color", "albedo", "metallic", "ambient"])
         self.surface = numpy.isfinite(own["depth"])
         self.color, self.albedo, self.ambient, metallic = (self.at_surfaces(own[plane]) for plane in ("color", "albedo", "ambient", "metallic"))
         self.albedo *= 1 - metallic[:, None]
-        self.picture_of_truth = self.picture({kind: self.at_surfaces(plane) for kind, plane in self.truth.items()})
+        self.true = {kind: self.at_surfaces(plane) for kind, plane in self.truth.items()}
+        self.under_the_sky = self.picture(self.true)
+        self.picture_of_truth = self.picture({kind: plane for kind, plane in self.true.items() if kind != "environment"})
+
+    def light(self, technique):
+        return ["--environment", self.sky] if technique == "environment" else []
 
     def at_surfaces(self, plane):
         return plane[self.surface].astype(float)
@@ -54,7 +61,9 @@ class Scene:
     def picture(self, parts):
         """As host/frame/composition.cpp has it."""
         picture = self.color.copy()
-        if "bounces" in parts and "indirect" not in parts:
+        if "environment" in parts:
+            picture += self.albedo * parts["environment"] - self.ambient
+        elif "bounces" in parts and "indirect" not in parts:
             picture += (parts["bounces"] - 1) * self.ambient
         elif "ao" in parts:
             picture += (parts["ao"][:, None] - 1) * self.ambient
@@ -64,14 +73,14 @@ class Scene:
             picture += parts["reflection"][:, :3]
         return picture
 
-    def error(self, parts):
-        return math.sqrt(numpy.mean((self.picture(parts) - self.picture_of_truth) ** 2))
+    def error(self, parts, truth=None):
+        return math.sqrt(numpy.mean((self.picture(parts) - (self.picture_of_truth if truth is None else truth)) ** 2))
 
     def run(self, technique, plane, preset, resolution):
         """The plane at surfaces, and the median time of seven runs, milliseconds on the device."""
         out = self.folder / f"{self.name}_result.exr"
         done = json.loads(call(self.gloam, "run", technique, self.frame, "-o", out, "--preset", preset, "--resolution", resolution,
-                               "--outputs", plane, "--repeat", 7, "--json", "-"))
+                               "--outputs", plane, "--repeat", 7, "--json", "-", *self.light(technique)))
         return self.at_surfaces(gloam.read(out, planes=[plane])[plane]), done["total_ms"]["median"]
 
     def options(self):
@@ -127,14 +136,17 @@ def relative_errors(scenes):
     """The error that an option brings to the picture, as a share of the error without the effect: root of the mean square over scenes."""
     squares = {}
     for scene in scenes:
-        true = {kind: scene.at_surfaces(plane) for kind, plane in scene.truth.items()}
-        for effect, techniques in EFFECTS.items():
-            technique, plane = techniques[0]
-            without = scene.error({kind: values for kind, values in true.items() if kind != plane})
+        for technique, plane in [techniques[0] for techniques in EFFECTS.values()] + [ENVIRONMENT]:
+            is_lit = plane == "environment"
+            truth = scene.under_the_sky if is_lit else scene.picture_of_truth
+            others = {kind: values for kind, values in scene.true.items() if kind != plane and (is_lit or kind != "environment")}
+            if is_lit:
+                del others["ao"]
+            without = scene.error(others, truth)
             if without == 0:
                 continue
             for preset, resolution in itertools.product(PRESETS, RESOLUTIONS):
-                error = scene.error({**true, plane: scene.run(technique, plane, preset, resolution)[0]})
+                error = scene.error({**others, plane: scene.run(technique, plane, preset, resolution)[0]}, truth)
                 squares.setdefault(f"{technique}, {preset}, {resolution}", []).append((error / without) ** 2)
     return {label: round(math.sqrt(sum(values) / len(values)), 3) for label, values in squares.items()}
 
@@ -144,7 +156,7 @@ def changes(scenes, before):
     it has multiplied by what the table said before."""
     logarithms = {}
     for scene in scenes:
-        true = {kind: scene.at_surfaces(plane) for kind, plane in scene.truth.items()}
+        true = {kind: values for kind, values in scene.true.items() if kind != "environment"}
         told = scene.automatic("--error", "1000")[1]
         for effect in told["effects"]:
             plane = {techniques[0][0]: techniques[0][1] for techniques in EFFECTS.values()}.get(effect["technique"])

@@ -13,15 +13,6 @@ namespace {
 
 constexpr double unlooked_at = std::numeric_limits<double>::quiet_NaN();
 
-bool can_plan(const PlanRequest& request, const EffectProbe& probe) {
-  try {
-    make_plan(request, probe.available, probe.holds);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 /// The effect at its cheapest, with all that completes it.
 Plan plan_of_glance(const Technique& technique, const EffectProbe& probe) {
   PlanRequest request = request_everywhere(technique, probe.asked);
@@ -30,11 +21,13 @@ Plan plan_of_glance(const Technique& technique, const EffectProbe& probe) {
   request.adaptive.clear();
   if (request.preset.empty() && !technique.presets.empty()) request.preset = technique.presets.front().name;
   for (const Technique* more : techniques_that_complete(technique)) {
-    PlanRequest completed = request;
-    completed.outputs.push_back(more->name);
-    if (can_plan(completed, probe)) request = completed;
+    const std::vector<std::string>& reads = more->reads;
+    const bool has_all = std::all_of(reads.begin(), reads.end(), [&](const std::string& plane) {
+      return contains(probe.available, plane) || contains(outputs_of(technique), plane);
+    });
+    if (has_all) request.outputs.push_back(more->name);
   }
-  return make_plan(request, probe.available, probe.holds);
+  return make_plan(with_known_settings(technique, request, probe.available, probe.holds), probe.available, probe.holds);
 }
 
 std::vector<std::string> planes_of(const Technique& technique) {

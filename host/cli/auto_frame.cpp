@@ -128,6 +128,25 @@ std::string hindrance_in_picture(const Technique& technique, const FrameFiles& f
   return "";
 }
 
+bool is_setting_of(const std::string& name, const Technique& technique) {
+  return std::any_of(technique.parameters.begin(), technique.parameters.end(),
+                     [&](const Parameter& p) { return name == p.name || name == technique.name + "." + p.name; });
+}
+
+/// Throws UsageError for a setting of an effect that cannot be computed; names the one that needs the setting before others that take it.
+void refuse_if_it_falls_away(const std::pair<std::string, std::string>& setting,
+                             const std::vector<Outcome>& impossible_effects) {
+  const Outcome* taker = nullptr;
+  for (const Outcome& outcome : impossible_effects) {
+    const Technique& technique = *outcome.decision.effect.technique;
+    if (!is_setting_of(setting.first, technique)) continue;
+    if (!taker || setting.first == technique.effect.needs) taker = &outcome;
+  }
+  if (!taker) return;
+  throw UsageError("{}={}: is for {}, which falls away: {}", setting.first, setting.second,
+                   taker->decision.effect.technique->effect.name, taker->decision.effect.why);
+}
+
 /// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
 Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const ComposeOptions& composing) {
   Candidates found;
@@ -172,6 +191,7 @@ Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const Comp
       const auto& settings = candidate.asked.settings;
       return std::find(settings.begin(), settings.end(), setting) != settings.end();
     });
+    if (!is_known) refuse_if_it_falls_away(setting, found.impossible);
     if (!is_known) found.possible.front().asked.settings.push_back(setting);  // its plan reports the error
   }
   return found;

@@ -228,10 +228,17 @@ PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked
   PlanRequest request = known;
   request.outputs = {technique.name};
   request.mask = technique.effect.mask;
-  request.settings.clear();
-  const Plan plan = make_plan(request, available, holds);
-  std::erase_if(known.settings, [&](const auto& setting) { return !knows(plan, technique, setting.first); });
+  known.settings = with_known_settings(technique, request, available, holds).settings;
   return known;
+}
+
+PlanRequest with_known_settings(const Technique& technique, PlanRequest request,
+                                const std::vector<std::string>& available, const std::string& holds) {
+  const Settings settings = std::exchange(request.settings, {});
+  const Plan plan = make_plan(request, available, holds);
+  for (const auto& setting : settings)
+    if (knows(plan, technique, setting.first)) request.settings.push_back(setting);
+  return request;
 }
 
 std::vector<const Technique*> techniques_with_effects() {

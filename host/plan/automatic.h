@@ -45,6 +45,11 @@ struct Decision {
   PlanRequest everywhere;                 ///< for all pixels, without probing
 };
 
+/// The request without settings that none of its passes has: those of resampling have a radius, which at full resolution nothing may
+/// have. Throws as `make_plan` does.
+PlanRequest with_known_settings(const Technique& technique, PlanRequest request,
+                                const std::vector<std::string>& available, const std::string& holds);
+
 /// Techniques that declare an effect of their own, in the order of the planes that a picture takes (`part_planes`).
 std::vector<const Technique*> techniques_with_effects();
 

@@ -49,12 +49,14 @@ std::vector<int> resolutions_of(const PlanRequest& asked) {
   return asked.resolution > 1 ? std::vector{asked.resolution} : std::vector{1, 2, 4};
 }
 
-bool is_possible(const PlanRequest& request, const EffectProbe& probe) {
+/// None if the frame does not allow it.
+std::optional<PlanRequest> possible(const Technique& technique, const PlanRequest& request, const EffectProbe& probe) {
   try {
-    make_plan(request, probe.available, probe.holds);
-    return true;
+    PlanRequest known = with_known_settings(technique, request, probe.available, probe.holds);
+    make_plan(known, probe.available, probe.holds);
+    return known;
   } catch (const Error&) {
-    return false;
+    return {};
   }
 }
 
@@ -92,7 +94,9 @@ std::vector<EffectOption> options_of(const Technique& technique, const EffectPro
         option.request.outputs = techniques;
         option.request.preset = preset;
         option.request.resolution = resolution;
-        if (!is_possible(option.request, probe)) continue;
+        const std::optional<PlanRequest> request = possible(technique, option.request, probe);
+        if (!request) continue;
+        option.request = *request;
         option.makes = parts_among(make_plan(option.request, probe.available, probe.holds).outputs);
         option.relative_error = measured_error(option, technique);
         options.push_back(std::move(option));

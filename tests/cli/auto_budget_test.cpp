@@ -109,6 +109,38 @@ TEST_F(AutoBudget, TwoEyesAreWeighedTogether) {
   EXPECT_EQ(effect_of(result.json(), "reflections")["runs"], "stereo-ssr");
 }
 
+// The first frame decides for all, and a frame alone with these settings has the same bits.
+TEST_F(AutoBudget, AShotTakesOverWhatTheFirstFrameChooses) {
+  ASSERT_EQ(
+      gloam({"capture", "gallery", "-o", path("s.####.exr"), "--shot", "walk", "--frames", "1-3", "--size", "96x54"})
+          .status,
+      0);
+  const Result result = gloam({"auto", path("s.####.exr"), "-o", path("o.####.exr"), "--budget", "1000s", "--radius",
+                               "0.5", "--preset", "low", "--resolution", "half", "--float"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("low, half in all frames, as chosen on the first"), std::string::npos) << result.err;
+  ASSERT_EQ(gloam({"run", "indirect", path("s.0003.exr"), "-o", path("run.exr"), "--preset", "low", "--resolution",
+                   "half", "--radius", "0.5"})
+                .status,
+            0);
+  const Frame out = FrameFile(path("o.0003.exr"), {}).read({"indirect"}),
+              run = FrameFile(path("run.exr"), {}).read({"indirect"});
+  EXPECT_EQ(difference(*out.views[0].find("indirect"), *run.views[0].find("indirect")).max, 0);
+}
+
+TEST_F(AutoBudget, AnEnvironmentTakesThePlaceOfAmbientLight) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("lit.exr"), "--sky", path("sky.exr"), "--size", "96x54", "--planes",
+                   "normal,color,ambient,albedo"})
+                .status,
+            0);
+  const Result result = automatic({"--budget", "1000s", "--set", "environment=" + path("sky.exr").string()}, "lit.exr");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(effect_of(result.json(), "light of an environment")["runs"], "environment");
+  EXPECT_EQ(effect_of(result.json(), "ambient occlusion")["change"], 0);
+  EXPECT_TRUE(effect_of(result.json(), "ambient occlusion")["runs"].is_null());
+  EXPECT_EQ(effect_of(automatic({"--budget", "1000s"}, "lit.exr").json(), "light of an environment")["wanted"], false);
+}
+
 TEST_F(AutoBudget, WhatIsWrongIsSaidInOneLine) {
   const auto message = [&](const Arguments& more, const char* frame = "frame.exr") {
     const Result result = automatic(more, frame);
@@ -119,6 +151,13 @@ TEST_F(AutoBudget, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(message({"--budget", "30"}).find("write a number with its unit, such as 30ms"), std::string::npos);
   EXPECT_NE(message({"--budget", "-3ms"}).find("--budget"), std::string::npos);
   EXPECT_NE(message({"--budget", "ms"}).find("--budget"), std::string::npos);
+  // The frame does not say how much of its colour is ambient light, and has no glossy surfaces.
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("matte.exr"), "--size", "64x36", "--planes", "normal,color,albedo"})
+                .status,
+            0);
+  EXPECT_NE(message({"--budget", "1ms", "--set", "environment=sky.exr"}, "matte.exr")
+                .find("is for light of an environment, which falls away: "),
+            std::string::npos);
   EXPECT_NE(message({"--error", "0"}).find("--error"), std::string::npos);
   EXPECT_NE(message({"--error", "0.1", "--budget", "1ms"}).find("--budget"), std::string::npos);
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("grey.exr"), "--size", "64x36", "--planes", "depth,normal"}).status,
