@@ -72,10 +72,12 @@ def test_keywords_of_run_are_neither_planes_nor_parameters():
         assert options & set(technique.parameters) <= {"filter"}, technique.name
     assert not options & set(_gloam.known_planes())
     for technique in gloam.techniques().values():
-        assert set(technique.parameters) & set(_gloam.known_planes()) <= {"alpha", "reflectance"}, technique.name
-    # A number is the parameter, an array the plane.
+        assert set(technique.parameters) & set(_gloam.known_planes()) <= {"alpha", "environment", "reflectance"}, technique.name
+    # A number or a path is the parameter, an array the plane.
     planes, parameters = _run.divided({"reflectance": numpy.float32(0.1), "depth": numpy.zeros((2, 2), numpy.float32)})
     assert list(planes) == ["depth"] and list(parameters) == ["reflectance"]
+    planes, parameters = _run.divided({"environment": pathlib.Path("sky.exr")})
+    assert not planes and list(parameters) == ["environment"]
 
 
 @pytest.mark.parametrize("order", ["gloam,numpy,cv2,matplotlib.pyplot", "cv2,matplotlib.pyplot,gloam", "matplotlib.pyplot,gloam,cv2"])

@@ -1,6 +1,7 @@
 """run: a technique on arrays, on a frame or on a file."""
 
 import collections
+import os
 import statistics
 
 import numpy
@@ -87,7 +88,7 @@ def divided(keywords):
     planes = {}
     parameters = {}
     for name, value in keywords.items():
-        if name in known and not isinstance(value, (str, bool, int, float, numpy.generic)):
+        if name in known and not isinstance(value, (str, bool, int, float, numpy.generic, os.PathLike)):
             planes[name] = value
         elif _is_planes(value):
             raise UsageError(f"no plane '{name}'{_gloam.suggestion(name, known)}; there are {_gloam.enumerate(known)}")
