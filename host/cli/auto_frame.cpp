@@ -180,9 +180,8 @@ Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const Comp
     }
   }
   if (found.possible.empty() && missing) throw *missing;
-  if (found.possible.empty())
-    throw Error("{}: no effect has a place in the picture: {}", files.name(),
-                found.impossible.front().decision.effect.why);
+  // Colour holds all effects: nothing is to be computed.
+  if (found.possible.empty()) return found;
   const bool has_filter = std::any_of(found.possible.begin(), found.possible.end(),
                                       [&](const Candidate& candidate) { return candidate.asked.then == asked.then; });
   if (!has_filter) found.possible.front().asked.then = asked.then;  // its plan reports the error
@@ -294,7 +293,7 @@ AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, con
     return EffectProbe{candidate.asked, frame, available, holds, device, options};
   };
   std::optional<Glance> glance;
-  if (!settings.fixed && contains(available, "color") &&
+  if (!settings.fixed && !planned.candidates.possible.empty() && contains(available, "color") &&
       (settings.purpose.explains || settings.goal || looks_at_changes(planned.candidates)))
     glance = glance_at(planned.candidates, settings.purpose.explains || settings.goal, settings.purpose.composing,
                        probe_for);
@@ -315,7 +314,8 @@ AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, con
     result.outcomes.push_back(std::move(outcome));
   }
   if (glance) result.glance_ms = glance->ms();
-  if (settings.goal && !settings.fixed) spend_budget(planned.candidates, settings, *glance, probe_for, result);
+  if (settings.goal && glance) spend_budget(planned.candidates, settings, *glance, probe_for, result);
+  if (settings.goal && !settings.fixed && !glance) result.spent.emplace();
   for (const Outcome& outcome : result.outcomes) {
     if (result.radius || !outcome.plan) continue;
     result.used_radius = radius_of(*outcome.plan, outcome.decision.request, settings.radius_from);
