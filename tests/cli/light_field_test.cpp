@@ -178,9 +178,11 @@ TEST_F(Display, AutoComputesWhatItsViewsAllow) {
   EXPECT_NE(std::find(planes.begin(), planes.end(), "ao"), planes.end());
   const nlohmann::json effects = result.json()["effects"];
   EXPECT_EQ(effects[0]["runs"], "lightfield-ssao");
-  EXPECT_EQ(effects[1]["name"], "reflections");
-  EXPECT_EQ(effects[1]["runs"], nullptr);
-  EXPECT_NE(effects[1]["why"].get<std::string>().find("a single centre of projection"), std::string::npos);
+  EXPECT_GT(effects.size(), 3u);
+  for (size_t i = 1; i < effects.size(); ++i) {
+    EXPECT_EQ(effects[i]["runs"], nullptr) << effects[i];
+    EXPECT_NE(effects[i]["why"].get<std::string>().find("a single centre of projection"), std::string::npos);
+  }
 }
 
 TEST_F(Display, ReferenceAndItsError) {
