@@ -18,11 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Empty if nothing can be kept.
-fs::path path_of(const DeviceInfo& info) {
-  if (cache_folder().folder.empty()) return {};
-  return cache_folder().folder / "devices" / fmt::format("{:016x}.json", hash_of(key_of(info)));
-}
+fs::path path_of(const DeviceInfo& info) { return path_in_cache("devices", info); }
 
 Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
@@ -56,6 +52,11 @@ std::optional<Tuning> tuning_in(const Json& document) {
 }  // namespace
 
 std::string key_of(const DeviceInfo& info) { return info.platform + "; " + info.name + "; " + info.driver; }
+
+fs::path path_in_cache(const std::string& folder, const DeviceInfo& info) {
+  if (cache_folder().folder.empty()) return {};
+  return cache_folder().folder / folder / fmt::format("{:016x}.json", hash_of(key_of(info)));
+}
 
 std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
   const fs::path path = path_of(info);

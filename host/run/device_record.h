@@ -1,6 +1,7 @@
 // What `gloam doctor` found on a device, kept in gloam's cache folder: one file for each device and driver.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct DeviceRecord {
 
 /// A device with its driver, as text, by which what is known of it is found again.
 std::string key_of(const DeviceInfo& info);
+
+/// The file in a folder of gloam's cache for what is known of a device with its driver; empty if nothing can be kept.
+std::filesystem::path path_in_cache(const std::string& folder, const DeviceInfo& info);
 
 /// The record of a device with the same driver; none if it was never examined, or the file is damaged.
 std::optional<DeviceRecord> find_record(const DeviceInfo& info);

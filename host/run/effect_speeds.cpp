@@ -1,7 +1,5 @@
 #include "run/effect_speeds.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,10 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "base/hash.h"
 #include "gloam/error.h"
 #include "run/device_record.h"
-#include "run/kept_folders.h"
 
 namespace gloam {
 namespace {
@@ -20,10 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-fs::path path_of(const DeviceInfo& info) {
-  if (cache_folder().folder.empty()) return {};
-  return cache_folder().folder / "speeds" / fmt::format("{:016x}.json", hash_of(key_of(info)));
-}
+fs::path path_of(const DeviceInfo& info) { return path_in_cache("speeds", info); }
 
 }  // namespace
 
