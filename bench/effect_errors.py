@@ -6,9 +6,9 @@ what no technique at all gives. `gloam bench --effects` measures the same at pre
 """
 import argparse
 import dataclasses
-import json
 import pathlib
-import subprocess
+
+from error_table import all_scenes, call, figures
 
 
 def with_preset(technique, *more):
@@ -75,8 +75,7 @@ class Files:
         return self.options.folder / f"{self.scene}{ending}.exr"
 
     def call(self, *arguments):
-        done = subprocess.run([self.options.gloam, *map(str, arguments), "-q"], stdout=subprocess.PIPE, text=True, check=True)
-        return done.stdout
+        return call(self.options.gloam, *arguments)
 
     def frame(self):
         path = self.path("")
@@ -96,7 +95,7 @@ class Files:
 
     def figures(self, command, channels=""):
         plane = f"{self.effect.plane}={channels}" if channels else self.effect.plane
-        return json.loads(self.call("compare", self.made(*command), self.truth(), "--plane", plane, "--json", "-"))
+        return figures(self.options.gloam, self.made(*command), self.truth(), plane)
 
 
 def text_of(value, effect, sign=""):
@@ -134,9 +133,7 @@ def main():
     options.size = options.size or effect.size
     options.samples = options.samples or effect.samples
     options.folder.mkdir(parents=True, exist_ok=True)
-    listed = subprocess.run([options.gloam, "list", "scenes", "--json", "-"], stdout=subprocess.PIPE, text=True, check=True)
-    scenes = options.scenes or effect.scenes or [scene["name"] for scene in json.loads(listed.stdout)]
-    print_table(effect, scenes, options)
+    print_table(effect, options.scenes or effect.scenes or all_scenes(options.gloam), options)
 
 
 if __name__ == "__main__":
