@@ -12,16 +12,6 @@
 // -D as evidence.cl, with ENVIRONMENT_SIZE, BY_BENT_NORMAL, BY_NORMAL, RAYS
 #include "evidence/expected_slices.h"
 
-#if WITH_AO_RAW
-#define AO_RAW_ARGUMENT , PLANE_OUT ao_raw
-#define STORE_AO_RAW(open, r) store_open(open, r, ao_raw);
-#define STORE_NO_AO_RAW store((real)(1), ao_raw, here);
-#else
-#define AO_RAW_ARGUMENT
-#define STORE_AO_RAW(open, r)
-#define STORE_NO_AO_RAW
-#endif
-
 static inline void store_light(real light, Receiver r, PLANE_OUT plane) {
   store(choose(r.point.background, (real)(0), larger(light, (real)(0))), plane, r.here);
 }

@@ -34,16 +34,6 @@ kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE norma
 #define LIGHT_SOURCES \
   { sources }
 #endif
-#if WITH_AO_RAW
-#define AO_RAW_ARGUMENT , PLANE_OUT ao_raw
-#define STORE_AO_RAW(open, r) store_open(open, r, ao_raw);
-#define STORE_NO_AO_RAW store((real)(1), ao_raw, here);
-#else
-#define AO_RAW_ARGUMENT
-#define STORE_AO_RAW(open, r)
-#define STORE_NO_AO_RAW
-#endif
-
 static inline void store_light(real3 light, mask counts, PLANE_OUT r, PLANE_OUT g, PLANE_OUT b, int here) {
   store(choose(counts, light.x, (real)(0)), r, here);
   store(choose(counts, light.y, (real)(0)), g, here);
