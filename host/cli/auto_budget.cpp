@@ -1,7 +1,6 @@
 #include "cli/auto_budget.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/lists.h"
@@ -63,8 +62,7 @@ void take_budgeted(BudgetedEffect& effect, Outcome& outcome, Frame& out) {
   outcome.ms += effect.ms;
   outcome.plan = std::move(effect.plan);
   outcome.outputs = outcome.plan->outputs;
-  for (View& view : effect.result.frame.views)
-    for (auto& [name, plane] : view.planes) out.view(view.name).planes[name] = std::move(plane);
+  take_planes(effect.result.frame, out);
 }
 
 double ms_everywhere(const Decision& decision, const EffectProbe& probe) {

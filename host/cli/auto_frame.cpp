@@ -35,12 +35,6 @@ void add_idle_planes(const Frame& frame, const std::vector<std::string>& outputs
   }
 }
 
-void take_planes(Frame& from, Frame& to) {
-  for (View& view : from.views) {
-    for (auto& [name, plane] : view.planes) to.view(view.name).planes[name] = std::move(plane);
-  }
-}
-
 /// Also finds the classes of the cells, for a picture of them.
 void probe_closely_for_picture(EffectChoice& choice, const EffectProbe& probe) {
   if (choice.is_wanted && !choice.is_everywhere) probe_closely(choice, probe);
@@ -83,7 +77,6 @@ Outcome computed_as_fixed(const Candidate& candidate, const FixedEffect& fixed, 
   effect.technique = candidate.technique;
   effect.is_wanted = fixed.runs;
   effect.is_everywhere = fixed.runs;
-  effect.is_too_faint = !fixed.runs;
   effect.why = fixed.why;
   outcome.setting = fixed.setting;
   outcome.decision.request = fixed.request;
@@ -207,6 +200,12 @@ std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vec
 
 }  // namespace
 
+void take_planes(Frame& from, Frame& to) {
+  for (View& view : from.views) {
+    for (auto& [name, plane] : view.planes) to.view(view.name).planes[name] = std::move(plane);
+  }
+}
+
 bool looks_at_changes(const Candidates& candidates) {
   return std::any_of(candidates.possible.begin(), candidates.possible.end(),
                      [](const Candidate& candidate) { return candidate.technique->effect.least_change > 0; });
@@ -289,8 +288,9 @@ AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, con
   const std::vector<std::string> available = planes_of_every_view(frame, planned.planes);
   const std::string holds = holdings(planned.files);
   AutoResult result{without_planes(frame), {}, {}, {}};
+  ProbedMasks masks;
   const auto probe_for = [&](const Candidate& candidate) {
-    return EffectProbe{candidate.asked, frame, available, holds, device, options};
+    return EffectProbe{candidate.asked, frame, available, holds, device, options, {}, &masks};
   };
   std::optional<Glance> glance;
   if (!settings.fixed && !planned.candidates.possible.empty() && contains(available, "color") &&
@@ -309,13 +309,12 @@ AutoResult compute_effects(AutoFrame& planned, const AutoSettings& settings, con
     Outcome outcome = decided(*candidate.technique, settings, probe);
     outcome.change = change;
     if (settings.purpose.explains && glance) add_changes(outcome, *glance);
-    if (settings.fixed || !settings.goal || !outcome.decision.effect.is_wanted)
-      compute_decided(outcome, settings, probe, result.frame);
+    if (!settings.goal || !outcome.decision.effect.is_wanted) compute_decided(outcome, settings, probe, result.frame);
     result.outcomes.push_back(std::move(outcome));
   }
   if (glance) result.glance_ms = glance->ms();
   if (settings.goal && glance) spend_budget(planned.candidates, settings, *glance, probe_for, result);
-  if (settings.goal && !settings.fixed && !glance) result.spent.emplace();
+  if (settings.goal && !glance) result.spent.emplace();
   for (const Outcome& outcome : result.outcomes) {
     if (result.radius || !outcome.plan) continue;
     result.used_radius = radius_of(*outcome.plan, outcome.decision.request, settings.radius_from);

@@ -66,6 +66,9 @@ AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPur
 /// Whether the frame is of a light-field display.
 bool is_of_display(const FrameFiles& files);
 
+/// Moves all planes, view by view.
+void take_planes(Frame& from, Frame& to);
+
 /// All effects take this radius where none is asked for.
 void set_radius(AutoFrame& planned, std::optional<double> radius);
 

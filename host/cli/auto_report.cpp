@@ -8,8 +8,6 @@
 namespace gloam::cli {
 namespace {
 
-constexpr size_t columns_of_text = 4;
-
 Json number_or_null(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
 Json document_of(const EffectChoice& choice) {

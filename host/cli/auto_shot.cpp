@@ -127,6 +127,7 @@ class AutoShotWork {
     if (result.spent)
       if (const std::string missed = note_on_goal(*result.spent, computing_.goal); !missed.empty())
         lines.push_back(missed);
+    computing_.goal = {};
     note(lines);
     return fmt::format("{}", fmt::join(lines, "; "));
   }

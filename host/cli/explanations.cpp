@@ -13,7 +13,7 @@ Explanation explanation_of(const EffectChoice& choice, const std::string& view) 
     e.wanted = Explanation::Wanted::yes;
   else if (choice.cells.empty())
     e.wanted = Explanation::Wanted::impossible;
-  if (!choice.cells.empty()) e.cells = choice.seen.view(view).find(choice.cells);
+  if (!choice.cells.empty()) e.cells = choice.seen->view(view).find(choice.cells);
   e.is_everywhere = choice.is_everywhere;
   return e;
 }

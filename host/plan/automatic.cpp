@@ -117,14 +117,29 @@ double share_above_0(const Frame& frame, const std::string& plane) {
 
 std::string in_percent(double share) { return share < 0.01 ? "less than 1 %" : fmt::format("{:.0f} %", 100 * share); }
 
+std::string text_of(const PlanRequest& mask) {
+  std::string text = fmt::format("{} {}", mask.outputs.front(), mask.resolution);
+  for (const auto& [name, value] : mask.settings) text += fmt::format(" {}={}", name, value);
+  return text;
+}
+
+void take_mask(EffectChoice& choice, const ProbedMask& mask) {
+  choice.cells = mask.cells;
+  choice.share = mask.share;
+  choice.seen = mask.seen;
+}
+
 void probe_mask(EffectChoice& choice, const EffectProbe& probe, const Settings& settings, int resolution) {
-  const Plan plan =
-      make_plan(mask_request(*choice.technique, probe, settings, resolution), probe.available, probe.holds);
+  const PlanRequest request = mask_request(*choice.technique, probe, settings, resolution);
+  const std::string text = text_of(request);
+  if (probe.masks && probe.masks->count(text)) return take_mask(choice, probe.masks->at(text));
+  const Plan plan = make_plan(request, probe.available, probe.holds);
   RunResult result = run(plan, probe.frame, probe.device, probe.options);
-  choice.cells = plan.outputs.front();
-  choice.share = share_above_0(result.frame, choice.cells);
-  choice.seen = std::move(result.frame);
+  const std::string& cells = plan.outputs.front();
+  const ProbedMask mask{cells, share_above_0(result.frame, cells), std::make_shared<Frame>(std::move(result.frame))};
+  take_mask(choice, mask);
   choice.classify_ms += *std::min_element(result.total_ms.begin(), result.total_ms.end());
+  if (probe.masks) probe.masks->emplace(text, mask);
 }
 
 EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
@@ -199,8 +214,6 @@ PlanRequest refined_request(const EffectChoice& refinement, const Technique& ref
 
 /// Least number of rounds to decide whether a mask pays.
 constexpr int least_rounds = 3;
-/// A mask that saves less than 5 % is not worth the pixels that it leaves out.
-constexpr double most_of_everywhere = 0.95;
 
 double least(const std::vector<double>& ms) { return ms.empty() ? 0 : *std::min_element(ms.begin(), ms.end()); }
 

@@ -1,6 +1,8 @@
 // Automatic choice: which of the effects that techniques declare (`Technique::effect`) a frame calls for, and where.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +14,16 @@
 
 namespace gloam {
 
+/// A mask as it was probed on a frame.
+struct ProbedMask {
+  std::string cells;                  ///< the plane of `seen`
+  double share = 0;                   ///< share of its tiles that are above 0, over all views
+  std::shared_ptr<const Frame> seen;  ///< one pixel per tile of each view
+};
+
+/// By what was asked for: effects with the same mask share its probe.
+using ProbedMasks = std::map<std::string, ProbedMask>;
+
 /// The means to probe a frame for effects. The frame is normalised (gloam/normalise.h).
 struct EffectProbe {
   const PlanRequest& asked;  ///< settings, preset, filter and resolution
@@ -22,19 +34,20 @@ struct EffectProbe {
   const RunOptions& options;
   /// RMS change of the picture by the effect, as a share of the picture's RMS; none: not known.
   std::optional<double> change = {};
+  ProbedMasks* masks = nullptr;  ///< of this frame, from other effects; null: none are kept
 };
 
 /// The choice for one effect, or for a technique that refines one.
 struct EffectChoice {
   const Technique* technique = nullptr;
   bool is_wanted = false;
-  bool is_too_faint = false;   ///< the mask wants it, but it hardly changes the picture
-  bool is_everywhere = false;  ///< wanted on so much of the image that no mask is made
-  std::string why;             ///< in words, with the share
-  double share = 0;            ///< share of the probed tiles, over all views
-  double classify_ms = 0;      ///< time of probing, on the device
-  std::string cells;           ///< the plane of `seen`; empty if nothing was probed
-  Frame seen;                  ///< one pixel per tile of each view: above 0 where the effect is called for
+  bool is_too_faint = false;          ///< the mask wants it, but it hardly changes the picture
+  bool is_everywhere = false;         ///< wanted on so much of the image that no mask is made
+  std::string why;                    ///< in words, with the share
+  double share = 0;                   ///< share of the probed tiles, over all views
+  double classify_ms = 0;             ///< time of probing, on the device
+  std::string cells;                  ///< the plane of `seen`; empty if nothing was probed
+  std::shared_ptr<const Frame> seen;  ///< one pixel per tile of each view: above 0 where the effect is called for
 };
 
 /// The decision for an effect.
@@ -73,6 +86,9 @@ std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest&
 /// frame calls for its effect; one that reads a single view is probed anyway, since hidden layers may call for an effect that
 /// nothing visible does. Throws as `make_plan` and `run` do.
 Decision decide(const Technique& technique, const EffectProbe& probe);
+
+/// A mask that saves less than 5 % is not worth the pixels that it leaves out.
+inline constexpr double most_of_everywhere = 0.95;
 
 /// Whether an effect is computed through its mask, if the decision has one, or everywhere: as stated, or whichever is faster.
 enum class MaskUse { measured, always, never };

@@ -12,14 +12,12 @@
 namespace gloam {
 namespace {
 
-/// A mask that saves less than 5 % is not worth the pixels that it leaves out.
-constexpr double most_of_everywhere = 0.95;
 /// More rounds than options of one effect are never needed; this bounds a device whose times jump.
 constexpr int most_rounds = 24;
 
-RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means, int repeat) {
+RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means) {
   RunOptions options = means.options;
-  options.repeat = std::max(repeat, means.options.repeat);
+  options.repeat = std::max(3, means.options.repeat);
   return run(plan, frame, means.device, options);
 }
 
@@ -41,7 +39,7 @@ void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means,
   for (size_t i = 0; i < unknown.size(); ++i) {
     if (means.measuring) means.measuring(int(i), int(unknown.size()));
     const Plan plan = make_plan(unknown[i]->request, means.available, means.holds);
-    speeds.set(unknown[i]->label(), 1e6 * median(timed(plan, small, means, 3).total_ms) / pixels_of(small));
+    speeds.set(unknown[i]->label(), 1e6 * median(timed(plan, small, means).total_ms) / pixels_of(small));
   }
   if (means.measuring && !unknown.empty()) means.measuring(int(unknown.size()), int(unknown.size()));
   const double pixels = pixels_of(means.frame);
@@ -122,7 +120,7 @@ class Spending {
     BudgetedEffect& effect = effects_[i];
     const EffectOption& option = effect.options[size_t(effect.chosen)];
     Plan plan = make_plan(option.request, means_.available, means_.holds);
-    RunResult result = timed(plan, means_.frame, means_, 3);
+    RunResult result = timed(plan, means_.frame, means_);
     const double everywhere = median(result.total_ms);
     take(effect, std::move(plan), std::move(result), false);
     speeds_.set(option.label(), 1e6 * everywhere / pixels_of(means_.frame));
@@ -138,7 +136,7 @@ class Spending {
     request.mask = effect.mask;
     request.elsewhere = effect.elsewhere;
     Plan plan = make_plan(request, means_.available, means_.holds);
-    RunResult result = timed(plan, means_.frame, means_, 3);
+    RunResult result = timed(plan, means_.frame, means_);
     if (means_.always_masked || median(result.total_ms) <= most_of_everywhere * effect.ms)
       take(effect, std::move(plan), std::move(result), true);
   }
@@ -204,7 +202,6 @@ Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const 
   for (BudgetedEffect& effect : effects) {
     const bool is_left_out = effect.chosen == left_out;
     effect.lost = effect.without * (is_left_out ? 1 : effect.options[size_t(effect.chosen)].relative_error);
-    if (!is_left_out) spent.effects_ms += effect.ms;
   }
   speeds.keep();
   return spent;

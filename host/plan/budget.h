@@ -40,7 +40,7 @@ struct BudgetedEffect {
 
 struct Spent {
   double expected_error = 0;  ///< RMS of the picture
-  double glance_ms = 0, effects_ms = 0;
+  double glance_ms = 0;       ///< of looking: probes for masks, and the glance
   /// The goal was not met: no choice is expected to reach the error, or nothing fits the time that the glance leaves.
   bool is_missed = false;
   double cheapest_ms = 0;  ///< of the fastest option of any effect, the glance included

@@ -3,60 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace gloam {
 namespace {
 
-/// Losses by the planes that are made: there are few sets, and many choices.
-class Losses {
- public:
-  explicit Losses(const ChoiceProblem& problem) : problem_(problem) {}
-
-  double of(const std::vector<int>& options) {
-    std::vector<std::string> planes;
-    for (size_t i = 0; i < options.size(); ++i) {
-      if (options[i] == left_out) continue;
-      const auto& made = problem_.effects[i][size_t(options[i])].makes;
-      planes.insert(planes.end(), made.begin(), made.end());
-    }
-    std::sort(planes.begin(), planes.end());
-    const auto known = by_planes_.find(planes);
-    if (known != by_planes_.end()) return known->second;
-    return by_planes_[planes] = problem_.loss_with(planes);
-  }
-
- private:
-  const ChoiceProblem& problem_;
-  std::map<std::vector<std::string>, double> by_planes_;
-};
-
-Choice figures_with(const ChoiceProblem& problem, const std::vector<int>& options, Losses& losses) {
-  Choice choice{options, 0, 0, 0};
-  double squares = std::pow(losses.of(options), 2), squares_of_each = 0;
+std::vector<std::string> planes_of(const ChoiceProblem& problem, const std::vector<int>& options) {
+  std::vector<std::string> planes;
   for (size_t i = 0; i < options.size(); ++i) {
-    const double without = problem.loss_without[i];
-    if (options[i] == left_out) {
-      squares_of_each += without * without;
-      continue;
-    }
-    const OptionFigures& option = problem.effects[i][size_t(options[i])];
-    choice.ms += option.ms;
-    squares += std::pow(option.unsigned_error * without, 2);
-    squares_of_each += std::pow(option.relative_error * without, 2);
+    if (options[i] == left_out) continue;
+    const auto& made = problem.effects[i][size_t(options[i])].makes;
+    planes.insert(planes.end(), made.begin(), made.end());
   }
-  choice.error = std::sqrt(squares);
-  choice.without_luck = std::sqrt(squares_of_each);
-  return choice;
+  std::sort(planes.begin(), planes.end());
+  return planes;
 }
 
 /// Calls `look` for every combination of options, the empty one first.
 template <typename Look>
 void for_each_choice(const ChoiceProblem& problem, const Look& look) {
-  Losses losses(problem);
   std::vector<int> options(problem.effects.size(), left_out);
   while (true) {
-    look(figures_with(problem, options, losses));
+    look(figures_of(problem, options));
     size_t i = 0;
     for (; i < options.size(); ++i) {
       if (++options[i] < int(problem.effects[i].size())) break;
@@ -76,8 +43,22 @@ bool relies_less_on_luck(const Choice& a, const Choice& b) {
 }  // namespace
 
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options) {
-  Losses losses(problem);
-  return figures_with(problem, options, losses);
+  Choice choice{options, 0, 0, 0};
+  double squares = std::pow(problem.loss_with(planes_of(problem, options)), 2), squares_of_each = 0;
+  for (size_t i = 0; i < options.size(); ++i) {
+    const double without = problem.loss_without[i];
+    if (options[i] == left_out) {
+      squares_of_each += without * without;
+      continue;
+    }
+    const OptionFigures& option = problem.effects[i][size_t(options[i])];
+    choice.ms += option.ms;
+    squares += std::pow(option.unsigned_error * without, 2);
+    squares_of_each += std::pow(option.relative_error * without, 2);
+  }
+  choice.error = std::sqrt(squares);
+  choice.without_luck = std::sqrt(squares_of_each);
+  return choice;
 }
 
 std::optional<Choice> best_within_time(const ChoiceProblem& problem, double ms) {

@@ -20,7 +20,8 @@ struct OptionFigures {
 /// The options of each effect, and what the picture loses.
 struct ChoiceProblem {
   std::vector<std::vector<OptionFigures>> effects;
-  /// RMS difference between the picture of these planes alone, sorted by name, and the true picture of everything.
+  /// RMS difference between the picture of these planes alone, sorted by name, and the true picture of everything. Asked for every
+  /// combination of options.
   std::function<double(const std::vector<std::string>& planes)> loss_with;
   /// Of each effect: RMS difference between the picture of everything and the one without the effect.
   std::vector<double> loss_without;

@@ -5,11 +5,10 @@
 #include "base/lists.h"
 #include "gloam/composition.h"
 #include "run/data_files.h"
+#include "run/run_words.h"
 
 namespace gloam {
 namespace {
-
-constexpr const char* resolution_words[] = {"", "full", "half", "", "quarter"};
 
 /// Of an option that nothing was measured for.
 constexpr double unmeasured_error = 0.6;
@@ -19,8 +18,12 @@ const Technique& measured_like(const Technique& technique) {
   return refined.empty() ? technique : find_technique(refined);
 }
 
+std::string setting_of(const std::string& preset, int resolution) {
+  return fmt::format("{}, {}", preset, word_for(resolution, resolution_words));
+}
+
 std::string label_of(const std::vector<std::string>& techniques, const std::string& preset, int resolution) {
-  return fmt::format("{}, {}, {}", fmt::join(techniques, " + "), preset, resolution_words[resolution]);
+  return fmt::format("{}, {}", fmt::join(techniques, " + "), setting_of(preset, resolution));
 }
 
 const nlohmann::json& measured_figures() {
@@ -49,17 +52,6 @@ std::vector<int> resolutions_of(const PlanRequest& asked) {
   return asked.resolution > 1 ? std::vector{asked.resolution} : std::vector{1, 2, 4};
 }
 
-/// None if the frame does not allow it.
-std::optional<PlanRequest> possible(const Technique& technique, const PlanRequest& request, const EffectProbe& probe) {
-  try {
-    PlanRequest known = with_known_settings(technique, request, probe.available, probe.holds);
-    make_plan(known, probe.available, probe.holds);
-    return known;
-  } catch (const Error&) {
-    return {};
-  }
-}
-
 /// The effect's technique alone, and with each technique that completes it.
 std::vector<std::vector<std::string>> combinations_of(const Technique& technique) {
   std::vector<std::vector<std::string>> combinations = {{technique.name}};
@@ -75,11 +67,22 @@ std::vector<std::string> parts_among(const std::vector<std::string>& planes) {
   return parts;
 }
 
+/// Leaves out settings that the option's plan does not have, and names its planes. False: the frame does not allow it.
+bool complete(EffectOption& option, const Technique& technique, const EffectProbe& probe) {
+  try {
+    option.request = with_known_settings(technique, option.request, probe.available, probe.holds);
+    option.makes = parts_among(make_plan(option.request, probe.available, probe.holds).outputs);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string EffectOption::label() const { return label_of(request.outputs, preset, resolution); }
 
-std::string EffectOption::setting() const { return fmt::format("{}, {}", preset, resolution_words[resolution]); }
+std::string EffectOption::setting() const { return setting_of(preset, resolution); }
 
 double true_per_seen_change(const Technique& technique) {
   return measured_figures().at("true_per_seen_change").value(technique.name, 1.0);
@@ -94,10 +97,7 @@ std::vector<EffectOption> options_of(const Technique& technique, const EffectPro
         option.request.outputs = techniques;
         option.request.preset = preset;
         option.request.resolution = resolution;
-        const std::optional<PlanRequest> request = possible(technique, option.request, probe);
-        if (!request) continue;
-        option.request = *request;
-        option.makes = parts_among(make_plan(option.request, probe.available, probe.holds).outputs);
+        if (!complete(option, technique, probe)) continue;
         option.relative_error = measured_error(option, technique);
         options.push_back(std::move(option));
       }

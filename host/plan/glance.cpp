@@ -48,9 +48,8 @@ int scale_of_glance(const Frame& frame) {
 }
 
 Glance::Glance(const Frame& frame, ComposeOptions how)
-    : scale_(scale_of_glance(frame)),
-      how_(std::move(how)),
-      small_(every_nth_pixel(frame, scale_, common_planes(frame))),
+    : how_(std::move(how)),
+      small_(every_nth_pixel(frame, scale_of_glance(frame), common_planes(frame))),
       parts_(without_planes(small_)),
       expected_(without_planes(small_)),
       whole_(with_planes(small_, planes_to_compose())) {}
@@ -71,6 +70,7 @@ void Glance::look(const Plan& plan, double true_per_seen, Device& device, const 
   }
   std::sort(planes_.begin(), planes_.end());
   whole_ = picture_of(expected_, planes_);
+  losses_.clear();
 }
 
 Frame Glance::picture_of(const Frame& parts, const std::vector<std::string>& planes) const {
@@ -104,8 +104,10 @@ double Glance::rms_between(const Frame& a, const Frame* b) const {
 double Glance::rms() const { return rms_between(whole_, nullptr); }
 
 double Glance::loss_with(const std::vector<std::string>& planes) const {
+  const auto known = losses_.find(planes);
+  if (known != losses_.end()) return known->second;
   const Frame picture = picture_of(parts_, planes);
-  return rms_between(picture, &whole_);
+  return losses_[planes] = rms_between(picture, &whole_);
 }
 
 std::vector<std::string> Glance::without(const std::vector<std::string>& planes) const {

@@ -31,7 +31,7 @@ class Glance {
   /// RMS over surfaces of the expected true picture's colour: of all channels.
   double rms() const;
   /// RMS difference between the picture of these planes alone, as they were seen, and the expected true picture. Errors of planes that
-  /// have one sign, such as too little light from what the image does not show, are in it.
+  /// have one sign, such as too little light from what the image does not show, are in it. Kept: a choice asks again and again.
   double loss_with(const std::vector<std::string>& planes) const;
   /// RMS change of the expected true picture by these planes.
   double change_by(const std::vector<std::string>& planes) const;
@@ -39,7 +39,6 @@ class Glance {
   Plane changes_by(const std::vector<std::string>& planes, const std::string& view) const;
   /// Device time so far.
   double ms() const { return ms_; }
-  int scale() const { return scale_; }
   /// The frame's planes on few pixels.
   const Frame& small() const { return small_; }
 
@@ -48,13 +47,13 @@ class Glance {
   double rms_between(const Frame& a, const Frame* b) const;
   std::vector<std::string> without(const std::vector<std::string>& planes) const;
 
-  int scale_;
   ComposeOptions how_;
   Frame small_;     ///< all planes of the frame
   Frame parts_;     ///< planes of effects, as they were seen
   Frame expected_;  ///< the same, scaled to what the true ones change
   Frame whole_;     ///< the expected true picture
   std::vector<std::string> planes_;
+  mutable std::map<std::vector<std::string>, double> losses_;  ///< by planes
   double ms_ = 0;
 };
 
