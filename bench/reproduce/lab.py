@@ -1,0 +1,105 @@
+"""Runs the commands that a table needs, and keeps what they made: a second run goes on where the first one stopped."""
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+
+OUT = object()  # stands for the output's path among the arguments of `made`
+
+
+class Failed(Exception):
+    """A command that did not end well, with its last line."""
+
+
+def fingerprint(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()[:16]
+
+
+class Lab:
+    """Files by the command that makes them. Another build of gloam makes all anew."""
+
+    def __init__(self, root, folder, gloam, tell=lambda text: None):
+        self.root, self.folder = pathlib.Path(root), pathlib.Path(folder)
+        self.gloam, self.tell = str(gloam), tell
+        self.build = fingerprint(gloam)
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def made(self, name, *arguments):
+        """The path of a file, or of files of a pattern (`shot.####.exr`), that `gloam ARGUMENTS` writes to OUT."""
+        place = self._place(name, arguments)
+        path = place / name
+        if not (place / "done").exists():
+            shutil.rmtree(place, ignore_errors=True)
+            place.mkdir(parents=True)
+            self._run([self.gloam, *(str(path) if a is OUT else str(a) for a in arguments), "-q"])
+            (place / "done").write_text("\n".join("OUT" if a is OUT else str(a) for a in arguments) + "\n")
+        return str(path)
+
+    def figures(self, *arguments):
+        """What `gloam ARGUMENTS --json -` prints, kept."""
+        file = self._place("figures.json", arguments).with_suffix(".json")
+        if not file.exists():
+            text = self._run([self.gloam, *map(str, arguments), "--json", "-", "-q"])
+            self._keep(file, text)
+        return json.loads(file.read_text())
+
+    def printed(self, *command, environment=None):
+        """What another program of the project prints, kept. Paths are relative to the project."""
+        file = self._place("printed.txt", command).with_suffix(".txt")
+        if not file.exists():
+            self._keep(file, self._run([str(c) for c in command], environment))
+        return file.read_text()
+
+    def unused(self, name):
+        """A path for what a command has to write and no table reads."""
+        return str(self.folder_for("unused") / name)
+
+    def folder_for(self, name):
+        """A folder that a program may keep its own files in."""
+        place = self.folder / self.build / name
+        place.mkdir(parents=True, exist_ok=True)
+        return place
+
+    def forget(self):
+        shutil.rmtree(self.folder / self.build, ignore_errors=True)
+
+    # What tables do most often.
+
+    def frame(self, scene, size, *flags):
+        return self.made("frame.exr", "capture", scene, "-o", OUT, "--size", size, *flags)
+
+    def truth(self, kind, frame, samples, *flags):
+        name = os.path.basename(frame).replace("frame", "truth")
+        return self.made(name, "reference", kind, frame, "-o", OUT, "--samples", samples, *flags)
+
+    def result(self, technique, frame, *flags):
+        name = os.path.basename(frame).replace("frame", "result")
+        return self.made(name, "run", technique, frame, "-o", OUT, *flags)
+
+    def compared(self, test, truth, *flags):
+        return self.figures("compare", test, truth, *flags)
+
+    def inconsistency(self, result, *flags):
+        return self.figures("compare", "--stereo", result, *flags)["inconsistency"]["mean"]
+
+    def _place(self, name, arguments):
+        words = [name, *("OUT" if a is OUT else str(a).replace(str(self.folder), "") for a in arguments)]
+        return self.folder / self.build / hashlib.sha256("\0".join(words).encode()).hexdigest()[:20]
+
+    def _keep(self, file, text):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        part = file.with_suffix(".part")
+        part.write_text(text)
+        part.replace(file)
+
+    def _run(self, command, environment=None):
+        self.tell(" ".join(os.path.basename(command[0]) if i == 0 else word for i, word in enumerate(command)))
+        done = subprocess.run(command, cwd=self.root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, **(environment or {})})
+        if done.returncode != 0:
+            lines = (done.stderr or done.stdout).strip().splitlines()
+            raise Failed(f"{' '.join(command)}: {lines[-1] if lines else f'exit status {done.returncode}'}")
+        return done.stdout
