@@ -106,6 +106,8 @@ Json document_of(const Row& row) {
           {"image", text_or_null(row.image)}};
 }
 
+}  // namespace
+
 Json document_of(const SceneFacts& scene) {
   Json document = {{"name", scene.name},
                    {"class", scene.scene_class},
@@ -128,6 +130,8 @@ Json document_of(const SceneFacts& scene) {
   }
   return document;
 }
+
+namespace {
 
 Json document_of(const GrowthFacts& facts) {
   Json points = Json::array();

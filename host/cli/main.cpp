@@ -186,6 +186,7 @@ int run_command(int argc, char** argv) {
   add_capture(app);
   add_reference(app);
   add_bench(app);
+  add_score(app);
   add_pick(app);
   add_auto(app);
   add_report(app);

@@ -85,6 +85,7 @@ void add_compare(CLI::App& app);
 void add_capture(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_score(CLI::App& app);
 void add_pick(CLI::App& app);
 void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
