@@ -5,8 +5,8 @@ An example of a method of one's own for `gloam score --command` (docs/score.md).
 
     plane_ao.py --in FRAME.exr --out AO.exr|AO.png --camera CAMERA.json --radius R [--samples N] [--power P]
 
-Each of N offsets is the same for all pixels, on a spiral whose size follows the depth. A sample adds the sine of its angle above the plane,
-less with its distance up to the radius.
+Each of N offsets is the same for all pixels, on a spiral whose size follows the depth. A sample within the radius adds the sine of its angle
+above the plane.
 """
 
 import argparse
@@ -54,9 +54,9 @@ def occlusion(depth, camera, radius, samples):
         y = numpy.clip(rows + numpy.rint(reach * distance * numpy.sin(angle)).astype(int), 0, height - 1)
         away = positions[:, y, x] - positions
         length = numpy.maximum(numpy.linalg.norm(away, axis=0), 1e-20)
-        sine = numpy.maximum((away * normals).sum(0) / length - 0.1, 0)
-        total += sine * numpy.maximum(1 - (length / radius) ** 2, 0)
-    ao = numpy.clip(1 - 2 * total / samples, 0, 1)
+        sine = numpy.maximum((away * normals).sum(0) / length - 0.05, 0)
+        total += sine * (length < radius)
+    ao = numpy.clip(1 - 3 * total / samples, 0, 1)
     return numpy.where(background, 1, ao).astype(numpy.float32)
 
 

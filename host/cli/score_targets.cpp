@@ -111,6 +111,19 @@ std::vector<std::string> effects_in_truths(const TargetFrame& at) {
   return effects;
 }
 
+/// The radius that the truths of an effect state.
+std::optional<double> radius_of_truths(const Target& target) {
+  ReadOptions options;
+  options.as_stored = true;
+  for (const std::string& truth : target.frames.front().truths) {
+    const FrameFile file(truth, options);
+    for (const char* what : {"Radius", "Length"}) {
+      if (const auto radius = file.number_attribute(target.effect + what)) return radius;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 ScoredSet read_set(const std::string& folder) {
@@ -161,6 +174,7 @@ std::vector<Target> own_targets(const OwnFrames& own, const std::string& effect)
   for (const std::string& each : effects) {
     targets.push_back(target);
     targets.back().effect = each;
+    targets.back().radius = radius_of_truths(targets.back());
   }
   return targets;
 }
