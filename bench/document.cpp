@@ -102,6 +102,11 @@ Json document_of(const Row& row) {
           {"ratio_to_hbao_plus", number(row.to_hbao_plus)},
           {"rmse_to_truth", number(row.errors.rmse)},
           {"bias", number(row.errors.bias)},
+          {"ssim", number(row.similarity.ssim)},
+          {"flip", number(row.similarity.flip)},
+          {"flicker", nullptr},
+          {"inconsistency", number(row.inconsistency)},
+          {"kind", nullptr},
           {"ladder", document_of(row.ladder)},
           {"image", text_or_null(row.image)}};
 }

@@ -214,7 +214,7 @@ class ScoreRun {
     note(scoring_->notes());
     note(scoring_->doubts());
     if (earlier_ > 0 && !rows_.empty())
-      note({fmt::format("{}: {} of '{}' were there and are replaced", result_->path().string(), counted(earlier_, "row"),
+      note({fmt::format("{}: had {} of '{}', which the new ones replace", result_->path().string(), counted(earlier_, "row"),
                         entry_.name)});
     tell_left_out(left_out);
     if (rows_.empty()) {
