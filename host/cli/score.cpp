@@ -111,7 +111,7 @@ class ScoreRun {
     add_fits();
     std::vector<std::pair<std::string, std::string>> kept;
     for (const ScoredRow& row : rows_) kept.emplace_back(row.scored.target.name, row.scored.target.effect);
-    if (flags_.items.empty() && !rows_.empty()) result_->remove_others(entry_.name, kept);
+    if (set_ && flags_.items.empty() && !rows_.empty()) result_->remove_others(entry_.name, kept);
     if (!rows_.empty()) result_->write();
     erase_status();
     tell();

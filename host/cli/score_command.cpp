@@ -68,6 +68,10 @@ fs::path MethodCommand::image_of(const Target& target, const std::string& frame,
                                view.empty() ? "" : "_" + view, target.effect, flags_.image_type);
 }
 
+fs::path MethodCommand::camera_of(const Target& target, const TargetFrame& at) const {
+  return folder_ / fmt::format("{}{}.camera.json", target.name, target.is_sequence ? fmt::format(".{:04}", at.number) : "");
+}
+
 std::map<std::string, std::string> MethodCommand::values_for(const Target& target, const TargetFrame& at,
                                                              const std::string& view, const fs::path& image) const {
   std::map<std::string, std::string> values = {{"frame", at.frame.string()},
@@ -77,7 +81,7 @@ std::map<std::string, std::string> MethodCommand::values_for(const Target& targe
                                                {"item", target.name},
                                                {"frame_number", std::to_string(at.number)},
                                                {"view", view},
-                                               {"camera", (folder_ / (target.name + ".camera.json")).string()},
+                                               {"camera", camera_of(target, at).string()},
                                                {"frames", at.frame.string()},
                                                {"images", image.string()}};
   if (target.is_sequence && !target.frames.empty()) {
@@ -108,7 +112,7 @@ MethodCommand::Made MethodCommand::make(const Target& target, const TargetFrame&
   if (error) return {{}, fmt::format("{}: cannot be made ({})", folder_.string(), error.message())};
   Made made;
   try {
-    if (has("{camera}")) write_camera_file(folder_ / (target.name + ".camera.json"), at.frame);
+    if (has("{camera}")) write_camera_file(camera_of(target, at), at.frame);
     for (const Job& job : jobs_for(target, at)) {
       fs::remove(job.image, error);  // of an earlier run
       const ForeignEnd end = run_foreign(job.words, flags_.timeout);

@@ -48,6 +48,7 @@ class MethodCommand {
   std::map<std::string, std::string> values_for(const score::Target& target, const score::TargetFrame& at,
                                                 const std::string& view, const std::filesystem::path& image) const;
   std::filesystem::path image_of(const score::Target& target, const std::string& frame, const std::string& view) const;
+  std::filesystem::path camera_of(const score::Target& target, const score::TargetFrame& at) const;
   Made make(const score::Target& target, const score::TargetFrame& at);
   double milliseconds_of(const score::Target& target, const score::TargetFrame& at) const;
   std::vector<std::string> own_words(const score::Target& target, const score::TargetFrame& at) const;

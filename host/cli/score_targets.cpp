@@ -9,6 +9,7 @@
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"
 #include "score/entry.h"
+#include "set/content_hash.h"
 
 namespace gloam::cli {
 namespace {
@@ -28,7 +29,16 @@ std::vector<sets::SetFile> files_of_frame(const std::vector<sets::SetFile>& file
 
 /// Throws Error for the first file whose content is not what the manifest says.
 void check_files(const fs::path& folder, const std::vector<sets::SetFile>& files) {
-  static_cast<void>(folder), static_cast<void>(files);
+  for (const sets::SetFile& file : files) {
+    const fs::path path = folder / file.file;
+    std::error_code unknown;
+    if (!fs::exists(path, unknown))
+      throw Error("{}: is missing; gloam set make makes it anew", path.string());
+    const std::string hash = sets::content_hash(path);
+    if (hash != file.sha256)
+      throw Error("{}: is not the set's: its content has the hash {}..., and the manifest says {}...; gloam set make makes it anew",
+                  path.string(), hash.substr(0, 12), file.sha256.substr(0, 12));
+  }
 }
 
 TargetFrame target_frame(const fs::path& folder, const sets::SetItem& item, const sets::SetTruth& truth,
