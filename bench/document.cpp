@@ -102,9 +102,16 @@ Json document_of(const Row& row) {
           {"ratio_to_hbao_plus", number(row.to_hbao_plus)},
           {"rmse_to_truth", number(row.errors.rmse)},
           {"bias", number(row.errors.bias)},
+          {"ssim", number(row.similarity.ssim)},
+          {"flip", number(row.similarity.flip)},
+          {"flicker", nullptr},
+          {"inconsistency", number(row.inconsistency)},
+          {"kind", nullptr},
           {"ladder", document_of(row.ladder)},
           {"image", text_or_null(row.image)}};
 }
+
+}  // namespace
 
 Json document_of(const SceneFacts& scene) {
   Json document = {{"name", scene.name},
@@ -128,6 +135,8 @@ Json document_of(const SceneFacts& scene) {
   }
   return document;
 }
+
+namespace {
 
 Json document_of(const GrowthFacts& facts) {
   Json points = Json::array();

@@ -17,6 +17,9 @@ std::string cpu_model();
 /// Where a document's figures were measured: device, cpu, cores, driver, date, commit.
 Json origin_of(const DeviceInfo& device);
 
+/// An entry of `scenes`.
+Json document_of(const SceneFacts& scene);
+
 Json document_of(const Measurement& measurement, const MeasureOptions& options, const DeviceInfo& device);
 
 /// The document of a reproduced paper: no results, but `paper`, `facts` and `pictures`.

@@ -132,6 +132,10 @@ Errors Steps::errors(const Image& shipped) const {
   return {rmse(shipped, truth_->image, foreground_), bias(shipped, truth_->image, foreground_)};
 }
 
+Similarity Steps::similarity(const Image& shipped) const {
+  return truth_ ? bench::similarity(shipped, truth_->image, foreground_) : Similarity();
+}
+
 Errors Steps::base_errors(const MeasuredEffect& effect) const {
   return truth_ ? errors(even_image(truth_->image, effect.base_value)) : Errors{};
 }

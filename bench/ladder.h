@@ -9,6 +9,7 @@
 #include "bench/effects.h"
 #include "bench/measures.h"
 #include "bench/plans.h"
+#include "bench/similarity.h"
 #include "bench/subject.h"
 #include "gloam/device.h"
 
@@ -44,6 +45,9 @@ class Steps {
   Image shipped(const Variation& variation);
 
   Errors errors(const Image& shipped) const;
+
+  /// How alike the shipped image and the truth look; empty without a truth.
+  Similarity similarity(const Image& shipped) const;
 
   /// Errors of what there is without a technique; none without a truth.
   Errors base_errors(const MeasuredEffect& effect) const;

@@ -155,6 +155,8 @@ class Session {
     row->height = subject_.frame.height();
     const Image shipped = steps_.shipped(variation);
     row->errors = steps_.errors(shipped);
+    row->similarity = steps_.similarity(shipped);
+    row->inconsistency = inconsistency(subject_.frame, shipped);
     const bool with_ladder =
         options_.ladder == LadderFor::all || (options_.ladder == LadderFor::presets && variation.variant.empty());
     if (with_ladder) row->ladder = steps_.climb(variation, shipped);

@@ -11,6 +11,7 @@
 #include "bench/growth.h"
 #include "bench/ladder.h"
 #include "bench/race.h"
+#include "bench/similarity.h"
 #include "bench/subject.h"
 #include "bench/variations.h"
 #include "gloam/radius.h"
@@ -54,6 +55,8 @@ struct Row : Racer {
   std::string scene, effect;
   int width = 0, height = 0;
   Errors errors;
+  Similarity similarity;
+  std::optional<double> inconsistency;  ///< of the two views of a frame (similarity.h)
   Ladder ladder;
   std::string image;  ///< below the folder; empty: none
 };

@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "base/statistics.h"
+#include "bench/similarity.h"
 #include "gloam/error.h"
 #include "gloam/history.h"
 #include "gloam/metrics.h"
@@ -23,13 +24,6 @@ struct Walker {
 
 /// So many settings share one run of HBAO+ per frame, so that the two times of a ratio are close together.
 constexpr size_t walkers_together = 4;
-
-Surfaces surfaces_of_view(const Frame& frame, const View& view) {
-  Surfaces surfaces{.window = frame.window, .camera = view.camera};
-  if (const Plane* depth = view.find("depth")) surfaces.depth = depth->channels[0].clone();
-  if (const Plane* motion = view.find("motion")) surfaces.motion = motion->clone();
-  return surfaces;
-}
 
 void remove_history(Frame& frame) {
   for (View& view : frame.views) {
@@ -140,15 +134,18 @@ class Walk {
     SequenceRow& row = walker.row;
     const double error = rmse(image, at.truth, at.foreground);
     row.rmse += error;
+    row.bias += bias(image, at.truth, at.foreground);
     if (error > row.worst_rmse || row.worst_frame == 0) row.worst_rmse = error, row.worst_frame = at.number;
-    double ssim = 0;
+    double ssim = 0, flip = 0;
     size_t views = 0;
     for (const View& view : at.frame.views) {
       const auto test = image.find(view.name);
       const auto truth = at.truth.find(view.name);
       if (test == image.end() || truth == at.truth.end()) continue;
       const Mask& mask = at.foreground.at(view.name);
-      ssim += gloam::compare(test->second, truth->second, mask).ssim;
+      const Metrics metrics = metrics_of(test->second, truth->second, mask);
+      ssim += metrics.ssim;
+      flip += metrics.flip.value_or(0);
       if (walker.meters.size() <= views) walker.meters.emplace_back();
       FlickerMeter& meter = walker.meters[views++];
       if (!follows(at)) meter.begin_anew();
@@ -159,13 +156,16 @@ class Walk {
       add_new(result_.motions, in_words(*meter.source()));
     }
     row.ssim += ssim / double(std::max<size_t>(views, 1));
+    row.flip = row.flip.value_or(0) + flip / double(std::max<size_t>(views, 1));
   }
 
   void finish(Walker& walker, const Series& reference) {
     SequenceRow& row = walker.row;
     const double frames = double(sequence_.frames.size());
     row.rmse /= frames;
+    row.bias /= frames;
     row.ssim /= frames;
+    if (row.flip) *row.flip /= frames;
     // Of one view alone the time of HBAO+ on all is no measure.
     if (!reference.empty() && !makes_first_view_only(*row.variation.technique)) row.ratio = ratio(row.ms, reference);
     if (!result_.truth_change) {
@@ -189,6 +189,13 @@ class Walk {
 };
 
 }  // namespace
+
+Surfaces surfaces_of_view(const Frame& frame, const View& view) {
+  Surfaces surfaces{.window = frame.window, .camera = view.camera};
+  if (const Plane* depth = view.find("depth")) surfaces.depth = depth->channels[0].clone();
+  if (const Plane* motion = view.find("motion")) surfaces.motion = motion->clone();
+  return surfaces;
+}
 
 void add_frame(MeasuredSequence& sequence, int number, Subject subject) {
   if (!subject.truth)

@@ -29,6 +29,9 @@ struct MeasuredSequence {
   std::vector<std::string> made, reused;          ///< files of a built-in shot
 };
 
+/// Where the surfaces of a view are, for flicker.
+Surfaces surfaces_of_view(const Frame& frame, const View& view);
+
 /// Moves a frame to the end of a sequence. Throws Error for a frame without a truth, and for one of another size or radius than the
 /// first.
 void add_frame(MeasuredSequence& sequence, int number, Subject subject);
@@ -38,7 +41,8 @@ struct SequenceRow {
   Variation variation;
   Series ms;                    ///< of the kernels, one per frame
   std::optional<double> ratio;  ///< to HBAO+ medium on the same frame: the median over the frames
-  double rmse = 0, worst_rmse = 0, ssim = 0;
+  double rmse = 0, bias = 0, worst_rmse = 0, ssim = 0;
+  std::optional<double> flip;
   int worst_frame = 0;
   FlickerSums flicker;  ///< of all pairs of frames
 };

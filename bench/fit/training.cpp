@@ -1,64 +1,18 @@
 #include "bench/fit/training.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "base/random.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "gloam/projection.h"
 #include "gloam/radius.h"
-#include "gloam/scene/camera_ray.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/reference.h"
+#include "scene/random_camera.h"
 
 namespace gloam::bench {
 namespace {
-
-/// The surface that a random pixel of a camera shows; world.
-std::optional<glm::dvec3> seen_at_random(const Tracer& tracer, const Camera& camera, int width, int height,
-                                         Random& random) {
-  const glm::dvec2 place(random.uniform(0, width), random.uniform(0, height));
-  const std::optional<ViewRay> ray = view_ray(camera, place);
-  const glm::dmat3 to_world = glm::transpose(camera.pose->world_to_view);
-  TracerRay traced;
-  traced.origin = camera.pose->position - tracer.scene().origin + to_world * ray->start;
-  traced.direction = glm::normalize(to_world * ray->per_depth);
-  const std::optional<Surface> surface = tracer.first(traced);
-  if (!surface) return {};
-  return surface->position + tracer.scene().origin;
-}
-
-/// A camera between one of the scene's own and a surface that it sees, looking at another surface that it sees.
-std::optional<SceneCamera> random_camera(const Tracer& tracer, Random& random) {
-  const SceneCamera& from = random.pick(tracer.scene().cameras);
-  const Camera camera = camera_for(from, 640, 360);
-  const auto ahead = seen_at_random(tracer, camera, 640, 360, random);
-  const auto target = seen_at_random(tracer, camera, 640, 360, random);
-  const double share = random.uniform(0, 0.65);
-  const double fov = random.uniform(45, 80);
-  if (!ahead || !target) return {};
-  const glm::dvec3 eye = from.pose.position + share * (*ahead - from.pose.position);
-  return looking_at("random", eye, *target, fov, tracer.scene().up);
-}
-
-/// Surfaces, and those nearer to the eye than the radius, over all pixels.
-struct Shares {
-  double surfaces = 0, near = 0;
-};
-
-Shares shares_of(const Channel& depth, double radius) {
-  Shares shares;
-  for (int y = 0; y < depth.layout().height; ++y)
-    for (int x = 0; x < depth.layout().width; ++x) {
-      if (is_background(depth.at(x, y))) continue;
-      ++shares.surfaces;
-      if (depth.at(x, y) < radius) ++shares.near;
-    }
-  const double pixels = double(depth.layout().width) * depth.layout().height;
-  return {shares.surfaces / pixels, shares.near / pixels};
-}
 
 /// As many as estimates usually read.
 constexpr int peeled_layers = 6, stochastic_depths = 4;
@@ -81,8 +35,8 @@ std::optional<TrainingFrame> shot_at_random(const Tracer& tracer, const Training
   const auto pixels = pixels_at_median_depth(training.frame);
   if (!pixels) return {};
   training.radius = random.of_any_size(options.least_pixels, options.most_pixels) / *pixels;
-  const Shares shares = shares_of(training.frame.views[0].planes.at("depth").channels[0], training.radius);
-  if (shares.surfaces < 0.4 || shares.near > 0.1) return {};
+  const Channel& depth = training.frame.views[0].planes.at("depth").channels[0];
+  if (!shows_enough(surface_shares(depth, training.radius))) return {};
   return training;
 }
 

@@ -174,10 +174,12 @@ class Temporary {
 };
 
 std::atomic<const char*> interruption_text{nullptr};
+std::atomic<int> group_to_kill{0};
 void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 extern "C" void remove_and_leave(int signal) {
   if (leaving.exchange(true)) return;      // a second signal, on another thread: one report is enough
+  if (const int group = group_to_kill.load()) ::kill(-group, SIGKILL);
   while (being_made.load() > 0) continue;  // other threads do: this one delays signals while it makes one
   unsigned written = files_written.load();
   for (TemporaryName& slot : temporaries)
@@ -303,6 +305,8 @@ void remove_temporaries_on_signal() {
   ::signal(SIGXFSZ, SIG_IGN);
   files_written.store(0);
 }
+
+void kill_group_on_signal(int group) { group_to_kill.store(group); }
 
 void say_on_interruption(const char* text) { interruption_text.store(text); }
 

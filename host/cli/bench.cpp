@@ -13,6 +13,7 @@
 #include "cli/bench_paper.h"
 #include "cli/bench_request.h"
 #include "cli/bench_sequence.h"
+#include "cli/bench_set.h"
 #include "cli/chunk_commands.h"
 #include "cli/shot_flags.h"
 #include "gloam/error.h"
@@ -137,6 +138,7 @@ void bench_command(const BenchCommand& flags) {
     note({"OMP_WAIT_POLICY=passive could not be set: threads of the native loop may take time from the others"});
   Measurement result;
   Device device = flags.open();
+  if (!flags.set.empty()) return bench_set(flags, device);
   const BenchOptions options = options_of(flags, device.info(), result);
   if (!flags.sequence.empty())
     return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
@@ -218,6 +220,13 @@ void add_bench(CLI::App& app) {
           ->add_option("--sequence", flags->sequence,
                        "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
           ->type_name("SHOT|FRAME.####.exr");
+  command
+      ->add_option("--set", flags->set,
+                   "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
+      ->type_name("DIR");
+  command->add_option("--items", flags->items, "with --set: these items only")
+      ->needs("--set")
+      ->type_name("A,B");
   add_frames(*command, flags->choice);
   add_missing_without_hold(*command, flags->choice);
   command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");

@@ -15,7 +15,7 @@ namespace gloam::cli {
 /// The flags as given.
 struct BenchCommand : DeviceFlags {
   std::vector<std::string> truths;
-  std::string paper, folder, effects, techniques, scenes, presets, frame, sequence, variants;
+  std::string paper, folder, effects, techniques, scenes, presets, frame, sequence, variants, set, items;
   std::vector<std::string> sweeps;
   std::optional<Size> size;
   std::optional<int> rays;

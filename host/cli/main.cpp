@@ -11,6 +11,7 @@
 #include "cli/completion.h"
 #include "cli/list_techniques.h"
 #include "cli/options.h"
+#include "cli/same_mathematics.h"
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
 #include "run/driver.h"
@@ -173,6 +174,7 @@ int run_command(int argc, char** argv) {
       "  gloam bench -o out/bench --frame frame.exr --truth truth.exr\n"
       "  gloam report out/bench\n"
       "  gloam view frame.exr ao.exr\n"
+      "  gloam set make gloam-1\n"
       "  gloam stress hbao+\n"
       "gloam COMMAND --help shows a command's flags.");
   app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION);
@@ -186,10 +188,12 @@ int run_command(int argc, char** argv) {
   add_capture(app);
   add_reference(app);
   add_bench(app);
+  add_score(app);
   add_pick(app);
   add_auto(app);
   add_report(app);
   add_view(app);
+  add_set(app);
   add_stress(app);
   add_doctor(app);
   add_completion(app, settable_by);
@@ -251,6 +255,7 @@ static int status_of_command(int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  gloam::cli::restart_with_same_mathematics(argc, argv);
   gloam::remove_temporaries_on_signal();
   gloam::give_pocl_a_folder();
   const int status = status_of_command(argc, argv);

@@ -85,10 +85,12 @@ void add_compare(CLI::App& app);
 void add_capture(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_score(CLI::App& app);
 void add_pick(CLI::App& app);
 void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
 void add_view(CLI::App& app);
+void add_set(CLI::App& app);
 void add_stress(CLI::App& app);
 void add_doctor(CLI::App& app);
 

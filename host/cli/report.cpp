@@ -64,8 +64,10 @@ void write_page(const ReportCommand& flags) {
   flags.json.write(document_of(measurements, path.string()));
   if (flags.json.only_json()) return;
   const auto& sequence = measurements.sequence;
-  fmt::print("wrote {}: {}, {}, {}, {}{:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
-             counted(measurements.scenes.size(), "scene"), counted(size_t(page.pictures), "picture"),
+  const size_t submitted = measurements.submitted.size();
+  fmt::print("wrote {}: {}, {}{}, {}, {}{:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
+             submitted ? counted(submitted, "submitted row") + ", " : "", counted(measurements.scenes.size(), "scene"),
+             counted(size_t(page.pictures), "picture"),
              sequence ? counted(sequence->rows.size(), "row") + " of a shot, " : "", double(page.html.size()) / 1e6);
 }
 

@@ -171,6 +171,57 @@ double redistributed(double distance) {
   return error < bend ? height / bend * error : height + (error - bend) / (most - bend) * (1 - height);
 }
 
+// --- Greys: along a line
+
+/// A filter of two dimensions as the product of two lines.
+struct Lines {
+  cv::Mat along, across;
+};
+
+template <typename Weight>
+cv::Mat line_of(int radius, Weight weight) {
+  cv::Mat line(2 * radius + 1, 1, CV_64F);
+  for (int x = -radius; x <= radius; ++x) line.at<double>(x + radius) = weight(double(x));
+  return line;
+}
+
+cv::Mat sensitivity_line(double pixels_per_degree) {
+  const cv::Mat line = line_of(sensitivity_radius(pixels_per_degree), [&](double x) {
+    return std::exp(-pi * pi * x * x / (pixels_per_degree * pixels_per_degree) / sensitivities[0].b1);
+  });
+  return line / cv::sum(line)[0];
+}
+
+/// As `feature_kernel`, whose signs change along x alone.
+Lines feature_lines(bool is_point, double pixels_per_degree) {
+  const double deviation = feature_deviation(pixels_per_degree), variance = deviation * deviation;
+  const int radius = feature_radius(pixels_per_degree);
+  const auto bell = [&](double x) { return std::exp(-x * x / (2 * variance)); };
+  const cv::Mat across = line_of(radius, bell);
+  const cv::Mat along =
+      line_of(radius, [&](double x) { return (is_point ? x * x / variance - 1 : -x) * bell(x); });
+  const double positive = cv::sum(cv::max(along, 0))[0], negative = -cv::sum(cv::min(along, 0))[0];
+  return {cv::max(along, 0) / positive + cv::min(along, 0) / negative, across / cv::sum(across)[0]};
+}
+
+cv::Mat filtered(const cv::Mat& image, const cv::Mat& along_x, const cv::Mat& along_y) {
+  cv::Mat out;
+  cv::sepFilter2D(image, out, CV_32F, along_x, along_y, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  return out;
+}
+
+cv::Mat grey_features(const cv::Mat& grey, const Lines& lines) {
+  cv::Mat strength;
+  cv::magnitude(filtered(grey, lines.along, lines.across), filtered(grey, lines.across, lines.along), strength);
+  return strength;
+}
+
+/// Lightness of a linear grey.
+double lightness_of(double v) {
+  constexpr double delta = 6.0 / 29;
+  return 116 * (v > delta * delta * delta ? std::cbrt(v) : v / (3 * delta * delta) + 4.0 / 29) - 16;
+}
+
 }  // namespace
 
 int flip_reach(double pixels_per_degree) {
@@ -187,6 +238,25 @@ cv::Mat flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_per_de
     for (int x = 0; x < map.cols; ++x) {
       const double colour = redistributed(hyab(seen_a.at<Colour>(y, x), seen_b.at<Colour>(y, x)));
       map.at<double>(y, x) = std::pow(colour, 1 - features.at<double>(y, x));
+    }
+  }
+  return map;
+}
+
+
+cv::Mat grey_flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_per_degree) {
+  const cv::Mat line = sensitivity_line(pixels_per_degree);
+  const Lines edge = feature_lines(false, pixels_per_degree), point = feature_lines(true, pixels_per_degree);
+  const cv::Mat a = filtered(test, line, line), b = filtered(truth, line, line);
+  const cv::Mat edges = cv::abs(grey_features(test, edge) - grey_features(truth, edge));
+  const cv::Mat points = cv::abs(grey_features(test, point) - grey_features(truth, point));
+  cv::Mat map(test.size(), CV_64F);
+  for (int y = 0; y < map.rows; ++y) {
+    for (int x = 0; x < map.cols; ++x) {
+      const auto seen = [&](const cv::Mat& image) { return std::clamp(double(image.at<float>(y, x)), 0.0, 1.0); };
+      const double colour = redistributed(std::abs(lightness_of(seen(a)) - lightness_of(seen(b))));
+      const double feature = std::sqrt(double(std::max(edges.at<float>(y, x), points.at<float>(y, x))) / std::sqrt(2.0));
+      map.at<double>(y, x) = std::pow(colour, 1 - feature);
     }
   }
   return map;

@@ -14,6 +14,9 @@ inline constexpr double flip_pixels_per_degree = 3840 * 3.14159265358979323846 /
 /// Hunt-adjusted L*a*b*, edges and points by Gaussian derivatives, and color to the power of 1 - features.
 cv::Mat flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_per_degree = flip_pixels_per_degree);
 
+/// The same for two linear images of one channel (CV_32F, 0..1) as greys: their colours are all 0, and all filters are separable.
+cv::Mat grey_flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_per_degree = flip_pixels_per_degree);
+
 /// Radius of the neighbourhood that a pixel's value depends on, pixels.
 int flip_reach(double pixels_per_degree = flip_pixels_per_degree);
 

@@ -29,7 +29,7 @@ function theme() {
 
 /// Eight colours and seven shapes advance together: 56 techniques before a pair repeats.
 const colourOf = (index) => theme().colours[index % theme().colours.length];
-const shapeOf = (index) => shapes[index % shapes.length];
+const shapeOf = (index) => (isStarred(index) ? star : shapes[index % shapes.length]);
 
 /// The mark of a technique, in running text.
 function swatch(index, hollow) {

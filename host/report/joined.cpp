@@ -54,9 +54,11 @@ Measurements renamed(const Source& source, size_t index, const std::map<std::str
   const auto rename = [&](std::string& name) {
     if (const auto found = names.find(name); found != names.end()) name = found->second;
   };
-  for (Row& row : m.rows) {
-    row.source = index;
-    rename(row.scene);
+  for (auto* rows : {&m.rows, &m.submitted}) {
+    for (Row& row : *rows) {
+      row.source = index;
+      rename(row.scene);
+    }
   }
   for (Converged& each : m.converged) rename(each.scene);
   for (ScaleChange& each : m.scales) rename(each.scene);
@@ -70,7 +72,8 @@ class Joining {
 
   void add(const Measurements& m, size_t source) {
     for (const Scene& scene : m.scenes) add(scene);
-    for (const Row& row : m.rows) add(row);
+    for (const Row& row : m.rows) add(row, all.rows);
+    for (const Row& row : m.submitted) add(row, all.submitted);
     for (const Converged& each : m.converged) {
       if (!is_there(each) && is_new(each.scene, each.technique + ", converged", source)) all.converged.push_back(each);
     }
@@ -111,10 +114,10 @@ class Joining {
     return added;
   }
 
-  void add(const Row& row) {
+  void add(const Row& row, std::vector<Row>& rows) {
     std::string setting = row.technique + " " + row.preset;
     if (!row.variant.empty()) setting += ", " + row.variant;
-    if (is_new(row.scene, setting, row.source)) all.rows.push_back(row);
+    if (is_new(row.scene, setting, row.source)) rows.push_back(row);
   }
 
   const std::vector<Source>& sources_;

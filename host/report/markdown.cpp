@@ -13,6 +13,7 @@
 #include "report/sections_choice.h"
 #include "report/sections_errors.h"
 #include "report/sections_sequence.h"
+#include "report/sections_submitted.h"
 #include "report/sections_time.h"
 
 namespace gloam::report {
@@ -219,7 +220,7 @@ MarkdownPage make_markdown(const std::vector<Source>& sources, const MarkdownOpt
   page.text = head(sources, material.all, options.command) + table_of_scenes(material.all);
   for (const auto section :
        {needs_section, fronts_section, scenes_section, presets_section, converged_section, ladder_section,
-        sequence_section, floor_section, scales_section, planes_section, others_section})
+        sequence_section, submitted_section, floor_section, scales_section, planes_section, others_section})
     page.text += section(material);
   if (!options.pictures.empty()) page.text += Sheets(material, options, page).section();
   while (page.text.ends_with("\n\n")) page.text.pop_back();

@@ -158,7 +158,14 @@ Row row_of(const Object& o) {
   row.effect = effect_of(o);
   row.scene = with_effect(o.needed_text("scene"), row.effect);
   row.reads = reads_of(o);
-  row.ms = milliseconds_of(o.needed_object("ms"));
+  if (o.json().value("submitted", Json()).is_object())
+    row.submitted = o.json()["submitted"];
+  else
+    row.ms = milliseconds_of(o.needed_object("ms"));
+  row.ssim = o.number("ssim");
+  row.flip = o.number("flip");
+  row.flicker = o.number("flicker");
+  row.inconsistency = o.number("inconsistency");
   row.rmse_to_truth = o.number("rmse_to_truth");
   row.bias = o.number("bias");
   row.ratio_to_hbao_plus = o.number("ratio_to_hbao_plus");
@@ -279,7 +286,10 @@ Measurements measurements_of(const Object& o) {
   m.rounds = o.number("rounds");
   m.rays = o.number("rays");
   for (const Object& each : o.list("scenes")) m.scenes.push_back(scene_of(each));
-  for (const Object& each : o.needed_list("results")) m.rows.push_back(row_of(each));
+  for (const Object& each : o.needed_list("results")) {
+    Row row = row_of(each);
+    (row.submitted.is_null() ? m.rows : m.submitted).push_back(std::move(row));
+  }
   for (const Object& each : o.list("growth")) m.growth.push_back(growth_of(each));
   for (const Object& each : o.list("skipped"))
     m.skipped.push_back({each.text("technique"), each.text("preset"), each.text("scene"), each.text("why")});
@@ -292,8 +302,8 @@ Measurements measurements_of(const Object& o) {
 }
 
 /// Adds scenes that rows name and the list of scenes lacks.
-void add_scenes_of_rows(Measurements& m) {
-  for (const Row& row : m.rows) {
+void add_scenes_of_rows(Measurements& m, const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
     const auto is_it = [&](const Scene& scene) { return scene.name == row.scene; };
     if (std::any_of(m.scenes.begin(), m.scenes.end(), is_it)) continue;
     Scene scene;
@@ -318,7 +328,7 @@ Json parsed(const std::filesystem::path& file) {
 Measurements read_file(const std::filesystem::path& file) {
   const Json document = parsed(file);
   Measurements m = measurements_of(Object(document, file.string(), ""));
-  add_scenes_of_rows(m);
+  for (const auto* rows : {&m.rows, &m.submitted}) add_scenes_of_rows(m, *rows);
   return m;
 }
 
@@ -343,7 +353,7 @@ Measurements read_measurements(const std::filesystem::path& folder) {
     throw Error("{}: is not a folder; 'gloam bench -o {}' makes one to report on", folder.string(), folder.string());
   const std::filesystem::path file = measurements_file(folder);
   const Measurements m = read_file(file);
-  if (m.rows.empty() && !m.sequence) nothing_to_show(file);
+  if (m.rows.empty() && m.submitted.empty() && !m.sequence) nothing_to_show(file);
   return m;
 }
 
@@ -361,7 +371,7 @@ std::filesystem::path measurements_file(const std::filesystem::path& folder_or_f
 
 Measurements read_measurements_file(const std::filesystem::path& file) {
   const Measurements m = read_file(file);
-  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && !m.sequence)
+  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && m.submitted.empty() && !m.sequence)
     nothing_to_show(file);
   return m;
 }

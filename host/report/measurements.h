@@ -56,6 +56,7 @@ struct Row {
   Reads reads;
   Milliseconds ms;
   Number rmse_to_truth, bias;
+  Number ssim, flip, flicker, inconsistency;
   Number ratio_to_hbao_plus, ratio_to_gather_floor, ratio_to_copy_floor, ratio_to_naive, ratio_to_native;
   Number own_floor_ms, ratio_to_own_floor;
   Ladder ladder;
@@ -67,6 +68,7 @@ struct Row {
   Json settings = Json::object();
   std::string image;  ///< path below the folder; empty: none
   size_t source = 0;  ///< index of its file, of several (joined.h)
+  Json submitted;     ///< of a submitted row (gloam score): what its authors state (submitted.h); null for others
 };
 
 /// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery (indirect)".
@@ -140,8 +142,9 @@ struct Sequence {
 struct Measurements {
   std::string device, cpu, driver, date, commit;
   Number cores, rounds, rays;
-  std::vector<Scene> scenes;  ///< every scene that a row names is here
-  std::vector<Row> rows;
+  std::vector<Scene> scenes;   ///< every scene that a row names is here
+  std::vector<Row> rows;       ///< measured by gloam
+  std::vector<Row> submitted;  ///< of other methods (gloam score): errors, and no time that compares with those of `rows`
   std::vector<Growth> growth;
   std::vector<Skipped> skipped;
   std::vector<PaperFigure> paper;

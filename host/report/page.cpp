@@ -13,6 +13,7 @@
 #include "picture/picture.h"
 #include "report/embedded.h"
 #include "report/pictures.h"
+#include "report/submitted.h"
 
 namespace gloam::report {
 namespace {
@@ -124,6 +125,10 @@ Json json(const Row& row, const Pictures& pictures) {
           {"ms", json(row.ms)},
           {"rmse", json(row.rmse_to_truth)},
           {"bias", json(row.bias)},
+          {"ssim", json(row.ssim)},
+          {"flip", json(row.flip)},
+          {"flicker", json(row.flicker)},
+          {"inconsistency", json(row.inconsistency)},
           {"ratio", json(row.ratio_to_hbao_plus)},
           {"to_gather_floor", json(row.ratio_to_gather_floor)},
           {"to_copy_floor", json(row.ratio_to_copy_floor)},
@@ -219,6 +224,7 @@ Json data_of(const Measurements& m, const Pictures& pictures) {
   for (const Scene& scene : m.scenes) data["scenes"].push_back(json(scene, m.rows, pictures));
   for (const ClassFront& front : fronts_of_classes(m)) data["classes"].push_back(json(front));
   for (const Row& row : m.rows) data["rows"].push_back(json(row, pictures));
+  for (const Row& row : m.submitted) data["rows"].push_back(submitted_row(row, json(row, pictures)));
   for (const Growth& g : m.growth) data["growth"].push_back(json(g));
   for (const Skipped& s : m.skipped)
     data["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"scene", s.scene}, {"why", s.why}});
@@ -233,7 +239,9 @@ Page make_page(const Measurements& measurements, const fs::path& folder, const P
   Page made;
   Pictures pictures;
   for (const Scene& scene : measurements.scenes) pictures.add(scene.truth_image);
-  for (const Row& row : measurements.rows) pictures.add(row.image);
+  for (const auto* rows : {&measurements.rows, &measurements.submitted}) {
+    for (const Row& row : *rows) pictures.add(row.image);
+  }
   pictures.embed(folder, options, made);
   page::Parts parts = page::shared_parts();
   parts.insert(embedded_files().begin(), embedded_files().end());

@@ -31,7 +31,7 @@ function renderAside() {
   const figures = hoverOf(point).lines.map(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
   const parts = [
     element('h3', {}, swatch(techniqueOf(point), point.variant !== ''), nameOf(point)),
-    element('p', {}, standingOf(point))
+    ...(isSubmitted(point) ? submittedFacts(point) : [element('p', {}, standingOf(point))])
   ];
   parts.push(element('dl', {class: 'figures'}, figures));
   if (point.spent_on && point.spent_on.length) parts.push(element('p', {}, 'Its time: ' + spentSentence(point) + '.'));

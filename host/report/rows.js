@@ -7,7 +7,10 @@ function rowColumns(allScenes) {
     {
       name: 'technique',
       value: (row) => row.technique,
-      cell: (row) => [row.isBase ? null : swatch(techniqueOf(row), row.variant !== ''), row.technique]
+      cell: (row) => [
+        row.isBase ? null : swatch(techniqueOf(row), row.variant !== ''), row.technique,
+        isSubmitted(row) ? element('span', {class: 'badge'}, 'submitted') : null
+      ]
     },
     {name: 'preset', value: (row) => row.preset || null},
     {name: 'variant', value: (row) => row.variant || null},
@@ -20,6 +23,19 @@ function rowColumns(allScenes) {
     number('/ own floor', (row) => row.to_own_floor, figure, 'time over that of its own gathers alone'),
     number('rmse', (row) => row.rmse, errorFigure, 'to the truth'),
     number('bias', (row) => row.bias, errorFigure, 'mean of image minus truth'),
+    number('SSIM', (row) => row.ssim, (value) => (is(value) ? value.toFixed(3) : '–'), 'structural similarity to the truth; 1: equal'),
+    number('FLIP', (row) => row.flip, (value) => (is(value) ? value.toFixed(3) : '–'), 'how visible the difference is; 0: equal'),
+    number('flicker', (row) => row.flicker, errorFigure, 'how the error changes from frame to frame'),
+    number('eyes', (row) => row.inconsistency, errorFigure, 'mean difference of the two views where both see a surface'),
+    number(
+        'rmse at fit', (row) => (isSubmitted(row) ? row.submitted.fit_rmse : null), errorFigure,
+        'of a submitted method, at its best exponent and strength'),
+    number(
+        'stated ms', (row) => (isSubmitted(row) ? row.submitted.stated_ms : null), figure,
+        'of a submitted method, as its authors state it'),
+    number(
+        'whole / gloam run', (row) => (isSubmitted(row) ? row.submitted.whole_ratio : null), figure,
+        'of a submitted command: its whole time over that of gloam run, in turn'),
     number('samples', (row) => row.samples, (value) => (is(value) ? setting(value) : '–'), 'per pixel'),
     number('/ gather floor', (row) => row.to_gather_floor, figure, 'time over that of the gathers of HBAO+ medium'),
     number('/ copy floor', (row) => row.to_copy_floor, figure, 'time over reading and writing one plane'),

@@ -1,13 +1,13 @@
-// Error against time: the chart, its legend and the filters.
+// Error against time: the chart. Its legend and filters: choice.js.
 
 /// Specification of the chart. `points`: {key, x, y, technique (number), label, size, hollow, onFront, hover}; `front`: points of
-/// the front, which may be hidden among `points`.
-function scatterSpec({points, front, base, picked, timeTitle, isRatio, width}) {
+/// the front, which may be hidden among `points`; `levels`: {y, colour, label, key, hover} of submitted rows without a time here.
+function scatterSpec({points, front, levels, base, picked, timeTitle, isRatio, width}) {
   const colours = theme();
   const all = [...points, ...front];
   // What there is without a technique is drawn where it does not squeeze the points together.
-  const errors = all.map((p) => p.y), bases = is(base) && base <= 2 * Math.max(...errors) ? [base] : [];
-  const x = logDomain(all.map((p) => p.x)), y = linearDomain([...errors, ...bases]);
+  const errors = [...all, ...levels].map((p) => p.y), bases = is(base) && base <= 2 * Math.max(...errors) ? [base] : [];
+  const x = all.length ? logDomain(all.map((p) => p.x)) : [0.1, 10], y = linearDomain([...errors, ...bases]);
   const ordered = [...front].sort((a, b) => a.x - b.x || b.y - a.y);
   const line =
       ordered.length ? [{x: ordered[0].x, y: y[1]}, ...ordered, {x: x[1], y: ordered[ordered.length - 1].y}] : [];
@@ -18,6 +18,7 @@ function scatterSpec({points, front, base, picked, timeTitle, isRatio, width}) {
     data: [
       {name: 'points', values: points.map((p) => ({...p, colour: colourOf(p.technique), shape: shapeOf(p.technique)}))},
       {name: 'base', values: bases.map((value) => ({y: value}))},
+      {name: 'levels', values: levels},
       {name: 'line', values: line.map((p) => ({x: p.x, y: p.y}))},
       {name: 'on_front', source: 'points', transform: [{type: 'filter', expr: 'datum.onFront'}]},
       {name: 'picked_point', source: 'points', transform: [{type: 'filter', expr: 'datum.key === picked'}]},
@@ -95,6 +96,51 @@ function scatterSpec({points, front, base, picked, timeTitle, isRatio, width}) {
             y: at.y,
             stroke: {value: colours.faint},
             strokeDash: {value: [1, 3]}
+          }
+        }
+      },
+      {
+        type: 'rule',
+        name: 'level_rules',
+        from: {data: 'levels'},
+        encode: {
+          enter: {
+            x: {value: 0},
+            x2: {signal: 'width'},
+            y: at.y,
+            stroke: {field: 'colour'},
+            strokeWidth: {value: 1.4},
+            strokeDash: {value: [7, 4]},
+            tooltip: {field: 'hover'}
+          }
+        }
+      },
+      {
+        type: 'symbol',
+        name: 'level_stars',
+        from: {data: 'levels'},
+        encode: {
+          enter: {
+            x: {signal: 'width - 8'},
+            y: at.y,
+            size: {value: 110},
+            shape: {value: star},
+            fill: {field: 'colour'},
+            tooltip: {field: 'hover'}
+          }
+        }
+      },
+      {
+        type: 'text',
+        from: {data: 'levels'},
+        interactive: false,
+        encode: {
+          enter: {
+            x: {signal: 'width - 18'},
+            y: {scale: 'y', field: 'y', offset: -5},
+            align: {value: 'right'},
+            text: {field: 'label'},
+            fill: {field: 'colour'}
           }
         }
       },
@@ -180,11 +226,16 @@ function scatterSpec({points, front, base, picked, timeTitle, isRatio, width}) {
 function hoverOf(row) {
   const lines = [['error, RMSE', errorFigure(row.rmse)]];
   if (is(row.ratio)) lines.push(['over HBAO+', times(row.ratio)]);
-  if (row.ms)
+  if (isSubmitted(row)) lines.push(...submittedLines(row));
+  if (row.ms && is(row.ms.median))
     lines.push(
         ['time', figure(row.ms.median) + ' ms'],
         ['fastest, slowest', figure(row.ms.min) + ' to ' + figure(row.ms.max)]);
   if (is(row.bias)) lines.push(['bias', errorFigure(row.bias)]);
+  if (is(row.ssim)) lines.push(['SSIM', row.ssim.toFixed(3)]);
+  if (is(row.flip)) lines.push(['FLIP', row.flip.toFixed(3)]);
+  if (is(row.flicker)) lines.push(['flicker', errorFigure(row.flicker)]);
+  if (is(row.inconsistency)) lines.push(['between the eyes', errorFigure(row.inconsistency)]);
   if (is(row.to_own_floor)) lines.push(['over its floor', times(row.to_own_floor)]);
   if (is(row.samples)) lines.push(['samples per pixel', setting(row.samples)]);
   if (row.fronts) lines.push(['on fronts of', row.fronts.length + ' of ' + classNow().scenes.length]);
@@ -208,23 +259,31 @@ function pointOf(row, front) {
 
 function renderScatter() {
   const place = byId('scatter'), front = frontNow().filter((row) => timeOf(row) > 0), points = pointsNow(),
-        shown = points.filter(isShown);
+        shown = points.filter(isShown), levels = submittedLevels();
   byId('scatter-remark').textContent = remarkOn(points, shown, front);
-  renderLegend(shown);
+  renderLegend([...shown, ...levels]);
   renderTimeSwitch();
-  place.hidden = shown.length === 0;
-  if (!shown.length) return clearChart(place);
+  place.hidden = shown.length + levels.length === 0;
+  if (place.hidden) return clearChart(place);
   const width = place.clientWidth || place.parentElement.clientWidth;
   const view = draw(
       place, scatterSpec({
         points: shown.map((row) => pointOf(row, front)),
         front: front.map((row) => ({x: timeOf(row), y: row.rmse})),
+        levels: levels.map((row) => ({
+                             key: keyOf(row),
+                             y: row.rmse,
+                             colour: colourOf(techniqueOf(row)),
+                             label: row.technique,
+                             hover: hoverOf(row)
+                           })),
         base: state.mean === null ? sceneNow().base.rmse : null,
         picked: state.picked,
         width,
         isRatio: timeShown() === 'ratio',
-        timeTitle: timeShown() === 'ratio' ? 'time over that of HBAO+ medium, in the same round' :
-                                             'time of the whole plan, ms',
+        timeTitle: !shown.length         ? 'no time was measured here' :
+            timeShown() === 'ratio' ? 'time over that of HBAO+ medium, in the same round' :
+                                      'time of the whole plan, ms',
       }),
       width);
   view.addEventListener('click', (event, item) => {
@@ -267,7 +326,13 @@ function remarkOn(points, shown, front) {
     if (facts.length) about.push(scene.name + ': ' + facts.join(', ') + '.');
     if (is(scene.base.rmse))
       about.push(`Without a technique (${scene.base.name}, dotted) the error is ${errorFigure(scene.base.rmse)}.`);
-    if (!points.length) about.push('There is no truth for this scene, so no error to draw; its times are below.');
+    const levels = submittedLevels();
+    if (levels.length)
+      about.push(`Dashed lines are submitted methods, by their errors alone: ${
+          timeShown() === 'ratio' ? 'their times are not ratios to HBAO+.' : 'no time is stated.'}`);
+    if (timeShown() === 'ms' && points.some(isSubmitted))
+      about.push('Times of submitted methods are as their authors state them, on devices of their own.');
+    if (!points.length && !levels.length) about.push('There is no truth for this scene, so no error to draw; its times are below.');
     if (!hasRatios() && state.time === 'ratio') about.push('HBAO+ medium was not measured here, so the axis is in ms.');
   }
   if (points.length && !shown.length) about.push('Nothing is left of the choice below.');
@@ -277,66 +342,4 @@ function remarkOn(points, shown, front) {
         unseen === 1 ? 'is' : 'are'} not shown by the choice below; the line passes there all the same.`);
   if (shown.length) about.push('Hover for figures, click to pick, shift-click to keep for comparison.');
   return about.join(' ');
-}
-
-function renderLegend(shown) {
-  const used = techniques.filter((name) => shown.some((row) => row.technique === name));
-  const notes = [];
-  if (used.some((name) => presetsOf.get(name).length > 1)) notes.push('larger: a later preset');
-  if (shown.some((row) => row.variant)) notes.push('hollow: a variant');
-  if (shown.length)
-    notes.push(
-        'line: Pareto front' + (showsVariants() || !data.rows.some((row) => row.variant) ? '' : ' of plain settings'));
-  byId('legend').replaceChildren(
-      ...used.map((name) => element('span', {}, swatch(techniques.indexOf(name)), name)),
-      element('span', {class: 'of-front'}, notes.join(' · ')));
-}
-
-function renderTimeSwitch() {
-  const choices = [['ratio', 'over HBAO+', hasRatios()], ['ms', 'in ms', state.mean === null]];
-  byId('time-switch')
-      .replaceChildren(...choices.filter(([, , possible]) => possible)
-                           .map(([time, text]) => pressButton(text, timeShown() === time, () => {
-                                  state.time = time;
-                                  renderScatter();
-                                })));
-}
-
-function renderFilters() {
-  const boxes = [];
-  for (const [what, title] of [['technique', 'Techniques'], ['preset', 'Presets'], ['variant', 'Variants']]) {
-    const values = unique(rowsOfEffect(effectNow()).map((row) => row[what]));
-    if (values.length < 2) continue;
-    const hidden = state.hidden[what];
-    const checks = values.map((value) => {
-      const input = element('input', {
-        type: 'checkbox',
-        checked: !hidden.has(value),
-        'data-filter': what,
-        'data-value': value,
-        onchange: () => {
-          if (input.checked)
-            hidden.delete(value);
-          else
-            hidden.add(value);
-          renderShown();
-        }
-      });
-      return element('label', {class: 'check'}, input, value || (what === 'variant' ? 'plain' : 'none'));
-    });
-    const all = element(
-        'button', {
-          type: 'button',
-          onclick: () => {
-            const everything = values.every((value) => !hidden.has(value));
-            values.forEach((value) => (everything ? hidden.add(value) : hidden.delete(value)));
-            renderFilters();
-            renderShown();
-          }
-        },
-        'all or none');
-    boxes.push(element('fieldset', {}, element('legend', {}, title), element('div', {class: 'checks'}, checks, all)));
-  }
-  byId('filters').hidden = boxes.length === 0;
-  byId('filter-boxes').replaceChildren(...boxes);
 }

@@ -86,7 +86,11 @@ function pointsNow() {
 
 const hasRatios = () => state.mean !== null || rowsOf(state.scene).some((row) => is(row.ratio));
 const timeShown = () => (state.mean !== null ? 'ratio' : hasRatios() ? state.time : 'ms');
-const timeOf = (row) => (timeShown() === 'ratio' ? row.ratio : row.ms.median);
+/// A submitted row has only the time that its authors state, in ms.
+const timeOf = (row) => {
+  if (timeShown() === 'ratio') return row.ratio;
+  return isSubmitted(row) ? row.submitted.stated_ms : row.ms.median;
+};
 
 // --- Picking and choosing
 

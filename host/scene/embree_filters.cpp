@@ -50,7 +50,9 @@ void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments) {
   const auto& context = *reinterpret_cast<const SceneContext*>(arguments->context);
   const unsigned n = arguments->N;
   for (unsigned i = 0; i < n; ++i) {
-    if (!arguments->valid[i] || RTCRayN_tfar(arguments->ray, n, i) > context.near) continue;
+    const float distance = RTCRayN_tfar(arguments->ray, n, i);
+    const bool is_at_end = double(distance) > context.far * (1 - near_the_end);
+    if (!arguments->valid[i] || (distance > context.near && !is_at_end)) continue;
     const Mesh& mesh = context.scene->meshes[RTCHitN_geomID(arguments->hit, n, i)];
     const glm::uvec3 t = mesh.triangles[RTCHitN_primID(arguments->hit, n, i)];
     const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
@@ -59,7 +61,9 @@ void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments) {
     const dvec3 direction(RTCRayN_dir_x(arguments->ray, n, i), RTCRayN_dir_y(arguments->ray, n, i),
                           RTCRayN_dir_z(arguments->ray, n, i));
     const dvec3 normal = glm::cross(b - a, c - a);
-    if (glm::dot(a - origin, normal) * glm::dot(direction, normal) <= 0) arguments->valid[i] = 0;
+    const double height = glm::dot(a - origin, normal), approach = glm::dot(direction, normal);
+    if (distance <= context.near && height * approach <= 0) arguments->valid[i] = 0;
+    if (is_at_end && height / approach > context.far) arguments->valid[i] = 0;
   }
 }
 

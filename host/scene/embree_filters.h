@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 #include "gloam/scene/scene.h"
@@ -47,9 +48,15 @@ struct SceneContext {
   RTCIntersectContext base;
   const Scene* scene;
   float near;  ///< hits nearer than this are checked again
+  /// Where rays end, if Embree's own distances must not decide it; hits nearer to it than `near_the_end` are checked again.
+  double far = std::numeric_limits<double>::infinity();
 };
 
-/// Ignores hits due to rounding: triangles that in double lie behind the ray's start, such as the one that the ray leaves.
+/// Share of a ray's length by which Embree's distance, in float, may be wrong by far.
+inline constexpr double near_the_end = 1e-5;
+
+/// Ignores hits due to rounding: triangles that in double lie behind the ray's start, such as the one that the ray leaves, or beyond
+/// its end.
 void pass_what_is_behind(const RTCFilterFunctionNArguments* arguments);
 
 }  // namespace gloam

@@ -48,17 +48,22 @@ struct Tracer::Impl {
   dvec3 centre{0.0};  ///< of a sphere around everything
   double extent = 0;  ///< its radius
   double build_seconds = 0;
+  const bool is_reproducible;
 
-  explicit Impl(const Scene& scene) : scene(scene) {}
+  Impl(const Scene& scene, Tracing tracing) : scene(scene), is_reproducible(tracing == Tracing::reproducible) {}
   void add(const Mesh& mesh, unsigned id);
+  std::vector<RawHit>& hits_of(const TracerRay& ray, double start) const;
   const std::vector<RawHit>& gathered(const TracerRay& ray) const;
+  std::optional<Surface> nearest_beside(const TracerRay& ray, double start, const RawHit& hit) const;
   bool join(const Crossing& a, const Crossing& b) const;
   Crossing crossing(const TracerRay& ray, const RawHit& hit, const dvec3& normal) const;
   dvec3 normal(const TracerRay& ray, const RawHit& hit) const;
   Surface surface(const TracerRay& ray, const RawHit& hit) const;
   void bound();
   std::optional<double> start_of(const TracerRay& ray) const;
-  SceneContext context() const;
+  SceneContext context(double far) const;
+  double searched(double far) const;
+  vec3 weights_of(const RawHit& hit, const dvec3& position) const;
   std::optional<Surface> first(const TracerRay& ray, RTCIntersectContext& context) const;
 };
 
@@ -91,12 +96,30 @@ std::optional<double> Tracer::Impl::start_of(const TracerRay& ray) const {
   return start;
 }
 
-SceneContext Tracer::Impl::context() const {
+/// How far Embree has to search for hits up to `far`, which a filter or `first` then decides on in double.
+double Tracer::Impl::searched(double far) const { return is_reproducible ? far * (1 + near_the_end) : far; }
+
+/// Weights of a triangle's vertices at a point of it.
+vec3 Tracer::Impl::weights_of(const RawHit& hit, const dvec3& position) const {
+  if (!is_reproducible) return barycentric(hit.u, hit.v);
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const glm::uvec3 t = mesh.triangles[hit.triangle];
+  const dvec3 a = mesh.positions[t.x], b = dvec3(mesh.positions[t.y]) - a, c = dvec3(mesh.positions[t.z]) - a;
+  const dvec3 normal = glm::cross(b, c), p = position - a;
+  const double area = glm::dot(normal, normal);
+  if (!(area > 0)) return {1, 0, 0};
+  return barycentric(float(glm::dot(glm::cross(p, c), normal) / area),
+                     float(glm::dot(glm::cross(b, p), normal) / area));
+}
+
+/// `far`: of the rays.
+SceneContext Tracer::Impl::context(double far) const {
   SceneContext context;
   rtcInitIntersectContext(&context.base);
   context.base.filter = pass_what_is_behind;
   context.scene = &scene;
   context.near = float(extent * 0x1p-12);
+  if (is_reproducible) context.far = far;
   return context;
 }
 
@@ -150,7 +173,7 @@ Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
   surface.position = ray.origin + surface.distance * ray.direction;
   surface.back_face = crossing.back_face;
   surface.facing = surface.back_face ? -normal : normal;
-  const vec3 weights = barycentric(hit.u, hit.v);
+  const vec3 weights = weights_of(hit, surface.position);
   surface.uv = uv_at(mesh, hit.triangle, weights);
   surface.normal = surface.facing;
   if (!mesh.normals.empty()) {
@@ -162,11 +185,12 @@ Surface Tracer::Impl::surface(const TracerRay& ray, const RawHit& hit) const {
   return surface;
 }
 
-Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {
+Tracer::Tracer(const Scene& scene, Tracing tracing) : impl_(std::make_unique<Impl>(scene, tracing)) {
   check(scene);
   impl_->bound();
   const auto start = std::chrono::steady_clock::now();
-  impl_->device.reset(rtcNewDevice(nullptr));
+  // Embree's tree, and so which of two triangles that meet under a ray it finds first, depends on the number of threads.
+  impl_->device.reset(rtcNewDevice(impl_->is_reproducible ? "isa=sse2,threads=1" : nullptr));
   if (!impl_->device) throw Error("{}: Embree does not start", scene.name);
   impl_->embree.reset(rtcNewScene(impl_->device.get()));
   rtcSetSceneFlags(impl_->embree.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
@@ -186,12 +210,35 @@ std::optional<Surface> Tracer::Impl::first(const TracerRay& ray, RTCIntersectCon
   const std::optional<double> start = start_of(ray);
   if (!start) return {};
   RTCRayHit query;
-  query.ray = embree_ray(ray, *start);
+  query.ray = embree_ray({ray.origin, ray.direction, ray.near, searched(ray.far)}, *start);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return surface(ray, {query.hit.geomID, query.hit.primID, *start + double(query.ray.tfar), query.hit.u, query.hit.v});
+  const RawHit hit{query.hit.geomID, query.hit.primID, *start + double(query.ray.tfar), query.hit.u, query.hit.v};
+  if (is_reproducible) return nearest_beside(ray, *start, hit);
+  return surface(ray, hit);
+}
+
+/// Which of several surfaces in one place is the nearest, Embree decides by its inexact distances, and those of meshes that touch are in
+/// one place. So all around its hit are compared in double.
+std::optional<Surface> Tracer::Impl::nearest_beside(const TracerRay& ray, double start, const RawHit& hit) const {
+  const double distance = hit.distance - start;
+  TracerRay beside = ray;
+  beside.near = start + distance * (1 - near_the_end), beside.far = start + distance * (1 + near_the_end);
+  std::vector<RawHit>& hits = hits_of(beside, start);
+  hits.push_back(hit);
+  const auto place_of = [&](const RawHit& one) {
+    const Crossing at = crossing(ray, one, normal(ray, one));
+    return std::tuple(at.distance, one.mesh, one.triangle);
+  };
+  const RawHit* best = nullptr;
+  for (const RawHit& one : hits) {
+    if (std::get<0>(place_of(one)) <= ray.near || std::get<0>(place_of(one)) > ray.far) continue;
+    if (!best || place_of(one) < place_of(*best)) best = &one;
+  }
+  if (!best) return {};
+  return surface(ray, *best);
 }
 
 std::optional<Surface> Tracer::first(const TracerRay& ray) const {
@@ -201,27 +248,31 @@ std::optional<Surface> Tracer::first(const TracerRay& ray) const {
 }
 
 std::optional<Surface> Tracer::first_from(const vec3& lifted, const dvec3& direction, double far) const {
-  SceneContext context = impl_->context();
+  SceneContext context = impl_->context(far);
   return impl_->first({dvec3(lifted), direction, 0, far}, context.base);
 }
 
-/// All hits that Embree reports, in its order; valid until the thread's next call.
-const std::vector<RawHit>& Tracer::Impl::gathered(const TracerRay& ray) const {
+/// All hits that Embree reports, in its order, with their distances from the ray's own start; valid until the thread's next call.
+std::vector<RawHit>& Tracer::Impl::hits_of(const TracerRay& ray, double start) const {
   thread_local std::vector<RawHit> hits;
   hits.clear();
-  const std::optional<double> start = start_of(ray);
-  if (!start) return hits;
   GatheringContext context;
   rtcInitIntersectContext(&context.base);
   context.base.filter = gather_hit;
   context.hits = &hits;
   RTCRayHit query;
-  query.ray = embree_ray(ray, *start);
+  query.ray = embree_ray(ray, start);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree.get(), &context.base, &query);
-  for (RawHit& hit : hits) hit.distance += *start;
+  for (RawHit& hit : hits) hit.distance += start;
   return hits;
+}
+
+const std::vector<RawHit>& Tracer::Impl::gathered(const TracerRay& ray) const {
+  static const std::vector<RawHit> none;
+  const std::optional<double> start = start_of(ray);
+  return start ? hits_of(ray, *start) : none;
 }
 
 /// Whether two triangles share a vertex, by position.
@@ -265,24 +316,28 @@ void Tracer::all(const TracerRay& ray, std::vector<Surface>& surfaces) const {
 }
 
 void Tracer::blocked(const vec3& origin, const vec3* directions, int count, float far, bool* blocked) const {
-  SceneContext context = impl_->context();
+  SceneContext context = impl_->context(double(far));
   for (int first = 0; first < count; first += 16) {
     const int n = std::min(16, count - first);
-    RayPacket packet(origin, directions + first, n, far);
+    RayPacket packet(origin, directions + first, n, float(impl_->searched(double(far))));
     rtcOccluded16(packet.valid, impl_->embree.get(), &context.base, &packet.rays.ray);
     for (int i = 0; i < n; ++i) blocked[first + i] = packet.rays.ray.tfar[i] < 0;
   }
 }
 
 void Tracer::distances(const vec3& origin, const vec3* directions, int count, float far, float* distances) const {
-  SceneContext context = impl_->context();
+  SceneContext context = impl_->context(double(far));
   for (int first = 0; first < count; first += 16) {
     const int n = std::min(16, count - first);
-    RayPacket packet(origin, directions + first, n, far);
+    RayPacket packet(origin, directions + first, n, float(impl_->searched(double(far))));
     rtcIntersect16(packet.valid, impl_->embree.get(), &context.base, &packet.rays);
     for (int i = 0; i < n; ++i) {
       const bool hit = packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
       distances[first + i] = hit ? packet.rays.ray.tfar[i] : std::numeric_limits<float>::infinity();
+      if (!hit || !impl_->is_reproducible) continue;
+      const TracerRay ray{dvec3(origin), dvec3(directions[first + i])};
+      const RawHit raw{packet.rays.hit.geomID[i], packet.rays.hit.primID[i], double(distances[first + i]), 0, 0};
+      distances[first + i] = float(impl_->crossing(ray, raw, impl_->normal(ray, raw)).distance);
     }
   }
 }

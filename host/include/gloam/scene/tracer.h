@@ -48,11 +48,16 @@ struct TracerRay {
   double near = 0, far = std::numeric_limits<double>::infinity();
 };
 
+/// How rays are computed. `fastest`: with the best instructions of the CPU, so that the last bits differ from one CPU to another.
+/// `reproducible`: with those that every x86-64 CPU has, and what a vendor's approximate reciprocal decides is decided again in double:
+/// the same results on every such CPU and with any number of threads, for some more time.
+enum class Tracing { fastest, reproducible };
+
 /// A scene prepared for ray tracing. Thread-safe. The scene must outlive it.
 class Tracer {
  public:
   /// Throws Error as `check(scene)` does, and if Embree runs out of memory.
-  explicit Tracer(const Scene& scene);
+  explicit Tracer(const Scene& scene, Tracing tracing = Tracing::fastest);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -1,0 +1,277 @@
+#include "cli/bench_set.h"
+
+#include <algorithm>
+
+#include "bench/document.h"
+#include "bench/effects.h"
+#include "bench/sequence.h"
+#include "bench/sequence_document.h"
+#include "bench/tables.h"
+#include "cli/score_targets.h"
+#include "gloam/error.h"
+#include "score/result_file.h"
+
+namespace gloam::cli {
+namespace {
+
+using namespace gloam::bench;
+using score::Target;
+
+/// The effects that targets have and gloam measures, as --effects takes them.
+std::string effects_of_set(const std::vector<Target>& targets) {
+  std::vector<std::string> effects;
+  for (const Target& target : targets) {
+    if (contains(effect_names(), target.effect)) add_new(effects, target.effect);
+  }
+  return fmt::format("{}", fmt::join(effects, ","));
+}
+
+/// Sets are measured without what takes longest, unless it is asked for.
+BenchCommand with_defaults(BenchCommand flags, const std::vector<Target>& targets) {
+  const auto is_given = [&](const char* flag) { return flags.app->get_option(flag)->count() > 0; };
+  if (!is_given("--variants")) flags.variants = "none";
+  if (!is_given("--ladder")) flags.ladder = LadderFor::none;
+  if (flags.effects.empty() && flags.techniques.empty()) flags.effects = effects_of_set(targets);
+  flags.no_growth = flags.no_checks = true;
+  return flags;
+}
+
+void check_set_flags(const BenchCommand& flags) {
+  for (const char* flag : {"--scenes", "--frame", "--truth", "--sequence", "--frames", "--size", "--rays", "--radius", "--paper",
+                           "--chunks"}) {
+    if (flags.app->get_option(flag)->count() > 0)
+      throw UsageError("{}: the set says what is measured; leave it out", flag);
+  }
+  for (const CLI::Option* option : flags.app->get_options()) {
+    if (option->get_group() == "Reading the frame" && option->count() > 0)
+      throw UsageError("{}: says how frames are read, and those of a set say it themselves; leave it out",
+                       option->get_name());
+  }
+}
+
+class SetBench {
+ public:
+  SetBench(const BenchCommand& given, Device& device)
+      : set_(read_set(given.set)), device_(device), flags_(with_defaults(given, set_.targets)) {
+    if (!flags_.items.empty()) keep_items(set_.targets, split_list(flags_.items, "--items"));
+    options_ = options_of(flags_, device.info(), result_);
+    // of eyes they are measured, and no frame is left out
+    std::erase_if(result_.skipped, [](const Skipped& skipped) {
+      return skipped.scene.empty() && !needs_naming(find_technique(skipped.technique)).empty();
+    });
+    make_output_folder(flags_.folder);
+    file_.emplace(flags_.folder, set_.id, GLOAM_VERSION);
+    kept_ = submitted_rows();
+    check_paths({}, {{"-o", file_->path().string()}, {"--json", flags_.json.file()}});
+  }
+
+  void run() {
+    for (const Target& target : set_.targets) {
+      try {
+        measure_target(target);
+      } catch (const UsageError&) {
+        throw;
+      } catch (const Error& error) {
+        left_out_.push_back(fmt::format("{}: left out: {}", target.in_words(), error.what()));
+        erase_status();
+        std::fputs(("gloam: " + printable(left_out_.back()) + "\n").c_str(), stderr);
+        continue;
+      }
+      write();
+    }
+    erase_status();
+    note(result_.notes);
+    if (result_.rows.empty() && sequence_rows_.empty())
+      throw Error("nothing could be measured: {}", left_out_.empty() ? "no technique makes the set's effects" : left_out_.front());
+    flags_.json.write(document());
+    if (!flags_.json.only_json()) print();
+    if (left_out_.empty()) return;
+    std::fflush(stdout);
+    print_notes();
+    throw Error("{} left out, {} measured", counted(left_out_.size(), "item"), counted(kinds_.size(), "item"));
+  }
+
+ private:
+  struct Measured {
+    MeasuredSequence sequence;
+    SequenceMeasurement rows;
+  };
+
+  /// What gloam score has added to results of this set.
+  Json submitted_rows() const {
+    Json rows = Json::array();
+    for (const Json& row : file_->document()["results"]) {
+      if (row.is_object() && row.contains("submitted") && row["submitted"].is_object()) rows.push_back(row);
+    }
+    return rows;
+  }
+
+  /// Those for an effect; for two eyes also the techniques of two views, unless the user names techniques.
+  MeasureOptions options_for(const Target& target) const {
+    MeasureOptions options = for_effect(options_, target.effect);
+    if (target.views.size() != 2 || !flags_.techniques.empty()) return options;
+    for (const Technique& technique : registry()) {
+      if (!needs_naming(technique).empty() && why_not_measured(technique, {target.effect}).empty())
+        options.techniques.push_back(&technique);
+    }
+    return options;
+  }
+
+  void measure_target(const Target& target) {
+    if (!contains(effect_names(), target.effect) || !contains(options_.effects, target.effect)) {
+      result_.skipped.push_back({"", "", target.in_words(), fmt::format("{} is not measured here", target.effect)});
+      return;
+    }
+    for (const score::TargetFrame& at : target.frames) {
+      if (at.check) at.check();
+    }
+    if (target.is_sequence)
+      measure_frames(target);
+    else
+      measure_frame(target);
+    kinds_[target.name] = target.kind;
+  }
+
+  Subject subject_of(const Target& target, const score::TargetFrame& at, const MeasureOptions& options,
+                     const SceneOptions& making) const {
+    Subject subject =
+        own_subject(at.frame.string(), FrameFlags{}, at.truths, target.effect, options.techniques, making);
+    subject.name = target.name;
+    subject.scene_class = target.scene_class;
+    if (options.ladder == LadderFor::none) subject.truths.reset();
+    return subject;
+  }
+
+  void measure_frame(const Target& target) {
+    const MeasureOptions options = options_for(target);
+    Subject subject = subject_of(target, target.frames.front(), options, options_.scene);
+    measure(subject, options, false, device_, result_);
+  }
+
+  void measure_frames(const Target& target) {
+    if (target.effect != "ao") {
+      result_.skipped.push_back({"", "", target.in_words(), "of a sequence ambient occlusion alone is measured"});
+      return;
+    }
+    MeasureOptions options = options_for(target);
+    if (flags_.techniques.empty())
+      std::erase_if(options.techniques, [](const Technique* technique) { return reads_layers(*technique); });
+    SceneOptions making = options_.scene;
+    making.more_planes = {"motion"};
+    Measured measured;
+    measured.sequence.name = target.name;
+    measured.sequence.scene_class = target.scene_class;
+    for (const score::TargetFrame& at : target.frames) {
+      show_status(target.in_words(at.number), 0);
+      add_frame(measured.sequence, at.number, subject_of(target, at, options, making));
+    }
+    measured.rows = measure_sequence(measured.sequence, options, device_);
+    result_.skipped.insert(result_.skipped.end(), measured.rows.skipped.begin(), measured.rows.skipped.end());
+    std::vector<std::string> notes;
+    const score::LoadedFrame first = score::load(target.frames.front(), target.effect, {}, notes);
+    sequence_scenes_.push_back(score::facts_of(target, first, options_.folder));
+    for (const SequenceRow& row : measured.rows.rows) sequence_rows_.push_back(row_of(row, target, first));
+    sequences_.push_back(std::move(measured));
+  }
+
+  /// A row of a sequence, as those of frames.
+  Json row_of(const SequenceRow& row, const Target& target, const score::LoadedFrame& first) const {
+    const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+    const auto [least, most] = std::minmax_element(row.ms.begin(), row.ms.end());
+    const Variation& v = row.variation;
+    return {{"technique", v.technique->name},
+            {"preset", v.name()},
+            {"variant", v.variant},
+            {"depths", depths_of(*v.technique)},
+            {"views", v.technique->views},
+            {"settings", Json::object()},
+            {"resolution", "full"},
+            {"scene", target.name},
+            {"effect", target.effect},
+            {"kind", target.kind},
+            {"width", first.frame.width()},
+            {"height", first.frame.height()},
+            {"ms", {{"median", median(row.ms)}, {"min", *least}, {"max", *most}, {"rounds", row.ms}}},
+            {"ratio_to_hbao_plus", number(row.ratio)},
+            {"ratio_to_gather_floor", nullptr},
+            {"rmse_to_truth", row.rmse},
+            {"bias", row.bias},
+            {"ssim", row.ssim},
+            {"flip", number(row.flip)},
+            {"flicker", number(row.flicker.flicker())},
+            {"inconsistency", nullptr},
+            {"image", nullptr}};
+  }
+
+  Json document() const {
+    Json made = document_of(result_, options_, device_.info());
+    made["gloam"] = GLOAM_VERSION;
+    made["set"] = score::document_of(set_.id);
+    for (const SceneFacts& scene : sequence_scenes_) made["scenes"].push_back(document_of(scene));
+    for (const Json& row : sequence_rows_) made["results"].push_back(row);
+    for (const char* list : {"scenes", "results"}) {
+      for (Json& each : made[list]) {
+        const auto kind = kinds_.find(each.value(list == std::string("scenes") ? "name" : "scene", ""));
+        if (kind != kinds_.end()) each["kind"] = kind->second.empty() ? Json(nullptr) : Json(kind->second);
+      }
+    }
+    for (const Json& row : kept_) made["results"].push_back(row);
+    keep_scenes(made["scenes"]);
+    return made;
+  }
+
+  /// Adds the scenes of kept rows that were not measured.
+  void keep_scenes(Json& scenes) const {
+    const auto is_same = [](const Json& a, const Json& b) {
+      return a.value("name", "") == b.value("name", "") && a.value("effect", "ao") == b.value("effect", "ao");
+    };
+    for (const Json& before : file_->document()["scenes"]) {
+      const auto is_it = [&](const Json& scene) { return is_same(scene, before); };
+      const auto is_of_it = [&](const Json& row) {
+        return row.value("scene", "") == before.value("name", "") && row.value("effect", "ao") == before.value("effect", "ao");
+      };
+      if (std::none_of(scenes.begin(), scenes.end(), is_it) && std::any_of(kept_.begin(), kept_.end(), is_of_it))
+        scenes.push_back(before);
+    }
+  }
+
+  void write() const { JsonFlag{file_->path().string()}.write(document()); }
+
+  void print() const {
+    fmt::print("{}, {} ({}); set {}\n", cpu_model(), device_.info().name, device_.info().platform,
+               printable(score::in_words(set_.id)));
+    const auto print_one = [](const Table& table) {
+      fmt::print("\n{}\n", printable(table.title));
+      print_table(table.rows, table.first_number);
+      for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
+    };
+    for (const SceneFacts& scene : result_.scenes) print_one(table_of_scene(result_, scene));
+    for (const Measured& each : sequences_) print_one(table_of_sequence(each.sequence, each.rows));
+    for (const Skipped& s : result_.skipped)
+      fmt::print("skipped {}{}{}: {}\n", s.technique, s.preset.empty() ? "" : " " + s.preset,
+                 s.scene.empty() ? "" : (s.technique.empty() ? "" : " on ") + printable(s.scene), printable(s.why));
+    fmt::print("wrote {}\n", printable(file_->path().string()));
+  }
+
+  ScoredSet set_;
+  Device& device_;
+  const BenchCommand flags_;
+  BenchOptions options_;
+  Measurement result_;
+  std::optional<score::ResultFile> file_;
+  Json kept_ = Json::array();
+  std::vector<Measured> sequences_;
+  std::vector<SceneFacts> sequence_scenes_;
+  std::vector<Json> sequence_rows_;
+  std::map<std::string, std::string> kinds_;  ///< by item
+  std::vector<std::string> left_out_;
+};
+
+}  // namespace
+
+void bench_set(const BenchCommand& flags, Device& device) {
+  check_set_flags(flags);
+  SetBench(flags, device).run();
+}
+
+}  // namespace gloam::cli

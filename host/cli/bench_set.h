@@ -1,0 +1,12 @@
+// gloam bench --set DIR: gloam's own techniques on the items of a frozen set, with the figures that gloam score gives others.
+#pragma once
+
+#include "cli/bench_request.h"
+
+namespace gloam::cli {
+
+/// Measures every item with the techniques that make its effects, and writes bench.json after each. Rows that gloam score added to the
+/// same set's bench.json stay. Throws Error for a folder with results of another set, UsageError for flags that a set does not take.
+void bench_set(const BenchCommand& flags, Device& device);
+
+}  // namespace gloam::cli

@@ -1,0 +1,213 @@
+#include "cli/score_command.h"
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/lists.h"
+#include "bench/effects.h"
+#include "cli/camera_file.h"
+#include "cli/foreign_process.h"
+#include "cli/options.h"
+#include "gloam/error.h"
+#include "gloam/radius.h"
+#include "technique/default_technique.h"
+
+namespace gloam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using score::Target;
+using score::TargetFrame;
+
+constexpr const char* flag = "--command";
+constexpr const char* own_image = ".gloam_own.exr";
+
+/// The technique that gloam takes for an effect; empty if there is none.
+std::string own_technique(const std::string& effect) {
+  if (technique_for(effect) != effect) return effect;  // "ao" stands for its default
+  for (const Technique& technique : registry()) {
+    if (bench::measured_plane(technique) == effect && technique.views == 1) return technique.name;
+  }
+  return "";
+}
+
+/// "frames/walk.####.exr" for "frames/walk.0007.exr" of frame 7.
+std::string pattern_of(const fs::path& file, int frame) {
+  const std::string name = file.filename().string(), number = fmt::format("{:04}", frame);
+  const size_t at = name.rfind(number);
+  if (at == std::string::npos) return file.string();
+  return (file.parent_path() / (name.substr(0, at) + std::string(number.size(), '#') + name.substr(at + number.size())))
+      .string();
+}
+
+}  // namespace
+
+MethodCommand::MethodCommand(const ScoreCommandFlags& flags, const fs::path& folder)
+    : flags_(flags), words_(words_of_command(flags.command, flag)), folder_(folder) {
+  const bool by_frame = has("{frame}") && has("{image}"), by_sequence = has("{frames}") && has("{images}");
+  if (by_frame == by_sequence)
+    throw UsageError(
+        "{} {}: has to say where the frame and the image go: {{frame}} and {{image}} for one run per frame, or {{frames}} and "
+        "{{images}} for one run per sequence",
+        flag, flags.command);
+  if (by_sequence && has("{view}"))
+    throw UsageError("{} {}: {{view}} goes with {{frame}} and {{image}}, one run per frame and view", flag, flags.command);
+  Target target;
+  target.name = "ITEM";
+  const TargetFrame at;
+  for (const std::string& word : words_) with_values(word, values_for(target, at, "", "image.exr"), flag);
+}
+
+bool MethodCommand::has(const char* placeholder) const {
+  return std::any_of(words_.begin(), words_.end(),
+                     [&](const std::string& word) { return word.find(placeholder) != std::string::npos; });
+}
+
+fs::path MethodCommand::image_of(const Target& target, const std::string& frame, const std::string& view) const {
+  return folder_ / fmt::format("{}{}{}_{}.{}", target.name, target.is_sequence ? "." + frame : "",
+                               view.empty() ? "" : "_" + view, target.effect, flags_.image_type);
+}
+
+fs::path MethodCommand::camera_of(const Target& target, const TargetFrame& at) const {
+  return folder_ / fmt::format("{}{}.camera.json", target.name, target.is_sequence ? fmt::format(".{:04}", at.number) : "");
+}
+
+std::map<std::string, std::string> MethodCommand::values_for(const Target& target, const TargetFrame& at,
+                                                             const std::string& view, const fs::path& image) const {
+  std::map<std::string, std::string> values = {{"frame", at.frame.string()},
+                                               {"image", image.string()},
+                                               {"radius", target.radius ? fmt::format("{}", *target.radius) : ""},
+                                               {"effect", target.effect},
+                                               {"item", target.name},
+                                               {"frame_number", std::to_string(at.number)},
+                                               {"view", view},
+                                               {"camera", camera_of(target, at).string()},
+                                               {"frames", at.frame.string()},
+                                               {"images", image.string()}};
+  if (target.is_sequence && !target.frames.empty()) {
+    values["frames"] = pattern_of(target.frames.front().frame, target.frames.front().number);
+    values["images"] = image_of(target, "####", "").string();
+  }
+  return values;
+}
+
+std::vector<MethodCommand::Job> MethodCommand::jobs_for(const Target& target, const TargetFrame& at) const {
+  std::vector<std::string> views = {""};
+  if (has("{view}") && target.views.size() > 1) views = target.views;
+  std::vector<Job> jobs;
+  for (const std::string& view : views) {
+    Job job;
+    job.view = view;
+    job.image = image_of(target, fmt::format("{:04}", at.number), view);
+    for (const std::string& word : words_)
+      job.words.push_back(with_values(word, values_for(target, at, view, job.image), flag));
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+MethodCommand::Made MethodCommand::make(const Target& target, const TargetFrame& at) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) return {{}, fmt::format("{}: cannot be made ({})", folder_.string(), error.message())};
+  Made made;
+  try {
+    if (has("{camera}")) write_camera_file(camera_of(target, at), at.frame);
+    for (const Job& job : jobs_for(target, at)) {
+      fs::remove(job.image, error);  // of an earlier run
+      const ForeignEnd end = run_foreign(job.words, flags_.timeout);
+      if (!end.why.empty()) return {{}, fmt::format("'{}' ended: {}", job.words.front(), in_words(end))};
+      if (!fs::exists(job.image, error))
+        return {{},
+                fmt::format("'{}' left no {}{}", job.words.front(), job.image.string(),
+                            end.said.empty() ? "" : "; it said: " + end.said)};
+      made.files.push_back({job.image, job.view});
+    }
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& failure) {
+    made.failure = failure.what();
+  }
+  return made;
+}
+
+std::vector<score::SubmittedFile> MethodCommand::files_of(const Target& target, const TargetFrame& at) {
+  const bool is_whole = target.is_sequence && has("{frames}");
+  const std::string key = fmt::format("{} {} {}", target.name, target.effect, is_whole ? 0 : at.number);
+  if (!made_.count(key)) {
+    // one run makes all images of a sequence: that of the first frame is looked for
+    made_[key] = make(target, is_whole ? target.frames.front() : at);
+  }
+  const Made& made = made_.at(key);
+  if (!made.failure.empty()) throw Error("{}", made.failure);
+  if (!is_whole) return made.files;
+  const fs::path image = image_of(target, fmt::format("{:04}", at.number), "");
+  std::error_code unknown;
+  if (!fs::exists(image, unknown)) throw Error("'{}' left no {}", words_.front(), image.string());
+  return {{image, ""}};
+}
+
+double MethodCommand::milliseconds_of(const Target& target, const TargetFrame& at) const {
+  double ms = 0;
+  for (const Job& job : jobs_for(target, at)) {
+    const ForeignEnd end = run_foreign(job.words, flags_.timeout);
+    if (!end.why.empty()) throw Error("'{}' ended: {}", job.words.front(), in_words(end));
+    ms += end.ms;
+  }
+  return ms;
+}
+
+std::vector<std::string> MethodCommand::own_words(const Target& target, const TargetFrame& at) const {
+  const bool is_whole = target.is_sequence && has("{frames}");
+  const std::string image = (folder_ / (is_whole ? ".gloam_own.####.exr" : own_image)).string();
+  std::vector<std::string> words = {"gloam",
+                                    "run",
+                                    own_technique(target.effect),
+                                    is_whole ? values_for(target, at, "", "").at("frames") : at.frame.string(),
+                                    "-o",
+                                    image,
+                                    "--quiet"};
+  const std::string radius = radius_parameter(find_technique(technique_for(own_technique(target.effect))).parameters);
+  if (target.radius && !radius.empty())
+    words.insert(words.end(), {"--set", fmt::format("{}={}", radius, *target.radius)});
+  if (!flags_.device.empty()) words.insert(words.end(), {"--device", flags_.device});
+  return words;
+}
+
+std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::vector<std::string>& notes) try {
+  score::WholeTimes times;
+  times.command = flags_.command;
+  const bool has_own = !own_technique(target.effect).empty(), is_whole = target.is_sequence && has("{frames}");
+  const size_t frames = is_whole ? 1 : target.frames.size();
+  const double per = is_whole ? double(target.frames.size()) : 1;  // of a frame
+  std::vector<std::string> own;
+  if (has_own) {
+    own = own_words(target, target.frames.front());
+    for (const std::string& word : own) times.gloam_command += (times.gloam_command.empty() ? "" : " ") + quoted(word);
+  }
+  const auto run_own = [&](const TargetFrame& at) {
+    std::vector<std::string> words = own_words(target, at);
+    words.front() = fs::read_symlink("/proc/self/exe").string();
+    const ForeignEnd end = run_foreign(words, flags_.timeout);
+    if (!end.why.empty()) throw Error("'gloam run' ended: {}", in_words(end));
+    return end.ms;
+  };
+  // The first run of both is not timed: it fills caches, those of kernels too. The command's made the image.
+  if (has_own) run_own(target.frames.front());
+  for (int round = 0; round < flags_.rounds; ++round) {
+    const TargetFrame& at = target.frames[size_t(round) % frames];
+    times.ms.push_back(milliseconds_of(target, at) / per);
+    if (has_own) times.gloam_ms.push_back(run_own(at) / per);
+  }
+  std::error_code unknown;
+  fs::remove(folder_ / own_image, unknown);
+  for (const TargetFrame& at : target.frames) fs::remove(folder_ / fmt::format(".gloam_own.{:04}.exr", at.number), unknown);
+  return times;
+} catch (const UsageError&) {
+  throw;
+} catch (const Error& error) {
+  notes.push_back(fmt::format("{}: not timed: {}", target.in_words(), error.what()));
+  return {};
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,62 @@
+// gloam score --command: a method's own program makes the images, and is timed whole beside gloam.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "score/result_file.h"
+#include "score/scoring.h"
+
+namespace gloam::cli {
+
+struct ScoreCommandFlags {
+  std::string command;       ///< "engine --in {frame} --out {image}"
+  std::string device;        ///< for gloam's own runs
+  std::string image_type = "exr";
+  double timeout = 600;
+  int rounds = 3;
+};
+
+/// Runs the command for frames when their images are asked for, once each; the images stay in a folder.
+class MethodCommand {
+ public:
+  /// `folder`: of the images, made when the first one is. Throws UsageError for a command that cannot be run so.
+  MethodCommand(const ScoreCommandFlags& flags, const std::filesystem::path& folder);
+
+  /// The images of a frame. Throws Error where the command fails, hangs, or leaves no image.
+  std::vector<score::SubmittedFile> files_of(const score::Target& target, const score::TargetFrame& at);
+
+  /// The command in turn with gloam's own technique on the same frame, each as a whole process, in rounds; frame by frame for a
+  /// sequence. None, with a note, where one of them fails.
+  std::optional<score::WholeTimes> time(const score::Target& target, std::vector<std::string>& notes);
+
+ private:
+  struct Made {
+    std::vector<score::SubmittedFile> files;
+    std::string failure;  ///< empty: made
+  };
+  /// What a command makes in one run.
+  struct Job {
+    std::vector<std::string> words;
+    std::filesystem::path image;
+    std::string view;
+  };
+  bool has(const char* placeholder) const;
+  std::vector<Job> jobs_for(const score::Target& target, const score::TargetFrame& at) const;
+  std::map<std::string, std::string> values_for(const score::Target& target, const score::TargetFrame& at,
+                                                const std::string& view, const std::filesystem::path& image) const;
+  std::filesystem::path image_of(const score::Target& target, const std::string& frame, const std::string& view) const;
+  std::filesystem::path camera_of(const score::Target& target, const score::TargetFrame& at) const;
+  Made make(const score::Target& target, const score::TargetFrame& at);
+  double milliseconds_of(const score::Target& target, const score::TargetFrame& at) const;
+  std::vector<std::string> own_words(const score::Target& target, const score::TargetFrame& at) const;
+
+  const ScoreCommandFlags flags_;
+  const std::vector<std::string> words_;
+  const std::filesystem::path folder_;
+  std::map<std::string, Made> made_;
+};
+
+}  // namespace gloam::cli

@@ -1,0 +1,21 @@
+// The values that a PNG stores, for measuring: no colour space is applied.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "gloam/frame.h"
+
+namespace gloam {
+
+/// Values from 0 to `largest`, as stored; alpha is left out.
+struct PngValues {
+  int bits = 8;                   ///< 8 or 16; fewer are brought to 8
+  int largest = 255;              ///< 255 or 65535
+  std::vector<Channel> channels;  ///< one of grey, three of colours
+};
+
+/// Throws Error naming `path` if it is no PNG, damaged, or larger than `max_pixels`.
+PngValues read_png_values(const std::filesystem::path& path);
+
+}  // namespace gloam

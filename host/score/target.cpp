@@ -1,0 +1,103 @@
+#include "score/target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/lists.h"
+#include "bench/effects.h"
+#include "bench/pictures.h"
+#include "compare/plane_pairs.h"
+#include "exr/holdings.h"
+#include "gloam/error.h"
+
+namespace gloam::score {
+namespace {
+
+/// The value that pictures of an effect show as white.
+double white_of(const LoadedFrame& loaded) {
+  const View& view = pictured_view(loaded);
+  return bench::white_of(loaded.truth.image.at(view.name), view.planes.at("depth").channels[0]);
+}
+
+}  // namespace
+
+std::string Target::in_words(std::optional<int> frame) const {
+  std::string words = name;
+  if (effect != "ao") words += " (" + effect + ")";
+  if (frame && is_sequence) words += fmt::format(" frame {}", *frame);
+  return words;
+}
+
+std::vector<std::string> LoadedFrame::views() const {
+  std::vector<std::string> names;
+  for (const View& view : frame.views) names.push_back(view.name);
+  return names;
+}
+
+LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOptions& reading,
+                 std::vector<std::string>& notes) {
+  if (at.check) at.check();
+  LoadedFrame loaded;
+  FrameFile file(at.frame, reading);
+  const std::vector<std::string> there = file.common_planes();
+  if (!contains(there, "depth"))
+    throw Error("{}: has no depth to tell the background by; {}", at.frame.string(), holdings(file));
+  std::vector<std::string> planes = {"depth"};
+  for (const char* plane : {"normal", "motion"}) {
+    if (contains(there, plane)) planes.push_back(plane);
+  }
+  loaded.frame = file.read(planes);
+  loaded.truth = bench::read_truth(at.truths, effect, loaded.frame, notes);
+  for (auto& [view, plane] : loaded.truth.image) plane = without_confidence(std::move(plane));
+  loaded.foreground = bench::foreground(loaded.frame);
+  if (effect == "reflection")
+    loaded.exposure = FrameFile(at.truths.front(), {}).number_attribute("gloamExposure").value_or(0);
+  return loaded;
+}
+
+std::string picture_folder(const Target& target) {
+  return "images/" + bench::file_name(target.name + (target.effect == "ao" ? "" : "_" + target.effect));
+}
+
+const View& pictured_view(const LoadedFrame& loaded) {
+  const auto& views = loaded.frame.views;
+  const auto has_truth = [&](const View& view) { return loaded.truth.image.count(view.name) > 0; };
+  const auto found = std::find_if(views.begin(), views.end(), has_truth);
+  return found == views.end() ? views.front() : *found;
+}
+
+std::string write_picture(const std::filesystem::path& folder, const Target& target, const std::string& name,
+                          const LoadedFrame& loaded, const bench::Image& image) {
+  const std::string below = picture_folder(target), path = fmt::format("{}/{}.png", below, bench::file_name(name));
+  std::error_code error;
+  std::filesystem::create_directories(folder / below, error);
+  if (error) throw Error("{}: cannot be made ({})", (folder / below).string(), error.message());
+  const View& view = pictured_view(loaded);
+  const auto shown = image.find(view.name);
+  if (shown == image.end()) return "";
+  bench::write_grey(folder / path, shown->second, view.planes.at("depth").channels[0], white_of(loaded));
+  return path;
+}
+
+bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder) {
+  bench::SceneFacts facts{target.name, target.scene_class, target.effect, first.frame.width(), first.frame.height(), {}};
+  const std::optional<double> radius = target.radius ? target.radius : first.truth.radius;
+  facts.radius = radius ? Radius{*radius, RadiusSource::truth} : default_radius(first.frame, {});
+  facts.radius_pixels = bench::median_reach(first.frame, facts.radius.value);
+  facts.truth_noise = first.truth.noise;
+  facts.truth_rays = first.truth.rays;
+  facts.base = "black";
+  float base = 0;
+  if (contains(bench::effect_names(), target.effect)) {
+    facts.base = bench::effect_of(target.effect).base;
+    base = bench::effect_of(target.effect).base_value;
+  }
+  const bench::Image even = bench::even_image(first.truth.image, base);
+  facts.base_errors.rmse = bench::rmse(even, first.truth.image, first.foreground);
+  facts.base_errors.bias = bench::bias(even, first.truth.image, first.foreground);
+  facts.white = white_of(first);
+  if (!folder.empty()) facts.truth_image = write_picture(folder, target, "truth", first, first.truth.image);
+  return facts;
+}
+
+}  // namespace gloam::score

@@ -1,0 +1,61 @@
+// What images are scored against: an item of a frozen set, or the user's own frames, with the truths of one effect.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/measurement.h"
+#include "gloam/exr.h"
+
+namespace gloam::score {
+
+/// A frame and the files of its truth.
+struct TargetFrame {
+  int number = 1;
+  std::filesystem::path frame;
+  std::vector<std::string> truths;
+  std::function<void()> check;  ///< throws Error for a file that is not the set's; empty: nothing to check
+};
+
+struct Target {
+  std::string name;                    ///< "courtyard"
+  std::string kind;                    ///< "frame", "sequence", "eyes", "display", "hard"; empty outside a set
+  std::string scene_class = "own";
+  std::string effect = "ao";
+  std::optional<double> radius;        ///< as the set states it
+  std::vector<std::string> views;      ///< names; empty: one without a name, or not known before the frame is opened
+  bool is_sequence = false;
+  std::vector<TargetFrame> frames;
+
+  /// "courtyard", "walk frame 7"; with the effect where it is not ambient occlusion.
+  std::string in_words(std::optional<int> frame = {}) const;
+};
+
+/// A frame with its truth, decoded.
+struct LoadedFrame {
+  Frame frame;  ///< depth, and where they are there normals and motion
+  bench::Truth truth;
+  bench::Foreground foreground;
+  double exposure = 0;  ///< of a reflection, by its truth
+  std::vector<std::string> views() const;
+};
+
+/// Throws Error: a file is not the set's, cannot be read, or has neither depth nor truth.
+LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOptions& reading,
+                 std::vector<std::string>& notes);
+
+/// What a report says of the scene, with a picture of its truth below `folder` (empty: without).
+bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder);
+
+/// The folder of a target's pictures below that of the results, and the view that pictures show.
+std::string picture_folder(const Target& target);
+const View& pictured_view(const LoadedFrame& loaded);
+
+/// Writes a picture of one view as PNG below `folder`; returns its path there. Throws Error.
+std::string write_picture(const std::filesystem::path& folder, const Target& target, const std::string& name,
+                          const LoadedFrame& loaded, const bench::Image& image);
+
+}  // namespace gloam::score

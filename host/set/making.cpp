@@ -1,0 +1,152 @@
+#include "set/making.h"
+
+#include <embree3/rtcore.h>
+#ifdef __GLIBC__
+#include <gnu/libc-version.h>
+#endif
+
+#include <chrono>
+
+#include "base/elapsed.h"
+#include "base/files.h"
+#include "base/lists.h"
+#include "gloam/error.h"
+#include "set/item_making.h"
+
+namespace gloam::sets {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw Error("-o {}: cannot be made ({})", folder.string(), failed.message());
+}
+
+/// What an earlier run made; empty if there was none.
+Manifest earlier(const Recipe& recipe, const MakeOptions& options) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(options.folder / "manifest.json", unknown)) return {};
+  Manifest manifest = read_manifest(options.folder);
+  const bool is_same = manifest.set == recipe.name && manifest.seed == options.seed;
+  if (!is_same)
+    throw Error("{}: holds {}{}; give another folder by -o, or remove it", options.folder.string(), manifest.set,
+                manifest.seed ? fmt::format(" of seed {}", *manifest.seed) : "");
+  return manifest;
+}
+
+/// An earlier run's item whose files are those of the recipe: names and numbers; contents are compared later.
+bool is_of(const SetItem& item, const ItemRecipe& recipe) {
+  const auto fits = [](const std::vector<SetFile>& files, const std::vector<std::string>& names) {
+    return std::equal(files.begin(), files.end(), names.begin(), names.end(),
+                      [](const SetFile& file, const std::string& name) { return file.file == name; });
+  };
+  if (!fits(item.files, frame_files(recipe)) || item.truths.size() != recipe.truths.size()) return false;
+  for (size_t i = 0; i < item.truths.size(); ++i) {
+    if (item.truths[i].effect != recipe.truths[i].effect) return false;
+    if (!fits(item.truths[i].files, truth_files(recipe, recipe.truths[i].effect))) return false;
+  }
+  return true;
+}
+
+/// The recipe's items in its order: those made now, and those of an earlier run.
+std::vector<SetItem> merged(const Recipe& recipe, const std::vector<SetItem>& made,
+                            const std::vector<SetItem>& before) {
+  std::vector<SetItem> items;
+  for (const ItemRecipe& wanted : recipe.items) {
+    const auto is_it = [&](const SetItem& item) { return item.name == wanted.name; };
+    auto found = std::find_if(made.begin(), made.end(), is_it);
+    if (found == made.end()) {
+      found = std::find_if(before.begin(), before.end(), is_it);
+      if (found == before.end() || !is_of(*found, wanted)) continue;
+    }
+    items.push_back(*found);
+  }
+  return items;
+}
+
+std::vector<SetFile> files_of(const SetItem& item) {
+  std::vector<SetFile> files = item.files;
+  for (const SetTruth& truth : item.truths) files.insert(files.end(), truth.files.begin(), truth.files.end());
+  return files;
+}
+
+/// `frames_differ`: a truth starts from its frame.
+std::string likely_cause(const Recipe& recipe, const MakeOptions& options, const std::string& file,
+                         bool frames_differ) {
+  if (!file.starts_with("frames/") && frames_differ) return "its frame differs";
+  const std::string what = file.starts_with("frames/") ? "the scene or its capture" : "how the truth is traced";
+  const std::string mine = fmt::format("gloam {} {}", options.gloam, options.commit);
+  if (mine != recipe.frozen_with)
+    return fmt::format("{} changed between {} and {}, or {}", what, recipe.frozen_with, mine, libraries_in_words());
+  return fmt::format("{}: gloam was compiled otherwise, or {}", what, libraries_in_words());
+}
+
+void compare_with_frozen(const Recipe& recipe, const MakeOptions& options, MakeResult& result) {
+  for (const SetItem& item : result.manifest.items) {
+    bool frames_differ = false, is_frozen = true;
+    for (const SetFile& file : files_of(item)) {
+      const auto frozen = recipe.hashes.find(file.file);
+      if (frozen == recipe.hashes.end()) {
+        is_frozen = false;
+        continue;
+      }
+      if (frozen->second == file.sha256) continue;
+      result.differences.push_back(
+          {file.file, frozen->second, file.sha256, likely_cause(recipe, options, file.file, frames_differ)});
+      frames_differ = true;
+    }
+    if (!is_frozen && !options.seed) result.unfrozen.push_back(item.name);
+  }
+}
+
+}  // namespace
+
+std::string libraries_in_words() {
+#ifdef __GLIBC__
+  const std::string c_library = fmt::format("glibc {}", gnu_get_libc_version());
+#else
+  const std::string c_library = "another C library than glibc";
+#endif
+  return fmt::format("{} and Embree {} compute otherwise", c_library, RTC_VERSION_STRING);
+}
+
+MakeResult make_set(const Recipe& recipe, const MakeOptions& options) {
+  const std::vector<const ItemRecipe*> chosen = chosen_items(recipe, options.only);
+  const Manifest before = earlier(recipe, options);
+  for (const char* folder : {"frames", "truths"}) {
+    make_folder(options.folder / folder);
+    remove_leftovers(options.folder / folder);
+  }
+  MakeResult result;
+  Manifest& manifest = result.manifest;
+  manifest.set = recipe.name;
+  manifest.part = options.seed ? "seeded" : "public";
+  manifest.seed = options.seed;
+  manifest.gloam = options.gloam, manifest.commit = options.commit;
+  manifest.licence = recipe.licence;
+  double all = 0, done = 0;
+  for (const ItemRecipe* item : chosen) all += work_in(*item);
+  std::vector<SetItem> made;
+  for (const ItemRecipe* item : chosen) {
+    const auto start = std::chrono::steady_clock::now();
+    const double own = work_in(*item);
+    ItemMaker maker(recipe, *item, options.folder, [&](const std::string& what, double share) {
+      if (options.progress) options.progress(what, (done + share * own) / all);
+    });
+    made.push_back(maker.make());
+    done += own;
+    result.made += maker.made();
+    result.kept += maker.kept();
+    manifest.items = merged(recipe, made, before.items);
+    manifest.hash = hash_of(manifest.items);
+    write_manifest(options.folder, manifest);
+    if (options.item_done) options.item_done(made.back(), seconds_since(start));
+  }
+  for (const ItemRecipe& item : recipe.items) {
+    if (!find_item(manifest, item.name)) result.missing.push_back(item.name);
+  }
+  compare_with_frozen(recipe, options, result);
+  return result;
+}
+
+}  // namespace gloam::sets

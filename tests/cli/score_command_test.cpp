@@ -1,0 +1,209 @@
+// gloam score --command: a method's own program, and programs that fail in every way.
+#include <chrono>
+#include <thread>
+
+#include "cli/browser.h"
+#include "cli/score_fixture.h"
+
+namespace gloam::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string example = std::string("/usr/bin/python3 ") + GLOAM_SOURCE_DIR + "/contrib/score/plane_ao.py";
+
+class ScoreCommand : public ScoreTest {
+ protected:
+  static bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") == 0; }
+
+  /// Whether a process is there a little later. One that was killed may wait for its new parent.
+  static bool is_running(int process) {
+    const auto runs = [&] {
+      const std::string status = slurp("/proc/" + std::to_string(process) + "/status");
+      return !status.empty() && status.find("State:\tZ") == std::string::npos;
+    };
+    for (int i = 0; i < 100 && runs(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return runs();
+  }
+
+  /// A program of the shell that copies the truth of an item as its image, after what `before` does.
+  Result run(const std::string& before, const Arguments& more = {}) const {
+    std::ofstream(path("engine.sh")) << "frame=$1 image=$2 item=$3 number=$4\n"
+                                     << before << "\n"
+                                     << "truth=" << path("set/truths").string() << "/${item}_ao\n"
+                                     << "[ $item = walk ] && truth=$truth.000$number\n"
+                                     << "cp $truth.exr $image\n";
+    Arguments arguments = {"--command",
+                           "sh " + path("engine.sh").string() + " {frame} {image} {item} {frame_number}",
+                           "--rounds", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return score(arguments);
+  }
+};
+
+/// The example of docs/score.md: a method that gloam has not got, through its command and through its images.
+TEST_F(ScoreCommand, ScoresAMethodThatGloamHasNotGot) {
+  if (!has_numpy()) GTEST_SKIP() << "no NumPy for the example";
+  entry({{"name", "plane AO"}, {"link", "https://example.org/plane"}});
+  const Result made = score(
+      {"--command", example + " --in {frame} --out {image} --camera {camera} --radius {radius}", "--rounds", "2"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  for (const char* item : {"room", "walk", "pair"}) {
+    const Json of_item = row(item, "plane AO");
+    ASSERT_TRUE(of_item.is_object()) << item;
+    EXPECT_LT(of_item["rmse_to_truth"], 0.16) << item;  // measured: .108 to .128; white has .17
+    EXPECT_GT(of_item["rmse_to_truth"], 0.05) << item;
+    const Json& whole = of_item["submitted"]["whole"];
+    EXPECT_EQ(whole["ms"]["rounds"].size(), 2u) << item;
+    EXPECT_EQ(whole["gloam_ms"]["rounds"].size(), 2u) << item;
+    EXPECT_EQ(whole["ratio_rounds"].size(), 2u);
+    EXPECT_GT(whole["ratio"], 0);
+    EXPECT_NE(whole["gloam_command"].get<std::string>().find("gloam run ao "), std::string::npos);
+    EXPECT_TRUE(of_item["ms"].is_null()) << "what is measured whole is no time of kernels";
+  }
+  EXPECT_TRUE(row("pair", "plane AO")["inconsistency"].is_number());
+  EXPECT_TRUE(row("walk", "plane AO")["flicker"].is_number());
+  const fs::path images = path("out/submitted/plane-AO");
+  for (const char* name : {"room_ao.exr", "walk.0003_ao.exr", "pair_ao.exr"}) EXPECT_TRUE(fs::exists(images / name)) << name;
+  // the same images through JSON: the same figures
+  entry({{"name", "plane AO by images"}, {"time_ms", 12.5}});
+  const Result scored = score({images.string()});
+  ASSERT_EQ(scored.status, 0) << scored.err;
+  for (const char* item : {"room", "walk", "pair"}) {
+    for (const char* figure : {"rmse_to_truth", "bias", "ssim", "flip", "flicker", "inconsistency"})
+      EXPECT_EQ(row(item, "plane AO")[figure], row(item, "plane AO by images")[figure]) << item << " " << figure;
+  }
+  ok({"report", path("out")});
+  const std::string page = slurp(path("out/report.html"));
+  EXPECT_NE(page.find("plane AO by images"), std::string::npos);
+  EXPECT_NE(page.find("https://example.org/plane"), std::string::npos);
+  ok({"report", path("out"), "--markdown", path("page.md")});
+  EXPECT_NE(slurp(path("page.md")).find("## Submitted methods"), std::string::npos);
+}
+
+TEST_F(ScoreCommand, WholeSequencesAtOnce) {
+  std::ofstream(path("engine.sh")) << "set -e; case $1 in *walk*) for n in 1 2 3; do cp " << path("set/truths").string()
+                                   << "/walk_ao.000$n.exr $(echo $2 | sed s/####/000$n/); done;; *) cp "
+                                   << path("set/truths").string() << "/$3_ao.exr $2;; esac\n";
+  const Result result =
+      score({"--command", "sh " + path("engine.sh").string() + " {frames} {images} {item}", "--rounds", "1"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(row("walk")["rmse_to_truth"], 0);
+  EXPECT_EQ(row("walk")["submitted"]["frames"], Json({1, 2, 3}));
+  EXPECT_EQ(row("room")["rmse_to_truth"], 0);
+  const std::string own = row("walk")["submitted"]["whole"]["gloam_command"];
+  EXPECT_NE(own.find("walk.####.exr"), std::string::npos) << own;
+}
+
+TEST_F(ScoreCommand, ProgramsThatFailAreOneLineEach) {
+  const std::pair<std::string, std::string> told[] = {
+      {"[ $item = room ] && { echo 'out of ideas' >&2; exit 3; }", "'sh' ended: exit status 3: out of ideas"},
+      {"[ $item = room ] && kill -SEGV $$", "'sh' ended: signal 11 (Segmentation fault)"},
+      {"[ $item = room ] && { echo rubbish > $image; exit 0; }", "room_ao.exr: "},
+      {"[ $item = room ] && { yes | head -c 1000000; exit 0; }", "'sh' left no "},
+      {"[ $item = room ] && { : > $image; exit 0; }", "room_ao.exr: "},
+      {"[ $item = room ] && { item=walk; number=1; }", ": is 64x36, and 96x54 is needed"}};
+  for (const auto& [before, message] : told) {
+    const Result result = run(before);
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 2) << before << "\n" << result.err;
+    EXPECT_EQ(result.err.rfind("gloam: room: left out: ", 0), 0u) << result.err;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("gloam: 1 image left out, 2 items scored"), std::string::npos) << result.err;
+    EXPECT_EQ(document()["results"].size(), 2u);
+    fs::remove_all(path("out"));
+  }
+}
+
+TEST_F(ScoreCommand, OfASequenceTheOtherFramesAreScored) {
+  const Result result = run("[ $item = walk ] && [ $number = 2 ] && exit 7", {"--items", "walk"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err.rfind("gloam: walk frame 2: left out: 'sh' ended: exit status 7", 0), 0u) << result.err;
+  EXPECT_EQ(row("walk")["submitted"]["missing_frames"], Json({2}));
+}
+
+TEST_F(ScoreCommand, ProgramsThatHangAreEndedWithWhatTheyStarted) {
+  const auto start = std::chrono::steady_clock::now();
+  const Result result = run("[ $item = room ] && { sleep 300 & echo $! > " + path("pid").string() + "; sleep 300; }",
+                            {"--timeout", "3"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err.rfind("gloam: room: left out: 'sh' ended: still running after 3 s", 0), 0u) << result.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(120));
+  EXPECT_EQ(document()["results"].size(), 2u);
+  EXPECT_FALSE(is_running(std::stoi(slurp(path("pid"))))) << "its child is still there";
+}
+
+TEST_F(ScoreCommand, ThatIsNotThereIsLeftOutOfAll) {
+  const Result result = score({"--command", "no-such-engine {frame} {image}"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("'no-such-engine' cannot be started: No such file or directory"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("nothing could be scored"), std::string::npos) << result.err;
+}
+
+TEST_F(ScoreCommand, InterruptedItEndsItsChildrenAndKeepsWhatWasScored) {
+  std::ofstream(path("engine.sh")) << "case $3 in room) cp " << path("set/truths/room_ao.exr").string()
+                                   << " $2;; *) echo $$ > " << path("pid").string() << "; exec sleep 300;; esac\n";
+  const pid_t child = start({"score", "--json", path("entry.json"), "--set", path("set"), "-o", path("out"), "--command",
+                             "sh " + path("engine.sh").string() + " {frame} {image} {item}", "--rounds", "1"});
+  for (int i = 0; i < 1200 && slurp(path("pid")).empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_FALSE(slurp(path("pid")).empty());
+  kill(child, SIGINT);
+  const Result result = finish(child);
+  EXPECT_EQ(result.status, 128 + SIGINT);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("what was scored is in " + path("out/bench.json").string()), std::string::npos) << result.err;
+  EXPECT_EQ(document()["results"].size(), 1u);
+  EXPECT_FALSE(is_running(std::stoi(slurp(path("pid")))));
+}
+
+class ScoreInBrowser : public BrowserTest {};
+
+/// A submitted row is drawn with its error alone, marked, in chart, table and box.
+TEST_F(ScoreInBrowser, SubmittedMethodsAreMarked) {
+  if (!has_browser()) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
+  fs::create_directories(path("out"));
+  const auto measured = [](const char* technique, double ratio, double rmse) {
+    return Json{{"technique", technique}, {"preset", "medium"}, {"scene", "hall"}, {"effect", "ao"},
+                {"ms", {{"median", 4 * ratio}}}, {"ratio_to_hbao_plus", ratio}, {"rmse_to_truth", rmse}, {"ssim", 0.9},
+                {"flip", 0.1}};
+  };
+  const Json submitted = {
+      {"technique", "Engine AO"}, {"preset", "submitted"}, {"scene", "hall"}, {"effect", "ao"}, {"ms", {{"median", 2.5}}},
+      {"rmse_to_truth", 0.12}, {"ssim", 0.8}, {"flip", 0.2},
+      {"submitted", {{"name", "Engine AO"}, {"link", "https://example.org"}, {"time_ms", 2.5},
+                     {"fit", {{"exponent", 1.5}, {"strength", 0.9}, {"rmse_to_truth", 0.11}}},
+                     {"whole", {{"ms", {{"median", 100.0}}}, {"gloam_ms", {{"median", 50.0}}}, {"ratio", 2.0}}}}}};
+  const Json document = {{"scenes", {{{"name", "hall"}, {"class", "architecture"}}}},
+                         {"results", {measured("hbao+", 1, 0.2), submitted, measured("gtao", 1.5, 0.1)}}};
+  std::ofstream(path("out/bench.json")) << document.dump();
+  const Result report = gloam({"report", path("out")});
+  ASSERT_EQ(report.status, 0) << report.err;
+  EXPECT_NE(report.out.find("2 rows, 1 submitted row, "), std::string::npos) << report.out;
+  const Json result = in_browser(
+      path("out/report.html"), "await until(() => document.querySelectorAll('#scatter .point_marks path').length > 0);",
+      "result.points = document.querySelectorAll('#scatter .point_marks path').length;"
+      "result.levels = document.querySelectorAll('#scatter .level_stars path').length;"
+      "click(document.querySelector('#scatter .level_stars path'));"
+      "pick(keyOf(data.rows.find(isSubmitted)));"
+      "result.box = document.getElementById('picked').textContent;"
+      "result.link = document.querySelector('#picked a').href;"
+      "result.table = [...document.querySelectorAll('#rows-table tr')].map((tr) => tr.textContent).join('|');"
+      "result.badges = document.querySelectorAll('#rows-table .badge').length;"
+      "[...document.querySelectorAll('#time-switch button')].find((b) => b.textContent.includes('ms')).click();"
+      "await until(() => document.querySelectorAll('#scatter .point_marks path').length === 3);"
+      "result.remark = document.getElementById('scatter-remark').textContent;"
+      "result.front = sceneNow().front.length;");
+  EXPECT_EQ(result["points"], 2);
+  EXPECT_EQ(result["levels"], 1);
+  EXPECT_EQ(result["front"], 2) << "no submitted row is on the front";
+  EXPECT_EQ(result["badges"], 1);
+  EXPECT_EQ(result["link"], "https://example.org/");
+  const std::string box = result["box"], table = result["table"], remark = result["remark"];
+  for (const char* words : {"Engine AO", "submitted", "2.50", "at its best fit", "0.1100", "over gloam run, whole"})
+    EXPECT_NE(box.find(words), std::string::npos) << words << " in " << box;
+  EXPECT_NE(table.find("Engine AO"), std::string::npos) << table;
+  EXPECT_NE(remark.find("as their authors state them"), std::string::npos) << remark;
+}
+
+}  // namespace
+}  // namespace gloam::test
