@@ -6,7 +6,9 @@
 #include <fstream>
 #include <thread>
 
+#include "base/command_line.h"
 #include "bench/commit.h"
+#include "bench/intervals.h"
 
 namespace gloam::bench {
 namespace {
@@ -20,6 +22,38 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr)
 Json milliseconds(const Series& ms) {
   const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
   return {{"median", median(ms)}, {"min", *least}, {"max", *most}};
+}
+
+/// Six digits: what a timer and the machine's load leave of a figure.
+Json shortened(double value) { return std::stod(fmt::format("{:.6g}", value)); }
+
+Json rounds_of(const Series& series) {
+  Json rounds = Json::array();
+  for (const double value : series) rounds.push_back(shortened(value));
+  return rounds;
+}
+
+/// Null where there is none: of few rounds, or of none.
+Json interval_of(const Series& series) {
+  const std::optional<Interval> interval = interval_of_median(series);
+  return interval ? Json{shortened(interval->low), shortened(interval->high)} : Json(nullptr);
+}
+
+/// As `milliseconds`, with every round.
+Json milliseconds_and_rounds(const Series& ms) {
+  Json document = milliseconds(ms);
+  document["interval"] = interval_of(ms);
+  document["rounds"] = rounds_of(ms);
+  return document;
+}
+
+/// A ratio's rounds and interval, under the ratio's name.
+void add_rounds(Json& document, const std::string& ratio, const RoundRatios& rounds) {
+  document[ratio + "_interval"] = interval_of(rounds.ms);
+  document[ratio + "_rounds"] = rounds_of(rounds.ms);
+  if (rounds.cpu.empty()) return;
+  document["cpu_" + ratio + "_interval"] = interval_of(rounds.cpu);
+  document["cpu_" + ratio + "_rounds"] = rounds_of(rounds.cpu);
 }
 
 /// The settings that --set accepts: names without a dot are the technique's own.
@@ -65,7 +99,7 @@ std::optional<double> ratio_to_naive(const Row& row) {
   return row.against_naive.empty() ? std::optional<double>() : row.against_naive.front().ratio;
 }
 
-Json document_of(const Row& row) {
+Json figures_of(const Row& row) {
   const Variation& v = row.variation;
   Json passes = Json::array(), spent_on = Json::array(), naive = Json::array();
   for (const TimedPlan::Pass& pass : row.timed->passes())
@@ -88,7 +122,7 @@ Json document_of(const Row& row) {
           {"width", row.width},
           {"height", row.height},
           {"lanes", row.timed->lanes()},
-          {"ms", milliseconds(row.ms)},
+          {"ms", milliseconds_and_rounds(row.ms)},
           {"passes", passes},
           {"own_floor_ms", median(row.own_floor_ms)},
           {"ratio_to_own_floor", number(row.to_own_floor)},
@@ -109,6 +143,15 @@ Json document_of(const Row& row) {
           {"kind", nullptr},
           {"ladder", document_of(row.ladder)},
           {"image", text_or_null(row.image)}};
+}
+
+Json document_of(const Row& row) {
+  Json document = figures_of(row);
+  document["cpu_ms"] = row.cpu_ms.empty() ? Json(nullptr) : milliseconds_and_rounds(row.cpu_ms);
+  add_rounds(document, "ratio_to_hbao_plus", row.to_hbao_plus_rounds);
+  add_rounds(document, "ratio_to_gather_floor", row.to_gather_floor_rounds);
+  add_rounds(document, "ratio_to_copy_floor", row.to_copy_floor_rounds);
+  return document;
 }
 
 }  // namespace
@@ -221,7 +264,10 @@ Json origin_of(const DeviceInfo& device) {
           {"cores", std::thread::hardware_concurrency()},
           {"driver", fmt::format("{} {}", device.platform, device.driver)},
           {"date", utc_day()},
-          {"commit", commit}};
+          {"commit", commit},
+          {"gloam", GLOAM_VERSION},
+          {"command", command_line()},
+          {"set", nullptr}};
 }
 
 /// Rays per pixel of the truths; none if they differ, or one does not state it.

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 /// "model name" of /proc/cpuinfo; "unknown" if there is none.
 std::string cpu_model();
 
-/// Where a document's figures were measured: device, cpu, cores, driver, date, commit.
+/// Where a document's figures were measured: device, cpu, cores, driver, date, commit, version and command.
 Json origin_of(const DeviceInfo& device);
 
 /// An entry of `scenes`.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/cpu_time.h"
 #include "run/kernel_sources.h"
 
 namespace gloam::bench {
@@ -51,7 +52,12 @@ Floor::Floor(Device& device, const Frame& frame, const KernelText& text)
   global_ = cl::NDRange(size_t(argument.pitch / device.info().tuning.lanes), size_t(argument.height));
 }
 
-double Floor::run() { return launch(device_, kernel_, global_); }
+double Floor::run() {
+  const double before = process_cpu_ms();
+  const double ms = launch(device_, kernel_, global_);
+  if (device_.info().type == "cpu") cpu_ms_ = process_cpu_ms() - before;
+  return ms;
+}
 
 GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params)
     : Floor(device, frame, gather_text(device.info().tuning.lanes)) {

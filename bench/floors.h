@@ -1,6 +1,8 @@
 // Floors: times that no implementation of the same sampling can beat on this device.
 #pragma once
 
+#include <optional>
+
 #include "bench/estimate.h"
 #include "bench/opencl_bench.h"
 
@@ -13,6 +15,8 @@ std::vector<KernelText> floor_texts(int lanes);
 class Floor {
  public:
   double run();  ///< milliseconds
+  /// What the process's threads computed in the last run; empty where the device is no CPU.
+  std::optional<double> cpu_ms() const { return cpu_ms_; }
 
  protected:
   Floor(Device& device, const Frame& frame, const KernelText& text);
@@ -21,6 +25,7 @@ class Floor {
  private:
   Device& device_;
   cl::NDRange global_;
+  std::optional<double> cpu_ms_;
 };
 
 /// Addresses, gathers and additions of HBAO+ 8 x 4.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/floors.h"
+#include "bench/intervals.h"
 #include "bench/measures.h"
 #include "bench/naive.h"
 #include "bench/native.h"
@@ -155,7 +156,8 @@ class Race::Baselines {
   }
 
   std::vector<Contender> floors() {
-    return {{"gather floor", [this] { return gathers_.run(); }}, {"copy floor", [this] { return copy_.run(); }}};
+    return {{"gather floor", [this] { return gathers_.run(); }, [this] { return gathers_.cpu_ms(); }},
+            {"copy floor", [this] { return copy_.run(); }, [this] { return copy_.cpu_ms(); }}};
   }
 
   std::vector<Contender> loops() {
@@ -195,6 +197,7 @@ void Race::run(int rounds, const std::function<void(int done, int of)>& progress
   naives_.resize(racers_.size());
   for (size_t i = 0; i < racers_.size(); ++i) enter_naive(i);
   first_view_.resize((racers_.size() + group_size - 1) / group_size);
+  cpu_.resize(first_view_.size());
   std::vector<Contender> contenders;
   std::vector<size_t> group_of;
   for (size_t first = 0; first < racers_.size(); first += group_size) {
@@ -209,6 +212,7 @@ void Race::run(int rounds, const std::function<void(int done, int of)>& progress
 
 void Race::add_group(size_t first, std::vector<Contender>& contenders) {
   bool with_native = false;
+  std::map<std::string, Series>& cpu = cpu_[first / group_size];
   for (size_t i = first; i < std::min(first + group_size, racers_.size()); ++i) {
     contenders.push_back({name_of(i), [timed = racers_[i]->timed.get()] { return timed->run(); }});
     contenders.push_back({"", [timed = racers_[i]->gathers.get()] { return timed->run(); }});
@@ -216,13 +220,16 @@ void Race::add_group(size_t first, std::vector<Contender>& contenders) {
     with_native |= is_native(*racers_[i]);
   }
   if (reference_) {
-    contenders.push_back({reference_technique, [this, &of_group = first_view_[first / group_size]] {
+    contenders.push_back({reference_technique, [this, &of_group = first_view_[first / group_size], &cpu] {
                             const double ms = reference_->run();
                             of_group.push_back(reference_->first_view_ms());
+                            if (reference_->cpu_ms().empty()) return ms;
+                            cpu[reference_technique].push_back(reference_->cpu_ms().back());
+                            cpu["first view"].push_back(reference_->first_view_cpu_ms());
                             return ms;
                           }});
   }
-  contenders.insert(contenders.end(), common_.begin(), common_.end());
+  for (const Contender& each : common_) contenders.push_back(keeping_cpu_time(each, cpu[each.name]));
   if (with_native) contenders.insert(contenders.end(), loops_.begin(), loops_.end());
 }
 
@@ -283,15 +290,28 @@ void Race::add_ratios(size_t index) {
     if (known == series.end()) return {};
     return ratio(ms, known->second);
   };
+  std::map<std::string, Series>& cpu = cpu_[index / group_size];
+  const auto rounds_to = [&](const char* contender) -> RoundRatios {
+    const auto known = series.find(contender);
+    if (known == series.end()) return {};
+    return {ratios_of_rounds(racer.ms, known->second), ratios_of_rounds(racer.cpu_ms, cpu[contender])};
+  };
   racer.ms = series.at(name_of(index));
+  racer.cpu_ms = racer.timed->cpu_ms();
   racer.own_floor_ms = own_passes(*racer.gathers);
   racer.to_own_floor = ratio(racer.ms, racer.own_floor_ms);
   racer.spent_on = spent_on(racer);
   racer.to_gather_floor = ratio_to(racer.ms, "gather floor");
   racer.to_copy_floor = ratio_to(racer.ms, "copy floor");
+  racer.to_gather_floor_rounds = rounds_to("gather floor");
+  racer.to_copy_floor_rounds = rounds_to("copy floor");
   racer.to_hbao_plus = ratio_to(racer.ms, reference_technique);
-  if (racer.to_hbao_plus && makes_first_view_only(*racer.variation.technique))
+  racer.to_hbao_plus_rounds = rounds_to(reference_technique);
+  if (racer.to_hbao_plus && makes_first_view_only(*racer.variation.technique)) {
     racer.to_hbao_plus = ratio(racer.ms, first_view_[index / group_size]);
+    racer.to_hbao_plus_rounds = {ratios_of_rounds(racer.ms, first_view_[index / group_size]),
+                                 ratios_of_rounds(racer.cpu_ms, cpu["first view"])};
+  }
   if (const auto copy = series.find("copy floor"); copy != series.end()) racer.copy_floor_ms = median(copy->second);
   if (naives_[index]) add_naive_ratios(index);
   if (is_native(racer)) racer.to_native = ratio_to(own_passes(*racer.timed), "native");

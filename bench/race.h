@@ -35,6 +35,11 @@ struct AgainstNaive {
   std::optional<double> mean_difference, greatest_difference;
 };
 
+/// The ratios of each round: of times, and of what the process's threads computed (docs/benchmarking.md). Empty where there are none.
+struct RoundRatios {
+  Series ms, cpu;
+};
+
 /// A contender and its results. A ratio is its time over the other's; none if the other takes no part. For a technique that makes
 /// an image of only the first of two views, `to_hbao_plus` is to HBAO+ on the first view.
 struct Racer {
@@ -43,6 +48,8 @@ struct Racer {
   std::unique_ptr<TimedPlan> gathers;  ///< the plan without its filter; samples only add up what they read
   Series ms, own_floor_ms;             ///< time of the whole plan; of the technique's own passes in `gathers`
   std::optional<double> to_native, to_gather_floor, to_copy_floor, to_hbao_plus;
+  Series cpu_ms;  ///< what the process's threads computed; empty where the device is no CPU
+  RoundRatios to_hbao_plus_rounds, to_gather_floor_rounds, to_copy_floor_rounds;
   double to_own_floor = 0;
   std::optional<double> copy_floor_ms;      ///< of the run that `to_copy_floor` is to
   std::vector<AgainstNaive> against_naive;  ///< empty if no naive kernels compute the same
@@ -97,6 +104,7 @@ class Race {
   std::vector<std::unique_ptr<Naive>> naives_;         ///< by racer; null: none
   std::vector<std::map<std::string, Series>> series_;  ///< by group, by name
   std::vector<Series> first_view_;                     ///< by group: the reference on the first view alone
+  std::vector<std::map<std::string, Series>> cpu_;     ///< by group, by name: what the process's threads computed
 };
 
 }  // namespace gloam::bench

@@ -4,6 +4,16 @@
 
 namespace gloam::bench {
 
+Contender keeping_cpu_time(Contender contender, Series& cpu) {
+  contender.run = [run = contender.run, cpu_ms = contender.cpu_ms, &cpu] {
+    const double ms = run();
+    const std::optional<double> spent = cpu_ms ? cpu_ms() : std::nullopt;
+    if (spent) cpu.push_back(*spent);
+    return ms;
+  };
+  return contender;
+}
+
 std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
                                 const std::function<void(int, int)>& progress) {
   std::vector<Series> ms(contenders.size());
@@ -47,10 +57,13 @@ double TimedPlan::run() {
     }
     pass.ms.push_back(ms);
   }
-  first_view_ms_ = 0;
+  first_view_ms_ = first_view_cpu_ms_ = 0;
   for (const PassTime& time : result.passes) {
-    if (time.view == frame_.views.front().name) first_view_ms_ += time.ms.back();
+    if (time.view != frame_.views.front().name) continue;
+    first_view_ms_ += time.ms.back();
+    if (!time.cpu_ms.empty()) first_view_cpu_ms_ += time.cpu_ms.back();
   }
+  if (!result.total_cpu_ms.empty()) cpu_ms_.push_back(result.total_cpu_ms.back());
   return result.total_ms.back();
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,12 @@ using Series = std::vector<double>;
 struct Contender {
   std::string name;
   std::function<double()> run;
+  /// What the process's threads computed in the last run; empty, or without a value, where that is not known.
+  std::function<std::optional<double>()> cpu_ms = {};
 };
+
+/// The same, which also keeps what the process's threads computed in each run in `cpu`.
+Contender keeping_cpu_time(Contender contender, Series& cpu);
 
 /// Runs all contenders in turn, `rounds` times, so that other load on the machine affects all alike. `progress` is called for
 /// single runs, and may be empty.
@@ -43,6 +49,11 @@ class TimedPlan {
   /// Sum over the passes on the first view in the last run.
   double first_view_ms() const { return first_view_ms_; }
 
+  /// What the process's threads computed in each call of `run`; empty where the device is no CPU.
+  const Series& cpu_ms() const { return cpu_ms_; }
+  /// The same on the first view, in the last run.
+  double first_view_cpu_ms() const { return first_view_cpu_ms_; }
+
   struct Pass {
     std::string name;                        ///< "hbao+/estimate"
     Series ms;                               ///< one per call of `run`, the sum over views
@@ -58,7 +69,8 @@ class TimedPlan {
   Device& device_;
   RunOptions options_;
   std::vector<Pass> passes_;
-  double first_view_ms_ = 0;
+  double first_view_ms_ = 0, first_view_cpu_ms_ = 0;
+  Series cpu_ms_;
   int lanes_ = 1;
 };
 

@@ -6,117 +6,16 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "report/json_object.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {
 
-/// An object of the file, and its path in the file for messages: "results[3]".
-class Object {
- public:
-  Object(const Json& value, std::string file, std::string place)
-      : value_(value), file_(std::move(file)), place_(std::move(place)) {
-    if (!value_.is_object()) fail(place_.empty() ? "the document" : place_, value_, "an object");
-  }
-
-  /// Empty if it is null or missing.
-  std::string text(const char* key) const {
-    const Json* value = find(key);
-    if (!value) return "";
-    if (!value->is_string()) fail(path_of(key), *value, "a text");
-    return value->get<std::string>();
-  }
-
-  Number number(const char* key) const {
-    const Json* value = find(key);
-    if (!value) return {};
-    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(path_of(key), *value, "a number");
-    return value->get<double>();
-  }
-
-  std::string needed_text(const char* key) const {
-    if (!find(key)) missing(key);
-    return text(key);
-  }
-
-  double needed_number(const char* key) const {
-    if (!find(key)) missing(key);
-    return *number(key);
-  }
-
-  Object object(const char* key) const {
-    const Json* value = find(key);
-    return Object(value ? *value : nothing, file_, path_of(key));
-  }
-
-  Object needed_object(const char* key) const {
-    if (!find(key)) missing(key);
-    return object(key);
-  }
-
-  std::vector<Object> list(const char* key) const {
-    std::vector<Object> items;
-    const Json* value = find(key);
-    if (!value) return items;
-    if (!value->is_array()) fail(path_of(key), *value, "a list");
-    for (size_t i = 0; i < value->size(); ++i)
-      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", path_of(key), i));
-    return items;
-  }
-
-  std::vector<Object> needed_list(const char* key) const {
-    if (!find(key)) missing(key);
-    return list(key);
-  }
-
-  /// Empty if it is null or missing.
-  std::optional<std::vector<std::string>> texts(const char* key) const {
-    const Json* value = find(key);
-    if (!value) return {};
-    const bool are_texts =
-        value->is_array() && std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); });
-    if (!are_texts) fail(path_of(key), *value, "a list of texts");
-    return value->get<std::vector<std::string>>();
-  }
-
-  /// The two numbers of a size; empty if there is none.
-  std::pair<Number, Number> size(const char* key) const {
-    const Json* value = find(key);
-    if (!value) return {};
-    if (!value->is_array() || value->size() != 2 || !value->at(0).is_number() || !value->at(1).is_number())
-      fail(path_of(key), *value, "a list of width and height");
-    return {value->at(0).get<double>(), value->at(1).get<double>()};
-  }
-
-  const Json& json() const { return value_; }
-
- private:
-  static const Json nothing;
-
-  const Json* find(const char* key) const {
-    const auto found = value_.find(key);
-    return found == value_.end() || found->is_null() ? nullptr : &*found;
-  }
-  std::string path_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
-
-  [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
-    std::string shown = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-    if (shown.size() > 40) shown = shown.substr(0, 37) + "...";
-    throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file_, place, shown, needed);
-  }
-  [[noreturn]] void missing(const char* key) const {
-    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, path_of(key));
-  }
-
-  const Json& value_;
-  std::string file_, place_;
-};
-
-const Json Object::nothing = Json::object();
-
 Milliseconds milliseconds_of(const Object& object) {
   const double median = object.needed_number("median");
-  return {median, object.number("min").value_or(median), object.number("max").value_or(median)};
+  return {median, object.number("min").value_or(median), object.number("max").value_or(median),
+          object.numbers("rounds")};
 }
 
 Ladder ladder_of(const Object& l) {
@@ -173,6 +72,10 @@ Row row_of(const Object& o) {
   row.ratio_to_copy_floor = o.number("ratio_to_copy_floor");
   row.ratio_to_naive = o.number("ratio_to_naive");
   row.ratio_to_native = o.number("ratio_to_native");
+  row.hbao_plus_rounds = o.numbers("ratio_to_hbao_plus_rounds");
+  row.gather_floor_rounds = o.numbers("ratio_to_gather_floor_rounds");
+  row.copy_floor_rounds = o.numbers("ratio_to_copy_floor_rounds");
+  row.processes = o.numbers("processes");
   row.own_floor_ms = o.number("own_floor_ms");
   row.ratio_to_own_floor = o.number("ratio_to_own_floor");
   row.ladder = ladder_of(o.object("ladder"));
@@ -275,6 +178,8 @@ std::optional<Sequence> sequence_of(const Object& o) {
   return sequence;
 }
 
+SetFacts set_of(const Object& o) { return {o.text("name"), o.text("part"), o.text("hash"), o.number("seed")}; }
+
 Measurements measurements_of(const Object& o) {
   Measurements m;
   m.device = o.text("device");
@@ -282,6 +187,9 @@ Measurements measurements_of(const Object& o) {
   m.driver = o.text("driver");
   m.date = o.text("date");
   m.commit = o.text("commit");
+  m.gloam = o.text("gloam");
+  m.command = o.texts("command").value_or(std::vector<std::string>());
+  m.set = set_of(o.object("set"));
   m.cores = o.number("cores");
   m.rounds = o.number("rounds");
   m.rays = o.number("rays");

@@ -14,6 +14,7 @@ using Number = std::optional<double>;  ///< empty: null or not in the file
 
 struct Milliseconds {
   double median = 0, min = 0, max = 0;
+  std::vector<double> rounds = {};  ///< empty in files that keep none
 };
 
 struct Pass {
@@ -58,6 +59,8 @@ struct Row {
   Number rmse_to_truth, bias;
   Number ssim, flip, flicker, inconsistency;
   Number ratio_to_hbao_plus, ratio_to_gather_floor, ratio_to_copy_floor, ratio_to_naive, ratio_to_native;
+  std::vector<double> hbao_plus_rounds, gather_floor_rounds, copy_floor_rounds;  ///< the ratios of each round
+  std::vector<double> processes;                                                 ///< rounds in each, one after another
   Number own_floor_ms, ratio_to_own_floor;
   Ladder ladder;
   std::vector<AgainstNaive> naive;
@@ -139,8 +142,17 @@ struct Sequence {
   std::vector<SequenceRow> rows;
 };
 
+/// The frozen set that was measured on; the name is empty where there was none.
+struct SetFacts {
+  std::string name, part, hash;
+  Number seed;
+};
+
 struct Measurements {
   std::string device, cpu, driver, date, commit;
+  std::string gloam;                 ///< the version; empty in older files
+  std::vector<std::string> command;  ///< as given; empty in older files
+  SetFacts set;
   Number cores, rounds, rays;
   std::vector<Scene> scenes;   ///< every scene that a row names is here
   std::vector<Row> rows;       ///< measured by gloam

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/cpu_time.h"
+
 namespace gloam {
 namespace {
 
@@ -39,8 +41,10 @@ size_t most_per_group_of(const cl::Kernel& kernel, const Device::Impl& device, c
 
 }  // namespace
 
-double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning) {
+Launched launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout,
+                const Tuning& tuning) {
   const auto start = std::chrono::steady_clock::now();
+  const double cpu_before = process_cpu_ms();
   const size_t columns = size_t(layout.pitch / tuning.lanes), rows = size_t(layout.height);
   const cl::NDRange group = group_size(device.info, columns, rows, most_per_group_of(kernel, device, tuning));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
@@ -50,15 +54,16 @@ double launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const 
                                       group, nullptr, from == 0 ? &first : &last);
   if (strip >= columns) last = first;
   last.wait();
+  const double cpu = process_cpu_ms() - cpu_before;
   const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const cl::Event& event : {first, last}) {
     const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
     if (status < 0) throw cl::Error(status, "kernel execution");
   }
-  if (!device.info.has_timestamps) return wall;
+  if (!device.info.has_timestamps) return {wall, cpu};
   const cl_ulong from = first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
   const cl_ulong to = last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-  return to > from ? double(to - from) * 1e-6 : wall;
+  return {to > from ? double(to - from) * 1e-6 : wall, cpu};
 }
 
 }  // namespace gloam

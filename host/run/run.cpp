@@ -74,6 +74,8 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   result.total_ms.assign(size_t(options.repeat), 0.0);
   for (const PassTime& pass : result.passes) {
     for (size_t i = 0; i < pass.ms.size(); ++i) result.total_ms[i] += pass.ms[i];
+    result.total_cpu_ms.resize(std::max(result.total_cpu_ms.size(), pass.cpu_ms.size()));
+    for (size_t i = 0; i < pass.cpu_ms.size(); ++i) result.total_cpu_ms[i] += pass.cpu_ms[i];
   }
   return result;
 }

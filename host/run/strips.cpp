@@ -84,6 +84,10 @@ bool fits(const Plan& plan, const Frame& frame, const DeviceInfo& device, int ro
   }
 }
 
+void add_to(std::vector<double>& sums, const std::vector<double>& times) {
+  for (size_t k = 0; k < sums.size(); ++k) sums[k] += times[k];
+}
+
 Frame rows_of(const Plan& plan, const Frame& frame, int first, int last) {
   Frame part = without_planes(frame);
   part.window = {frame.window.x0, frame.window.y0 + first, frame.window.x1, frame.window.y0 + last};
@@ -121,12 +125,15 @@ void add(const RunResult& strip, int from, int first, int last, const Layout& la
   if (whole.passes.empty()) {
     whole.passes = strip.passes;
     whole.total_ms = strip.total_ms;
+    whole.total_cpu_ms = strip.total_cpu_ms;
     return;
   }
   for (size_t i = 0; i < whole.passes.size(); ++i) {
-    for (size_t k = 0; k < whole.passes[i].ms.size(); ++k) whole.passes[i].ms[k] += strip.passes[i].ms[k];
+    add_to(whole.passes[i].ms, strip.passes[i].ms);
+    add_to(whole.passes[i].cpu_ms, strip.passes[i].cpu_ms);
   }
-  for (size_t k = 0; k < whole.total_ms.size(); ++k) whole.total_ms[k] += strip.total_ms[k];
+  add_to(whole.total_ms, strip.total_ms);
+  add_to(whole.total_cpu_ms, strip.total_cpu_ms);
 }
 
 }  // namespace

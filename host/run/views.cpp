@@ -53,7 +53,7 @@ void add_kernel(const Plan& plan, size_t k, ViewOnDevice& target, const OtherVie
   target.kernels.push_back(build_kernel(planned, target.layouts, device, options, lanes));
   set_arguments(target.kernels.back(), plan, planned, device, target, others, options);
   target.passes.push_back(k);
-  target.times.push_back({target.view.name, planned.label(), {}});
+  target.times.push_back({target.view.name, planned.label(), {}, {}});
   for (const Binding& written : planned.pass.writes) target.planes.insert(written.plane);
 }
 
@@ -124,9 +124,11 @@ void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl&
       if (written.starts_empty)
         device.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
     }
-    const double ms =
+    const Launched launched =
         launch(device, target.kernels[k], planned.pass, reduced(target.layout, planned.pass.scale), tuning);
-    if (counts) target.times[k].ms.push_back(ms);
+    if (!counts) return;
+    target.times[k].ms.push_back(launched.ms);
+    if (device.info.type == "cpu") target.times[k].cpu_ms.push_back(launched.cpu_ms);
   } catch (const cl::Error& error) {
     throw Error("{} on {}: {} ({})", planned.label(), device.info.name, error.what(), cl_error_name(error.err()));
   }

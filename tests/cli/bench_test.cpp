@@ -21,6 +21,20 @@ Arguments small(const fs::path& folder, const Arguments& more = {}, const std::s
   return arguments;
 }
 
+/// The rounds of a row's ratios, and what their medians are; intervals need more rounds than these.
+void expect_rounds(const Json& row, size_t rounds) {
+  for (const std::string ratio : {"ratio_to_hbao_plus", "ratio_to_gather_floor", "ratio_to_copy_floor"}) {
+    ASSERT_EQ(row[ratio + "_rounds"].size(), rounds) << ratio;
+    std::vector<double> sorted = row[ratio + "_rounds"];
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_NEAR(row[ratio], sorted[rounds / 2], 1e-5 * sorted[rounds / 2]);
+    EXPECT_TRUE(row[ratio + "_interval"].is_null());
+    if (!row["cpu_ms"].is_null()) {
+      EXPECT_EQ(row["cpu_" + ratio + "_rounds"].size(), rounds) << ratio;
+    }
+  }
+}
+
 const Json* find(const Json& results, const std::string& preset) {
   for (const Json& result : results) {
     if (result["preset"] == preset) return &result;
@@ -51,8 +65,12 @@ std::vector<std::string> spent_on(const Json& row) {
   return names;
 }
 
-void expect_ms(const Json& ms) {
-  ASSERT_EQ(ms.size(), 3u);
+/// `rounds`: how many are kept; 0: none are.
+void expect_ms(const Json& ms, size_t rounds = 0) {
+  ASSERT_EQ(ms.size(), rounds == 0 ? 3u : 5u);
+  if (rounds > 0) {
+    EXPECT_EQ(ms["rounds"].size(), rounds);
+  }
   EXPECT_GT(ms["min"], 0);
   EXPECT_LE(ms["min"], ms["median"]);
   EXPECT_LE(ms["median"], ms["max"]);
@@ -65,6 +83,11 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
   const Json document = Json::parse(slurp(path("out/bench.json")));
   for (const char* key : {"device", "cpu", "driver", "date", "commit"}) EXPECT_TRUE(document[key].is_string()) << key;
   EXPECT_EQ(document["date"].get<std::string>().size(), 10u);
+  EXPECT_TRUE(document["gloam"].is_string());
+  EXPECT_TRUE(document["set"].is_null());
+  ASSERT_GT(document["command"].size(), 4u);
+  EXPECT_EQ(document["command"][0], "gloam");
+  EXPECT_EQ(document["command"][1], "bench");
   EXPECT_GT(document["cores"], 0);
   EXPECT_TRUE(document["paper"].is_array());
   EXPECT_TRUE(document["growth"].empty());
@@ -79,7 +102,8 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
     EXPECT_EQ(row["views"], 1);
     EXPECT_TRUE(row["settings"].is_object());
     EXPECT_EQ(row["samples"], int(row["settings"]["directions"]) * int(row["settings"]["steps"]));
-    expect_ms(row["ms"]);
+    expect_ms(row["ms"], 3);
+    expect_rounds(row, 3);
     ASSERT_EQ(row["passes"].size(), 3u);
     for (const Json& pass : row["passes"]) expect_ms(pass["ms"]);
     for (const char* key :

@@ -29,14 +29,16 @@ struct RunOptions {
 };
 
 struct PassTime {
-  std::string view, name;  ///< "hbao+/estimate"
-  std::vector<double> ms;  ///< one per repeat, by OpenCL events; by wall clock if a device's events read 0
+  std::string view, name;      ///< "hbao+/estimate"
+  std::vector<double> ms;      ///< one per repeat, by OpenCL events; by wall clock if a device's events read 0
+  std::vector<double> cpu_ms;  ///< on a CPU: what the process's threads computed, together; else empty
 };
 
 struct RunResult {
-  Frame frame;                   ///< the plan's outputs, with the input's windows, views and cameras
-  std::vector<PassTime> passes;  ///< per view, in order
-  std::vector<double> total_ms;  ///< one per repeat: the sum over passes
+  Frame frame;                       ///< the plan's outputs, with the input's windows, views and cameras
+  std::vector<PassTime> passes;      ///< per view, in order
+  std::vector<double> total_ms;      ///< one per repeat: the sum over passes
+  std::vector<double> total_cpu_ms;  ///< the same of `PassTime::cpu_ms`; empty where that is
   int lanes = 1;
   /// Share of all views' pixels that the estimate skipped: rows of lanes without a wanted pixel.
   double skipped_share = 0;

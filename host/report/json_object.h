@@ -1,0 +1,127 @@
+// Reading bench.json: entries by name, and messages that say where in the file a wrong one is.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gloam/error.h"
+#include "report/measurements.h"
+
+namespace gloam::report {
+
+/// An object of the file, and its path in the file for messages: "results[3]".
+class Object {
+ public:
+  Object(const Json& value, std::string file, std::string place)
+      : value_(value), file_(std::move(file)), place_(std::move(place)) {
+    if (!value_.is_object()) fail(place_.empty() ? "the document" : place_, value_, "an object");
+  }
+
+  /// Empty if it is null or missing.
+  std::string text(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return "";
+    if (!value->is_string()) fail(path_of(key), *value, "a text");
+    return value->get<std::string>();
+  }
+
+  Number number(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    if (!value->is_number() || !std::isfinite(value->get<double>())) fail(path_of(key), *value, "a number");
+    return value->get<double>();
+  }
+
+  std::string needed_text(const char* key) const {
+    if (!find(key)) missing(key);
+    return text(key);
+  }
+
+  double needed_number(const char* key) const {
+    if (!find(key)) missing(key);
+    return *number(key);
+  }
+
+  Object object(const char* key) const {
+    const Json* value = find(key);
+    return Object(value ? *value : nothing, file_, path_of(key));
+  }
+
+  Object needed_object(const char* key) const {
+    if (!find(key)) missing(key);
+    return object(key);
+  }
+
+  std::vector<Object> list(const char* key) const {
+    std::vector<Object> items;
+    const Json* value = find(key);
+    if (!value) return items;
+    if (!value->is_array()) fail(path_of(key), *value, "a list");
+    for (size_t i = 0; i < value->size(); ++i)
+      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", path_of(key), i));
+    return items;
+  }
+
+  std::vector<Object> needed_list(const char* key) const {
+    if (!find(key)) missing(key);
+    return list(key);
+  }
+
+  /// Empty if it is null or missing.
+  std::optional<std::vector<std::string>> texts(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    const bool are_texts =
+        value->is_array() && std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); });
+    if (!are_texts) fail(path_of(key), *value, "a list of texts");
+    return value->get<std::vector<std::string>>();
+  }
+
+  /// Empty if it is null or missing.
+  std::vector<double> numbers(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    const bool are_numbers =
+        value->is_array() && std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_number(); });
+    if (!are_numbers) fail(path_of(key), *value, "a list of numbers");
+    return value->get<std::vector<double>>();
+  }
+
+  /// The two numbers of a size; empty if there is none.
+  std::pair<Number, Number> size(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    if (!value->is_array() || value->size() != 2 || !value->at(0).is_number() || !value->at(1).is_number())
+      fail(path_of(key), *value, "a list of width and height");
+    return {value->at(0).get<double>(), value->at(1).get<double>()};
+  }
+
+  const Json& json() const { return value_; }
+
+ private:
+  static inline const Json nothing = Json::object();
+
+  const Json* find(const char* key) const {
+    const auto found = value_.find(key);
+    return found == value_.end() || found->is_null() ? nullptr : &*found;
+  }
+  std::string path_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+
+  [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
+    std::string shown = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+    if (shown.size() > 40) shown = shown.substr(0, 37) + "...";
+    throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file_, place, shown, needed);
+  }
+  [[noreturn]] void missing(const char* key) const {
+    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, path_of(key));
+  }
+
+  const Json& value_;
+  std::string file_, place_;
+};
+
+}  // namespace gloam::report
