@@ -124,7 +124,7 @@ Json figures_of(const Row& row) {
           {"lanes", row.timed->lanes()},
           {"ms", milliseconds_and_rounds(row.ms)},
           {"passes", passes},
-          {"own_floor_ms", median(row.own_floor_ms)},
+          {"own_floor_ms", row.own_floor_ms.empty() ? Json(nullptr) : Json(median(row.own_floor_ms))},
           {"ratio_to_own_floor", number(row.to_own_floor)},
           {"spent_on", spent_on},
           {"ratio_to_naive", number(ratio_to_naive(row))},
@@ -217,6 +217,15 @@ Json document_of(const Skipped& s) {
       {"technique", s.technique}, {"preset", text_or_null(s.preset)}, {"scene", text_or_null(s.scene)}, {"why", s.why}};
 }
 
+Json document_of(const LeftOut& l) {
+  return {{"technique", text_or_null(l.technique)},
+          {"preset", text_or_null(l.preset)},
+          {"variant", l.variant},
+          {"scene", l.scene},
+          {"effect", l.effect},
+          {"what", l.what}};
+}
+
 Json document_of(const PaperTime& t) {
   return {{"table", t.table},
           {"row", t.row},
@@ -293,6 +302,7 @@ Json document_of(const Measurement& measurement, const MeasureOptions& options, 
                    {"scales", list_of(measurement.scales)},
                    {"planes", list_of(measurement.planes)},
                    {"skipped", list_of(measurement.skipped)},
+                   {"left_out", list_of(measurement.left_out)},
                    {"paper", Json::array()}});
   return document;
 }

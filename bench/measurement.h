@@ -11,6 +11,7 @@
 #include "bench/growth.h"
 #include "bench/ladder.h"
 #include "bench/race.h"
+#include "bench/schedule.h"
 #include "bench/similarity.h"
 #include "bench/subject.h"
 #include "bench/variations.h"
@@ -30,8 +31,10 @@ struct MeasureOptions {
   /// Off: techniques over all peeled layers, which take several times as long, get one preset and no variants.
   bool layers_in_full = true;
   LadderFor ladder = LadderFor::presets;
-  int rounds = 9;
-  bool checks = true;                    ///< other resolutions, and bare planes on the first frame (checks.h)
+  int rounds = 9;             ///< without a time limit, and with `fixed_rounds`
+  TimeLimit limit;            ///< of all subjects together; none: everything is measured
+  bool fixed_rounds = false;  ///< within a limit: `rounds`, rather than until the interval of each ratio is narrow
+  bool checks = true;         ///< other resolutions, and bare planes on the first frame (checks.h)
   std::vector<const Technique*> growth;  ///< techniques whose growth is measured on the first frame
   std::filesystem::path folder;          ///< folder of images/; empty: no pictures
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
@@ -81,6 +84,14 @@ struct SceneFacts {
   std::vector<std::string> made, reused;
 };
 
+/// What a time limit left out.
+struct LeftOut {
+  std::string technique, preset, variant;  ///< empty: all
+  std::string scene, effect;
+  std::string
+      what;  ///< "everything", "rounds", "ladder", "SSIM and FLIP", "own floor", "growth", "checks", "naive kernels"
+};
+
 struct GrowthFacts {
   std::string technique, scene;
   Growth growth;
@@ -102,6 +113,7 @@ struct Measurement {
   std::vector<PlaneFacts> planes;
   std::vector<SceneFacts> scenes;
   std::vector<std::string> notes;  ///< one sentence each
+  std::vector<LeftOut> left_out;
 };
 
 /// The presets of a technique, or of its source (effects.h), that were asked for; "" if it has none and all were asked for.

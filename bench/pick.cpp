@@ -1,10 +1,13 @@
 #include "bench/pick.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 
+#include "base/elapsed.h"
 #include "bench/effects.h"
+#include "bench/schedule.h"
 #include "compare/flip.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
@@ -20,9 +23,10 @@ constexpr size_t most_finalists = 12;
 /// A setting is dropped only if its first time is over the bound by more than this factor.
 constexpr double doubt = 1.5;
 
-std::string name_of(const Variation& v) {
-  return v.technique->name + " " + v.name() + (v.variant.empty() ? "" : ", " + v.variant);
-}
+/// "medium", "medium, half": what is left out of a technique.
+std::string name_and_resolution(const Variation& v) { return v.name() + (v.variant.empty() ? "" : ", " + v.variant); }
+
+std::string name_of(const Variation& v) { return v.technique->name + " " + name_and_resolution(v); }
 
 /// A plane of one or three components as displayed within the mask; black in both images elsewhere.
 cv::Mat picture_of(const Plane& plane, const Mask& mask) {
@@ -103,6 +107,7 @@ class Search {
     converged.settings = converged_settings(technique);
     truth_ = image_of(whole_plan(converged, available_, subject_.holds), {});
     picked_.truth = "converged " + technique.name + ", as no truth is at hand";
+    picked_.has_truth = false;
   }
 
   /// Of an effect other than ambient occlusion: the first technique over layers that the frame has, else the first.
@@ -142,17 +147,85 @@ class Search {
 
   void try_all() {
     const std::vector<Variation> all = candidates();
-    for (size_t i = 0; i < all.size(); ++i) {
-      tell("trying " + name_of(all[i]), i, all.size());
+    const std::vector<size_t> first = first_looks(all, "low");
+    try_these(all, first);
+    const std::vector<double> distances = distances_of_tries();
+    try_these(all, later_looks(all, first, [&](const Variation& v) {
+                for (size_t i = 0; i < distances.size(); ++i) {
+                  if (tries_[i]->variation.technique == v.technique) return distances[i];
+                }
+                return 1e3;
+              }));
+    if (tries_.empty() && picked_.skipped.empty())
+      throw Error("{}: no setting could be tried in time; --time gives more, --all all that it takes", subject_.name);
+    if (tries_.empty()) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
+  }
+
+  void try_these(const std::vector<Variation>& all, const std::vector<size_t>& order) {
+    for (const size_t i : order) {
+      const Variation& v = all[i];
+      tell("trying " + name_of(v), tries_.size() + picked_.left_out.size(), all.size());
+      if (!is_possible(v)) continue;
+      std::string why = why_hopeless(v);
+      // One is tried whatever the time, so that there is something to say.
+      if (why.empty() && !tries_.empty() && !options_.limit.allows(longest_try_)) why = "the time was over";
+      if (!why.empty()) {
+        picked_.left_out.push_back({v.technique->name, name_and_resolution(v), "", why});
+        continue;
+      }
+      const auto start = std::chrono::steady_clock::now();
       try {
-        add(all[i]);
+        add(v);
       } catch (const UsageError&) {
         throw;
       } catch (const Error& error) {  // planes that the frame lacks, a device without the memory
-        picked_.skipped.push_back({all[i].technique->name, all[i].name(), "", error.what()});
+        picked_.skipped.push_back({v.technique->name, v.name(), "", error.what()});
+      }
+      longest_try_ = std::max(longest_try_, seconds_since(start));
+    }
+  }
+
+  /// Without a run: whether the frame has what the setting reads.
+  bool is_possible(const Variation& v) try {
+    whole_plan(v, available_, subject_.holds);
+    return true;
+  } catch (const MissingPlanes& error) {
+    picked_.skipped.push_back({v.technique->name, v.name(), "", error.what()});
+    return false;
+  }
+
+  std::vector<double> distances_of_tries() const {
+    std::vector<FirstLook> looks;
+    for (const auto& t : tries_) looks.push_back({t->ms, off(*t)});
+    return distances_to_front(looks);
+  }
+
+  /// Empty, or why a setting cannot win: a lower preset of the technique, at the same resolution, is too slow already.
+  std::string why_hopeless(const Variation& v) const {
+    double most = 0;
+    if (options_.budget) {
+      most = *options_.budget * doubt;
+    } else {
+      for (const auto& t : tries_) {
+        if (is_within(*t, options_) && (most == 0 || t->ms * doubt < most)) most = t->ms * doubt;
       }
     }
-    if (tries_.empty()) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
+    if (most == 0) return "";
+    for (const auto& t : tries_) {
+      const bool is_lower = t->variation.technique == v.technique && t->variation.resolution == v.resolution &&
+                            rank(t->variation) < rank(v);
+      if (is_lower && t->ms > most) return fmt::format("{} takes {:.2g} ms already", name_of(t->variation), t->ms);
+    }
+    return "";
+  }
+
+  /// Place of the preset among those of the technique, which are sorted by their time.
+  static size_t rank(const Variation& v) {
+    const std::vector<Preset>& presets = source_of(*v.technique).presets;
+    for (size_t i = 0; i < presets.size(); ++i) {
+      if (presets[i].name == v.preset) return i;
+    }
+    return 0;
   }
 
   void add(const Variation& variation) {
@@ -161,12 +234,13 @@ class Search {
     tried->variation = variation;
     tried->timed = std::make_unique<TimedPlan>(plan, subject_.frame, device_, variation.run_options());
     tried->ms = time_of(*tried);
-    measure(*tried, image_of(plan, variation.run_options()));
+    measure(*tried, image_of(plan, variation.run_options()), options_.by != PickBy::rmse);
     tries_.push_back(std::move(tried));
   }
 
-  void measure(Choice& choice, const Image& image) const {
+  void measure(Choice& choice, const Image& image, bool with_likeness) const {
     choice.rmse = rmse(image, truth_, foreground_);
+    if (!with_likeness) return;
     int views = 0;
     double ssim = 0, flip = 0;
     for (const auto& [view, mask] : foreground_) {
@@ -205,7 +279,10 @@ class Search {
         interleaved(contenders, options_.rounds, [&](int done, int of) { tell("timing", size_t(done), size_t(of)); });
     for (size_t i = 0; i < tries_.size(); ++i) tries_[i]->ms = median(times[i]);
     std::sort(tries_.begin(), tries_.end(), [](const auto& a, const auto& b) { return a->ms < b->ms; });
-    for (const auto& t : tries_) picked_.finalists.push_back(*t);
+    for (const auto& t : tries_) {
+      if (options_.by == PickBy::rmse) measure(*t, image_of(t->timed->plan(), t->variation.run_options()), true);
+      picked_.finalists.push_back(*t);
+    }
   }
 
   void choose() {
@@ -239,6 +316,7 @@ class Search {
   const Foreground foreground_;
   Image truth_;
   std::vector<std::unique_ptr<Try>> tries_;
+  double longest_try_ = 0;  ///< seconds
   Picked picked_;
 };
 

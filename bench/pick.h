@@ -21,6 +21,7 @@ struct PickOptions {
   std::optional<double> error;   ///< bound on the deciding figure; the cheapest setting within it is picked
   PickBy by = PickBy::rmse;
   int rounds = 9;
+  TimeLimit limit;  ///< for trying settings; timing the finalists in turn comes on top of it
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
 };
 
@@ -28,7 +29,7 @@ struct Choice {
   Variation variation;
   double ms = 0;               ///< median, the filter included
   double rmse = 0;             ///< to the truth
-  double ssim = 0;             ///< 1: the same
+  double ssim = 0;             ///< 1: the same; of finalists, and of all tried if it decides
   std::optional<double> flip;  ///< of the picture as displayed; only if it decides
 };
 
@@ -40,7 +41,10 @@ struct Picked {
   size_t tried = 0;               ///< number of settings tried
   size_t best = 0;                ///< index of the best finalist
   std::string truth;              ///< reference of the errors: "the truth", or its stand-in
+  bool has_truth = true;          ///< it is no stand-in
   std::vector<Skipped> skipped;
+  /// Settings that were not tried: `why` names a faster one that is too slow already, or says that the time was over.
+  std::vector<Skipped> left_out;
 };
 
 /// Indices of the settings, tried once (`ms` of one run), to time in turn; first the one that misses the bound least. They are
@@ -48,7 +52,8 @@ struct Picked {
 /// must not crowd them out.
 std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options);
 
-/// Tries every preset of the techniques at full and at half resolution, once; then times those that may win, in turn. If the
+/// Tries the presets of the techniques at full and at half resolution, once, those that are more likely to win first, and leaves out
+/// those that cannot win because they take longer than others that are too slow; then times those that may win, in turn. If the
 /// subject has no truth, errors are to the converged image of the technique that is nearest to ray-traced truth on the built-in
 /// scenes (of effects other than ambient occlusion: of the first technique). If one of the techniques makes an image of only the first of two views, times and errors of all are those of the first
 /// view. Throws Error that names the nearest miss if nothing is within the bound.

@@ -21,7 +21,8 @@ constexpr const char *reference_technique = "hbao+", *reference_preset = "medium
 /// Number of rows that share one run of the baselines, so that the two times of a ratio are close together.
 constexpr size_t group_size = 4;
 
-std::string name_of(size_t racer) { return "racer " + std::to_string(racer); }
+constexpr const char* racer_prefix = "racer ";
+std::string name_of(size_t racer) { return racer_prefix + std::to_string(racer); }
 
 /// The baselines' frame: one view's depth and normals; missing normals are computed.
 Frame depth_and_normals(const Frame& frame, Device& device) {
@@ -74,12 +75,12 @@ void add(std::vector<Share>& shares, const std::string& what, double ms) {
 }
 
 /// Shares of the estimate, then of the other passes in order.
-std::vector<Share> spent_on(const Racer& racer) {
-  const Series estimate = own_passes(*racer.timed);
-  std::vector<Share> shares = split_estimate(median(estimate), ratio(racer.own_floor_ms, estimate));
-  for (size_t i = 0; i < racer.timed->passes().size(); ++i) {
-    const TimedPlan::Pass& pass = racer.timed->passes()[i];
-    if (!is_own(*racer.timed, i)) add(shares, pass.name, median(pass.ms));
+std::vector<Share> spent_on(const TimedPlan& timed, const Series& own_floor_ms) {
+  const Series estimate = own_passes(timed);
+  std::vector<Share> shares = split_estimate(median(estimate), ratio(own_floor_ms, estimate));
+  for (size_t i = 0; i < timed.passes().size(); ++i) {
+    const TimedPlan::Pass& pass = timed.passes()[i];
+    if (!is_own(timed, i)) add(shares, pass.name, median(pass.ms));
   }
   double sum = 0;
   for (const Share& share : shares) sum += share.share;
@@ -182,45 +183,85 @@ Race::Plain& Race::plain() {
   return *plain_;
 }
 
-void Race::enter(Racer& racer) {
+void Race::enter(Racer& racer, bool with_floor) {
   const std::vector<std::string> available = planes_of(frame_);
   RunOptions options = racer.variation.run_options();
   racer.timed = std::make_unique<TimedPlan>(whole_plan(racer.variation, available, holds_), frame_, device_, options);
   options.gathers_only = true;
-  racer.gathers =
-      std::make_unique<TimedPlan>(unfiltered_plan(racer.variation, available, holds_), frame_, device_, options);
+  if (with_floor)
+    racer.gathers =
+        std::make_unique<TimedPlan>(unfiltered_plan(racer.variation, available, holds_), frame_, device_, options);
   racers_.push_back(&racer);
 }
 
-void Race::run(int rounds, const std::function<void(int done, int of)>& progress) {
-  enter_reference();
+void Race::run(const Rounds& rounds, const std::function<void(int done, int of)>& progress, bool with_naive) {
+  if (!has_reference_) enter_reference();
+  has_reference_ = true;
+  const size_t before = groups_.size();
   naives_.resize(racers_.size());
-  for (size_t i = 0; i < racers_.size(); ++i) enter_naive(i);
-  first_view_.resize((racers_.size() + group_size - 1) / group_size);
-  cpu_.resize(first_view_.size());
+  for (size_t i = before; i < racers_.size() && with_naive; ++i) enter_naive(i);
+  const size_t groups = groups_so_far_ + (racers_.size() - before + group_size - 1) / group_size;
+  first_view_.resize(groups);
+  cpu_.resize(groups);
+  series_.resize(groups);
   std::vector<Contender> contenders;
   std::vector<size_t> group_of;
-  for (size_t first = 0; first < racers_.size(); first += group_size) {
-    add_group(first, contenders);
-    group_of.resize(contenders.size(), first / group_size);
+  for (size_t first = before; first < racers_.size(); first += group_size) {
+    const size_t end = std::min(first + group_size, racers_.size());
+    groups_.resize(end, groups_so_far_);
+    add_group(first, end, contenders);
+    group_of.resize(contenders.size(), groups_so_far_++);
   }
-  const std::vector<Series> ms = interleaved(contenders, rounds, progress);
-  series_.resize(group_of.empty() ? 0 : group_of.back() + 1);
+  const auto is_enough = [&](const std::vector<Series>& ms) {
+    return rounds.narrow > 0 && are_narrow(ms, contenders, group_of, rounds.narrow);
+  };
+  const std::vector<Series> ms = interleaved(contenders, rounds, is_enough, progress);
   for (size_t i = 0; i < contenders.size(); ++i) series_[group_of[i]][contenders[i].name] = ms[i];
-  for (size_t i = 0; i < racers_.size(); ++i) add_ratios(i);
+  for (size_t i = before; i < racers_.size(); ++i) add_ratios(i);
 }
 
-void Race::add_group(size_t first, std::vector<Contender>& contenders) {
+/// Whether the ratio of each racer to the reference of its group has a narrow interval; without a reference its time.
+bool Race::are_narrow(const std::vector<Series>& ms, const std::vector<Contender>& contenders,
+                      const std::vector<size_t>& group_of, double narrow) const {
+  std::map<size_t, const Series*> reference;
+  for (size_t i = 0; i < contenders.size(); ++i) {
+    if (contenders[i].name == reference_technique) reference[group_of[i]] = &ms[i];
+  }
+  for (size_t i = 0; i < contenders.size(); ++i) {
+    if (contenders[i].name.rfind(racer_prefix, 0) != 0) continue;
+    const auto known = reference.find(group_of[i]);
+    if (!is_narrow_enough(known == reference.end() ? ms[i] : ratios_of_rounds(ms[i], *known->second), narrow))
+      return false;
+  }
+  return true;
+}
+
+void Race::add_floor(Racer& racer, int rounds) {
+  RunOptions options = racer.variation.run_options();
+  options.gathers_only = true;
+  racer.gathers = std::make_unique<TimedPlan>(unfiltered_plan(racer.variation, planes_of(frame_), holds_), frame_,
+                                              device_, options);
+  TimedPlan whole(whole_plan(racer.variation, planes_of(frame_), holds_), frame_, device_,
+                  racer.variation.run_options());
+  const std::vector<Series> ms =
+      interleaved({{"", [&] { return whole.run(); }}, {"", [&] { return racer.gathers->run(); }}}, rounds);
+  racer.own_floor_ms = own_passes(*racer.gathers);
+  racer.to_own_floor = ratio(ms.front(), racer.own_floor_ms);
+  racer.spent_on = spent_on(whole, racer.own_floor_ms);
+}
+
+void Race::add_group(size_t first, size_t end, std::vector<Contender>& contenders) {
   bool with_native = false;
-  std::map<std::string, Series>& cpu = cpu_[first / group_size];
-  for (size_t i = first; i < std::min(first + group_size, racers_.size()); ++i) {
+  const size_t group = groups_so_far_;
+  std::map<std::string, Series>& cpu = cpu_[group];
+  for (size_t i = first; i < end; ++i) {
     contenders.push_back({name_of(i), [timed = racers_[i]->timed.get()] { return timed->run(); }});
-    contenders.push_back({"", [timed = racers_[i]->gathers.get()] { return timed->run(); }});
+    if (racers_[i]->gathers) contenders.push_back({"", [timed = racers_[i]->gathers.get()] { return timed->run(); }});
     if (naives_[i]) contenders.push_back({"", [naive = naives_[i].get()] { return naive->run(); }});
     with_native |= is_native(*racers_[i]);
   }
   if (reference_) {
-    contenders.push_back({reference_technique, [this, &of_group = first_view_[first / group_size], &cpu] {
+    contenders.push_back({reference_technique, [this, &of_group = first_view_[group], &cpu] {
                             const double ms = reference_->run();
                             of_group.push_back(reference_->first_view_ms());
                             if (reference_->cpu_ms().empty()) return ms;
@@ -284,13 +325,13 @@ void Race::enter_naive(size_t index) {
 
 void Race::add_ratios(size_t index) {
   Racer& racer = *racers_[index];
-  const std::map<std::string, Series>& series = series_[index / group_size];
+  const std::map<std::string, Series>& series = series_[groups_[index]];
   const auto ratio_to = [&](const Series& ms, const char* contender) -> std::optional<double> {
     const auto known = series.find(contender);
     if (known == series.end()) return {};
     return ratio(ms, known->second);
   };
-  std::map<std::string, Series>& cpu = cpu_[index / group_size];
+  std::map<std::string, Series>& cpu = cpu_[groups_[index]];
   const auto rounds_to = [&](const char* contender) -> RoundRatios {
     const auto known = series.find(contender);
     if (known == series.end()) return {};
@@ -298,9 +339,11 @@ void Race::add_ratios(size_t index) {
   };
   racer.ms = series.at(name_of(index));
   racer.cpu_ms = racer.timed->cpu_ms();
-  racer.own_floor_ms = own_passes(*racer.gathers);
-  racer.to_own_floor = ratio(racer.ms, racer.own_floor_ms);
-  racer.spent_on = spent_on(racer);
+  if (racer.gathers) {
+    racer.own_floor_ms = own_passes(*racer.gathers);
+    racer.to_own_floor = ratio(racer.ms, racer.own_floor_ms);
+    racer.spent_on = spent_on(*racer.timed, racer.own_floor_ms);
+  }
   racer.to_gather_floor = ratio_to(racer.ms, "gather floor");
   racer.to_copy_floor = ratio_to(racer.ms, "copy floor");
   racer.to_gather_floor_rounds = rounds_to("gather floor");
@@ -308,8 +351,8 @@ void Race::add_ratios(size_t index) {
   racer.to_hbao_plus = ratio_to(racer.ms, reference_technique);
   racer.to_hbao_plus_rounds = rounds_to(reference_technique);
   if (racer.to_hbao_plus && makes_first_view_only(*racer.variation.technique)) {
-    racer.to_hbao_plus = ratio(racer.ms, first_view_[index / group_size]);
-    racer.to_hbao_plus_rounds = {ratios_of_rounds(racer.ms, first_view_[index / group_size]),
+    racer.to_hbao_plus = ratio(racer.ms, first_view_[groups_[index]]);
+    racer.to_hbao_plus_rounds = {ratios_of_rounds(racer.ms, first_view_[groups_[index]]),
                                  ratios_of_rounds(racer.cpu_ms, cpu["first view"])};
   }
   if (const auto copy = series.find("copy floor"); copy != series.end()) racer.copy_floor_ms = median(copy->second);

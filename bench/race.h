@@ -45,15 +45,15 @@ struct RoundRatios {
 struct Racer {
   Variation variation;
   std::unique_ptr<TimedPlan> timed;
-  std::unique_ptr<TimedPlan> gathers;  ///< the plan without its filter; samples only add up what they read
+  std::unique_ptr<TimedPlan> gathers;  ///< the plan without its filter; samples only add up what they read. May be null
   Series ms, own_floor_ms;             ///< time of the whole plan; of the technique's own passes in `gathers`
   std::optional<double> to_native, to_gather_floor, to_copy_floor, to_hbao_plus;
   Series cpu_ms;  ///< what the process's threads computed; empty where the device is no CPU
   RoundRatios to_hbao_plus_rounds, to_gather_floor_rounds, to_copy_floor_rounds;
-  double to_own_floor = 0;
+  std::optional<double> to_own_floor;       ///< none without `gathers`
   std::optional<double> copy_floor_ms;      ///< of the run that `to_copy_floor` is to
   std::vector<AgainstNaive> against_naive;  ///< empty if no naive kernels compute the same
-  std::vector<Share> spent_on;              ///< adds up to 1
+  std::vector<Share> spent_on;              ///< adds up to 1; empty without `gathers`
 };
 
 /// Runs everything on one frame in turn: the entries, and after every few of them HBAO+ with 8 x 4 samples and the floors of the
@@ -65,11 +65,14 @@ class Race {
   ~Race();
 
   /// Enters `racer.variation`; the racer must keep its address until `run` is done. Throws as `gloam::run` does, and then has not
-  /// entered it.
-  void enter(Racer& racer);
+  /// entered it. `with_floor`: with its own floor.
+  void enter(Racer& racer, bool with_floor = true);
 
-  /// Fills in the times and ratios of all entries. `progress` is called for single runs, and may be empty.
-  void run(int rounds, const std::function<void(int done, int of)>& progress);
+  /// Fills in the times and ratios of what was entered since the last call. `progress` is called for single runs, and may be empty.
+  void run(const Rounds& rounds, const std::function<void(int done, int of)>& progress, bool with_naive = true);
+
+  /// Measures the own floor of a racer that has run without.
+  void add_floor(Racer& racer, int rounds);
 
   /// Why a baseline took no part, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -85,7 +88,9 @@ class Race {
   /// Enters naive kernels that compute the same as a racer, if there are any.
   void enter_naive(size_t index);
   /// Adds some racers, and then their baselines.
-  void add_group(size_t first, std::vector<Contender>& contenders);
+  void add_group(size_t first, size_t end, std::vector<Contender>& contenders);
+  bool are_narrow(const std::vector<Series>& ms, const std::vector<Contender>& contenders,
+                  const std::vector<size_t>& group_of, double narrow) const;
   void add_ratios(size_t index);
   void add_naive_ratios(size_t index);
 
@@ -95,6 +100,9 @@ class Race {
   Device& device_;
   std::vector<std::string> notes_;
   std::vector<Racer*> racers_;
+  std::vector<size_t> groups_;  ///< by racer
+  size_t groups_so_far_ = 0;
+  bool has_reference_ = false;     ///< `enter_reference` was called
   std::vector<Contender> common_;  ///< compared with every racer, besides the reference
   std::vector<Contender> loops_;   ///< native loops: compared with racers that compute the same
   Variation reference_variation_;

@@ -14,18 +14,26 @@ Contender keeping_cpu_time(Contender contender, Series& cpu) {
   return contender;
 }
 
-std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
+std::vector<Series> interleaved(const std::vector<Contender>& contenders, const Rounds& rounds,
+                                const std::function<bool(const std::vector<Series>&)>& is_enough,
                                 const std::function<void(int, int)>& progress) {
   std::vector<Series> ms(contenders.size());
-  const int of = rounds * int(contenders.size());
+  const int of = rounds.most * int(contenders.size());
   int done = 0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 1; round <= rounds.most; ++round) {
     for (size_t i = 0; i < contenders.size(); ++i) {
       ms[i].push_back(contenders[i].run());
       if (progress) progress(++done, of);
     }
+    if (rounds.is_over && rounds.is_over()) break;
+    if (round >= rounds.fewest && is_enough && is_enough(ms)) break;
   }
   return ms;
+}
+
+std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
+                                const std::function<void(int, int)>& progress) {
+  return interleaved(contenders, Rounds{.fewest = rounds, .most = rounds}, {}, progress);
 }
 
 double ratio(const Series& a, const Series& b) {

@@ -29,8 +29,21 @@ struct Contender {
 /// The same, which also keeps what the process's threads computed in each run in `cpu`.
 Contender keeping_cpu_time(Contender contender, Series& cpu);
 
-/// Runs all contenders in turn, `rounds` times, so that other load on the machine affects all alike. `progress` is called for
-/// single runs, and may be empty.
+/// When rounds end.
+struct Rounds {
+  int fewest = 9, most = 9;
+  std::function<bool()> is_over = {};  ///< whether the time for them is over; then even one round is enough
+  /// Half the width of the interval of each ratio, relative to the ratio, at which no more rounds are needed (intervals.h); 0: none.
+  double narrow = 0;
+};
+
+/// Runs all contenders in turn, so that other load on the machine affects all alike. After `fewest` rounds `is_enough` may end them.
+/// `progress` is called for single runs, and may be empty.
+std::vector<Series> interleaved(const std::vector<Contender>& contenders, const Rounds& rounds,
+                                const std::function<bool(const std::vector<Series>&)>& is_enough,
+                                const std::function<void(int done, int of)>& progress = {});
+
+/// The same with a fixed number of rounds.
 std::vector<Series> interleaved(const std::vector<Contender>& contenders, int rounds,
                                 const std::function<void(int done, int of)>& progress = {});
 

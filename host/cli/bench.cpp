@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/elapsed.h"
 #include "bench/document.h"
 #include "bench/effects.h"
 #include "bench/measurement.h"
@@ -48,8 +49,35 @@ std::vector<std::string> without_growth(const Measurement& result, const BenchOp
   return names;
 }
 
+/// "rounds of 12 settings, the ladder of 3": what a time limit left out.
+std::string left_out_in_words(const std::vector<LeftOut>& left_out) {
+  std::vector<std::string> kinds, words;
+  for (const LeftOut& l : left_out) add_new(kinds, l.what);
+  for (const std::string& kind : kinds) {
+    const auto count =
+        std::count_if(left_out.begin(), left_out.end(), [&](const LeftOut& l) { return l.what == kind; });
+    const bool is_of_settings = std::any_of(left_out.begin(), left_out.end(),
+                                            [&](const LeftOut& l) { return l.what == kind && !l.preset.empty(); });
+    const bool is_of_techniques =
+        !is_of_settings && std::any_of(left_out.begin(), left_out.end(),
+                                       [&](const LeftOut& l) { return l.what == kind && !l.technique.empty(); });
+    const char* things = is_of_settings ? "setting" : "technique";
+    words.push_back(is_of_settings || is_of_techniques
+                        ? fmt::format("{} of {} {}{}", kind, count, things, count == 1 ? "" : "s")
+                        : kind);
+  }
+  return enumerate(words);
+}
+
+std::string rounds_in_words(const Measurement& result, const BenchOptions& options) {
+  if (!options.limit.is_set() || result.rows.empty()) return fmt::format("{} rounds", options.rounds);
+  const auto [fewest, most] = std::minmax_element(
+      result.rows.begin(), result.rows.end(), [](const auto& a, const auto& b) { return a->ms.size() < b->ms.size(); });
+  return fmt::format("{} to {} rounds", (*fewest)->ms.size(), (*most)->ms.size());
+}
+
 void print(const Measurement& result, const BenchOptions& options, const DeviceInfo& device) {
-  fmt::print("{}, {} ({}); {} rounds\n", cpu_model(), device.name, device.platform, options.rounds);
+  fmt::print("{}, {} ({}); {}\n", cpu_model(), device.name, device.platform, rounds_in_words(result, options));
   fmt::print(
       "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
       "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: no other is as fast\nand as close, "
@@ -71,6 +99,9 @@ void print(const Measurement& result, const BenchOptions& options, const DeviceI
     const std::string preset = s.preset.empty() ? "" : " " + s.preset, where = s.scene.empty() ? "" : " on " + s.scene;
     fmt::print("skipped {}{}{}: {}\n", s.technique, preset, printable(where), printable(s.why));
   }
+  if (!result.left_out.empty())
+    fmt::print("\nleft out to end in time: {}; --time 5m measures more, --all everything\n",
+               left_out_in_words(result.left_out));
 }
 
 /// Throws UsageError for what cannot be divided, too.
@@ -139,7 +170,7 @@ void bench_command(const BenchCommand& flags) {
   Measurement result;
   Device device = flags.open();
   if (!flags.set.empty()) return bench_set(flags, device);
-  const BenchOptions options = options_of(flags, device.info(), result);
+  BenchOptions options = options_of(flags, device.info(), result);
   if (!flags.sequence.empty())
     return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
   make_output_folder(options.scene.folder);
@@ -151,21 +182,32 @@ void bench_command(const BenchCommand& flags) {
                        {"--json", flags.json.file()}});
   std::vector<std::pair<std::string, RadiusReport>> radii;
   unsigned long long memory = 0;
+  TimeLimit limit = flags.all ? TimeLimit() : TimeLimit(flags.time);
+  options.limit = limit;
+  if (limit.is_set())
+    options.progress = [&limit](const std::string& what, double share) {
+      show_status(fmt::format("{}, {} left", what, time_words(limit.left())), share);
+    };
+  size_t subjects = options.effects.size() * (flags.frame.empty() ? options.scenes.size() : 1);
   if (!flags.frame.empty()) {
     for (const std::string& effect : options.effects) {
-      const MeasureOptions of_effect = for_effect(options, effect);
+      MeasureOptions of_effect = for_effect(options, effect);
       Subject subject =
           own_subject(flags.frame, flags.frame_flags, flags.truths, effect, of_effect.techniques, options.scene);
       memory = std::max(memory, subject.memory_bytes);
       if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      of_effect.limit = limit.part(1.0 / double(subjects--));
       measure(subject, of_effect, true, device, result);
     }
   }
   for (size_t i = 0; i < options.scenes.size(); ++i) {
     for (const std::string& effect : options.effects) {
-      const MeasureOptions of_effect = for_effect(options, effect);
+      MeasureOptions of_effect = for_effect(options, effect);
+      const auto start = std::chrono::steady_clock::now();
       Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene);
+      limit.extend(seconds_since(start));  // capturing and tracing are done once, and their files stay
       if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      of_effect.limit = limit.part(1.0 / double(subjects--));
       measure(subject, of_effect, i == 0, device, result);
     }
   }
@@ -175,6 +217,7 @@ void bench_command(const BenchCommand& flags) {
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
   Json document = document_of(result, options, device.info());
   if (memory > 0) document["memory_bytes"] = memory;
+  document["time_limit_s"] = flags.all ? Json(nullptr) : Json(flags.time);
   JsonFlag{(folder / "bench.json").string()}.write(document);
   flags.json.write(document);
   if (flags.json.only_json()) return;
@@ -221,12 +264,11 @@ void add_bench(CLI::App& app) {
                        "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
           ->type_name("SHOT|FRAME.####.exr");
   command
-      ->add_option("--set", flags->set,
-                   "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
+      ->add_option(
+          "--set", flags->set,
+          "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
       ->type_name("DIR");
-  command->add_option("--items", flags->items, "with --set: these items only")
-      ->needs("--set")
-      ->type_name("A,B");
+  command->add_option("--items", flags->items, "with --set: these items only")->needs("--set")->type_name("A,B");
   add_frames(*command, flags->choice);
   add_missing_without_hold(*command, flags->choice);
   command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");
@@ -256,8 +298,17 @@ void add_bench(CLI::App& app) {
   add_choice(*command, "--ladder", flags->ladder,
              {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
              "where errors come from, step by step; all: of variants too; default presets");
-  add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each runs everything once, in turn; default 9")
+  add_number(*command, "--rounds", flags->rounds, allowed_rounds,
+             "each runs everything once, in turn; default 9 with --all, else 6 to 30: until the ratio of each setting "
+             "is known to 2 %")
       ->type_name("N");
+  CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
+                                 "how long measuring may take, the front first, then the rest as time allows; what was "
+                                 "left out is said; capturing and "
+                                 "tracing built-in scenes does not count; default 1m")
+                          ->type_name("1m");
+  command->add_flag("--all", flags->all, "measure everything, however long it takes; of a shot and of --set always")
+      ->excludes(time);
   command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");
   command->add_flag("--no-checks", flags->no_checks,
                     "leave out what changes with the resolution and what bare planes read");
@@ -276,13 +327,14 @@ void add_bench(CLI::App& app) {
     if (!contains(shared, option->get_name())) option->excludes(paper);
   }
   for (const char* option : {"--scenes", "--frame", "--variants", "--sweep", "--ladder", "--rounds", "--no-growth",
-                             "--no-checks", "--no-images", "--chunks"})
+                             "--no-checks", "--no-images", "--chunks", "--time"})
     sequence->excludes(command->get_option(option));
   flags->app = command;
   flags->json.add_to(*command);
   command->footer(
       "Frames and truths stay in DIR/scenes and are used again. Examples:\n"
-      "  gloam bench -o out/bench\n"
+      "  gloam bench -o out/bench                       what fits in a minute\n"
+      "  gloam bench -o out/bench --all                 everything\n"
       "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
       "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
       "  gloam bench -o 'out/bench.##' --scenes all --chunks 7 --print | parallel\n"
@@ -293,6 +345,9 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/light --effects indirect,bounces,specular_occlusion,contact --scenes all");
   command->callback([flags, command] {
     if (flags->chunks > 0) flags->repeated = repeated_words(*command, not_of_bench_chunks());
+    // Other machines have no one who waits.
+    if (flags->chunks > 0 && !flags->all && command->get_option("--time")->count() == 0)
+      flags->repeated.push_back("--all");
     bench_command(*flags);
   });
 }

@@ -183,6 +183,7 @@ BenchOptions options_of(const BenchCommand& flags, const DeviceInfo& device, Mea
   options.scene.folder = std::filesystem::path(flags.folder) / "scenes";
   options.scene.progress = options.progress = show_status;
   options.rounds = flags.rounds;
+  options.fixed_rounds = flags.app && flags.app->get_option("--rounds")->count() > 0;
   options.ladder = flags.ladder;
   if (!flags.no_images) options.folder = flags.folder;
   return options;

@@ -21,6 +21,8 @@ struct BenchCommand : DeviceFlags {
   std::optional<int> rays;
   std::optional<double> radius;
   int rounds = 9;
+  double time = 60;  ///< seconds
+  bool all = false;  ///< no limit
   bench::LadderFor ladder = bench::LadderFor::presets;
   bool no_growth = false, no_checks = false, no_images = false, print = false;
   int chunks = 0;                     ///< 0: not divided

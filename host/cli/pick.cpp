@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "bench/effects.h"
@@ -27,6 +28,8 @@ struct PickCommand : DeviceFlags {
   std::optional<double> budget, error, radius;  ///< budget: milliseconds
   PickBy by = PickBy::rmse;
   int rays = 256, rounds = 9;
+  double time = 60;  ///< seconds
+  bool all = false;
   FrameChoice choice;
   FrameFlags frame_flags;
   JsonFlag json;
@@ -136,7 +139,33 @@ Json document_of(const Picked& picked, const std::string& command, const std::st
   document["skipped"] = Json::array();
   for (const Skipped& s : picked.skipped)
     document["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
+  document["left_out"] = Json::array();
+  for (const Skipped& s : picked.left_out)
+    document["left_out"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
   return document;
+}
+
+std::string stand_in_warning(const Picked& picked) {
+  return fmt::format(
+      "NO TRUTH: errors are to {}: what errs as that does looks nearer to the truth than it is; --truth REF.exr takes "
+      "a ray-traced image "
+      "(gloam reference, or a renderer's own)",
+      picked.truth);
+}
+
+/// "medium and high of gtao: low takes 31 ms already; the time was over for 12 settings (--time 5m, --all)".
+void print_left_out(const Picked& picked) {
+  std::map<std::string, std::vector<std::string>> slow;
+  size_t out_of_time = 0;
+  for (const Skipped& s : picked.left_out) {
+    if (s.why == "the time was over")
+      ++out_of_time;
+    else
+      slow[s.why].push_back(s.preset);
+  }
+  for (const auto& [why, presets] : slow) fmt::print("left out {}: {}\n", fmt::join(presets, "; "), why);
+  if (out_of_time > 0)
+    fmt::print("left out {} settings for want of time: --time 5m tries more, --all everything\n", out_of_time);
 }
 
 void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
@@ -153,6 +182,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   print_table(rows, 4);
   fmt::print("{} of {} settings that were tried; {}; errors to {}; {} decides (--by)\n", picked.finalists.size(),
              picked.tried, printable(device.name), picked.truth, name_of(by));
+  print_left_out(picked);
 }
 
 /// A temporary folder for a traced truth; the destructor removes it.
@@ -200,7 +230,9 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
 void pick_command(const PickCommand& flags) {
   std::vector<Skipped> left_out;
   const std::string effect = effect_for(flags);
-  const PickOptions options = options_of(flags, effect, left_out);
+  PickOptions options = options_of(flags, effect, left_out);
+  if (FramePattern::is_pattern(flags.frame) && flags.app->get_option("--time")->count() > 0)
+    throw UsageError("--time: of a shot all settings are tried; leave it out, or name fewer --techniques or --frames");
   if (FramePattern::is_pattern(flags.frame)) return pick_shot(flags, options, left_out);
   if (flags.choice.frames) throw UsageError("--frames: is for a shot, and {} is one frame", flags.frame);
   if (options.by == PickBy::flicker)
@@ -212,8 +244,10 @@ void pick_command(const PickCommand& flags) {
   const ScratchFolder scratch;
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
+  // Tracing a truth is done once, and does not count.
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, effect, options.techniques, scene);
   const RadiusReport radius = report_of(subject, options.techniques);
+  if (!flags.all) options.limit = TimeLimit(flags.time);
   Picked picked = pick(subject, options, device);
   picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
   erase_status();
@@ -221,6 +255,8 @@ void pick_command(const PickCommand& flags) {
   Json document = document_of(picked, command, word_for(flags.by, figures), device.info());
   radius.add_to(document);
   document["memory_bytes"] = subject.memory_bytes;
+  if (!picked.has_truth) note({stand_in_warning(picked)});
+  document["notes"] = picked.has_truth ? Json::array() : Json::array({stand_in_warning(picked)});
   flags.json.write(document);
   if (flags.json.only_json()) return;
   print(picked, options.by, device.info());
@@ -265,11 +301,18 @@ void add_pick(CLI::App& app) {
       ->type_name("N");
   add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9")
       ->type_name("N");
+  CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
+                                 "how long settings may be tried, the likeliest first; timing the best few in turn and "
+                                 "tracing a truth come on top; default 1m")
+                          ->type_name("1m");
+  command->add_flag("--all", flags->all, "try every setting, however long it takes; of a shot always")->excludes(time);
   flags->DeviceFlags::add_to(*command);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
-      "Tries every preset at full and at half resolution on the frame, and prints the choice as a gloam run line.\n"
+      "Tries presets at full and at half resolution on the frame, and prints the choice as a gloam run line. Left out "
+      "is what a faster setting\n"
+      "that is too slow already rules out, and what does not fit in the time.\n"
       "Examples:\n"
       "  gloam pick frame.exr --budget 20ms --truth ao_ref.exr\n"
       "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -\n"

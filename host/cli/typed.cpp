@@ -65,6 +65,30 @@ Size parse_size(const std::string& text, const std::string& flag) {
   return {width, height};
 }
 
+double parse_time(const std::string& text, const std::string& flag) {
+  double seconds = 0;
+  std::string rest = text;
+  for (const auto& [unit, factor] : {std::pair{'h', 3600.0}, {'m', 60.0}, {'s', 1.0}}) {
+    const size_t end = rest.find(unit);
+    if (end == std::string::npos) continue;
+    try {
+      seconds += factor * parse_number(rest.substr(0, end), flag, Range<double>{0, 1e6});
+    } catch (const UsageError&) {
+      seconds = -1;
+      break;
+    }
+    rest.erase(0, end + 1);
+  }
+  try {
+    if (seconds >= 0 && !rest.empty() && rest == text)
+      seconds = parse_number(rest, flag, Range<double>{0, 1e6}), rest.clear();
+  } catch (const UsageError&) {
+  }
+  if (seconds <= 0 || !rest.empty())
+    throw UsageError("{} {} is not allowed; a time above 0 such as 90s, 1m, 2m30s or 1h is", flag, text);
+  return seconds;
+}
+
 std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
   std::vector<std::string> items;
   std::istringstream stream(text);

@@ -49,6 +49,9 @@ using Size = std::pair<int, int>;
 /// "1920x1080": 1 to 65536 each way, and `max_pixels` at most.
 Size parse_size(const std::string& text, const std::string& flag);
 
+/// Seconds of "90s", "1m", "2m30s", "1h" or "90": above 0.
+double parse_time(const std::string& text, const std::string& flag);
+
 /// "a,b" -> a b; none of them empty.
 std::vector<std::string> split_list(const std::string& text, const std::string& flag);
 

@@ -201,6 +201,12 @@ Measurements measurements_of(const Object& o) {
   for (const Object& each : o.list("growth")) m.growth.push_back(growth_of(each));
   for (const Object& each : o.list("skipped"))
     m.skipped.push_back({each.text("technique"), each.text("preset"), each.text("scene"), each.text("why")});
+  for (const Object& each : o.list("left_out")) {
+    if (const std::string what = each.text("what"); what != "everything" && what != "rounds") continue;
+    const std::string variant = each.text("variant");
+    m.skipped.push_back({each.text("technique"), each.text("preset") + (variant.empty() ? "" : ", " + variant),
+                         each.text("scene"), "left out to end in time; --all measures it"});
+  }
   for (const Object& each : o.list("paper")) m.paper.push_back(paper_figure_of(each));
   for (const Object& each : o.list("converged")) m.converged.push_back(converged_of(each));
   for (const Object& each : o.list("scales")) m.scales.push_back(scale_change_of(each));
@@ -279,7 +285,8 @@ std::filesystem::path measurements_file(const std::filesystem::path& folder_or_f
 
 Measurements read_measurements_file(const std::filesystem::path& file) {
   const Measurements m = read_file(file);
-  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && m.submitted.empty() && !m.sequence)
+  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && m.submitted.empty() &&
+      !m.sequence)
     nothing_to_show(file);
   return m;
 }

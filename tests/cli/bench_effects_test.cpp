@@ -46,7 +46,7 @@ class BenchEffects : public Cli {
 
 TEST_F(BenchEffects, AreMeasuredByTheirOwnTruths) {
   const Result result =
-      gloam(with({"bench", "-o", path("out"), "--scenes", "gallery", "--size", "96x54", "--rays", "32"},
+      gloam(with({"bench", "--all", "-o", path("out"), "--scenes", "gallery", "--size", "96x54", "--rays", "32"},
                  {"--effects", "contact,indirect,bounces,specular_occlusion"}));
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json();
@@ -105,7 +105,7 @@ TEST_F(BenchEffects, AreThoseThatTruthsHold) {
   ASSERT_EQ(gloam({"reference", "bounces", frame, "-o", bounces, "--samples", "32"}).status, 0);
   ASSERT_EQ(gloam({"reference", "contact", frame, "-o", contact, "--length", "0.5"}).status, 0);
   const Result result =
-      gloam(with({"bench", "-o", path("out"), "--frame", frame}, {"--truth", bounces, "--truth", contact}));
+      gloam(with({"bench", "--all", "-o", path("out"), "--frame", frame}, {"--truth", bounces, "--truth", contact}));
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json();
   ASSERT_EQ(document["scenes"].size(), 2u);
@@ -115,8 +115,8 @@ TEST_F(BenchEffects, AreThoseThatTruthsHold) {
   EXPECT_EQ(of_effect(document["results"], "bounces")["technique"], "multi-bounce");
   EXPECT_EQ(of_effect(document["results"], "contact")["technique"], "contact-shadow");
 
-  const Result other = gloam(
-      with({"bench", "-o", path("out"), "--frame", frame}, {"--truth", bounces, "--effects", "specular_occlusion"}));
+  const Result other = gloam(with({"bench", "--all", "-o", path("out"), "--frame", frame},
+                                  {"--truth", bounces, "--effects", "specular_occlusion"}));
   EXPECT_EQ(other.status, 1);
   EXPECT_NE(other.err.find("no plane 'specular_occlusion' to measure against"), std::string::npos) << other.err;
 

@@ -14,9 +14,9 @@ using Json = nlohmann::json;
 
 /// A run on a small image of one plane takes seconds.
 Arguments small(const fs::path& folder, const Arguments& more = {}, const std::string& scene = "plane") {
-  Arguments arguments = {"bench", "-o",          folder.string(), "--size",       "96x54", "--rays",
-                         "32",    "--scenes",    scene,           "--techniques", "hbao+", "--rounds",
-                         "3",     "--no-growth", "--variants",    "none"};
+  Arguments arguments = {"bench",    "--all", "-o",          folder.string(), "--size",       "96x54",
+                         "--rays",   "32",    "--scenes",    scene,           "--techniques", "hbao+",
+                         "--rounds", "3",     "--no-growth", "--variants",    "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -147,9 +147,9 @@ TEST_F(Cli, BenchWritesTheContractsDocument) {
 TEST_F(Cli, BenchMeasuresVariantsOfOnePreset) {
   ONLY_IN_LONG_RUN();
   const Result result =
-      gloam({"bench",     "-o",           path("out"),   "--size",    "96x54",      "--rays",     "32",  "--scenes",
-             "courtyard", "--techniques", "hbao+",       "--presets", "low,medium", "--variants", "all", "--rounds",
-             "1",         "--no-growth",  "--no-images", "--json",    "-"});
+      gloam({"bench",    "--all",     "-o",           path("out"),   "--size",    "96x54",      "--rays",     "32",
+             "--scenes", "courtyard", "--techniques", "hbao+",       "--presets", "low,medium", "--variants", "all",
+             "--rounds", "1",         "--no-growth",  "--no-images", "--json",    "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json(), plain = row_of(document, "hbao+", "");
   std::set<std::string> expected = {"half", "quarter", "precise", "half storage"};
@@ -184,10 +184,10 @@ TEST_F(Cli, BenchMeasuresVariantsOfOnePreset) {
 TEST_F(Cli, BenchSweepsSettings) {
   ONLY_IN_LONG_RUN();
   const auto run = [&](const Arguments& more) {
-    Arguments arguments = {"bench",        "-o",         path("out"), "--size",     "96x54",
-                           "--rays",       "32",         "--rounds",  "1",          "--scenes",
-                           "plane",        "--presets",  "low",       "--variants", "none",
-                           "--techniques", "hbao+,gtao", "--json",    "-",          "--no-growth"};
+    Arguments arguments = {"bench",     "--all", "-o",         path("out"), "--size",       "96x54",
+                           "--rays",    "32",    "--rounds",   "1",         "--scenes",     "plane",
+                           "--presets", "low",   "--variants", "none",      "--techniques", "hbao+,gtao",
+                           "--json",    "-",     "--no-growth"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return gloam(arguments);
   };
@@ -299,10 +299,10 @@ TEST_F(Cli, BenchUsesTruthsAgain) {
 TEST_F(Cli, BenchTracesTheTruthOfAFrameThatWasCapturedAnew) {
   ONLY_IN_LONG_RUN();
   const auto measured = [&](const char* out) {
-    const Result result = gloam({"bench",       "-o",          path(out), "--frame",    path("f.exr"), "--techniques",
-                                 "hbao+",       "--presets",   "low",     "--variants", "none",        "--rays",
-                                 "32",          "--rounds",    "1",       "--ladder",   "presets",     "--no-growth",
-                                 "--no-checks", "--no-images", "--json",  "-"});
+    const Result result = gloam({"bench",        "--all",       "-o",          path(out), "--frame",    path("f.exr"),
+                                 "--techniques", "hbao+",       "--presets",   "low",     "--variants", "none",
+                                 "--rays",       "32",          "--rounds",    "1",       "--ladder",   "presets",
+                                 "--no-growth",  "--no-checks", "--no-images", "--json",  "-"});
     EXPECT_EQ(result.status, 0) << result.err;
     return result.json();
   };
@@ -326,9 +326,9 @@ TEST_F(Cli, BenchTracesTheTruthOfAFrameThatWasCapturedAnew) {
 TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
   ONLY_IN_LONG_RUN();
   const Result result =
-      gloam({"bench",    "-o",           path("out"),      "--size",    "96x54",    "--rays",     "64",   "--scenes",
-             "hairball", "--techniques", "hbao+,dp-hbao+", "--presets", "low,high", "--variants", "none", "--rounds",
-             "3",        "--no-growth",  "--json",         "-"});
+      gloam({"bench",    "--all",    "-o",           path("out"),      "--size",    "96x54",    "--rays",     "64",
+             "--scenes", "hairball", "--techniques", "hbao+,dp-hbao+", "--presets", "low,high", "--variants", "none",
+             "--rounds", "3",        "--no-growth",  "--json",         "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   std::map<std::string, Json> ladders;
   const Json document = result.json();
@@ -346,11 +346,11 @@ TEST_F(Cli, BenchFindsWhereTheErrorComesFrom) {
 
 TEST_F(Cli, BenchClimbsTheLadderOfSweepsOverStochasticDepth) {
   ONLY_IN_LONG_RUN();
-  const Result result =
-      gloam({"bench",        "-o",        path("out"),   "--size",      "96x54",       "--rays",  "16",
-             "--scenes",     "fence",     "--rounds",    "1",           "--ladder",    "all",     "--techniques",
-             "hbao,sd-hbao", "--presets", "low",         "--variants",  "none",        "--sweep", "samples=1,4",
-             "--sweep",      "bias=0.5",  "--no-growth", "--no-checks", "--no-images", "--json",  "-"});
+  const Result result = gloam({"bench",       "--all",       "-o",           path("out"),    "--size",    "96x54",
+                               "--rays",      "16",          "--scenes",     "fence",        "--rounds",  "1",
+                               "--ladder",    "all",         "--techniques", "hbao,sd-hbao", "--presets", "low",
+                               "--variants",  "none",        "--sweep",      "samples=1,4",  "--sweep",   "bias=0.5",
+                               "--no-growth", "--no-checks", "--no-images",  "--json",       "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json(), preset = row_of(document, "sd-hbao", "")["ladder"],
              one = row_of(document, "sd-hbao", "samples=1, bias=0.5")["ladder"],
@@ -363,7 +363,7 @@ TEST_F(Cli, BenchClimbsTheLadderOfSweepsOverStochasticDepth) {
 
 TEST_F(Cli, BenchOfOnesOwnFrameAgreesWithRunAndCompare) {
   const Result result =
-      gloam({"bench", "-o", path("out"), "--frame", loggia, "--truth", loggia_truth, "--techniques", "hbao+",
+      gloam({"bench", "--all", "-o", path("out"), "--frame", loggia, "--truth", loggia_truth, "--techniques", "hbao+",
              "--presets", "low", "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json();
@@ -379,16 +379,18 @@ TEST_F(Cli, BenchOfOnesOwnFrameAgreesWithRunAndCompare) {
   EXPECT_NEAR(row["rmse_to_truth"], figures["rmse"], 1e-7);
   EXPECT_NEAR(row["bias"], figures["bias"], 1e-7);
 
-  const Result without = gloam({"bench", "-o", path("out"), "--frame", loggia, "--techniques", "hbao+", "--presets",
-                                "low", "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
+  const Result without =
+      gloam({"bench", "--all", "-o", path("out"), "--frame", loggia, "--techniques", "hbao+", "--presets", "low",
+             "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
   ASSERT_EQ(without.status, 0) << without.err;
   EXPECT_TRUE(without.json()["results"][0]["rmse_to_truth"].is_null());
 }
 
 TEST_F(Cli, BenchMeasuresGrowth) {
   const Result result =
-      gloam({"bench", "-o", path("out"), "--size", "64x36", "--rays", "32", "--scenes", "plane", "--techniques",
-             "dp-hbao+", "--presets", "low", "--variants", "none", "--rounds", "1", "--json", "-"});
+      gloam({"bench",    "--all", "-o",           path("out"), "--size",    "64x36", "--rays",     "32",
+             "--scenes", "plane", "--techniques", "dp-hbao+",  "--presets", "low",   "--variants", "none",
+             "--rounds", "1",     "--json",       "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   std::map<std::string, size_t> points;
   const Json document = result.json();
@@ -404,8 +406,8 @@ TEST_F(Cli, BenchMeasuresGrowth) {
 
 /// The quickest bench of a frame.
 Arguments of_frame(const std::string& frame, const std::string& folder, const Arguments& more) {
-  Arguments arguments = {"bench", "--frame",  frame, "-o",       folder, "--variants", "none", "--rays",
-                         "16",    "--rounds", "1",   "--ladder", "none", "--json",     "-"};
+  Arguments arguments = {"bench",  "--all", "--frame",  frame, "-o",       folder, "--variants", "none",
+                         "--rays", "16",    "--rounds", "1",   "--ladder", "none", "--json",     "-"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -486,8 +488,8 @@ TEST_F(Cli, BenchComparesWithBaselinesOnlyWhereTheyComputeTheSame) {
   write_frame(path("plain.exr"), small_frame(48, 32, {"depth"}));
   const auto row = [&](const char* file) {
     const Result result =
-        gloam({"bench", "-o", path("out"), "--frame", path(file), "--techniques", "hbao+", "--presets", "medium",
-               "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
+        gloam({"bench", "--all", "-o", path("out"), "--frame", path(file), "--techniques", "hbao+", "--presets",
+               "medium", "--variants", "none", "--rounds", "1", "--no-growth", "--json", "-"});
     EXPECT_EQ(result.status, 0) << result.err;
     const Json document = result.json();
     return document["results"].at(0);
@@ -508,8 +510,8 @@ TEST_F(Cli, BenchMeasuresOnTheFirstViewWhatMakesNoOther) {
                 .status,
             0);
   const Result result =
-      gloam({"bench", "-o", path("out"), "--frame", path("two.exr"), "--techniques", "multiview,sd-hbao+", "--presets",
-             "low", "--variants", "half", "--rays", "32", "--rounds", "1", "--no-checks", "--json", "-"});
+      gloam({"bench", "--all", "-o", path("out"), "--frame", path("two.exr"), "--techniques", "multiview,sd-hbao+",
+             "--presets", "low", "--variants", "half", "--rays", "32", "--rounds", "1", "--no-checks", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json(), row = row_of(document, "multiview", ""),
              beside = row_of(document, "sd-hbao+", "");
@@ -544,10 +546,11 @@ TEST_F(Cli, BenchMeasuresOnTheFirstViewWhatMakesNoOther) {
     EXPECT_EQ(each["views"], 2);
   }
   // The others are compared with it on that view alone.
-  const Result alone = gloam(
-      {"bench",    "-o",        path("alone"), "--frame",     path("two.exr"), "--view",      first,    "--techniques",
-       "sd-hbao+", "--presets", "low",         "--variants",  "none",          "--rays",      "32",     "--rounds",
-       "1",        "--ladder",  "none",        "--no-growth", "--no-checks",   "--no-images", "--json", "-"});
+  const Result alone = gloam({"bench",      "--all", "-o",           path("alone"), "--frame",     path("two.exr"),
+                              "--view",     first,   "--techniques", "sd-hbao+",    "--presets",   "low",
+                              "--variants", "none",  "--rays",       "32",          "--rounds",    "1",
+                              "--ladder",   "none",  "--no-growth",  "--no-checks", "--no-images", "--json",
+                              "-"});
   ASSERT_EQ(alone.status, 0) << alone.err;
   EXPECT_NEAR(beside["rmse_to_truth"], row_of(alone.json(), "sd-hbao+", "")["rmse_to_truth"], 1e-5);
   EXPECT_GT(row["ladder"]["t3"], 1e-3);
@@ -589,7 +592,7 @@ TEST_F(Cli, BenchSaysWhatIsWrong) {
       {{"--frame", path("missing.exr").string()}, "missing.exr", 1},
   };
   for (const Wrong& wrong : all) {
-    Arguments arguments = {"bench", "-o", path("out")};
+    Arguments arguments = {"bench", "--all", "-o", path("out")};
     arguments.insert(arguments.end(), wrong.flags.begin(), wrong.flags.end());
     const Result result = gloam(arguments);
     EXPECT_EQ(result.status, wrong.status) << result.err;
@@ -611,12 +614,11 @@ TEST_F(Cli, BenchNeedsAFolderThatCanBeWritten) {
 }
 
 TEST_F(Cli, BenchComparesGtaoWithNaiveKernelsThatComputeTheSame) {
-  const Result result = gloam({"bench",      "-o",       path("out"),    "--size",      "192x108",
-                               "--rays",     "1",        "--scenes",     "courtyard",   "--rounds",
-                               "1",          "--ladder", "none",         "--no-growth", "--presets",
-                               "medium",     "--sweep",  "steps=3",      "--sweep",     "directions=2,3",
-                               "--variants", "none",     "--techniques", "gtao",        "--no-images",
-                               "--json",     "-"});
+  const Result result =
+      gloam({"bench",       "--all",     "-o",           path("out"), "--size",      "192x108",  "--rays",
+             "1",           "--scenes",  "courtyard",    "--rounds",  "1",           "--ladder", "none",
+             "--no-growth", "--presets", "medium",       "--sweep",   "steps=3",     "--sweep",  "directions=2,3",
+             "--variants",  "none",      "--techniques", "gtao",      "--no-images", "--json",   "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json(), row = row_of(document, "gtao", "steps=3, directions=3"), naive = row["naive"];
   ASSERT_EQ(naive.size(), 3u) << result.err;

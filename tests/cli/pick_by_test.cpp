@@ -113,9 +113,16 @@ TEST_F(TruthOfEyes, OneEyeIsEnoughAndIsSaid) {
     const Json compared = gloam({"compare", file("ao.exr"), file("truth_" + eye + ".exr"), "--json", "-"}).json();
     EXPECT_NEAR(result.json().at("rmse"), compared.at("rmse"), 1e-5) << eye;
   }
-  const Result bench = gloam({"bench", "--frame", file("pair.exr"), "--truth", file("truth_left.exr"), "-o",
-                              file("bench"), "--techniques", "gtao", "--presets", "low", "--variants", "none",
-                              "--rounds", "1", "--no-growth", "--no-checks", "--ladder", "none"});
+  const Result bench = gloam({"bench",        "--all",
+                              "--frame",      file("pair.exr"),
+                              "--truth",      file("truth_left.exr"),
+                              "-o",           file("bench"),
+                              "--techniques", "gtao",
+                              "--presets",    "low",
+                              "--variants",   "none",
+                              "--rounds",     "1",
+                              "--no-growth",  "--no-checks",
+                              "--ladder",     "none"});
   EXPECT_EQ(bench.status, 0) << bench.err;
   const Json document = Json::parse(slurp(path("bench/bench.json")));
   EXPECT_GT(document.at("results").at(0).at("rmse_to_truth"), 0);
@@ -133,9 +140,16 @@ TEST_F(TruthOfEyes, RaysOfATruthThatWasGivenAreWhatItsHeaderSays) {
     Frame truth = FrameFile(path("both.exr"), ReadOptions{.as_stored = true}).read({"ao"});
     if (says) truth.numbers["aoSamples"] = 96;
     write_frame(path("given.exr"), truth);
-    ASSERT_EQ(gloam({"bench", "--frame", file("pair.exr"), "--truth", file("given.exr"), "-o", file("bench"),
-                     "--techniques", "gtao", "--presets", "low", "--variants", "none", "--rounds", "1", "--no-growth",
-                     "--no-checks", "--ladder", "none"})
+    ASSERT_EQ(gloam({"bench",        "--all",
+                     "--frame",      file("pair.exr"),
+                     "--truth",      file("given.exr"),
+                     "-o",           file("bench"),
+                     "--techniques", "gtao",
+                     "--presets",    "low",
+                     "--variants",   "none",
+                     "--rounds",     "1",
+                     "--no-growth",  "--no-checks",
+                     "--ladder",     "none"})
                   .status,
               0);
     const Json document = Json::parse(slurp(path("bench/bench.json")));

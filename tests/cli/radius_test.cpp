@@ -165,7 +165,7 @@ class Radius : public Cli {
                       "--truth",
                       file(unit, "truth.exr")};
     more.insert(more.end(), view.begin(), view.end());
-    const Result bench = with_camera(unit, {"bench"}, more);
+    const Result bench = with_camera(unit, {"bench", "--all"}, more);
     EXPECT_EQ(bench.status, 0) << bench.err;
     const Json measured = Json::parse(slurp(file(unit, "bench/bench.json")));
     for (const Json& row : measured.at("results"))
@@ -298,9 +298,10 @@ class RadiusNote : public Radius {
             {"plan", on_frame(unit, {"plan", "gtao"}, with({}))},
             {"auto", on_frame(unit, {"auto"}, with({"-o", file(unit, "auto.exr")}))},
             {"pick", on_frame(unit, {"pick"}, with({"--techniques", "hbao+", "--error", "0.9", "--rounds", "1"}))},
-            {"bench", gloam(with({"bench", "--frame", file(unit, "frame.exr"), "-o", file(unit, "bench"),
-                                  "--techniques", "hbao+", "--presets", "medium", "--rounds", "1", "--variants", "none",
-                                  "--no-growth", "--no-checks", "--ladder", "none", "--no-images"}))}};
+            {"bench", "--all",
+             gloam(with({"bench", "--all", "--frame", file(unit, "frame.exr"), "-o", file(unit, "bench"),
+                         "--techniques", "hbao+", "--presets", "medium", "--rounds", "1", "--variants", "none",
+                         "--no-growth", "--no-checks", "--ladder", "none", "--no-images"}))}};
   }
   /// Commands that measure errors need a radius that has an effect.
   void expect_note_or_refusal(const std::string& radius, const std::string& golden) const {

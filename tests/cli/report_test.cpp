@@ -186,8 +186,8 @@ TEST_F(Report, GoesWithoutPicturesThatCannotBeHad) {
 }
 
 TEST_F(Report, ReadsOlderFiles) {
-  const Result bench = gloam({"bench", "-o", path("bench"), "--size", "48x32", "--rays", "16", "--scenes", "plane",
-                              "--techniques", "hbao+", "--presets", "low", "--rounds", "1", "--no-growth"});
+  const Result bench = gloam({"bench", "--all", "-o", path("bench"), "--size", "48x32", "--rays", "16", "--scenes",
+                              "plane", "--techniques", "hbao+", "--presets", "low", "--rounds", "1", "--no-growth"});
   ASSERT_EQ(bench.status, 0) << bench.err;
   EXPECT_EQ(gloam({"report", path("bench")}).status, 0);
   write({{"results", {{{"technique", "t"}, {"scene", "s"}, {"ms", {{"median", 1}}}}}}});
