@@ -202,6 +202,7 @@ class Search {
 
   /// Empty, or why a setting cannot win: a lower preset of the technique, at the same resolution, is too slow already.
   std::string why_hopeless(const Variation& v) const {
+    if (!options_.limit.is_set()) return "";
     double most = 0;
     if (options_.budget) {
       most = *options_.budget * doubt;

@@ -21,7 +21,8 @@ struct PickOptions {
   std::optional<double> error;   ///< bound on the deciding figure; the cheapest setting within it is picked
   PickBy by = PickBy::rmse;
   int rounds = 9;
-  TimeLimit limit;  ///< for trying settings; timing the finalists in turn comes on top of it
+  /// For trying settings; timing the finalists in turn comes on top of it. None: every setting is tried.
+  TimeLimit limit;
   std::function<void(const std::string& what, double share_done)> progress;  ///< may be empty
 };
 

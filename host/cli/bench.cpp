@@ -213,6 +213,9 @@ void bench_command(const BenchCommand& flags) {
   }
   erase_status();
   note(result.notes);
+  if (result.rows.empty() && !result.left_out.empty())
+    throw Error("--time {}: nothing could be measured in that time on this device; a longer one, or --all, measures",
+                time_words(flags.time));
   if (result.rows.empty())
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
   Json document = document_of(result, options, device.info());

@@ -171,7 +171,7 @@ class Radius : public Cli {
     for (const Json& row : measured.at("results"))
       errors["bench " + std::string(row.at("technique"))] = row.at("rmse_to_truth");
     for (const bool knows_truth : {true, false}) {
-      Arguments searching = {"--error", "0.5", "--techniques", "hbao", "--rounds", "1", "--json", "-"};
+      Arguments searching = {"--all", "--error", "0.5", "--techniques", "hbao", "--rounds", "1", "--json", "-"};
       if (knows_truth) searching.insert(searching.end(), {"--truth", file(unit, "truth.exr")});
       searching.insert(searching.end(), view.begin(), view.end());
       const Result pick = on_frame(unit, {"pick"}, searching);
@@ -298,10 +298,9 @@ class RadiusNote : public Radius {
             {"plan", on_frame(unit, {"plan", "gtao"}, with({}))},
             {"auto", on_frame(unit, {"auto"}, with({"-o", file(unit, "auto.exr")}))},
             {"pick", on_frame(unit, {"pick"}, with({"--techniques", "hbao+", "--error", "0.9", "--rounds", "1"}))},
-            {"bench", "--all",
-             gloam(with({"bench", "--all", "--frame", file(unit, "frame.exr"), "-o", file(unit, "bench"),
-                         "--techniques", "hbao+", "--presets", "medium", "--rounds", "1", "--variants", "none",
-                         "--no-growth", "--no-checks", "--ladder", "none", "--no-images"}))}};
+            {"bench", gloam(with({"bench", "--all", "--frame", file(unit, "frame.exr"), "-o", file(unit, "bench"),
+                                  "--techniques", "hbao+", "--presets", "medium", "--rounds", "1", "--variants", "none",
+                                  "--no-growth", "--no-checks", "--ladder", "none", "--no-images"}))}};
   }
   /// Commands that measure errors need a radius that has an effect.
   void expect_note_or_refusal(const std::string& radius, const std::string& golden) const {
