@@ -147,8 +147,8 @@ TEST_P(TypedFlags, LeaveHelpToThoseWhoAskForIt) {
   }
 }
 
-const char* const commands[] = {"info",  "run",  "compare", "plan",   "list", "capture", "reference",
-                                "bench", "pick", "auto",    "report", "view", "stress",  "doctor"};
+const char* const commands[] = {"info", "run",  "compare", "plan", "list", "capture", "reference", "bench",
+                                "pick", "auto", "report",  "view", "set",  "stress",  "doctor"};
 
 INSTANTIATE_TEST_SUITE_P(Commands, TypedFlags, ::testing::ValuesIn(commands),
                          [](const auto& info) { return std::string(info.param); });
