@@ -21,6 +21,14 @@ struct SetCommand {
   JsonFlag json;
 };
 
+/// Throws UsageError for flags that say how a set is made.
+void check_makes_nothing(const SetCommand& flags) {
+  for (const auto& [flag, given] : {std::pair("--only", !flags.only.empty()),
+                                    std::pair("--seed", flags.seed.has_value()), std::pair("-o", !flags.out.empty())}) {
+    if (given) throw UsageError("set {}: {} is for gloam set make; leave it out", flags.action, flag);
+  }
+}
+
 // --- list
 
 Json document_of(const Recipe& recipe) {
@@ -189,10 +197,6 @@ void print_verification(const std::string& folder, const Verification& found) {
 
 void verify(const SetCommand& flags) {
   if (flags.name.empty()) throw UsageError("set verify: needs the folder of a set: gloam set verify DIR");
-  for (const auto& [flag, given] : {std::pair("--only", !flags.only.empty()),
-                                    std::pair("--seed", flags.seed.has_value()), std::pair("-o", !flags.out.empty())}) {
-    if (given) throw UsageError("set verify: {} is for gloam set make; leave it out", flag);
-  }
   check_paths({}, {{"--json", flags.json.file()}});
   const Verification found = verify_set(flags.name, progress_bar());
   flags.json.write(document_of(found));
@@ -205,11 +209,12 @@ void verify(const SetCommand& flags) {
 const std::vector<std::string> actions = {"list", "make", "verify"};
 
 void set_command(const SetCommand& flags) {
-  if (flags.action == "make") return make(flags);
-  if (flags.action == "verify") return verify(flags);
-  if (flags.action != "list")
+  if (!contains(actions, flags.action))
     throw UsageError("set: no '{}'{}; there are {}", flags.action, suggestion(flags.action, actions),
                      enumerate(actions));
+  if (flags.action == "make") return make(flags);
+  check_makes_nothing(flags);
+  if (flags.action == "verify") return verify(flags);
   if (flags.name.empty()) return list_sets(flags.json);
   list_items(find_recipe(flags.name), flags.json);
 }

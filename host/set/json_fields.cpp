@@ -101,8 +101,7 @@ void JsonFields::check_keys(const std::vector<std::string>& known) const {
 }
 
 Json parse_document(const std::string& text, const std::string& file) {
-  json_of_text(text, file);  // bounds the depth, and words the parser's errors
-  return Json::parse(text, nullptr, false);
+  return Json(json_of_text(text, file));
 }
 
 }  // namespace gloam::sets

@@ -46,7 +46,11 @@ void read_scene(ItemRecipe& item, const JsonFields& fields) {
   const SceneRecipe* scene = find_builtin_scene(item.scene);
   if (!scene) fields.refuse("scene", "it must be a built-in scene (gloam list scenes)");
   if (const Json* settings = fields.find("settings")) {
-    for (const auto& [name, value] : settings->items()) item.settings.emplace_back(name, value.get<std::string>());
+    if (!settings->is_object()) fields.refuse("settings", "it must be an object of texts");
+    for (const auto& [name, value] : settings->items()) {
+      if (!value.is_string()) fields.refuse("settings", "it must be an object of texts");
+      item.settings.emplace_back(name, value.get<std::string>());
+    }
   }
   item.camera = text_or(fields, "camera", "");
   item.with_light = fields.find("light") != nullptr;
@@ -118,7 +122,13 @@ Recipe recipe_of(const std::string& text, const std::string& name) {
   recipe.frozen_with = text_or(fields, "frozen_with", "");
   const std::vector<int> size = fields.wholes("size", 1, 1 << 16);
   for (const JsonFields& item : fields.objects("items")) recipe.items.push_back(item_of(item, size));
-  if (const Json* hashes = fields.find("hashes")) recipe.hashes = hashes->get<std::map<std::string, std::string>>();
+  if (const Json* hashes = fields.find("hashes")) {
+    if (!hashes->is_object()) fields.refuse("hashes", "it must be an object of texts");
+    for (const auto& [file, hash] : hashes->items()) {
+      if (!hash.is_string()) fields.refuse("hashes", "it must be an object of texts");
+      recipe.hashes[file] = hash.get<std::string>();
+    }
+  }
   return recipe;
 }
 

@@ -147,6 +147,10 @@ PAGES = {
         prepare="gloam capture gallery -o sky.exr --size 64x32 --planes color",
         instead={"--samples 1024": ("--samples 32", MINUTES), "--size 960x540": ("--size 160x90", MINUTES)},
         check="for file in bounces specular indirect light contact; do [ -s $file.exr ]; done"),
+    "docs/set.md": Page(
+        instead={"set make gloam-1 -o sets/gloam-1": ("set make gloam-1 -o sets/gloam-1 --only hard-corner,gallery-display", MINUTES),
+                 "set make gloam-1 --seed 7": ("set make small --seed 7", MINUTES)},
+        check="[ -s sets/gloam-1/truths/hard-corner_ao.exr ] && [ -s small-seed7/manifest.json ]"),
     "docs/stereo.md": Page(
         check="[ -s inconsistency.png ] && [ -s both.png ]"),
     "docs/view.md": Page(check="[ -s frame.view.html ] && [ -s look.html ]"),
