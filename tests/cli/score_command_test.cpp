@@ -106,7 +106,7 @@ TEST_F(ScoreCommand, ProgramsThatFailAreOneLineEach) {
   for (const auto& [before, message] : told) {
     const Result result = run(before);
     EXPECT_EQ(result.status, 1) << result.err;
-    EXPECT_EQ(result.lines_of_error(), 2) << before << "\n" << result.err;
+    EXPECT_EQ(result.lines_of_error(), 3) << before << "\n" << result.err;  // a note on the set
     EXPECT_EQ(result.err.rfind("gloam: room: left out: ", 0), 0u) << result.err;
     EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("gloam: 1 image left out, 2 items scored"), std::string::npos) << result.err;
