@@ -221,12 +221,11 @@ void add_bench(CLI::App& app) {
                        "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
           ->type_name("SHOT|FRAME.####.exr");
   command
-      ->add_option("--set", flags->set,
-                   "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
+      ->add_option(
+          "--set", flags->set,
+          "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
       ->type_name("DIR");
-  command->add_option("--items", flags->items, "with --set: these items only")
-      ->needs("--set")
-      ->type_name("A,B");
+  command->add_option("--items", flags->items, "with --set: these items only")->needs("--set")->type_name("A,B");
   add_frames(*command, flags->choice);
   add_missing_without_hold(*command, flags->choice);
   command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");

@@ -142,9 +142,10 @@ struct Sequence {
 struct Measurements {
   std::string device, cpu, driver, date, commit;
   Number cores, rounds, rays;
-  std::vector<Scene> scenes;   ///< every scene that a row names is here
-  std::vector<Row> rows;       ///< measured by gloam
-  std::vector<Row> submitted;  ///< of other methods (gloam score): errors, and no time that compares with those of `rows`
+  std::vector<Scene> scenes;  ///< every scene that a row names is here
+  std::vector<Row> rows;      ///< measured by gloam
+  std::vector<Row>
+      submitted;  ///< of other methods (gloam score): errors, and no time that compares with those of `rows`
   std::vector<Growth> growth;
   std::vector<Skipped> skipped;
   std::vector<PaperFigure> paper;
