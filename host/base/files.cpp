@@ -178,7 +178,7 @@ std::atomic<int> group_to_kill{0};
 void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 extern "C" void remove_and_leave(int signal) {
-  if (leaving.exchange(true)) return;      // a second signal, on another thread: one report is enough
+  if (leaving.exchange(true)) return;  // a second signal, on another thread: one report is enough
   if (const int group = group_to_kill.load()) ::kill(-group, SIGKILL);
   while (being_made.load() > 0) continue;  // other threads do: this one delays signals while it makes one
   unsigned written = files_written.load();

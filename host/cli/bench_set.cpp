@@ -37,8 +37,8 @@ BenchCommand with_defaults(BenchCommand flags, const std::vector<Target>& target
 }
 
 void check_set_flags(const BenchCommand& flags) {
-  for (const char* flag : {"--scenes", "--frame", "--truth", "--sequence", "--frames", "--size", "--rays", "--radius", "--paper",
-                           "--chunks"}) {
+  for (const char* flag : {"--scenes", "--frame", "--truth", "--sequence", "--frames", "--size", "--rays", "--radius",
+                           "--paper", "--chunks"}) {
     if (flags.app->get_option(flag)->count() > 0)
       throw UsageError("{}: the set says what is measured; leave it out", flag);
   }
@@ -82,7 +82,8 @@ class SetBench {
     erase_status();
     note(result_.notes);
     if (result_.rows.empty() && sequence_rows_.empty())
-      throw Error("nothing could be measured: {}", left_out_.empty() ? "no technique makes the set's effects" : left_out_.front());
+      throw Error("nothing could be measured: {}",
+                  left_out_.empty() ? "no technique makes the set's effects" : left_out_.front());
     flags_.json.write(document());
     if (!flags_.json.only_json()) print();
     if (left_out_.empty()) return;
@@ -228,7 +229,8 @@ class SetBench {
     for (const Json& before : file_->document()["scenes"]) {
       const auto is_it = [&](const Json& scene) { return is_same(scene, before); };
       const auto is_of_it = [&](const Json& row) {
-        return row.value("scene", "") == before.value("name", "") && row.value("effect", "ao") == before.value("effect", "ao");
+        return row.value("scene", "") == before.value("name", "") &&
+               row.value("effect", "ao") == before.value("effect", "ao");
       };
       if (std::none_of(scenes.begin(), scenes.end(), is_it) && std::any_of(kept_.begin(), kept_.end(), is_of_it))
         scenes.push_back(before);

@@ -9,10 +9,11 @@ namespace gloam::cli {
 
 /// How a program ended.
 struct ForeignEnd {
-  int status = 0;      ///< its exit status; -1: it did not exit by itself
-  std::string why;     ///< in words: "exit status 3", "signal 11 (Segmentation fault)", "still running after 60 s"; empty: status 0
-  std::string said;    ///< the last line on standard error, else on standard output
-  double ms = 0;       ///< from its start until it ended
+  int status = 0;  ///< its exit status; -1: it did not exit by itself
+  std::string
+      why;  ///< in words: "exit status 3", "signal 11 (Segmentation fault)", "still running after 60 s"; empty: status 0
+  std::string said;  ///< the last line on standard error, else on standard output
+  double ms = 0;     ///< from its start until it ended
 };
 
 /// `why` and `said` as one text; empty for status 0.

@@ -65,9 +65,9 @@ void write_page(const ReportCommand& flags) {
   if (flags.json.only_json()) return;
   const auto& sequence = measurements.sequence;
   const size_t submitted = measurements.submitted.size();
-  fmt::print("wrote {}: {}, {}{}, {}, {}{:.1f} MB\n", printable(path.string()), counted(measurements.rows.size(), "row"),
-             submitted ? counted(submitted, "submitted row") + ", " : "", counted(measurements.scenes.size(), "scene"),
-             counted(size_t(page.pictures), "picture"),
+  fmt::print("wrote {}: {}, {}{}, {}, {}{:.1f} MB\n", printable(path.string()),
+             counted(measurements.rows.size(), "row"), submitted ? counted(submitted, "submitted row") + ", " : "",
+             counted(measurements.scenes.size(), "scene"), counted(size_t(page.pictures), "picture"),
              sequence ? counted(sequence->rows.size(), "row") + " of a shot, " : "", double(page.html.size()) / 1e6);
 }
 

@@ -143,7 +143,8 @@ class ScoreRun {
     }
     std::erase_if(targets_, [&](const score::Target& target) { return !contains(effects, target.effect); });
     if (targets_.empty())
-      throw Error("{}: the images are of {}, and the set has no truth of it", flags_.images.front(), enumerate(effects));
+      throw Error("{}: the images are of {}, and the set has no truth of it", flags_.images.front(),
+                  enumerate(effects));
   }
 
   std::string no_item(const fs::path& path) const {
@@ -214,8 +215,8 @@ class ScoreRun {
     note(scoring_->notes());
     note(scoring_->doubts());
     if (earlier_ > 0 && !rows_.empty())
-      note({fmt::format("{}: had {} of '{}', which the new ones replace", result_->path().string(), counted(earlier_, "row"),
-                        entry_.name)});
+      note({fmt::format("{}: had {} of '{}', which the new ones replace", result_->path().string(),
+                        counted(earlier_, "row"), entry_.name)});
     tell_left_out(left_out);
     if (rows_.empty()) {
       print_notes();
@@ -262,8 +263,9 @@ void add_score(CLI::App& app) {
   auto flags = std::make_shared<ScoreFlags>();
   CLI::App* command = app.add_subcommand("score", "figures of images that any method made, beside gloam's own");
   command
-      ->add_option("images", flags->images,
-                   "EXR or PNG files, or a folder of them: ITEM[.FRAME][_VIEW][_EFFECT].exr; with --frame under any name")
+      ->add_option(
+          "images", flags->images,
+          "EXR or PNG files, or a folder of them: ITEM[.FRAME][_VIEW][_EFFECT].exr; with --frame under any name")
       ->type_name("IMAGES");
   command
       ->add_option("--json", flags->json,
@@ -274,24 +276,28 @@ void add_score(CLI::App& app) {
       ->type_name("ENTRY.json|-");
   command->add_option("--set", flags->set, "set of frames and truths, as gloam set make makes it")->type_name("DIR");
   command->add_option("--items", flags->items, "of the set, these items only")->type_name("A,B");
-  command->add_option("--frame", flags->frame, "frame that the images are of, in place of a set; frame.####.exr: a sequence")
+  command
+      ->add_option("--frame", flags->frame,
+                   "frame that the images are of, in place of a set; frame.####.exr: a sequence")
       ->type_name("FRAME.exr");
   command->add_option("--truth", flags->truths, "its truth, once for each effect or view")
       ->expected(1)
       ->take_all()
       ->type_name("REF.exr");
   command
-      ->add_option("-o,--output", flags->folder,
-                   "folder whose bench.json the figures join, with those of gloam bench or of other methods; made where "
-                   "it is not there")
+      ->add_option(
+          "-o,--output", flags->folder,
+          "folder whose bench.json the figures join, with those of gloam bench or of other methods; made where "
+          "it is not there")
       ->required()
       ->type_name("DIR");
   command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
   const char* group = "Running the method";
   command
-      ->add_option("--command", flags->command.command,
-                   "makes the images: 'engine --in {frame} --out {image}'; also {camera} {radius} {effect} {view} {item} "
-                   "{frame_number}, and {frames} {images} for a whole sequence at once")
+      ->add_option(
+          "--command", flags->command.command,
+          "makes the images: 'engine --in {frame} --out {image}'; also {camera} {radius} {effect} {view} {item} "
+          "{frame_number}, and {frames} {images} for a whole sequence at once")
       ->type_name("COMMAND")
       ->group(group);
   add_number(*command, "--rounds", flags->command.rounds, allowed_rounds,
@@ -301,12 +307,14 @@ void add_score(CLI::App& app) {
   add_number(*command, "--timeout", flags->command.timeout, {0.1, 1e6}, "a run that takes longer is ended; default 600")
       ->type_name("SECONDS")
       ->group(group);
-  add_word(*command, "--image-type", flags->command.image_type, {"exr", "png"}, "of {image}; default exr")->group(group);
+  add_word(*command, "--image-type", flags->command.image_type, {"exr", "png"}, "of {image}; default exr")
+      ->group(group);
   flags->device.add_to(*command, group);
   flags->frame_flags.add_to(*command);
   flags->app = command;
   command->footer(
-      "Images of the same entry are replaced. Exit status 1 where anything was left out; the rest is scored. Examples:\n"
+      "Images of the same entry are replaced. Exit status 1 where anything was left out; the rest is scored. "
+      "Examples:\n"
       "  gloam score images --json entry.json --set out/set -o out/scores\n"
       "  gloam score ao.exr --frame frame.exr --truth truth.exr --json entry.json -o out/mine\n"
       "  gloam score --command 'engine --in {frame} --out {image}' --json entry.json --set out/set -o out/scores\n"

@@ -47,11 +47,13 @@ MethodCommand::MethodCommand(const ScoreCommandFlags& flags, const fs::path& fol
   const bool by_frame = has("{frame}") && has("{image}"), by_sequence = has("{frames}") && has("{images}");
   if (by_frame == by_sequence)
     throw UsageError(
-        "{} {}: has to say where the frame and the image go: {{frame}} and {{image}} for one run per frame, or {{frames}} and "
+        "{} {}: has to say where the frame and the image go: {{frame}} and {{image}} for one run per frame, or "
+        "{{frames}} and "
         "{{images}} for one run per sequence",
         flag, flags.command);
   if (by_sequence && has("{view}"))
-    throw UsageError("{} {}: {{view}} goes with {{frame}} and {{image}}, one run per frame and view", flag, flags.command);
+    throw UsageError("{} {}: {{view}} goes with {{frame}} and {{image}}, one run per frame and view", flag,
+                     flags.command);
   Target target;
   target.name = "ITEM";
   const TargetFrame at;
@@ -69,7 +71,8 @@ fs::path MethodCommand::image_of(const Target& target, const std::string& frame,
 }
 
 fs::path MethodCommand::camera_of(const Target& target, const TargetFrame& at) const {
-  return folder_ / fmt::format("{}{}.camera.json", target.name, target.is_sequence ? fmt::format(".{:04}", at.number) : "");
+  return folder_ /
+         fmt::format("{}{}.camera.json", target.name, target.is_sequence ? fmt::format(".{:04}", at.number) : "");
 }
 
 std::map<std::string, std::string> MethodCommand::values_for(const Target& target, const TargetFrame& at,
@@ -201,7 +204,8 @@ std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::
   }
   std::error_code unknown;
   fs::remove(folder_ / own_image, unknown);
-  for (const TargetFrame& at : target.frames) fs::remove(folder_ / fmt::format(".gloam_own.{:04}.exr", at.number), unknown);
+  for (const TargetFrame& at : target.frames)
+    fs::remove(folder_ / fmt::format(".gloam_own.{:04}.exr", at.number), unknown);
   return times;
 } catch (const UsageError&) {
   throw;

@@ -12,8 +12,8 @@
 namespace gloam::cli {
 
 struct ScoreCommandFlags {
-  std::string command;       ///< "engine --in {frame} --out {image}"
-  std::string device;        ///< for gloam's own runs
+  std::string command;  ///< "engine --in {frame} --out {image}"
+  std::string device;   ///< for gloam's own runs
   std::string image_type = "exr";
   double timeout = 600;
   int rounds = 3;

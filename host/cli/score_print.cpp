@@ -47,8 +47,8 @@ void print_scores(const score::Entry& entry, const std::vector<ScoredRow>& rows,
     const score::Figures& f = row.scored.figures;
     const size_t missing = row.scored.missing.size();
     table.push_back({row.scored.target.name + (missing ? fmt::format(" ({} frames missing)", missing) : ""),
-                     row.scored.target.effect, time_of(row.row), figure(f.rmse), figure(f.bias, "{:+.4f}"), figure(f.ssim),
-                     figure(f.flip), figure(f.flicker), figure(f.inconsistency),
+                     row.scored.target.effect, time_of(row.row), figure(f.rmse), figure(f.bias, "{:+.4f}"),
+                     figure(f.ssim), figure(f.flip), figure(f.flicker), figure(f.inconsistency),
                      row.at_fit ? figure(row.at_fit->rmse) : "-"});
   }
   print_table(table, 2);

@@ -1,6 +1,7 @@
 #include "cli/score_targets.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "base/lists.h"
@@ -10,6 +11,7 @@
 #include "gloam/frame_pattern.h"
 #include "score/entry.h"
 #include "set/content_hash.h"
+#include "set/recipe.h"
 
 namespace gloam::cli {
 namespace {
@@ -21,31 +23,46 @@ using score::TargetFrame;
 // --- Sets
 
 /// Those files of an item that are of one frame; all of an item that is no sequence.
-std::vector<sets::SetFile> files_of_frame(const std::vector<sets::SetFile>& files, size_t index,
-                                              bool is_sequence) {
+std::vector<sets::SetFile> files_of_frame(const std::vector<sets::SetFile>& files, size_t index, bool is_sequence) {
   if (!is_sequence) return files;
   return index < files.size() ? std::vector{files[index]} : std::vector<sets::SetFile>();
 }
 
-/// Throws Error for the first file whose content is not what the manifest says.
-void check_files(const fs::path& folder, const std::vector<sets::SetFile>& files) {
+/// The frozen hashes of a set by file; empty for a set that this gloam does not know, and for one made from a seed.
+std::map<std::string, std::string> frozen_hashes(const sets::Manifest& manifest) {
+  for (const sets::Recipe& recipe : sets::recipes()) {
+    if (recipe.name == manifest.set && manifest.part == "public") return recipe.hashes;
+  }
+  return {};
+}
+
+/// Throws Error for the first file whose content is not what the manifest says, or not what the set's name stands for.
+void check_files(const fs::path& folder, const std::vector<sets::SetFile>& files,
+                 const std::map<std::string, std::string>& frozen) {
   for (const sets::SetFile& file : files) {
     const fs::path path = folder / file.file;
+    const auto known = frozen.find(file.file);
+    if (known != frozen.end() && known->second != file.sha256)
+      throw Error(
+          "{}: the manifest's hash {}... is not the frozen one, {}...: a set of another version; gloam set make makes "
+          "this one",
+          path.string(), file.sha256.substr(0, 12), known->second.substr(0, 12));
     std::error_code unknown;
-    if (!fs::exists(path, unknown))
-      throw Error("{}: is missing; gloam set make makes it anew", path.string());
+    if (!fs::exists(path, unknown)) throw Error("{}: is missing; gloam set make makes it anew", path.string());
     const std::string hash = sets::content_hash(path);
     if (hash != file.sha256)
-      throw Error("{}: is not the set's: its content has the hash {}..., and the manifest says {}...; gloam set make makes it anew",
-                  path.string(), hash.substr(0, 12), file.sha256.substr(0, 12));
+      throw Error(
+          "{}: is not the set's: its content has the hash {}..., and the manifest says {}...; gloam set make makes it "
+          "anew",
+          path.string(), hash.substr(0, 12), file.sha256.substr(0, 12));
   }
 }
 
-TargetFrame target_frame(const fs::path& folder, const sets::SetItem& item, const sets::SetTruth& truth,
-                         size_t index) {
+TargetFrame target_frame(const fs::path& folder, const sets::SetItem& item, const sets::SetTruth& truth, size_t index,
+                         const std::map<std::string, std::string>& frozen) {
   const bool is_sequence = item.kind == "sequence";
   const std::vector<sets::SetFile> frames = files_of_frame(item.files, index, is_sequence),
-                                       truths = files_of_frame(truth.files, index, is_sequence);
+                                   truths = files_of_frame(truth.files, index, is_sequence);
   const std::string words = is_sequence ? fmt::format("{} frame {}", item.name, item.frames[index]) : item.name;
   if (frames.empty() || truths.empty())
     throw Error("{}: the manifest names no {} of {}; gloam set make makes the set anew", folder.string(),
@@ -54,16 +71,17 @@ TargetFrame target_frame(const fs::path& folder, const sets::SetItem& item, cons
   at.number = is_sequence ? item.frames[index] : 1;
   at.frame = folder / frames.front().file;
   for (const sets::SetFile& file : truths) at.truths.push_back((folder / file.file).string());
-  at.check = [folder, frames, truths, is_checked = std::make_shared<bool>(false)] {
+  at.check = [folder, frames, truths, frozen, is_checked = std::make_shared<bool>(false)] {
     if (*is_checked) return;
-    check_files(folder, frames);
-    check_files(folder, truths);
+    check_files(folder, frames, frozen);
+    check_files(folder, truths, frozen);
     *is_checked = true;
   };
   return at;
 }
 
-Target target_of(const fs::path& folder, const sets::SetItem& item, const sets::SetTruth& truth) {
+Target target_of(const fs::path& folder, const sets::SetItem& item, const sets::SetTruth& truth,
+                 const std::map<std::string, std::string>& frozen) {
   Target target;
   target.name = item.name;
   target.kind = item.kind;
@@ -73,7 +91,7 @@ Target target_of(const fs::path& folder, const sets::SetItem& item, const sets::
   target.views = item.views;
   target.is_sequence = item.kind == "sequence";
   const size_t frames = target.is_sequence ? item.frames.size() : 1;
-  for (size_t i = 0; i < frames; ++i) target.frames.push_back(target_frame(folder, item, truth, i));
+  for (size_t i = 0; i < frames; ++i) target.frames.push_back(target_frame(folder, item, truth, i, frozen));
   return target;
 }
 
@@ -91,8 +109,9 @@ std::vector<TargetFrame> frames_of(const OwnFrames& own) {
   std::vector<FramePattern> truths;
   for (const std::string& truth : own.truths) {
     if (!FramePattern::is_pattern(truth))
-      throw UsageError("--truth {}: is one file, and --frame {} a sequence; name one truth for each frame: truth.####.exr",
-                       truth, own.frame);
+      throw UsageError(
+          "--truth {}: is one file, and --frame {} a sequence; name one truth for each frame: truth.####.exr", truth,
+          own.frame);
     truths.emplace_back(truth, "--truth");
   }
   std::vector<TargetFrame> found;
@@ -143,8 +162,13 @@ ScoredSet read_set(const std::string& folder) {
   found.id.part = manifest.part;
   found.id.hash = manifest.hash;
   if (manifest.seed) found.id.seed = (long long)(*manifest.seed);
+  const std::map<std::string, std::string> frozen = frozen_hashes(manifest);
+  if (manifest.part == "public" && frozen.empty())
+    note({fmt::format(
+        "{}: no hash of the set '{}' is frozen in this gloam; its files are compared with its own manifest alone",
+        folder, manifest.set)});
   for (const sets::SetItem& item : manifest.items) {
-    for (const sets::SetTruth& truth : item.truths) found.targets.push_back(target_of(folder, item, truth));
+    for (const sets::SetTruth& truth : item.truths) found.targets.push_back(target_of(folder, item, truth, frozen));
   }
   if (found.targets.empty()) throw Error("{}: the set has no item with a truth", folder);
   return found;
@@ -189,8 +213,8 @@ std::vector<Target> own_targets(const OwnFrames& own, const std::string& effect)
   return targets;
 }
 
-std::optional<std::vector<score::SubmittedFile>> files_given(const std::vector<std::string>& images, const Target& target,
-                                                             int frame) {
+std::optional<std::vector<score::SubmittedFile>> files_given(const std::vector<std::string>& images,
+                                                             const Target& target, int frame) {
   std::error_code unknown;
   if (std::any_of(images.begin(), images.end(), [&](const auto& each) { return fs::is_directory(each, unknown); }))
     return {};
@@ -200,7 +224,8 @@ std::optional<std::vector<score::SubmittedFile>> files_given(const std::vector<s
     if (is_pattern && !target.is_sequence)
       throw UsageError("{}: is a sequence, and --frame names one frame; name one image", image);
     if (!is_pattern && target.is_sequence)
-      throw UsageError("{}: is one image, and --frame a sequence; name a pattern such as ao.####.exr, or a folder", image);
+      throw UsageError("{}: is one image, and --frame a sequence; name a pattern such as ao.####.exr, or a folder",
+                       image);
     const fs::path path = is_pattern ? FramePattern(image, "IMAGES").path_of(frame) : fs::path(image);
     std::string view;
     if (images.size() > 1) {

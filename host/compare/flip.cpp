@@ -198,8 +198,7 @@ Lines feature_lines(bool is_point, double pixels_per_degree) {
   const int radius = feature_radius(pixels_per_degree);
   const auto bell = [&](double x) { return std::exp(-x * x / (2 * variance)); };
   const cv::Mat across = line_of(radius, bell);
-  const cv::Mat along =
-      line_of(radius, [&](double x) { return (is_point ? x * x / variance - 1 : -x) * bell(x); });
+  const cv::Mat along = line_of(radius, [&](double x) { return (is_point ? x * x / variance - 1 : -x) * bell(x); });
   const double positive = cv::sum(cv::max(along, 0))[0], negative = -cv::sum(cv::min(along, 0))[0];
   return {cv::max(along, 0) / positive + cv::min(along, 0) / negative, across / cv::sum(across)[0]};
 }
@@ -243,7 +242,6 @@ cv::Mat flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_per_de
   return map;
 }
 
-
 cv::Mat grey_flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_per_degree) {
   const cv::Mat line = sensitivity_line(pixels_per_degree);
   const Lines edge = feature_lines(false, pixels_per_degree), point = feature_lines(true, pixels_per_degree);
@@ -255,7 +253,8 @@ cv::Mat grey_flip_map(const cv::Mat& test, const cv::Mat& truth, double pixels_p
     for (int x = 0; x < map.cols; ++x) {
       const auto seen = [&](const cv::Mat& image) { return std::clamp(double(image.at<float>(y, x)), 0.0, 1.0); };
       const double colour = redistributed(std::abs(lightness_of(seen(a)) - lightness_of(seen(b))));
-      const double feature = std::sqrt(double(std::max(edges.at<float>(y, x), points.at<float>(y, x))) / std::sqrt(2.0));
+      const double feature =
+          std::sqrt(double(std::max(edges.at<float>(y, x), points.at<float>(y, x))) / std::sqrt(2.0));
       map.at<double>(y, x) = std::pow(colour, 1 - feature);
     }
   }

@@ -59,8 +59,8 @@ double grey_flip(const Plane& test, const Plane& truth, const Mask& foreground) 
   std::vector<double> sums(size_t(bands), 0.0);
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < bands; ++i)
-    sums[size_t(i)] = sum_of_rows(test.channels[0], truth.channels[0], foreground, i * band,
-                                  std::min((i + 1) * band, layout.height));
+    sums[size_t(i)] =
+        sum_of_rows(test.channels[0], truth.channels[0], foreground, i * band, std::min((i + 1) * band, layout.height));
   const auto count = std::count_if(foreground.begin(), foreground.end(), [](unsigned char m) { return m != 0; });
   return count > 0 ? std::accumulate(sums.begin(), sums.end(), 0.0) / double(count) : 0;
 }

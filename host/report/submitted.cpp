@@ -44,8 +44,8 @@ std::string convention_of(const Json& convention) {
   for (const char* key : {"exponent", "strength"}) {
     if (const Number value = number_at(convention, key); value && *value != 1) add(fmt::format("{} {:g}", key, *value));
   }
-  if (const Json& range = at(convention, "range"); range.is_array() && range.size() == 2 && range[0].is_number() &&
-                                                   range[1].is_number())
+  if (const Json& range = at(convention, "range");
+      range.is_array() && range.size() == 2 && range[0].is_number() && range[1].is_number())
     add(fmt::format("range {:g} to {:g}", range[0].get<double>(), range[1].get<double>()));
   if (const std::string resolution = text_at(convention, "resolution"); !resolution.empty() && resolution != "full")
     add(resolution + " resolution");

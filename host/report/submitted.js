@@ -32,12 +32,15 @@ function submittedFacts(row) {
     ['best fit', fitWords(row.submitted)]
   ].filter(([, text]) => text);
   return [
-    element('p', {}, element('span', {class: 'badge'}, 'submitted'), ' Its images were scored; its time is not one of gloam\u2019s.'),
+    element(
+        'p', {}, element('span', {class: 'badge'}, 'submitted'),
+        ' Its images were scored; its time is not one of gloam\u2019s.'),
     element('dl', {class: 'figures'}, facts.map(([name, text]) => [element('dt', {}, name), element('dd', {}, text)])),
     link ? element('p', {}, element('a', {href: link, rel: 'noreferrer'}, link)) : null
   ];
 }
 
 /// The shown rows of the scene that have an error and no time on the present axis.
-const submittedLevels = () => state.mean !== null ? [] :
+const submittedLevels = () => state.mean !== null ?
+    [] :
     rowsOf(state.scene).filter((row) => isSubmitted(row) && isShown(row) && is(row.rmse) && !(timeOf(row) > 0));

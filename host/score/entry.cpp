@@ -55,7 +55,8 @@ class Fields {
   double number_of(const Value& given, const std::string& key, double least, double most) const {
     const bool is_number = given.is_number() && std::isfinite(given.get<double>());
     if (!is_number || given.get<double>() < least || given.get<double>() > most)
-      throw Error("{}: {} is {}; a number from {:g} to {:g} is allowed", file_, place_of(key), shown(given), least, most);
+      throw Error("{}: {} is {}; a number from {:g} to {:g} is allowed", file_, place_of(key), shown(given), least,
+                  most);
     return given.get<double>();
   }
 
@@ -109,8 +110,9 @@ Convention convention_of(const Value& object, const std::string& file, const std
   convention.falloff = fields.text("falloff");
   for (const char* key : {"inverted", "strength"}) {
     if (!is_share(effect) && (convention.inverted || convention.strength != 1) && fields.has(key))
-      throw Error("{}: {}: the effect is '{}', which has no largest value; only planes from 0 to 1 have a {}; leave it out",
-                  file, fields.place_of(key), effect, key == std::string("inverted") ? "inverse" : "strength");
+      throw Error(
+          "{}: {}: the effect is '{}', which has no largest value; only planes from 0 to 1 have a {}; leave it out",
+          file, fields.place_of(key), effect, key == std::string("inverted") ? "inverse" : "strength");
   }
   return convention;
 }
@@ -164,9 +166,9 @@ bool is_share(const std::string& effect) { return plane_kind(effect).meaning == 
 Entry read_entry(const std::filesystem::path& file) {
   const std::string path = file.string();
   const Value document = json_of_text(read_text(file), path);
-  const Fields fields(document, path, "",
-                      {"name", "version", "link", "authors", "settings", "device", "time_ms", "effect", "convention",
-                       "licence"});
+  const Fields fields(
+      document, path, "",
+      {"name", "version", "link", "authors", "settings", "device", "time_ms", "effect", "convention", "licence"});
   Entry entry;
   entry.name = fields.text("name");
   check_name(fields, entry.name);
@@ -193,7 +195,9 @@ Json document_of(const Convention& convention) {
           {"exponent", convention.exponent},
           {"strength", convention.strength},
           {"range", range},
-          {"resolution", resolutions[convention.scale == 1 ? 0 : convention.scale == 2 ? 1 : 2]},
+          {"resolution", resolutions[convention.scale == 1   ? 0
+                                     : convention.scale == 2 ? 1
+                                                             : 2]},
           {"radius", number(convention.radius)},
           {"falloff", convention.falloff.empty() ? Json(nullptr) : Json(convention.falloff)}};
 }

@@ -26,11 +26,11 @@ struct Convention {
 
 struct Entry {
   std::string name, version, link, device, licence;
-  Json authors = nullptr;            ///< a text or a list of texts
-  Json settings = Json::object();    ///< any values by name
-  std::optional<double> time_ms;     ///< of every item, as its authors state it
+  Json authors = nullptr;                  ///< a text or a list of texts
+  Json settings = Json::object();          ///< any values by name
+  std::optional<double> time_ms;           ///< of every item, as its authors state it
   std::map<std::string, double> times_ms;  ///< by item
-  std::string effect = "ao";         ///< of images whose names state none
+  std::string effect = "ao";               ///< of images whose names state none
   Convention convention;
 
   /// The time that is stated for an item; none if there is none.

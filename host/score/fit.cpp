@@ -74,8 +74,7 @@ std::optional<BestFit> FitSums::best() const {
   if (!is_of_shares_) {
     if (value_squared_ <= 0) return {};
     best.scale = std::max(product_ / value_squared_, 0.0);
-    const double error =
-        truth_squared_ - 2 * best.scale * product_ + best.scale * best.scale * value_squared_;
+    const double error = truth_squared_ - 2 * best.scale * product_ + best.scale * best.scale * value_squared_;
     best.rmse = std::sqrt(std::max(error, 0.0) / count_);
     return best;
   }

@@ -93,7 +93,9 @@ void undo(const Convention& c, const std::string& effect, StoredImage& stored) {
 }
 
 void check_size(const StoredImage& stored, int scale, const Layout& frame, const std::string& file) {
-  const auto fits = [scale](int size, int whole) { return size == whole / scale || size == (whole + scale - 1) / scale; };
+  const auto fits = [scale](int size, int whole) {
+    return size == whole / scale || size == (whole + scale - 1) / scale;
+  };
   if (fits(stored.width, frame.width) && fits(stored.height, frame.height)) return;
   std::string hint;
   for (const auto& [word, other] : {std::pair("full", 1), {"half", 2}, {"quarter", 4}}) {
@@ -170,12 +172,13 @@ long long clamp_shares(bench::Image& image, const bench::Foreground& foreground,
     most = std::max(most, double(value));
   });
   if (double(outside) > few * double(count)) {
-    const std::string meant = most <= 1 + little      ? "[-1, 1]"
-                              : most <= 255.5         ? "[0, 255]"
-                              : most <= 65535.5       ? "[0, 65535]"
-                                                      : fmt::format("[0, {:g}]", most);
+    const std::string meant = most <= 1 + little ? "[-1, 1]"
+                              : most <= 255.5    ? "[0, 255]"
+                              : most <= 65535.5  ? "[0, 65535]"
+                                                 : fmt::format("[0, {:g}]", most);
     throw Error(
-        "{}: is {:g} to {:g} on {:.1f} % of the surfaces, and 0 to 1 is allowed; the entry's convention says which values stand "
+        "{}: is {:g} to {:g} on {:.1f} % of the surfaces, and 0 to 1 is allowed; the entry's convention says which "
+        "values stand "
         "for 0 and 1, such as \"range\": {}",
         file, least, most, 100 * double(outside) / double(count), meant);
   }

@@ -79,8 +79,8 @@ void check_same(const Json& before, const Json& now, const std::filesystem::path
   };
   for (const char* key : {"size", "radius"}) {
     if (differs(key))
-      throw Error("{}: '{}' there has the {} {}, and here {}; write these results to another folder (-o)", path.string(),
-                  text_in(now, "name"), key, before[key].dump(), now[key].dump());
+      throw Error("{}: '{}' there has the {} {}, and here {}; write these results to another folder (-o)",
+                  path.string(), text_in(now, "name"), key, before[key].dump(), now[key].dump());
   }
 }
 
@@ -106,7 +106,8 @@ Json new_document(const std::optional<SetId>& set, const std::string& version) {
 }  // namespace
 
 Json document_of(const SetId& set) {
-  return {{"name", set.name}, {"part", set.part}, {"seed", set.seed ? Json(*set.seed) : Json(nullptr)}, {"hash", set.hash}};
+  return {
+      {"name", set.name}, {"part", set.part}, {"seed", set.seed ? Json(*set.seed) : Json(nullptr)}, {"hash", set.hash}};
 }
 
 std::string in_words(const SetId& set) {
@@ -135,7 +136,9 @@ Json row_of(const Scored& scored, const Entry& entry, const RowDetails& details)
           {"preset", "submitted"},
           {"variant", ""},
           {"settings", entry.settings},
-          {"resolution", scale == 1 ? "full" : scale == 2 ? "half" : "quarter"},
+          {"resolution", scale == 1   ? "full"
+                         : scale == 2 ? "half"
+                                      : "quarter"},
           {"scene", target.name},
           {"effect", target.effect},
           {"kind", text_or_null(target.kind)},
@@ -182,14 +185,16 @@ ResultFile::ResultFile(const std::filesystem::path& folder, const std::optional<
   try {
     document_ = Json::parse(read_text(path_));
   } catch (const nlohmann::json::exception&) {
-    throw Error("{}: is not JSON, so nothing can be added to it; remove it, or name another folder (-o)", path_.string());
+    throw Error("{}: is not JSON, so nothing can be added to it; remove it, or name another folder (-o)",
+                path_.string());
   }
   if (!document_.is_object() || !document_.contains("results") || !document_["results"].is_array())
     throw Error("{}: is no result of gloam bench or gloam score; name another folder (-o)", path_.string());
   if (!document_.contains("scenes") || !document_["scenes"].is_array()) document_["scenes"] = Json::array();
   const std::optional<SetId> before = set_in(document_);
   if (before && !set)
-    throw Error("{}: is of the set {}, and no --set is given; name another folder (-o)", path_.string(), in_words(*before));
+    throw Error("{}: is of the set {}, and no --set is given; name another folder (-o)", path_.string(),
+                in_words(*before));
   if (set && !before && !document_["results"].empty())
     throw Error("{}: is of no set, and --set is {}; name another folder (-o)", path_.string(), in_words(*set));
   if (set && before && before->hash != set->hash)
@@ -235,7 +240,8 @@ void ResultFile::set_fit(const Json& row, Json fit) {
 void ResultFile::remove_others(const std::string& name, const std::vector<std::pair<std::string, std::string>>& kept) {
   Json left = Json::array();
   for (Json& row : document_["results"]) {
-    const bool is_other = is_row_of(row, name) && std::find(kept.begin(), kept.end(), place_of(row, "scene")) == kept.end();
+    const bool is_other =
+        is_row_of(row, name) && std::find(kept.begin(), kept.end(), place_of(row, "scene")) == kept.end();
     if (!is_other) left.push_back(std::move(row));
   }
   document_["results"] = std::move(left);

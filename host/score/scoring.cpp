@@ -106,7 +106,8 @@ bench::Image Scoring::plain_image(const Target& target, const LoadedFrame& loade
   for (const SubmittedFile& file : files) {
     const std::string path = file.path.string();
     const bool is_of_all = file.view.empty();
-    StoredImage stored = read_stored({file.path, target.effect, is_of_all ? views : std::vector{file.view}, options_.images});
+    StoredImage stored =
+        read_stored({file.path, target.effect, is_of_all ? views : std::vector{file.view}, options_.images});
     check_size(stored, scale, layout, path);
     undo(entry_.convention, target.effect, stored);
     if (scale > 1) {
@@ -135,12 +136,14 @@ void Scoring::note_radius(const Target& target, const LoadedFrame& loaded) {
   const std::optional<double> truth = loaded.truth.radius ? loaded.truth.radius : target.radius;
   const Convention& c = entry_.convention;
   if (c.radius && truth && std::abs(*c.radius - *truth) > 1e-3 * *truth)
-    add_new(notes_, fmt::format("{}: the method's radius is {:g} and the truth's {:g}: the truth of another radius is another "
-                                "integral, and part of the error is this difference",
-                                target.in_words(), *c.radius, *truth));
+    add_new(notes_,
+            fmt::format("{}: the method's radius is {:g} and the truth's {:g}: the truth of another radius is another "
+                        "integral, and part of the error is this difference",
+                        target.in_words(), *c.radius, *truth));
   if (!c.falloff.empty() && c.falloff != "none")
-    add_new(notes_, fmt::format("the method's falloff is '{}' and the truths have none: part of the error is this difference",
-                                c.falloff));
+    add_new(notes_,
+            fmt::format("the method's falloff is '{}' and the truths have none: part of the error is this difference",
+                        c.falloff));
 }
 
 void Scoring::add_to_fit(const Target& target, const TargetFrame& at, const LoadedFrame& loaded,
@@ -203,8 +206,8 @@ std::optional<BestFit> Scoring::best_fit(const std::string& effect) const {
 
 std::optional<Figures> Scoring::score_fitted(const Target& target, const FilesOf& files_of, const BestFit& fit) {
   const bool is_of_shares = is_share(target.effect);
-  const auto walked =
-      walk(target, files_of, [&](const bench::Image& image) { return fitted(image, fit, is_of_shares); }, false);
+  const auto walked = walk(
+      target, files_of, [&](const bench::Image& image) { return fitted(image, fit, is_of_shares); }, false);
   if (!walked) return {};
   return walked->sums.means();
 }
@@ -212,21 +215,23 @@ std::optional<Figures> Scoring::score_fitted(const Target& target, const FilesOf
 std::vector<std::string> Scoring::doubts() const {
   std::vector<std::string> lines;
   for (const auto& [effect, items] : inverted_)
-    lines.push_back(fmt::format("{} of {} looks inverted (dark where the truth is bright); if 1 is closed, state \"inverted\": "
-                                "{} in the entry's convention; scored as stated",
-                                effect, few_of(items), entry_.convention.inverted ? "false" : "true"));
+    lines.push_back(
+        fmt::format("{} of {} looks inverted (dark where the truth is bright); if 1 is closed, state \"inverted\": "
+                    "{} in the entry's convention; scored as stated",
+                    effect, few_of(items), entry_.convention.inverted ? "false" : "true"));
   for (const auto& [effect, sums] : fits_) {
     const std::optional<BestFit> best = sums.best();
     if (!best || best->rmse > telling_share * sums.rmse() || inverted_.count(effect)) continue;
     if (is_share(effect) && best->exponent >= least_gamma && best->exponent <= most_gamma)
-      lines.push_back(fmt::format("{} looks encoded for a display: to the power of {:.2f} its RMSE is {:.4f} and not {:.4f}; if it "
-                                  "is, state \"exponent\": {:.3f} in the entry's convention; scored as stated",
-                                  effect, best->exponent, best->rmse, sums.rmse(),
-                                  entry_.convention.exponent / best->exponent));
+      lines.push_back(
+          fmt::format("{} looks encoded for a display: to the power of {:.2f} its RMSE is {:.4f} and not {:.4f}; if it "
+                      "is, state \"exponent\": {:.3f} in the entry's convention; scored as stated",
+                      effect, best->exponent, best->rmse, sums.rmse(), entry_.convention.exponent / best->exponent));
     if (!is_share(effect) && (best->scale < 0.02 || best->scale > 50))
-      lines.push_back(fmt::format("{} looks scaled: times {:.3g} its RMSE is {:.4g} and not {:.4g}; \"range\" in the entry's "
-                                  "convention states the stored values of 0 and 1; scored as stated",
-                                  effect, best->scale, best->rmse, sums.rmse()));
+      lines.push_back(
+          fmt::format("{} looks scaled: times {:.3g} its RMSE is {:.4g} and not {:.4g}; \"range\" in the entry's "
+                      "convention states the stored values of 0 and 1; scored as stated",
+                      effect, best->scale, best->rmse, sums.rmse()));
   }
   return lines;
 }

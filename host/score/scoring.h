@@ -19,8 +19,8 @@ namespace gloam::score {
 struct Figures {
   double rmse = 0, bias = 0, ssim = 0;
   std::optional<double> flip, flicker, inconsistency;
-  std::map<std::string, Metrics> views;      ///< of the first frame, where it has several views
-  std::optional<double> rmse_at_own_size;    ///< of an image of a lower resolution, to the truth's means there
+  std::map<std::string, Metrics> views;    ///< of the first frame, where it has several views
+  std::optional<double> rmse_at_own_size;  ///< of an image of a lower resolution, to the truth's means there
 };
 
 /// One target, scored.
@@ -77,8 +77,8 @@ class Scoring {
 
   const Entry& entry_;
   const ScoringOptions options_;
-  std::map<std::string, FitSums> fits_;                         ///< by effect
-  std::map<std::string, std::vector<std::string>> inverted_;    ///< images that look inverted, by effect
+  std::map<std::string, FitSums> fits_;                       ///< by effect
+  std::map<std::string, std::vector<std::string>> inverted_;  ///< images that look inverted, by effect
   std::vector<LeftOut> left_out_;
   std::vector<std::string> notes_;
 };

@@ -40,7 +40,8 @@ void fit_components(Plane& plane, const ImageRequest& request, double most) {
         const float other = plane.channels[c].at(x, y);
         if (std::abs(double(red) - double(other)) <= most || (!std::isfinite(red) && !std::isfinite(other))) continue;
         throw Error(
-            "{}: is coloured, {:g} and {:g} at pixel ({}, {}), and {} is one value; store it as grey, or name a channel of an "
+            "{}: is coloured, {:g} and {:g} at pixel ({}, {}), and {} is one value; store it as grey, or name a "
+            "channel of an "
             "EXR (--plane {}=R)",
             request.file.string(), red, other, x, y, request.effect, request.effect);
       }

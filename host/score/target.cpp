@@ -80,7 +80,8 @@ std::string write_picture(const std::filesystem::path& folder, const Target& tar
 }
 
 bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder) {
-  bench::SceneFacts facts{target.name, target.scene_class, target.effect, first.frame.width(), first.frame.height(), {}};
+  bench::SceneFacts facts{target.name,         target.scene_class,   target.effect,
+                          first.frame.width(), first.frame.height(), {}};
   const std::optional<double> radius = target.radius ? target.radius : first.truth.radius;
   facts.radius = radius ? Radius{*radius, RadiusSource::truth} : default_radius(first.frame, {});
   facts.radius_pixels = bench::median_reach(first.frame, facts.radius.value);

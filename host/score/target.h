@@ -21,12 +21,12 @@ struct TargetFrame {
 };
 
 struct Target {
-  std::string name;                    ///< "courtyard"
-  std::string kind;                    ///< "frame", "sequence", "eyes", "display", "hard"; empty outside a set
+  std::string name;  ///< "courtyard"
+  std::string kind;  ///< "frame", "sequence", "eyes", "display", "hard"; empty outside a set
   std::string scene_class = "own";
   std::string effect = "ao";
-  std::optional<double> radius;        ///< as the set states it
-  std::vector<std::string> views;      ///< names; empty: one without a name, or not known before the frame is opened
+  std::optional<double> radius;    ///< as the set states it
+  std::vector<std::string> views;  ///< names; empty: one without a name, or not known before the frame is opened
   bool is_sequence = false;
   std::vector<TargetFrame> frames;
 

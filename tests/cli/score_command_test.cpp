@@ -33,8 +33,7 @@ class ScoreCommand : public ScoreTest {
                                      << "truth=" << path("set/truths").string() << "/${item}_ao\n"
                                      << "[ $item = walk ] && truth=$truth.000$number\n"
                                      << "cp $truth.exr $image\n";
-    Arguments arguments = {"--command",
-                           "sh " + path("engine.sh").string() + " {frame} {image} {item} {frame_number}",
+    Arguments arguments = {"--command", "sh " + path("engine.sh").string() + " {frame} {image} {item} {frame_number}",
                            "--rounds", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return score(arguments);
@@ -64,7 +63,8 @@ TEST_F(ScoreCommand, ScoresAMethodThatGloamHasNotGot) {
   EXPECT_TRUE(row("pair", "plane AO")["inconsistency"].is_number());
   EXPECT_TRUE(row("walk", "plane AO")["flicker"].is_number());
   const fs::path images = path("out/submitted/plane-AO");
-  for (const char* name : {"room_ao.exr", "walk.0003_ao.exr", "pair_ao.exr"}) EXPECT_TRUE(fs::exists(images / name)) << name;
+  for (const char* name : {"room_ao.exr", "walk.0003_ao.exr", "pair_ao.exr"})
+    EXPECT_TRUE(fs::exists(images / name)) << name;
   // the same images through JSON: the same figures
   entry({{"name", "plane AO by images"}, {"time_ms", 12.5}});
   const Result scored = score({images.string()});
@@ -73,6 +73,18 @@ TEST_F(ScoreCommand, ScoresAMethodThatGloamHasNotGot) {
     for (const char* figure : {"rmse_to_truth", "bias", "ssim", "flip", "flicker", "inconsistency"})
       EXPECT_EQ(row(item, "plane AO")[figure], row(item, "plane AO by images")[figure]) << item << " " << figure;
   }
+  // as a picture of 16 bits: the same to their rounding
+  ASSERT_EQ(score({"--command", example + " --in {frame} --out {image} --camera {camera} --radius {radius}", "--rounds",
+                   "1", "--items", "room", "--image-type", "png"})
+                .status,
+            0);
+  EXPECT_TRUE(fs::exists(path("out/submitted/plane-AO-by-images/room_ao.png")));
+  EXPECT_NEAR(row("room", "plane AO by images")["rmse_to_truth"], row("room", "plane AO")["rmse_to_truth"], 1e-5);
+  // the camera that a program gets is the frame's
+  const Json told = gloam({"info", frame("room"), "--json", "-"}).json()["camera"],
+             given = gloam({"info", frame("room"), "--camera", (images / "room.camera.json").string(), "--json", "-"})
+                         .json()["camera"];
+  for (const char* key : {"fx", "fy", "cx", "cy"}) EXPECT_NEAR(given[key], told[key], 1e-3) << key;
   ok({"report", path("out")});
   const std::string page = slurp(path("out/report.html"));
   EXPECT_NE(page.find("plane AO by images"), std::string::npos);
@@ -106,7 +118,7 @@ TEST_F(ScoreCommand, ProgramsThatFailAreOneLineEach) {
   for (const auto& [before, message] : told) {
     const Result result = run(before);
     EXPECT_EQ(result.status, 1) << result.err;
-    EXPECT_EQ(result.lines_of_error(), 2) << before << "\n" << result.err;
+    EXPECT_EQ(result.lines_of_error(), 3) << before << "\n" << result.err;  // a note on the set
     EXPECT_EQ(result.err.rfind("gloam: room: left out: ", 0), 0u) << result.err;
     EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("gloam: 1 image left out, 2 items scored"), std::string::npos) << result.err;
@@ -124,8 +136,8 @@ TEST_F(ScoreCommand, OfASequenceTheOtherFramesAreScored) {
 
 TEST_F(ScoreCommand, ProgramsThatHangAreEndedWithWhatTheyStarted) {
   const auto start = std::chrono::steady_clock::now();
-  const Result result = run("[ $item = room ] && { sleep 300 & echo $! > " + path("pid").string() + "; sleep 300; }",
-                            {"--timeout", "3"});
+  const Result result =
+      run("[ $item = room ] && { sleep 300 & echo $! > " + path("pid").string() + "; sleep 300; }", {"--timeout", "3"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.err.rfind("gloam: room: left out: 'sh' ended: still running after 3 s", 0), 0u) << result.err;
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(120));
@@ -136,22 +148,26 @@ TEST_F(ScoreCommand, ProgramsThatHangAreEndedWithWhatTheyStarted) {
 TEST_F(ScoreCommand, ThatIsNotThereIsLeftOutOfAll) {
   const Result result = score({"--command", "no-such-engine {frame} {image}"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.err.find("'no-such-engine' cannot be started: No such file or directory"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("'no-such-engine' cannot be started: No such file or directory"), std::string::npos)
+      << result.err;
   EXPECT_NE(result.err.find("nothing could be scored"), std::string::npos) << result.err;
 }
 
 TEST_F(ScoreCommand, InterruptedItEndsItsChildrenAndKeepsWhatWasScored) {
   std::ofstream(path("engine.sh")) << "case $3 in room) cp " << path("set/truths/room_ao.exr").string()
                                    << " $2;; *) echo $$ > " << path("pid").string() << "; exec sleep 300;; esac\n";
-  const pid_t child = start({"score", "--json", path("entry.json"), "--set", path("set"), "-o", path("out"), "--command",
-                             "sh " + path("engine.sh").string() + " {frame} {image} {item}", "--rounds", "1"});
-  for (int i = 0; i < 1200 && slurp(path("pid")).empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const pid_t child =
+      start({"score", "--json", path("entry.json"), "--set", path("set"), "-o", path("out"), "--command",
+             "sh " + path("engine.sh").string() + " {frame} {image} {item}", "--rounds", "1"});
+  for (int i = 0; i < 1200 && slurp(path("pid")).empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ASSERT_FALSE(slurp(path("pid")).empty());
   kill(child, SIGINT);
   const Result result = finish(child);
   EXPECT_EQ(result.status, 128 + SIGINT);
   EXPECT_EQ(result.lines_of_error(), 1) << result.err;
-  EXPECT_NE(result.err.find("what was scored is in " + path("out/bench.json").string()), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("what was scored is in " + path("out/bench.json").string()), std::string::npos)
+      << result.err;
   EXPECT_EQ(document()["results"].size(), 1u);
   EXPECT_FALSE(is_running(std::stoi(slurp(path("pid")))));
 }
@@ -163,16 +179,31 @@ TEST_F(ScoreInBrowser, SubmittedMethodsAreMarked) {
   if (!has_browser()) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
   fs::create_directories(path("out"));
   const auto measured = [](const char* technique, double ratio, double rmse) {
-    return Json{{"technique", technique}, {"preset", "medium"}, {"scene", "hall"}, {"effect", "ao"},
-                {"ms", {{"median", 4 * ratio}}}, {"ratio_to_hbao_plus", ratio}, {"rmse_to_truth", rmse}, {"ssim", 0.9},
+    return Json{{"technique", technique},
+                {"preset", "medium"},
+                {"scene", "hall"},
+                {"effect", "ao"},
+                {"ms", {{"median", 4 * ratio}}},
+                {"ratio_to_hbao_plus", ratio},
+                {"rmse_to_truth", rmse},
+                {"ssim", 0.9},
                 {"flip", 0.1}};
   };
   const Json submitted = {
-      {"technique", "Engine AO"}, {"preset", "submitted"}, {"scene", "hall"}, {"effect", "ao"}, {"ms", {{"median", 2.5}}},
-      {"rmse_to_truth", 0.12}, {"ssim", 0.8}, {"flip", 0.2},
-      {"submitted", {{"name", "Engine AO"}, {"link", "https://example.org"}, {"time_ms", 2.5},
-                     {"fit", {{"exponent", 1.5}, {"strength", 0.9}, {"rmse_to_truth", 0.11}}},
-                     {"whole", {{"ms", {{"median", 100.0}}}, {"gloam_ms", {{"median", 50.0}}}, {"ratio", 2.0}}}}}};
+      {"technique", "Engine AO"},
+      {"preset", "submitted"},
+      {"scene", "hall"},
+      {"effect", "ao"},
+      {"ms", {{"median", 2.5}}},
+      {"rmse_to_truth", 0.12},
+      {"ssim", 0.8},
+      {"flip", 0.2},
+      {"submitted",
+       {{"name", "Engine AO"},
+        {"link", "https://example.org"},
+        {"time_ms", 2.5},
+        {"fit", {{"exponent", 1.5}, {"strength", 0.9}, {"rmse_to_truth", 0.11}}},
+        {"whole", {{"ms", {{"median", 100.0}}}, {"gloam_ms", {{"median", 50.0}}}, {"ratio", 2.0}}}}}};
   const Json document = {{"scenes", {{{"name", "hall"}, {"class", "architecture"}}}},
                          {"results", {measured("hbao+", 1, 0.2), submitted, measured("gtao", 1.5, 0.1)}}};
   std::ofstream(path("out/bench.json")) << document.dump();

@@ -29,7 +29,8 @@ class ScoreTest : public Cli {
     fs::create_directories(path("set/truths"));
     fs::create_directories(path("images"));
     make("room", {"capture", "gallery", "--size", "96x54"}, {"--samples", "16"});
-    make("walk", {"capture", "gallery", "--size", "64x36", "--shot", "walk", "--frames", "1-3"}, {"--samples", "8"}, ".####");
+    make("walk", {"capture", "gallery", "--size", "64x36", "--shot", "walk", "--frames", "1-3"}, {"--samples", "8"},
+         ".####");
     make("pair", {"capture", "gallery", "--size", "64x36", "--stereo", "0.064"}, {"--samples", "8"});
     ok({"reference", "indirect", frame("room"), "-o", truth("room", "indirect"), "--samples", "16"});
     write_manifest();
@@ -126,9 +127,7 @@ class ScoreTest : public Cli {
     ok(reference);
   }
 
-  sets::SetFile file(const std::string& name) const {
-    return {name, sets::content_hash(path("set") / name)};
-  }
+  sets::SetFile file(const std::string& name) const { return {name, sets::content_hash(path("set") / name)}; }
 
   sets::SetItem described(const ScoreItem& item) const {
     sets::SetItem made;

@@ -137,6 +137,11 @@ PAGES = {
         prepare=FRAME + f"gloam bench -o out/mine {SMALL.replace('plane', 'slab')}",
         instead={"bench -o out/bench": (f"bench -o out/bench {SMALL}", MINUTES)},
         check="[ -s out/bench/report.html ] && [ -s accuracy.md ]"),
+    "docs/score.md": Page(
+        json=("example.json",),
+        instead={"--techniques gtao,evidence --presets low,medium": ("--techniques gtao --presets low --rounds 1", MINUTES)},
+        check="""[ -s out/scores/report.html ] && grep -c submitted out/scores/report.html && grep -q '"plane AO"' out/again/bench.json
+            gloam score theirs.exr --frame room.exr --truth room_truth.exr --json example.json -o out/example --no-images | grep 'My AO 1.2'"""),
     "docs/sequences.md": Page(
         json=("path.json", "cameras.json"),
         check="""for file in {ao,full,copy,graded,all}.0012 gtao.0001 gtao.0011 auto.0004 walk.0009 gears.0002 truth.000{1,2}; do
