@@ -10,7 +10,7 @@ namespace gloam::report {
 /// Empty where the file does not say it, or says something of another type.
 struct SubmittedFacts {
   std::string version, link, device, authors, convention;  ///< link: http or https; convention: what differs from plain, in words
-  Number stated_ms, fit_rmse, fit_exponent, fit_strength, fit_scale, whole_ms, whole_gloam_ms, whole_ratio;
+  Number stated_ms, fit_rmse, fit_ssim, fit_flip, fit_exponent, fit_strength, fit_scale, whole_ms, whole_gloam_ms, whole_ratio;
 };
 
 SubmittedFacts facts_of(const Json& submitted);

@@ -148,7 +148,7 @@ TEST_P(TypedFlags, LeaveHelpToThoseWhoAskForIt) {
 }
 
 const char* const commands[] = {"info",  "run",  "compare", "plan",   "list", "capture", "reference",
-                                "bench", "score", "pick", "auto",    "report", "view", "stress",  "doctor"};
+                                "bench", "score", "pick", "auto",    "report", "leaderboard", "view", "stress",  "doctor"};
 
 INSTANTIATE_TEST_SUITE_P(Commands, TypedFlags, ::testing::ValuesIn(commands),
                          [](const auto& info) { return std::string(info.param); });
