@@ -97,7 +97,8 @@ class Making {
       if (tables.empty()) continue;
       boards_.push_back({board, std::move(tables)});
     }
-    if (boards_.empty()) throw Error("{}: holds no rows; 'gloam bench' measures some", results_.files.front().file.string());
+    if (boards_.empty())
+      throw Error("{}: holds no rows; 'gloam bench' measures some", results_.files.front().file.string());
     embed();
     Page page;
     page.document = document(false);
@@ -127,9 +128,8 @@ class Making {
     std::error_code unknown;
     if (std::filesystem::is_directory(folder(file) / "images", unknown)) return true;
     if (noted_.insert(file).second)
-      notes_.push_back(
-          fmt::format("{}: there is no {} beside it; the page goes without the pictures of this file",
-                      results_.files[file].file.string(), "images/"));
+      notes_.push_back(fmt::format("{}: there is no {} beside it; the page goes without the pictures of this file",
+                                   results_.files[file].file.string(), "images/"));
     return false;
   }
 
@@ -139,7 +139,8 @@ class Making {
 
   void embed() {
     const auto add = [&](size_t file, const std::string& image) {
-      if (!image.empty() && options_.shown != ShownPictures::none && has_pictures(file)) pictures_.add(folder(file), image);
+      if (!image.empty() && options_.shown != ShownPictures::none && has_pictures(file))
+        pictures_.add(folder(file), image);
     };
     for (const auto& [board, tables] : boards_) {
       for (const EffectTable& table : tables) {
@@ -175,8 +176,9 @@ class Making {
     if (!row.submitted.is_null()) {
       const report::SubmittedFacts facts = report::facts_of(row.submitted);
       made["measured_by"] = text_or_null(measuring_command(row, file));
-      for (const auto& [name, value] : {std::pair("fit_exponent", facts.fit_exponent), std::pair("fit_strength", facts.fit_strength),
-                                        std::pair("fit_scale", facts.fit_scale), std::pair("whole_ms", facts.whole_ms)})
+      for (const auto& [name, value] :
+           {std::pair("fit_exponent", facts.fit_exponent), std::pair("fit_strength", facts.fit_strength),
+            std::pair("fit_scale", facts.fit_scale), std::pair("whole_ms", facts.whole_ms)})
         made[name] = json(value);
     }
     return made;

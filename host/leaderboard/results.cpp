@@ -86,9 +86,10 @@ Results read_results(const fs::path& folder) {
       report::HardCases found = report::hard_cases_of(document, file);
       results.stability.push_back({name, found.device, found.techniques});
     } else if (document.is_object() && !document.contains("results")) {
-      throw Error("{}: holds neither results of gloam bench or gloam score nor hard cases of gloam stress; "
-                  "move it to another folder",
-                  file.string());
+      throw Error(
+          "{}: holds neither results of gloam bench or gloam score nor hard cases of gloam stress; "
+          "move it to another folder",
+          file.string());
     } else {
       add_results(results, {name, file, report::read_measurements_file(file)});
     }

@@ -19,9 +19,7 @@ using report::Scene;
 /// What makes rows those of one entry.
 using EntryKey = std::tuple<bool, std::string, std::string, std::string, std::string, std::string>;
 
-EntryKey key_of(const Entry& e) {
-  return {e.is_submitted, e.technique, e.preset, e.variant, e.device, e.driver};
-}
+EntryKey key_of(const Entry& e) { return {e.is_submitted, e.technique, e.preset, e.variant, e.device, e.driver}; }
 
 /// The class without the effect that its name tells.
 std::string class_of(const Scene& scene) {
@@ -76,8 +74,8 @@ class Filling {
 
   void check_same(const Number& before, const Number& now, const char* what, const Item& item, size_t file) const {
     if (!before || !now || std::abs(*before - *now) <= 1e-4 * std::abs(*now)) return;
-    throw Error("{}: '{}' has the {} {:g}, and {:g} in {}: not the same frame; leave one of the two files out", path(file),
-                item.name, what, *now, *before, path(item.file));
+    throw Error("{}: '{}' has the {} {:g}, and {:g} in {}: not the same frame; leave one of the two files out",
+                path(file), item.name, what, *now, *before, path(item.file));
   }
 
   void add(const Row& row, const Measurements& m, size_t file) {
@@ -191,8 +189,9 @@ void add_stability(EffectTable& table, const Results& results) {
 }  // namespace
 
 const std::array<const char*, figure_count>& figure_names() {
-  static const std::array<const char*, figure_count> names{"error",     "bias",     "ssim",     "flip",      "ratio",      "flicker",
-                                                           "eyes",      "fit_error", "fit_ssim", "fit_flip", "stated_ms", "whole_ratio"};
+  static const std::array<const char*, figure_count> names{"error",    "bias",     "ssim",      "flip",
+                                                           "ratio",    "flicker",  "eyes",      "fit_error",
+                                                           "fit_ssim", "fit_flip", "stated_ms", "whole_ratio"};
   return names;
 }
 

@@ -14,7 +14,21 @@ using report::Number;
 using report::Row;
 
 /// Figures of a row, in this order wherever they are listed.
-enum Figure { error, bias, ssim, flip, ratio, flicker, eyes, fit_error, fit_ssim, fit_flip, stated_ms, whole_ratio, figure_count };
+enum Figure {
+  error,
+  bias,
+  ssim,
+  flip,
+  ratio,
+  flicker,
+  eyes,
+  fit_error,
+  fit_ssim,
+  fit_flip,
+  stated_ms,
+  whole_ratio,
+  figure_count
+};
 using Figures = std::array<Number, figure_count>;
 /// "error", "bias", ...
 const std::array<const char*, figure_count>& figure_names();

@@ -292,7 +292,8 @@ std::filesystem::path measurements_file(const std::filesystem::path& folder_or_f
 
 Measurements read_measurements_file(const std::filesystem::path& file) {
   const Measurements m = read_file(file);
-  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && m.submitted.empty() && !m.sequence)
+  if (m.rows.empty() && m.converged.empty() && m.scales.empty() && m.planes.empty() && m.submitted.empty() &&
+      !m.sequence)
     nothing_to_show(file);
   return m;
 }

@@ -1,4 +1,6 @@
 // gloam leaderboard: its tables, what it refuses, and that its page works in a browser that opens it from disk.
+#include <fmt/ranges.h>
+
 #include <opencv2/core.hpp>
 
 #include "cli/browser.h"
@@ -12,36 +14,67 @@ using Json = nlohmann::json;
 const char* const hash_a = "aaaaaaaaaaaaaaaaaaaa";
 
 Json row(const std::string& technique, const std::string& item, const std::string& kind, double error, double ratio) {
-  return {{"technique", technique}, {"preset", "medium"}, {"scene", item}, {"kind", kind}, {"width", 48}, {"height", 32},
-          {"settings", {{"radius", 0.5}, {"outside", "border"}}}, {"ms", {{"median", 4 * ratio}}},
-          {"ratio_to_hbao_plus", ratio}, {"rmse_to_truth", error}, {"ssim", 1 - error}, {"flip", error / 2}};
+  return {{"technique", technique},
+          {"preset", "medium"},
+          {"scene", item},
+          {"kind", kind},
+          {"width", 48},
+          {"height", 32},
+          {"settings", {{"radius", 0.5}, {"outside", "border"}}},
+          {"ms", {{"median", 4 * ratio}}},
+          {"ratio_to_hbao_plus", ratio},
+          {"rmse_to_truth", error},
+          {"ssim", 1 - error},
+          {"flip", error / 2}};
 }
 
 Json scene(const std::string& name, const std::string& kind) {
-  return {{"name", name}, {"kind", kind}, {"class", "architecture"}, {"size", {48, 32}}, {"radius", 0.5},
-          {"truth_image", "images/" + name + "/truth.png"}};
+  return {{"name", name},     {"kind", kind},  {"class", "architecture"},
+          {"size", {48, 32}}, {"radius", 0.5}, {"truth_image", "images/" + name + "/truth.png"}};
 }
 
 /// Two techniques on two items, a third on one of them, and a submitted method.
 Json measurements(const std::string& device = "a device") {
-  Json document = {{"device", device}, {"cpu", "a CPU"}, {"driver", "a driver"}, {"date", "2026-01-31"}, {"commit", "0123abc"},
-                   {"gloam", "0.9"}, {"command", {"gloam", "bench", "--set", "my sets/test-1", "-o", "out"}},
+  Json document = {{"device", device},
+                   {"cpu", "a CPU"},
+                   {"driver", "a driver"},
+                   {"date", "2026-01-31"},
+                   {"commit", "0123abc"},
+                   {"gloam", "0.9"},
+                   {"command", {"gloam", "bench", "--set", "my sets/test-1", "-o", "out"}},
                    {"set", {{"name", "test-1"}, {"part", "public"}, {"seed", nullptr}, {"hash", hash_a}}},
                    {"scenes", {scene("hall", "frame"), scene("walk", "sequence")}}};
-  Json other = {{"technique", "Engine <b>AO</b>"}, {"preset", "submitted"}, {"scene", "hall"}, {"kind", "frame"}, {"ms", {{"median", 2.5}}},
-                {"rmse_to_truth", 0.15}, {"ssim", 0.8}, {"flip", 0.2}, {"image", "images/hall/other.png"},
-                {"submitted", {{"name", "Engine <b>AO</b>"}, {"version", "7"}, {"link", "https://example.org/ao"}, {"time_ms", 2.5},
-                               {"device", "their device"}, {"scored_by", {"gloam", "score", "images"}},
-                               {"fit", {{"exponent", 1.5}, {"strength", 0.9}, {"rmse_to_truth", 0.05}, {"ssim", 0.97}, {"flip", 0.02}}}}}};
+  Json other = {
+      {"technique", "Engine <b>AO</b>"},
+      {"preset", "submitted"},
+      {"scene", "hall"},
+      {"kind", "frame"},
+      {"ms", {{"median", 2.5}}},
+      {"rmse_to_truth", 0.15},
+      {"ssim", 0.8},
+      {"flip", 0.2},
+      {"image", "images/hall/other.png"},
+      {"submitted",
+       {{"name", "Engine <b>AO</b>"},
+        {"version", "7"},
+        {"link", "https://example.org/ao"},
+        {"time_ms", 2.5},
+        {"device", "their device"},
+        {"scored_by", {"gloam", "score", "images"}},
+        {"fit", {{"exponent", 1.5}, {"strength", 0.9}, {"rmse_to_truth", 0.05}, {"ssim", 0.97}, {"flip", 0.02}}}}}};
   Json other_walk = other;
   other_walk["scene"] = "walk";
   other_walk["kind"] = "sequence";
   other_walk["rmse_to_truth"] = 0.17;
   other_walk["submitted"]["fit"]["rmse_to_truth"] = 0.07;
   other_walk.erase("image");
-  document["results"] = {row("hbao+", "hall", "frame", 0.2, 1), row("hbao+", "walk", "sequence", 0.24, 1),
-                         row("gtao", "hall", "frame", 0.1, 1.5), row("gtao", "walk", "sequence", 0.14, 1.7),
-                         row("ssao", "walk", "sequence", 0.02, 0.5), other, other_walk};
+  document["results"] = {row("hbao+", "hall", "frame", 0.2, 1),
+                         row("hbao+", "walk", "sequence", 0.24, 1),
+                         row("gtao", "hall", "frame", 0.1, 1.5),
+                         row("gtao", "walk", "sequence", 0.14, 1.7),
+                         row("ssao", "walk", "sequence", 0.02, 0.5),
+                         other,
+                         other_walk};
   document["results"][1]["flicker"] = 0.03;
   document["results"][3]["flicker"] = 0.01;
   document["results"][0]["image"] = "images/hall/hbao+.png";
@@ -73,18 +106,18 @@ class Leaderboard : public BrowserTest {
     EXPECT_EQ(result.status, 1) << words << result.err;
     EXPECT_EQ(result.lines_of_error(), 1) << result.err;
     EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
-    EXPECT_FALSE(fs::exists(path("results/leaderboard.html"))) << words;
   }
 
   /// The row of a technique in a choice of the first effect of a board; null if there is none.
-  static Json row_of(const Json& document, const std::string& choice, const std::string& technique, const std::string& variant = "",
-                     const std::string& device = "", size_t board = 0) {
+  static Json row_of(const Json& document, const std::string& choice, const std::string& technique,
+                     const std::string& variant = "", const std::string& device = "", size_t board = 0) {
     const Json& table = document["boards"][board]["effects"][0];
     for (const Json& each : table["choices"]) {
       if (each["what"] != choice && each["name"] != choice) continue;
       for (const Json& found : each["rows"]) {
         const Json& entry = table["entries"][found["entry"].get<size_t>()];
-        if (entry["technique"] == technique && entry["variant"] == variant && (device.empty() || entry["device"] == device)) {
+        if (entry["technique"] == technique && entry["variant"] == variant &&
+            (device.empty() || entry["device"] == device)) {
           Json whole = found;
           whole["of"] = entry;
           return whole;
@@ -132,7 +165,8 @@ TEST_F(Leaderboard, SetsSubmittedTimesApartAndGivesTheBestFit) {
   EXPECT_EQ(other["of"]["device"], "their device");
   document["results"][5]["submitted"]["link"] = document["results"][6]["submitted"]["link"] = "javascript:alert(1)";
   write("a.json", document);
-  EXPECT_EQ(row_of(leaderboard().json(), "all", "Engine <b>AO</b>")["of"]["submitted"]["link"], "") << "could run a script";
+  EXPECT_EQ(row_of(leaderboard().json(), "all", "Engine <b>AO</b>")["of"]["submitted"]["link"], "")
+      << "could run a script";
 }
 
 TEST_F(Leaderboard, KeepsDevicesAndSetsApart) {
@@ -165,8 +199,11 @@ TEST_F(Leaderboard, CountsHardCasesThatAreHeld) {
   const auto finding = [](const char* technique, int number, bool held) {
     return Json{{"technique", technique}, {"case", number}, {"what", "x"}, {"held", held}};
   };
-  write("hard.json", {{"device", "a device"}, {"failed", 1},
-                      {"cases", {finding("gtao", 1, true), finding("gtao", 2, true), finding("gtao", 2, false), finding("hbao+", 1, true)}}});
+  write("hard.json",
+        {{"device", "a device"},
+         {"failed", 1},
+         {"cases",
+          {finding("gtao", 1, true), finding("gtao", 2, true), finding("gtao", 2, false), finding("hbao+", 1, true)}}});
   Json document = leaderboard().json();
   EXPECT_EQ(row_of(document, "all", "gtao")["of"]["held"], 1);
   EXPECT_EQ(row_of(document, "all", "gtao")["of"]["cases"], 2);
@@ -185,14 +222,20 @@ TEST_F(Leaderboard, GivesTheCommandOfEachRow) {
   const Json document = leaderboard().json();
   const Json& table = document["boards"][0]["effects"][0];
   std::vector<std::string> commands;
-  for (const Json& each : table["rows"]) commands.push_back(each["run"].is_null() ? "" : each["run"].get<std::string>());
-  const auto has = [&](const std::string& command) { return std::count(commands.begin(), commands.end(), command) == 1; };
-  EXPECT_TRUE(has("gloam run gtao test-1/frames/hall.exr -o gtao_hall.exr --preset medium --set radius=0.5 --set outside=border"))
+  for (const Json& each : table["rows"])
+    commands.push_back(each["run"].is_null() ? "" : each["run"].get<std::string>());
+  const auto has = [&](const std::string& command) {
+    return std::count(commands.begin(), commands.end(), command) == 1;
+  };
+  EXPECT_TRUE(has(
+      "gloam run gtao test-1/frames/hall.exr -o gtao_hall.exr --preset medium --set outside=border --set radius=0.5"))
       << fmt::format("{}", fmt::join(commands, "\n"));
-  EXPECT_TRUE(has("gloam run gtao test-1/frames/hall.exr -o gtao_hall.exr --preset medium --resolution half --set radius=0.5 "
-                  "--set outside=border"));
-  EXPECT_TRUE(has("gloam run ssao 'test-1/frames/walk.####.exr' -o 'ssao_walk.####.exr' --preset medium --set radius=0.5 "
-                  "--set outside=border"));
+  EXPECT_TRUE(has(
+      "gloam run gtao test-1/frames/hall.exr -o gtao_hall.exr --preset medium --resolution half --set outside=border "
+      "--set radius=0.5"));
+  EXPECT_TRUE(
+      has("gloam run ssao 'test-1/frames/walk.####.exr' -o 'ssao_walk.####.exr' --preset medium --set outside=border "
+          "--set radius=0.5"));
   EXPECT_EQ(document["files"][0]["measured_by"], "gloam bench --set 'my sets/test-1' -o out");
   EXPECT_EQ(table["rows"].back()["measured_by"], "gloam score images");
 }
@@ -224,6 +267,7 @@ TEST_F(Leaderboard, SaysWhatIsWrong) {
   document["scenes"][0]["radius"] = 0.7;
   write("b.json", document);
   says("b.json: 'hall' has the radius 0.7, and 0.5 in ");
+  EXPECT_FALSE(fs::exists(path("results/leaderboard.html")));
   fs::remove(path("results/b.json"));
   const Result over = leaderboard({"-o", path("results/a.json")});
   EXPECT_EQ(over.status, 2);
@@ -236,9 +280,11 @@ TEST_F(Leaderboard, SaysOnceWhereAFileHasNoPictures) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.lines_of_error(), 1) << result.err;
   EXPECT_NE(result.err.find("a.json: there is no images/ beside it"), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("leaderboard.html: from 1 file, 4 methods, 2 items, 0 pictures, "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("leaderboard.html: from 1 file, 4 methods, 2 items, 0 pictures, "), std::string::npos)
+      << result.out;
   const std::string page = slurp(path("results/leaderboard.html"));
-  for (const char* word : {" src=\"", " href=\"http", "@import", "url(http"}) EXPECT_EQ(page.find(word), std::string::npos) << word;
+  for (const char* word : {" src=\"", " href=\"http", "@import", "url(http"})
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
   EXPECT_EQ(leaderboard({"--pictures", "none"}).err, "");
 }
 
@@ -249,8 +295,10 @@ class LeaderboardInBrowser : public Leaderboard {
     if (!has_browser()) GTEST_SKIP() << "no chromium to look with (Debian: chromium)";
     Leaderboard::SetUp();
     fs::create_directories(path("results/a/images/hall"));
-    for (const auto& [name, value] : {std::pair("truth", 200), std::pair("gtao", 210), std::pair("hbao+", 100), std::pair("other", 90)})
-      write_png(path(std::string("results/a/images/hall/") + name + ".png"), cv::Mat(32, 48, CV_8UC2, cv::Scalar(value, 255)));
+    for (const auto& [name, value] :
+         {std::pair("truth", 200), std::pair("gtao", 210), std::pair("hbao+", 100), std::pair("other", 90)})
+      write_png(path(std::string("results/a/images/hall/") + name + ".png"),
+                cv::Mat(32, 48, CV_8UC2, cv::Scalar(value, 255)));
     write("a/bench.json", measurements());
   }
 
@@ -260,8 +308,10 @@ class LeaderboardInBrowser : public Leaderboard {
     const std::string begin =
         "const rows = () => [...document.querySelectorAll('#methods-table tbody tr')];"
         "const names = () => rows().map((row) => row.cells[0].textContent);"
-        "const head = (name) => [...document.querySelectorAll('#methods-table th button')].find((b) => b.textContent === name);"
-        "const cell = (row, name) => rows()[row].cells[[...document.querySelectorAll('#methods-table th')].indexOf(head(name).parentElement)];"
+        "const head = (name) => [...document.querySelectorAll('#methods-table th button')].find((b) => b.textContent "
+        "=== name);"
+        "const cell = (row, name) => rows()[row].cells[[...document.querySelectorAll('#methods-table "
+        "th')].indexOf(head(name).parentElement)];"
         "const shown = () => document.getElementById('viewer').dataset.shown;"
         "await until(() => rows().length > 0 && shown());";
     return in_browser(path("results/leaderboard.html"), begin, script, opening);
@@ -293,12 +343,13 @@ TEST_F(LeaderboardInBrowser, SortsByClickAndMarksTheBest) {
   EXPECT_EQ(result["time"], "2.50 ms stated");
   EXPECT_EQ(result["ssim"][0][0], "gtao medium");
   EXPECT_EQ(result["ssim"][1], "descending") << "most is best";
-  EXPECT_EQ(result["times"], Json({"hbao+ medium", "gtao medium", "Engine <b>AO</b> 7submitted", "ssao medium"}));
+  EXPECT_EQ(result["times"], Json({"hbao+ medium", "gtao medium", "ssao medium", "Engine <b>AO</b> 7submitted"}))
+      << "rows without a ratio last";
   EXPECT_EQ(result["times_down"][0], "gtao medium");
   EXPECT_EQ(result["markup"], 0);
   EXPECT_EQ(result["links"], Json({"https://example.org/ao"}));
   const std::string lead = result["lead"], remark = result["remark"];
-  EXPECT_EQ(std::count(lead.begin(), lead.end(), '.') - 0, 3) << "three sentences: " << lead;
+  EXPECT_EQ(std::count(lead.begin(), lead.end(), '.'), 3) << "three sentences: " << lead;
   EXPECT_NE(remark.find("1 row was not measured on all"), std::string::npos) << remark;
   EXPECT_NE(remark.find("1 row is hidden"), std::string::npos) << remark;
 }
