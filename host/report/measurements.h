@@ -162,10 +162,9 @@ struct Measurements {
   std::vector<std::string> command;  ///< as given; empty in older files
   SetFacts set;
   Number cores, rounds, rays;
-  std::vector<Scene> scenes;  ///< every scene that a row names is here
-  std::vector<Row> rows;      ///< measured by gloam
-  std::vector<Row>
-      submitted;  ///< of other methods (gloam score): errors, and no time that compares with those of `rows`
+  std::vector<Scene> scenes;   ///< every scene that a row names is here
+  std::vector<Row> rows;       ///< measured by gloam
+  std::vector<Row> submitted;  ///< of other methods (gloam score): errors, and no time that compares with those of `rows`
   std::vector<Growth> growth;
   std::vector<Skipped> skipped;
   std::vector<PaperFigure> paper;
