@@ -192,6 +192,7 @@ int run_command(int argc, char** argv) {
   add_pick(app);
   add_auto(app);
   add_report(app);
+  add_leaderboard(app);
   add_view(app);
   add_set(app);
   add_stress(app);

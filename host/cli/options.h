@@ -89,6 +89,7 @@ void add_score(CLI::App& app);
 void add_pick(CLI::App& app);
 void add_auto(CLI::App& app);
 void add_report(CLI::App& app);
+void add_leaderboard(CLI::App& app);
 void add_view(CLI::App& app);
 void add_set(CLI::App& app);
 void add_stress(CLI::App& app);

@@ -56,6 +56,7 @@ Row row_of(const Object& o) {
   row.variant = o.text("variant");
   row.effect = effect_of(o);
   row.scene = with_effect(o.needed_text("scene"), row.effect);
+  row.kind = o.text("kind");
   row.reads = reads_of(o);
   if (o.json().value("submitted", Json()).is_object())
     row.submitted = o.json()["submitted"];
@@ -89,6 +90,7 @@ Row row_of(const Object& o) {
   row.samples = o.number("samples");
   row.resolution = o.text("resolution");
   row.math = o.text("math");
+  row.real = o.text("real");
   row.storage = o.text("storage");
   row.settings = o.object("settings").json();
   row.image = o.text("image");
@@ -100,6 +102,7 @@ Scene scene_of(const Object& o) {
   scene.title = o.needed_text("name");
   scene.effect = effect_of(o);
   scene.name = with_effect(scene.title, scene.effect);
+  scene.kind = o.text("kind");
   scene.scene_class = o.text("class");
   if (scene.scene_class != "own") scene.scene_class = with_effect(scene.scene_class, scene.effect);
   std::tie(scene.width, scene.height) = o.size("size");
@@ -178,6 +181,15 @@ std::optional<Sequence> sequence_of(const Object& o) {
   return sequence;
 }
 
+std::map<std::string, HeldCases> stability_of(const Object& o) {
+  std::map<std::string, HeldCases> stability;
+  for (const auto& [technique, counts] : o.json().items()) {
+    const Object each = o.needed_object(technique.c_str());
+    stability[technique] = {size_t(each.needed_number("held")), size_t(each.needed_number("cases"))};
+  }
+  return stability;
+}
+
 SetFacts set_of(const Object& o) { return {o.text("name"), o.text("part"), o.text("hash"), o.number("seed")}; }
 
 Measurements measurements_of(const Object& o) {
@@ -212,6 +224,7 @@ Measurements measurements_of(const Object& o) {
   for (const Object& each : o.list("scales")) m.scales.push_back(scale_change_of(each));
   for (const Object& each : o.list("planes")) m.planes.push_back(plane_reading_of(each));
   m.sequence = sequence_of(o.object("sequence"));
+  m.stability = stability_of(o.object("stability"));
   return m;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -54,6 +55,7 @@ bool reads_one_layer(const Reads& reads);
 struct Row {
   std::string technique, preset, variant, scene;
   std::string effect;  ///< of its scene
+  std::string kind;    ///< of its item of a set: "frame", "sequence", "eyes", ...; empty without a set
   Reads reads;
   Milliseconds ms;
   Number rmse_to_truth, bias;
@@ -67,7 +69,7 @@ struct Row {
   std::vector<Share> spent_on;
   std::vector<Pass> passes;
   Number width, height, lanes, samples;
-  std::string resolution, math, storage;
+  std::string resolution, math, real, storage;
   Json settings = Json::object();
   std::string image;  ///< path below the folder; empty: none
   size_t source = 0;  ///< index of its file, of several (joined.h)
@@ -78,6 +80,7 @@ struct Row {
 struct Scene {
   std::string name, scene_class;
   std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"
+  std::string kind;           ///< of its item of a set; empty without a set
   Number width, height, radius, radius_pixels, truth_noise;
   std::string truth_image;  ///< path below the folder; empty: none
   std::string base;         ///< what there is without a technique: "white"; empty in older files
@@ -148,6 +151,11 @@ struct SetFacts {
   Number seed;
 };
 
+/// How many of the hard cases that concern a technique it holds (gloam stress).
+struct HeldCases {
+  size_t held = 0, cases = 0;
+};
+
 struct Measurements {
   std::string device, cpu, driver, date, commit;
   std::string gloam;                 ///< the version; empty in older files
@@ -165,6 +173,7 @@ struct Measurements {
   std::vector<ScaleChange> scales;
   std::vector<PlaneReading> planes;
   std::optional<Sequence> sequence;
+  std::map<std::string, HeldCases> stability;  ///< by technique, where the file says it
 };
 
 /// Reads DIR/bench.json, of this version or an older one: fields that an older version lacks are empty, and a technique's inputs

@@ -2,104 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
-#include <map>
-#include <opencv2/imgproc.hpp>
-
-#include "base/files.h"
-#include "gloam/error.h"
 #include "page/html.h"
-#include "picture/picture.h"
 #include "report/embedded.h"
-#include "report/pictures.h"
+#include "report/embedded_pictures.h"
 #include "report/submitted.h"
 
 namespace gloam::report {
 namespace {
 
-namespace fs = std::filesystem;
-
-// --- Pictures
-
-/// Averages over areas; transparent pixels do not count.
-cv::Mat reduced(const cv::Mat& grey_alpha, int width) {
-  const int height = std::max(1, cvRound(double(grey_alpha.rows) * width / grey_alpha.cols));
-  std::vector<cv::Mat> planes;
-  cv::Mat in;
-  grey_alpha.convertTo(in, CV_32FC2);
-  cv::split(in, planes);
-  planes[0] = planes[0].mul(planes[1]);
-  for (cv::Mat& plane : planes) cv::resize(plane, plane, cv::Size(width, height), 0, 0, cv::INTER_AREA);
-  planes[0] /= cv::max(planes[1], 1e-6f);
-  cv::Mat merged, out;
-  cv::merge(planes, merged);
-  merged.convertTo(out, CV_8UC2);
-  return out;
-}
-
-/// A picture below the folder, at most `width` wide, as grey and alpha. Throws Error.
-cv::Mat picture(const fs::path& folder, const std::string& name, int width) {
-  const cv::Mat stored = stored_picture(folder, name);
-  return width > 0 && stored.cols > width ? reduced(stored, width) : stored;
-}
-
-/// Every picture once, in order of first use. The pictures of a scene share their alpha, the frame's foreground, which would take
-/// a fifth of every file: it is stored once.
-class Pictures {
- public:
-  void add(const std::string& name) {
-    if (name.empty() || index_.count(name)) return;
-    index_[name] = -1;
-    names_.push_back(name);
-  }
-
-  void embed(const fs::path& folder, const PageOptions& options, Page& page) {
-    for (size_t i = 0; i < names_.size(); ++i) {
-      try {
-        put(picture(folder, names_[i], options.picture_width), page.pictures);
-        index_[names_[i]] = page.pictures++;
-      } catch (const Error& error) {
-        page.notes.push_back(fmt::format("{}; the report goes without this picture", error.what()));
-      }
-      if (options.progress) options.progress(int(i + 1), int(names_.size()));
-    }
-  }
-
-  /// Index of a picture; null if there is none.
-  Json index(const std::string& name) const {
-    const auto found = index_.find(name);
-    return found == index_.end() || found->second < 0 ? Json(nullptr) : Json(found->second);
-  }
-  const std::string& html() const { return html_; }
-
- private:
-  /// Stores a picture as text that the browser ignores until the picture is asked for: 200 of them cost nothing at loading.
-  void put_text(const std::string& attributes, const std::string& png) {
-    html_ += fmt::format("<script type=\"text/plain\" {}>{}</script>\n", attributes, page::base64(png));
-  }
-
-  void put(const cv::Mat& grey_alpha, int number) {
-    cv::Mat grey, alpha;
-    cv::extractChannel(grey_alpha, grey, 0);
-    cv::extractChannel(grey_alpha, alpha, 1);
-    put_text(fmt::format("id=\"picture-{}\" data-mask=\"{}\"", number, mask(alpha)), encode_png(grey));
-  }
-
-  /// The number of a mask: a black picture with this alpha.
-  size_t mask(const cv::Mat& alpha) {
-    cv::Mat black = cv::Mat::zeros(alpha.size(), CV_8UC2);
-    cv::insertChannel(alpha, black, 1);
-    const std::string png = encode_png(black);
-    const auto [found, is_new] = masks_.emplace(png, masks_.size());
-    if (is_new) put_text(fmt::format("id=\"mask-{}\"", found->second), png);
-    return found->second;
-  }
-
-  std::map<std::string, int> index_;
-  std::map<std::string, size_t> masks_;
-  std::vector<std::string> names_;
-  std::string html_;
+/// The pictures of one bench.json.
+struct PicturesOfFolder {
+  const EmbeddedPictures& all;
+  const std::filesystem::path& folder;
+  Json index(const std::string& name) const { return all.index(folder, name); }
 };
 
 // --- Data for the page, fronts included: the page computes none.
@@ -114,7 +29,7 @@ Json json(const Ladder& l) {
           {"t4_noise", json(l.t4_noise)}, {"t5", json(l.t5)}};
 }
 
-Json json(const Row& row, const Pictures& pictures) {
+Json json(const Row& row, const PicturesOfFolder& pictures) {
   Json spent_on = Json::array(), passes = Json::array();
   for (const Share& s : row.spent_on) spent_on.push_back({{"what", s.what}, {"share", s.share}});
   for (const Pass& p : row.passes) passes.push_back({{"name", p.name}, {"ms", json(p.ms)}});
@@ -150,7 +65,7 @@ Json json(const Row& row, const Pictures& pictures) {
           {"picture", pictures.index(row.image)}};
 }
 
-Json json(const Scene& scene, const std::vector<Row>& rows, const Pictures& pictures) {
+Json json(const Scene& scene, const std::vector<Row>& rows, const PicturesOfFolder& pictures) {
   const SceneFront front = front_of_scene(rows, scene.name);
   return {{"name", scene.name},
           {"title", scene.title},
@@ -217,7 +132,7 @@ Json json(const Sequence& sequence) {
           {"rows", rows}};
 }
 
-Json data_of(const Measurements& m, const Pictures& pictures) {
+Json data_of(const Measurements& m, const PicturesOfFolder& pictures) {
   Json data = {{"device", m.device}, {"cpu", m.cpu},           {"driver", m.driver},       {"date", m.date},
                {"commit", m.commit}, {"cores", json(m.cores)}, {"rounds", json(m.rounds)}, {"rays", json(m.rays)}};
   for (const char* list : {"scenes", "classes", "rows", "growth", "skipped", "paper"}) data[list] = Json::array();
@@ -235,18 +150,21 @@ Json data_of(const Measurements& m, const Pictures& pictures) {
 
 }  // namespace
 
-Page make_page(const Measurements& measurements, const fs::path& folder, const PageOptions& options) {
+Page make_page(const Measurements& measurements, const std::filesystem::path& folder, const PageOptions& options) {
   Page made;
-  Pictures pictures;
-  for (const Scene& scene : measurements.scenes) pictures.add(scene.truth_image);
+  EmbeddedPictures embedded;
+  for (const Scene& scene : measurements.scenes) embedded.add(folder, scene.truth_image);
   for (const auto* rows : {&measurements.rows, &measurements.submitted}) {
-    for (const Row& row : *rows) pictures.add(row.image);
+    for (const Row& row : *rows) embedded.add(folder, row.image);
   }
-  pictures.embed(folder, options, made);
+  embedded.embed(options.picture_width, options.progress);
+  made.pictures = embedded.count();
+  made.notes = embedded.notes();
+  const PicturesOfFolder pictures{embedded, folder};
   page::Parts parts = page::shared_parts();
   parts.insert(embedded_files().begin(), embedded_files().end());
   parts["data"] = page::script_text(data_of(measurements, pictures));
-  parts["pictures"] = pictures.html();
+  parts["pictures"] = embedded.html();
   made.html = page::filled(parts.at("report.html"), parts);
   return made;
 }

@@ -68,6 +68,8 @@ SubmittedFacts facts_of(const Json& submitted) {
   facts.stated_ms = number_at(submitted, "time_ms");
   const Json &fit = at(submitted, "fit"), &whole = at(submitted, "whole");
   facts.fit_rmse = number_at(fit, "rmse_to_truth");
+  facts.fit_ssim = number_at(fit, "ssim");
+  facts.fit_flip = number_at(fit, "flip");
   facts.fit_exponent = number_at(fit, "exponent");
   facts.fit_strength = number_at(fit, "strength");
   facts.fit_scale = number_at(fit, "scale");

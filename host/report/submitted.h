@@ -11,7 +11,8 @@ namespace gloam::report {
 struct SubmittedFacts {
   std::string version, link, device, authors,
       convention;  ///< link: http or https; convention: what differs from plain, in words
-  Number stated_ms, fit_rmse, fit_exponent, fit_strength, fit_scale, whole_ms, whole_gloam_ms, whole_ratio;
+  Number stated_ms, fit_rmse, fit_ssim, fit_flip, fit_exponent, fit_strength, fit_scale, whole_ms, whole_gloam_ms,
+      whole_ratio;
 };
 
 SubmittedFacts facts_of(const Json& submitted);

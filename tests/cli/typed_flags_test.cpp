@@ -148,8 +148,9 @@ TEST_P(TypedFlags, LeaveHelpToThoseWhoAskForIt) {
   }
 }
 
-const char* const commands[] = {"info",  "run",  "compare", "plan",   "list", "capture", "reference",
-                                "bench", "score", "pick", "auto",    "report", "view", "set", "stress",  "doctor"};
+const char* const commands[] = {"info",        "run",   "compare", "plan",   "list",  "capture",
+                                "reference",   "bench", "score",   "pick",   "auto",  "report",
+                                "leaderboard", "set",   "view",    "stress", "doctor"};
 
 INSTANTIATE_TEST_SUITE_P(Commands, TypedFlags, ::testing::ValuesIn(commands),
                          [](const auto& info) { return std::string(info.param); });

@@ -133,6 +133,9 @@ PAGES = {
                 'Error: camera: fx is nan' '^1004 ' 'frame | radius: none is given'; do
                 grep -- "$text" .log >/dev/null || { echo "nothing printed '$text'"; exit 1; }; done
             python3 "$SNIPPETS/figures.py" docs/python.md"""),
+    "docs/leaderboard.md": Page(
+        prepare=f"gloam bench -o results/mine {SMALL}",
+        check="[ -s results/leaderboard.html ] && [ -s board.html ] && [ -s table.json ]"),
     "docs/report.md": Page(
         prepare=FRAME + f"gloam bench -o out/mine {SMALL.replace('plane', 'slab')}",
         instead={"bench -o out/bench": (f"bench -o out/bench {SMALL}", MINUTES)},

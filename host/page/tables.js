@@ -1,24 +1,26 @@
 // Tables that sort.
 
-/// A table whose headings sort. A column: {name, value(row), text?(value, row), cell?(row), number?, words?, help?}. Rows without
-/// a value come last in either order. `options.pick(row)`, if given, is called for a click on a row.
+/// A table whose headings sort. A column: {name, value(row), text?(value, row), cell?(row), number?, words?, help?, most?}; `most`: most
+/// is best, so a first click sorts downwards. Rows without a value come last in either order. The order stays while a place gets other
+/// rows or columns: `place.sorting` = {column (its name), down}. `options.pick(row)`, if given, is called for a click on a row.
 function sortedTable(place, columns, rows, options = {}) {
-  const sorting = place.sorting || (place.sorting = {column: -1, down: false});
+  const sorting = place.sorting || (place.sorting = {column: null, down: false});
+  const sorted = () => columns.find((column) => column.name === sorting.column);
   const compare = (a, b) => {
-    const value = columns[sorting.column].value, x = value(a), y = value(b);
+    const value = sorted().value, x = value(a), y = value(b);
     if (!is(x) || !is(y)) return is(x) - is(y) === 0 ? 0 : is(x) ? -1 : 1;
     const order = typeof x === 'number' && typeof y === 'number' ? x - y : String(x).localeCompare(String(y));
     return sorting.down ? -order : order;
   };
   const body = element('tbody');
   const heads = columns.map(
-      (column, index) => element(
+      (column) => element(
           'th', {scope: 'col', class: column.number ? 'number' : null, title: column.help},
-          element('button', {type: 'button', onclick: () => sortBy(index)}, column.name)));
+          element('button', {type: 'button', onclick: () => sortBy(column)}, column.name)));
 
-  function sortBy(index) {
-    sorting.down = sorting.column === index ? !sorting.down : false;
-    sorting.column = index;
+  function sortBy(column) {
+    sorting.down = sorting.column === column.name ? !sorting.down : Boolean(column.most);
+    sorting.column = column.name;
     fill();
   }
   function cellOf(column, row) {
@@ -32,7 +34,7 @@ function sortedTable(place, columns, rows, options = {}) {
       made.className = 'can-pick' + (options.isPicked(row) ? ' is-picked' : '');
       made.tabIndex = 0;
       made.addEventListener('click', () => options.pick(row));
-      made.addEventListener('keydown', (event) => event.key === 'Enter' && options.pick(row));
+      made.addEventListener('keydown', (event) => event.key === 'Enter' && event.target === made && options.pick(row));
     }
     return made;
   }
@@ -40,10 +42,10 @@ function sortedTable(place, columns, rows, options = {}) {
     heads.forEach(
         (head, index) => head.setAttribute(
             'aria-sort',
-            index !== sorting.column ? 'none' :
+            columns[index].name !== sorting.column ? 'none' :
                 sorting.down         ? 'descending' :
                                        'ascending'));
-    body.replaceChildren(...(sorting.column < 0 ? rows : [...rows].sort(compare)).map(rowOf));
+    body.replaceChildren(...(!sorted() ? rows : [...rows].sort(compare)).map(rowOf));
   }
   fill();
   const scrolled = place.querySelector('.scroll');
