@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 
 OUT = object()  # stands for the output's path among the arguments of `made`
 
@@ -52,6 +53,30 @@ class Lab:
         if not file.exists():
             self._keep(file, self._run([str(c) for c in command], environment))
         return file.read_text()
+
+    def program(self, name, *arguments):
+        """What a Python program of bench/ prints, kept. `arguments` may name folders of `folder_for`, in which it keeps its own files."""
+        return self.printed(sys.executable, f"bench/{name}", *arguments)
+
+    def run_again(self, *command):
+        """Runs another program of the project, whatever it has made before."""
+        return self._run([str(c) for c in command])
+
+    def bench(self, name, *arguments):
+        """The folder that `gloam bench ARGUMENTS` fills. Interrupted, it goes on with the frames and truths that are there."""
+        place = self._place("bench", (name, *arguments)).with_name(f"bench-{name}")
+        mark, words = place / "done", "\n".join(map(str, arguments)) + "\n"
+        if not mark.exists() or mark.read_text() != words:
+            place.mkdir(parents=True, exist_ok=True)
+            self._run([self.gloam, "bench", "-o", str(place), *map(str, arguments), "-q"])
+            mark.write_text(words)
+        return place
+
+    def paper(self, name, *arguments):
+        """Figures of `gloam bench --paper`: (figure, row, column) to value, and times: (table, row, column) to the row."""
+        document = json.loads((self.bench(name, "--paper", name, *arguments) / "bench.json").read_text())
+        return ({(f["figure"], f["row"], f["column"]): f["value"] for f in document["facts"]},
+                {(t["table"], t["row"], t["column"]): t for t in document["paper"]})
 
     def unused(self, name):
         """A path for what a command has to write and no table reads."""
