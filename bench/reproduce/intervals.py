@@ -24,4 +24,6 @@ EXACT = Interval("exact", 0, 0, "a count, and what is printed with few digits, f
 SENSITIVE = Interval("sensitive", 1, 0.05, "a share of few pixels, a flicker and a difference of two errors magnify single pixels")
 RATIO = Interval("ratio of times", 1, 0.35, "a ratio of times of one process holds for other machines, but not exactly, and other work disturbs it", True)
 MACHINE = Interval("time of a machine", 1, 3, "milliseconds and seconds hold for one machine", True)
-INTERVALS = (ERROR, EXACT, SENSITIVE, RATIO, MACHINE)
+CHANGING = Interval("of a choice by time", 1, 0.25, "gloam chooses by times that it measures, so another choice may come out", True)
+MEMORY = Interval("memory", 0, 0.15, "what is resident depends on the allocator, on the device's driver and on what overlaps")
+INTERVALS = (ERROR, EXACT, SENSITIVE, RATIO, MACHINE, CHANGING, MEMORY)

@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 OUT = object()  # stands for the output's path among the arguments of `made`
 
@@ -58,6 +59,26 @@ class Lab:
         """What a Python program of bench/ prints, kept. `arguments` may name folders of `folder_for`, in which it keeps its own files."""
         return self.printed(sys.executable, f"bench/{name}", *arguments)
 
+    def usage(self, *arguments):
+        """What `gloam ARGUMENTS` takes: seconds of the clock and of the processors, and the most that was resident, MiB. Kept."""
+        file = self._place("usage.json", arguments).with_suffix(".json")
+        if not file.exists():
+            self.tell(" ".join(map(str, ("gloam", *arguments))))
+            begun = time.monotonic()
+            process = subprocess.Popen([self.gloam, *map(str, arguments), "-q"], cwd=self.root, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            said = process.stderr.read().decode()
+            _, status, used = os.wait4(process.pid, 0)
+            if status:
+                raise Failed(f"gloam {' '.join(map(str, arguments))}: {(said.strip().splitlines() or ['failed'])[-1]}")
+            self._keep(file, json.dumps({"wall": time.monotonic() - begun, "processors": used.ru_utime + used.ru_stime, "peak": used.ru_maxrss / 1024}))
+        return json.loads(file.read_text())
+
+    def text(self, name, text):
+        """The path of a small file that a command reads."""
+        path = self.folder_for("texts") / name
+        path.write_text(text)
+        return str(path)
+
     def run_again(self, *command):
         """Runs another program of the project, whatever it has made before."""
         return self._run([str(c) for c in command])
@@ -95,6 +116,9 @@ class Lab:
 
     def frame(self, scene, size, *flags):
         return self.made("frame.exr", "capture", scene, "-o", OUT, "--size", size, *flags)
+
+    def shot(self, scene, size, *flags):
+        return self.made("frame.####.exr", "capture", scene, "-o", OUT, "--size", size, *flags)
 
     def truth(self, kind, frame, samples, *flags):
         name = os.path.basename(frame).replace("frame", "truth")

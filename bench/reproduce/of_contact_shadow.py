@@ -1,9 +1,7 @@
 """kernels/contact_shadow/README.md"""
-import json
-
 from catalogue import table
-from intervals import EXACT, SENSITIVE
-from recipes import effect_errors, effect_files
+from intervals import SENSITIVE
+from recipes import computed_share, effect_errors, effect_files
 
 PAGE = "kernels/contact_shadow/README.md"
 SCENES = ("gallery", "courtyard", "lounge")
@@ -23,12 +21,7 @@ def missed(lab, frame, preset):
     return 100 * float(((whole["contact"] < 0.5) & (masked["contact"] > 0.5) & surfaces).sum() / surfaces.sum())
 
 
-def wanted(lab, frame):
-    import gloam
-    return 100 * float(gloam.read(lab.result("contact-mask", frame, "--length", 0.5))["mask"].mean())
-
-
 @table(PAGE, "contact-mask", minutes=1, within=SENSITIVE)
 def mask(lab):
     frames = [str(effect_files(lab, "contact", "contact", scene)[0]) for scene in SCENES]
-    return [[wanted(lab, frame), missed(lab, frame, "medium"), missed(lab, frame, "ultra")] for frame in frames]
+    return [[100 * computed_share(lab, "contact-shadow", frame, "--length", 0.5, "--only", "contact-mask"), missed(lab, frame, "medium"), missed(lab, frame, "ultra")] for frame in frames]

@@ -80,3 +80,21 @@ def where_captured(lab, name, make):
     except NotHere:
         return None
     return make(path)
+
+
+def is_called(name, wanted):
+    """Papers' scenes are called "gallery for Pica": the stand-in is enough. A star stands for any end."""
+    return name == wanted or name.startswith(f"{wanted} for ") or wanted.endswith("*") and name.startswith(wanted[:-1])
+
+
+def named(figures, *wanted):
+    """The one figure of Lab.paper whose names are these."""
+    found = [value for names, value in figures.items() if all(map(is_called, names, wanted))]
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} figures of the paper are called {', '.join(wanted)}")
+    return found[0]
+
+
+def computed_share(lab, technique, frame, *flags):
+    """Share of the pixels that a run with a mask estimates."""
+    return 1 - lab.figures("run", technique, frame, "-o", lab.unused("result.exr"), *flags)["skipped_share"]
