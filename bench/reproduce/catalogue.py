@@ -4,10 +4,10 @@ import importlib
 import pathlib
 import typing
 
-from intervals import ERROR, Interval
+from intervals import ERROR, EXACT, Interval
 from markdown import slug
 
-ENTRIES, RECORDS = {}, {}
+ENTRIES, RECORDS, NO_FIGURES = {}, {}, {}
 
 
 class NotHere(Exception):
@@ -27,7 +27,7 @@ class Entry:
     within: typing.Any = ERROR  # an Interval, or a function of row and column (both from 0, of cells without labels)
     file: str = ""  # of what is not a table
     shares: str = ""  # entries with the same word are made by one command, which takes `minutes` once
-    pages: tuple = ()  # further pages that measurements are shown in
+    pages: tuple = ()  # of measurements: the page that is written from them, and flags of `gloam report`
 
     def interval(self, row, column):
         return self.within if isinstance(self.within, Interval) else self.within(row, column)
@@ -71,10 +71,10 @@ def picture(page, file, *, minutes, shares=""):
     return register
 
 
-def page_of_text(page, *, minutes, shares=""):
-    """Of a function that returns a page's whole text, which a program writes."""
+def page_of_text(page, *, minutes, within=EXACT, shares=""):
+    """Of a function that returns a page's whole text, which a program writes. Other numbers are compared within `within`."""
     def register(make):
-        _add(Entry("page", f"{stem_of(page)}/page", page, minutes, make, file=page, shares=shares))
+        _add(Entry("page", f"{stem_of(page)}/page", page, minutes, make, within=within, file=page, shares=shares))
         return make
     return register
 
@@ -90,6 +90,11 @@ def measurements(page, file, *, minutes, pages=()):
 def record(page, heading, number=1, *, why):
     """A table under a heading, or a picture by its file, that cannot be made again."""
     RECORDS[page, heading, number] = Record(page, heading, number, why)
+
+
+def no_figures(page, heading, number=1, *, why):
+    """A table whose numbers nobody measured."""
+    NO_FIGURES[page, heading, number] = why
 
 
 def load():

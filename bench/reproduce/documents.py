@@ -62,7 +62,19 @@ def merged(documents):
 
 
 def write(entry, made, kept, root, lab):
-    """The document, and the pages that are written from it and those beside it."""
+    """The document, and the page that is written from it and those beside it."""
+    page, flags = entry.pages
+    images, new = made.parent / "images", made.parent / "page.md"
     shutil.copy(made, kept)
-    for page, command in entry.pages:
-        lab.printed_again(*command(root))
+    beside = kept.parent / "images"  # where the document names its pictures, for as long as the page is made
+    if images.is_dir():
+        shutil.copytree(images, beside, dirs_exist_ok=True)
+    try:
+        sources = sorted(str(file.relative_to(root)) for file in kept.parent.glob("*.json"))
+        lab.run_again(lab.gloam, "report", *sources, "--markdown", new, *flags)
+    finally:
+        shutil.rmtree(beside, ignore_errors=True)
+    text, old = new.read_text(), (pathlib.Path(root) / page).read_text()
+    if text.count("![") < old.count("!["):
+        raise ValueError(f"{page} shows scenes whose pictures were not made; make all of the page before --write: script/reproduce {page} --write")
+    (pathlib.Path(root) / page).write_text(text.replace(str(new), page))

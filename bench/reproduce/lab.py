@@ -93,6 +93,16 @@ class Lab:
             mark.write_text(words)
         return place
 
+    def stress(self, technique, *arguments):
+        """The document of `gloam stress`, which ends with 1 where a figure is beyond its bound."""
+        file = self._place("stress.json", (technique, *arguments)).with_suffix(".json")
+        if not file.exists():
+            part = file.with_suffix(".part")
+            file.parent.mkdir(parents=True, exist_ok=True)
+            self._run([self.gloam, "stress", technique, *map(str, arguments), "--json", str(part)], fine=(0, 1))
+            part.replace(file)
+        return file
+
     def paper(self, name, *arguments):
         """Figures of `gloam bench --paper`: (figure, row, column) to value, and times: (table, row, column) to the row."""
         document = json.loads((self.bench(name, "--paper", name, *arguments) / "bench.json").read_text())
@@ -144,11 +154,11 @@ class Lab:
         part.write_text(text)
         part.replace(file)
 
-    def _run(self, command, environment=None):
+    def _run(self, command, environment=None, fine=(0,)):
         self.tell(" ".join(os.path.basename(command[0]) if i == 0 else word for i, word in enumerate(command)))
         done = subprocess.run(command, cwd=self.root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, **(environment or {})})
-        if done.returncode != 0:
+        if done.returncode not in fine:
             lines = (done.stderr or done.stdout).strip().splitlines()
             raise Failed(f"{' '.join(command)}: {lines[-1] if lines else f'exit status {done.returncode}'}")
         return done.stdout

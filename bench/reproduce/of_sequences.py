@@ -65,4 +65,4 @@ def time(lab):
     return [*rows, [1000 * floor / FRAMES, written / 1e6], [1000 * of_one, pathlib.Path(alone).stat().st_size / 1e6]]
 
 
-record(PAGE, "images/memory_of_a_shot.svg", why="drawn from the samples of 10 000 frames that a test of script/test --long takes in an hour")
+record(PAGE, "docs/images/memory_of_a_shot.svg", why="drawn from the samples of 10 000 frames that a test of script/test --long takes in an hour")
