@@ -10,3 +10,5 @@ record("docs/view.md", "docs/images/view.png", why="a browser's window, with a p
 no_figures("docs/portability.md", "What a device needs", why="requirements")
 no_figures("docs/reference.md", "Truth: what `gloam reference` traces", why="definitions")
 no_figures("kernels/temporal/README.md", "--temporal", why="defaults of parameters")
+no_figures("docs/reproduce.md", "Intervals", why="what these intervals are")
+record("kernels/ssr/README.md", "Sequences", why="the camera's path and the pixels that count as shown were not kept")

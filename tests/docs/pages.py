@@ -147,6 +147,9 @@ PAGES = {
         prepare="gloam capture gallery -o sky.exr --size 64x32 --planes color",
         instead={"--samples 1024": ("--samples 32", MINUTES), "--size 960x540": ("--size 160x90", MINUTES)},
         check="for file in bounces specular indirect light contact; do [ -s $file.exr ]; done"),
+    "docs/reproduce.md": Page(
+        not_run={"script/reproduce stereo/indirect-light": "takes 4 minutes", "script/reproduce  ": "takes hours"},
+        check="grep 'techniques/page: .* are within' .log >/dev/null"),
     "docs/stereo.md": Page(
         check="[ -s inconsistency.png ] && [ -s both.png ]"),
     "docs/view.md": Page(check="[ -s frame.view.html ] && [ -s look.html ]"),
