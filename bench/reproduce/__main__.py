@@ -1,6 +1,7 @@
 """Makes tables and pictures of the documentation again, and says which figures are outside their stated intervals."""
 import argparse
 import difflib
+import os
 import pathlib
 import shutil
 import subprocess
@@ -74,6 +75,12 @@ def tell(text):
         print(f"\r\033[K{text[:columns]}", end="", file=sys.stderr, flush=True)
 
 
+def processors():
+    """Seconds that commands have taken so far, of all cores together."""
+    times = os.times()
+    return times.children_user + times.children_system
+
+
 def report(outcome):
     name = outcome.entry.name
     tell("")
@@ -106,7 +113,7 @@ def main():
           flush=True)
     outside, failed = 0, []
     for entry in entries:
-        begun = time.monotonic()
+        begun, used = time.monotonic(), processors()
         try:
             outcome = check(entry, ROOT, lab, options.times)
         except catalogue.NotHere as why:
@@ -121,7 +128,7 @@ def main():
         keep(outcome, options.folder, options.write)
         outside += len(outcome.outside)
         if (seconds := time.monotonic() - begun) > 1:
-            print(f"  took {seconds:.0f} s", flush=True)
+            print(f"  took {seconds:.0f} s, and {processors() - used:.0f} s of processors", flush=True)
     if failed or outside:
         fail(f"{outside} figures are outside their intervals" + (f"; failed: {', '.join(failed)}" if failed else ""))
 

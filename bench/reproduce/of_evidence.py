@@ -87,3 +87,22 @@ def environment(lab):
     rows = [[*cells[:2], *cells[3:]] for cells in environment_errors(lab, "light", "320x180", 64, SCENES)]  # without bent normals at low
     mean = mean_of(rows)
     return [*([sun for sun, _ in cells] for cells in [*rows, mean]), [sky for _, sky in mean]]
+
+
+CROP = (330, 270)
+CROPS = (("gallery", (330, 330)), ("lounge", (700, 480)), ("courtyard", (640, 560)))  # left and top
+
+
+@picture(PAGE, "docs/images/evidence_crops.png", minutes=2)
+def crops(lab):
+    import cv2
+    import gloam
+    import numpy
+    rows = []
+    for scene, (x, y) in CROPS:
+        frame = lab.frame(scene, "1920x1080", "--planes", "normal")
+        images = [lab.result("gtao", frame, "--preset", "medium"), lab.result("evidence", frame, "--preset", "medium"), lab.truth("ao", frame, 64)]
+        rows.append(numpy.hstack([gloam.read(image)["ao"][y:y + CROP[1], x:x + CROP[0]] for image in images]))
+    path = lab.folder_for("crops") / "evidence_crops.png"
+    cv2.imwrite(str(path), numpy.clip(numpy.vstack(rows) * 255 + 0.5, 0, 255).astype("uint8"))
+    return path
