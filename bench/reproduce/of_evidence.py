@@ -104,5 +104,5 @@ def crops(lab):
         images = [lab.result("gtao", frame, "--preset", "medium"), lab.result("evidence", frame, "--preset", "medium"), lab.truth("ao", frame, 64)]
         rows.append(numpy.hstack([gloam.read(image)["ao"][y:y + CROP[1], x:x + CROP[0]] for image in images]))
     path = lab.folder_for("crops") / "evidence_crops.png"
-    cv2.imwrite(str(path), numpy.clip(numpy.vstack(rows) * 255 + 0.5, 0, 255).astype("uint8"))
+    cv2.imwrite(str(path), numpy.clip(numpy.vstack(rows) * 255 + 0.5, 0, 255).astype("uint8"), [cv2.IMWRITE_PNG_COMPRESSION, 9])
     return path
