@@ -1,6 +1,6 @@
 """docs/stereo.md"""
 from catalogue import table
-from intervals import ERROR, RATIO, SENSITIVE
+from intervals import RATIO
 from recipes import of_each_view, pair, sets, where_captured
 
 PAGE = "docs/stereo.md"
