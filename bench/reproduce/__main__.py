@@ -1,6 +1,7 @@
 """Makes tables and pictures of the documentation again, and says which figures are outside their stated intervals."""
 import argparse
 import difflib
+import os
 import pathlib
 import shutil
 import subprocess
@@ -28,6 +29,7 @@ def arguments():
     parser.add_argument("names", nargs="*", metavar="FIGURE|TABLE|PAGE", help="default: all")
     parser.add_argument("--list", action="store_true", help="names, pages and minutes of what can be made again")
     parser.add_argument("--write", action="store_true", help="put the new figures into the pages")
+    parser.add_argument("--times", action="store_true", help="with --write: times and ratios of times too, on an idle machine")
     parser.add_argument("--again", action="store_true", help="forget what earlier runs of this build made")
     parser.add_argument("--folder", default=str(ROOT / "out" / "reproduce"), help="what is made stays there; default: out/reproduce")
     parser.add_argument("--gloam", default=str(ROOT / "build" / "gloam"), help="default: build/gloam")
@@ -57,13 +59,26 @@ def listed(entries):
     width = max(len(e.name) for e in entries)
     for e in entries:
         print(f"{e.name:{width}}  {time_words(e.minutes):>7}  {e.page}")
-    print(f"{len(entries)} in all, {time_words(sum(e.minutes for e in entries))} on two idle cores")
+    print(f"{len(entries)} in all, {time_words(catalogue.minutes_of(entries))} on two idle cores")
+
+
+def listed_records():
+    records = catalogue.RECORDS.values()
+    print(f"\n{len(records)} are records, which cannot be made again:")
+    for r in records:
+        print(f"{r.page}, {r.heading}{f', table {r.number}' if r.number > 1 else ''}: {r.why}")
 
 
 def tell(text):
     if sys.stderr.isatty():
         columns = shutil.get_terminal_size().columns - 1
         print(f"\r\033[K{text[:columns]}", end="", file=sys.stderr, flush=True)
+
+
+def processors():
+    """Seconds that commands have taken so far, of all cores together."""
+    times = os.times()
+    return times.children_user + times.children_system
 
 
 def report(outcome):
@@ -76,16 +91,10 @@ def report(outcome):
         print(f"  {line}", flush=True)
 
 
-def keep(outcome, made, folder, write):
-    if outcome.entry.number == 0:
-        if write:
-            shutil.copy(made, ROOT / outcome.entry.heading)
-        return
-    lines = [outcome.header, ["---"] * len(outcome.header), *outcome.rows]
-    text = "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
-    (pathlib.Path(folder) / (outcome.entry.name.replace("/", "-") + ".md")).write_text(text)
+def keep(outcome, folder, write):
+    (pathlib.Path(folder) / (outcome.entry.name.replace("/", "-") + ".md")).write_text(outcome.text)
     if write:
-        made.write(outcome.rows)
+        outcome.write()
 
 
 def main():
@@ -93,19 +102,20 @@ def main():
     catalogue.load()
     entries = entries_for(options.names)
     if options.list:
-        return listed(entries)
+        listed(entries)
+        return options.names or listed_records()
     if not pathlib.Path(options.gloam).is_file():
         fail(f"{options.gloam}: is not there; script/build makes it, or --gloam names another")
     lab = Lab(ROOT, options.folder, options.gloam, tell)
     if options.again:
         lab.forget()
-    print(f"{len(entries)} to make, about {time_words(sum(e.minutes for e in entries))} on two idle cores; what is made stays in {options.folder}",
+    print(f"{len(entries)} to make, about {time_words(catalogue.minutes_of(entries))} on two idle cores; what is made stays in {options.folder}",
           flush=True)
     outside, failed = 0, []
     for entry in entries:
-        begun = time.monotonic()
+        begun, used = time.monotonic(), processors()
         try:
-            outcome, made = check(entry, ROOT, lab)
+            outcome = check(entry, ROOT, lab, options.times)
         except catalogue.NotHere as why:
             print(f"{entry.name}: left out: {why}", flush=True)
             continue
@@ -115,10 +125,10 @@ def main():
             print(f"{entry.name}: failed: {error}", flush=True)
             continue
         report(outcome)
-        keep(outcome, made, options.folder, options.write)
+        keep(outcome, options.folder, options.write)
         outside += len(outcome.outside)
         if (seconds := time.monotonic() - begun) > 1:
-            print(f"  took {seconds:.0f} s", flush=True)
+            print(f"  took {seconds:.0f} s, and {processors() - used:.0f} s of processors", flush=True)
     if failed or outside:
         fail(f"{outside} figures are outside their intervals" + (f"; failed: {', '.join(failed)}" if failed else ""))
 

@@ -5,6 +5,8 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
+import time
 
 OUT = object()  # stands for the output's path among the arguments of `made`
 
@@ -53,6 +55,60 @@ class Lab:
             self._keep(file, self._run([str(c) for c in command], environment))
         return file.read_text()
 
+    def program(self, name, *arguments):
+        """What a Python program of bench/ prints, kept. `arguments` may name folders of `folder_for`, in which it keeps its own files."""
+        return self.printed(sys.executable, f"bench/{name}", *arguments)
+
+    def usage(self, *arguments):
+        """What `gloam ARGUMENTS` takes: seconds of the clock and of the processors, and the most that was resident, MiB. Kept."""
+        file = self._place("usage.json", arguments).with_suffix(".json")
+        if not file.exists():
+            self.tell(" ".join(map(str, ("gloam", *arguments))))
+            begun = time.monotonic()
+            process = subprocess.Popen([self.gloam, *map(str, arguments), "-q"], cwd=self.root, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            said = process.stderr.read().decode()
+            _, status, used = os.wait4(process.pid, 0)
+            if status:
+                raise Failed(f"gloam {' '.join(map(str, arguments))}: {(said.strip().splitlines() or ['failed'])[-1]}")
+            self._keep(file, json.dumps({"wall": time.monotonic() - begun, "processors": used.ru_utime + used.ru_stime, "peak": used.ru_maxrss / 1024}))
+        return json.loads(file.read_text())
+
+    def text(self, name, text):
+        """The path of a small file that a command reads."""
+        path = self.folder_for("texts") / name
+        path.write_text(text)
+        return str(path)
+
+    def run_again(self, *command):
+        """Runs another program of the project, whatever it has made before."""
+        return self._run([str(c) for c in command])
+
+    def bench(self, name, *arguments):
+        """The folder that `gloam bench ARGUMENTS` fills. Interrupted, it goes on with the frames and truths that are there."""
+        place = self._place("bench", (name, *arguments)).with_name(f"bench-{name}")
+        mark, words = place / "done", "\n".join(map(str, arguments)) + "\n"
+        if not mark.exists() or mark.read_text() != words:
+            place.mkdir(parents=True, exist_ok=True)
+            self._run([self.gloam, "bench", "-o", str(place), *map(str, arguments), "-q"])
+            mark.write_text(words)
+        return place
+
+    def stress(self, technique, *arguments):
+        """The document of `gloam stress`, which ends with 1 where a figure is beyond its bound."""
+        file = self._place("stress.json", (technique, *arguments)).with_suffix(".json")
+        if not file.exists():
+            part = file.with_suffix(".part")
+            file.parent.mkdir(parents=True, exist_ok=True)
+            self._run([self.gloam, "stress", technique, *map(str, arguments), "--json", str(part)], fine=(0, 1))
+            part.replace(file)
+        return file
+
+    def paper(self, name, *arguments):
+        """Figures of `gloam bench --paper`: (figure, row, column) to value, and times: (table, row, column) to the row."""
+        document = json.loads((self.bench(name, "--paper", name, *arguments) / "bench.json").read_text())
+        return ({(f["figure"], f["row"], f["column"]): f["value"] for f in document["facts"]},
+                {(t["table"], t["row"], t["column"]): t for t in document["paper"]})
+
     def unused(self, name):
         """A path for what a command has to write and no table reads."""
         return str(self.folder_for("unused") / name)
@@ -70,6 +126,9 @@ class Lab:
 
     def frame(self, scene, size, *flags):
         return self.made("frame.exr", "capture", scene, "-o", OUT, "--size", size, *flags)
+
+    def shot(self, scene, size, *flags):
+        return self.made("frame.####.exr", "capture", scene, "-o", OUT, "--size", size, *flags)
 
     def truth(self, kind, frame, samples, *flags):
         name = os.path.basename(frame).replace("frame", "truth")
@@ -95,11 +154,11 @@ class Lab:
         part.write_text(text)
         part.replace(file)
 
-    def _run(self, command, environment=None):
+    def _run(self, command, environment=None, fine=(0,)):
         self.tell(" ".join(os.path.basename(command[0]) if i == 0 else word for i, word in enumerate(command)))
         done = subprocess.run(command, cwd=self.root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, **(environment or {})})
-        if done.returncode != 0:
+        if done.returncode not in fine:
             lines = (done.stderr or done.stdout).strip().splitlines()
             raise Failed(f"{' '.join(command)}: {lines[-1] if lines else f'exit status {done.returncode}'}")
         return done.stdout

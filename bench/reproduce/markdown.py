@@ -87,3 +87,29 @@ class Table:
 
 def cells_of(line):
     return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def tables_of(path):
+    """Heading and number of each table of a page, with its rows."""
+    under, number, fenced, lines = "", 0, False, path.read_text().split("\n")
+    for i, line in enumerate(lines[:-1]):
+        fenced ^= line.startswith("```")
+        if fenced:
+            continue
+        if line.startswith("#"):
+            under, number = line.lstrip("# "), 0
+        if line.startswith("|") and re.fullmatch(r"\|[ :|-]+\|", lines[i + 1]):
+            number += 1
+            yield under, number, Table(path, under, number).rows
+
+
+def looks_measured(rows):
+    """Whether four cells or more are numbers, with units at most."""
+    cells = [cell for row in rows for cell in row]
+    return sum(bool(numbers_in(cell)) and bool(re.fullmatch(r"[\s*().,\d\-+%x/eEa-z]*", cell)) for cell in cells) >= 4
+
+
+def pictures_of(path, root):
+    """Files of the pictures that a page shows, below the root."""
+    for name in re.findall(r"!\[[^\]]*\]\(([^)\s]+)\)", path.read_text()):
+        yield str((path.parent / name).resolve().relative_to(root))

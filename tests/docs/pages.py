@@ -159,6 +159,9 @@ PAGES = {
         instead={"set make gloam-1 -o sets/gloam-1": ("set make gloam-1 -o sets/gloam-1 --only hard-corner,gallery-display", MINUTES),
                  "set make gloam-1 --seed 7": ("set make small --seed 7", MINUTES)},
         check="[ -s sets/gloam-1/truths/hard-corner_ao.exr ] && [ -s small-seed7/manifest.json ]"),
+    "docs/reproduce.md": Page(
+        not_run={"script/reproduce stereo/indirect-light": "takes 4 minutes", "script/reproduce  ": "takes hours"},
+        check="grep 'techniques/page: .* are within' .log >/dev/null"),
     "docs/stereo.md": Page(
         check="[ -s inconsistency.png ] && [ -s both.png ]"),
     "docs/view.md": Page(check="[ -s frame.view.html ] && [ -s look.html ]"),

@@ -1,0 +1,35 @@
+"""docs/choosing.md"""
+from catalogue import table
+from intervals import CHANGING, ERROR, MACHINE, Interval
+from recipes import SCENES, rows_printed
+
+PAGE = "docs/choosing.md"
+OF_BUDGETS = ("gallery", "courtyard", "lounge", "temple", "corridor", "colonnade", "banquet", "statue")
+INTERVALS = (MACHINE, ERROR, MACHINE, MACHINE, MACHINE, CHANGING, CHANGING)
+
+
+@table(PAGE, "How good the choice is", minutes=60, within=lambda row, column: INTERVALS[min(column, 6)])
+def budgets(lab):
+    folder, rows = lab.folder_for("budgets"), []
+    for scene in OF_BUDGETS:
+        printed = rows_printed(lab.program("budget_errors.py", folder, lab.gloam, "480x270", 128, scene))
+        for _, cells in [row for row in printed if row[0] == scene][1:]:  # the first is without a budget
+            everything, its_error, budget, error, ms, looking, best = (cell[0] for cell in cells[:7])
+            rows.append([everything, its_error, budget, ms, looking, error, best, None])
+    return rows
+
+
+# Of the whole time: other work moves it by some units.
+SAVED = Interval("share of time saved", 10, 0, "a difference of two times of one process", True)
+FLAT = ("pillar", "slab", "plane")
+
+
+@table(PAGE, "What looking saves", minutes=3, within=lambda row, column: SAVED if column == 3 else MACHINE)
+def looking(lab):
+    rows = {}
+    for scene in SCENES:
+        told = lab.figures("auto", lab.frame(scene, "960x540"), "-o", lab.unused("effects.exr"), "--measure", "--repeat", 7)
+        everything = sum(effect["ms_everywhere"] or 0 for effect in told["effects"])
+        rows[scene] = [everything, told["total_ms"], told["classify_ms"] + told["glance_ms"], 100 * (1 - told["total_ms"] / everything)]
+    others = list(zip(*(row for scene, row in rows.items() if scene not in FLAT)))
+    return [*(rows[scene] for scene in FLAT), [(min(column), max(column)) for column in others]]
