@@ -22,6 +22,11 @@ struct Pass {
   Milliseconds ms;
 };
 
+/// The ratios of each round: of times, and of what the cores spent. Empty in older files, or where there is nothing to compare with.
+struct RoundRatios {
+  std::vector<double> ms, cpu;
+};
+
 /// A part of a technique's time.
 struct Share {
   std::string what;
@@ -58,8 +63,8 @@ struct Row {
   Milliseconds ms;
   Number rmse_to_truth, bias;
   Number ratio_to_hbao_plus, ratio_to_gather_floor, ratio_to_copy_floor, ratio_to_naive, ratio_to_native;
-  std::vector<double> hbao_plus_rounds, gather_floor_rounds, copy_floor_rounds;  ///< the ratios of each round
-  std::vector<double> processes;                                                 ///< rounds in each, one after another
+  RoundRatios hbao_plus_rounds, gather_floor_rounds, copy_floor_rounds;
+  std::vector<double> processes;  ///< rounds in each process, one after another; empty: all in one
   Number own_floor_ms, ratio_to_own_floor;
   Ladder ladder;
   std::vector<AgainstNaive> naive;
