@@ -120,7 +120,11 @@ class Session {
 
   /// Enters the variations of a technique that the frame and the device allow.
   void enter(const Technique& technique) {
-    const std::vector<Variation> variations = variations_of(technique, subject_.radius.value, options_);
+    const double radius = subject_.radius.value;
+    const std::vector<Variation> variations =
+        options_.rows.empty() ? variations_of(technique, radius, options_)
+                              : wanted_variations(options_.rows, technique, radius, subject_.name, subject_.effect);
+    if (variations.empty() && !options_.rows.empty()) return;
     if (variations.empty()) skip(technique, "", "has none of these presets");
     std::vector<Skipped> failed;
     for (size_t i = 0; i < variations.size(); ++i) {

@@ -19,8 +19,9 @@ constexpr double per_deviation = 1.4826, of_median = 1.2533;
 /// No two runs of a build are nearer than this, however alike their rounds are.
 constexpr double least_error = 0.003;
 
-/// How many degrees of freedom the usual variance of a group counts for, beside those of a row's own processes (Smyth 2004).
-constexpr double freedom_of_usual = 2;
+/// Few processes may agree by chance: beside their degrees of freedom the variance of the group's calmer rows counts for so many (Smyth
+/// 2004). Calmer: a quarter of the rows are calmer still.
+constexpr double freedom_of_usual = 1, share_of_calmer = 0.25;
 
 /// Where errors are right, this share of unchanged rows lies within so many of them.
 constexpr double share_within = 0.95, errors_of_share = 1.96;
@@ -126,7 +127,7 @@ void add_errors(std::vector<Change>& changes) {
   std::map<std::string, std::vector<double>> of_group;
   for (const Change& c : changes) of_group[c.group].push_back(variance_of_kind(c));
   for (Change& c : changes) {
-    const double freedom = kinds[c.kind].freedom, usual = median(of_group[c.group]);
+    const double freedom = kinds[c.kind].freedom, usual = quantile(of_group[c.group], share_of_calmer);
     const double of_one = (freedom * variance_of_kind(c) + freedom_of_usual * usual) / (freedom + freedom_of_usual);
     c.value = c.to.mean - c.from.mean;
     c.error = std::max(least_error, std::sqrt(of_one * (1.0 / c.from.processes + 1.0 / c.to.processes)));

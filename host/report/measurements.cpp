@@ -101,6 +101,7 @@ Scene scene_of(const Object& o) {
   if (scene.scene_class != "own") scene.scene_class = with_effect(scene.scene_class, scene.effect);
   std::tie(scene.width, scene.height) = o.size("size");
   scene.radius = o.number("radius");
+  scene.radius_from = o.text("radius_from");
   scene.radius_pixels = o.number("radius_pixels");
   scene.truth_noise = o.number("truth_noise");
   scene.truth_image = o.text("truth_image");

@@ -82,6 +82,7 @@ struct Scene {
   std::string name, scene_class;
   std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"
   Number width, height, radius, radius_pixels, truth_noise;
+  std::string radius_from;  ///< "flag", "frame", "scene", "truth"; empty in older files
   std::string truth_image;  ///< path below the folder; empty: none
   std::string base;         ///< what there is without a technique: "white"; empty in older files
   Number base_rmse, base_bias;
