@@ -186,8 +186,7 @@ void compare_times(const std::vector<Pair>& pairs, const Conditions& conditions,
     found = changes_of(comparable, to, of);
     result.reference = gather_floor;
   }
-  std::vector<Change> means = means_of_members(found.changes);
-  find_differing(means, result.options.rate_of_techniques);
+  const std::vector<Change> means = find_members(found.changes, result.options.rate_of_techniques);
   find_differing(found.changes, result.options.rate);
   find_differing_of_members(found.changes, means, result.options.rate_of_found);
   for (size_t i = 0; i < found.changes.size(); ++i) {

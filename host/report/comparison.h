@@ -46,10 +46,10 @@ struct ComparedTechnique {
 };
 
 struct CompareOptions {
-  double rate = 0.01;                 ///< of wrong verdicts among rows that are faster or slower
-  double rate_of_techniques = 0.001;  ///< of techniques as a whole
-  double rate_of_found = 0.05;        ///< of rows of techniques that are faster or slower as a whole
-  double margin = 0.05;               ///< changes up to this are "same", if the interval says no more
+  double rate = 0.01;                  ///< of wrong verdicts among rows that are faster or slower
+  double rate_of_techniques = 0.0003;  ///< of techniques as a whole
+  double rate_of_found = 0.05;         ///< of rows of techniques that are faster or slower as a whole
+  double margin = 0.05;                ///< changes up to this are "same", if the interval says no more
 };
 
 /// How errors are compared.

@@ -23,8 +23,9 @@ constexpr double least_error = 0.003;
 /// 2004). Calmer: a quarter of the rows are calmer still.
 constexpr double freedom_of_usual = 1, share_of_calmer = 0.25;
 
-/// Where errors are right, this share of unchanged rows lies within so many of them.
+/// Where errors are right, this share of unchanged rows, or of unchanged members, lies within so many of them.
 constexpr double share_within = 0.95, errors_of_share = 1.96;
+constexpr double members_within = 0.9, errors_of_members = 1.645;
 /// Fewer others do not tell whether errors are right.
 constexpr size_t fewest_others = 12, fewest_members = 4;
 /// What errors are then multiplied by: for runs of one process each, and of several (docs/benchmarking.md).
@@ -64,11 +65,11 @@ struct OfKind {
 };
 
 /// How much wider errors have to be for the other members' rows of the group to lie within them as often as they should.
-double widening_of(const std::vector<Change>& changes, const Change& change) {
+double widening_of(const std::vector<Change>& changes, const Change& change, const std::set<std::string>& changed) {
   std::vector<double> others;
   std::set<std::string> members;
   for (const Change& other : changes) {
-    if (other.group != change.group || other.member == change.member) continue;
+    if (other.group != change.group || other.member == change.member || changed.count(other.member) > 0) continue;
     others.push_back(in_errors(other));
     members.insert(other.member);
   }
@@ -115,7 +116,7 @@ Level level_of(const std::vector<double>& ratios, const std::vector<double>& pro
   return level;
 }
 
-void add_errors(std::vector<Change>& changes) {
+void add_errors(std::vector<Change>& changes, const std::set<std::string>& changed) {
   std::map<std::string, OfKind> kinds;
   for (const Change& c : changes) {
     OfKind& kind = kinds[c.kind];
@@ -135,7 +136,7 @@ void add_errors(std::vector<Change>& changes) {
   }
   std::map<std::pair<std::string, std::string>, double> widening;
   for (const Change& c : changes) {
-    if (widening.count({c.group, c.member}) == 0) widening[{c.group, c.member}] = widening_of(changes, c);
+    if (widening.count({c.group, c.member}) == 0) widening[{c.group, c.member}] = widening_of(changes, c, changed);
   }
   for (Change& c : changes) c.error *= widening[{c.group, c.member}];
 }
@@ -149,7 +150,7 @@ void find_differing(std::vector<Change>& changes, double rate) {
   for (size_t i = 0; i < differing; ++i) changes[all[i]].differs = true;
 }
 
-std::vector<Change> means_of_members(const std::vector<Change>& changes) {
+std::vector<Change> means_of_members(const std::vector<Change>& changes, const std::set<std::string>& changed) {
   std::vector<Change> means;
   std::map<std::string, std::vector<const Change*>> rows;
   for (const Change& c : changes) {
@@ -173,14 +174,31 @@ std::vector<Change> means_of_members(const std::vector<Change>& changes) {
   for (size_t i = 0; i < means.size(); ++i) {
     std::vector<double> others;
     for (size_t k = 0; k < means.size(); ++k) {
-      if (k != i) others.push_back(in_errors(means[k]));
+      if (k != i && changed.count(means[k].member) == 0) others.push_back(in_errors(means[k]));
     }
     // Where no others tell, all rows count as one.
     widening[i] = others.size() < fewest_members
                       ? std::sqrt(double(rows[means[i].member].size()))
-                      : std::max(1.0, quantile(std::move(others), share_within) / errors_of_share);
+                      : std::max(1.0, quantile(std::move(others), members_within) / errors_of_members);
   }
   for (size_t i = 0; i < means.size(); ++i) means[i].error *= widening[i];
+  return means;
+}
+
+std::vector<Change> find_members(std::vector<Change>& changes, double rate) {
+  constexpr int most_passes = 4;
+  std::set<std::string> changed;
+  std::vector<Change> means;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    add_errors(changes, changed);
+    means = means_of_members(changes, changed);
+    find_differing(means, rate);
+    const size_t known = changed.size();
+    for (const Change& mean : means) {
+      if (mean.differs) changed.insert(mean.member);
+    }
+    if (changed.size() == known) break;
+  }
   return means;
 }
 

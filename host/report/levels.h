@@ -1,6 +1,7 @@
 // What two runs say of a row's time, and how sure that is (docs/benchmarking.md, Two runs compared).
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ struct Change {
   bool differs = false;  ///< filled in by the functions below
 };
 
-/// Fills in values and errors.
-void add_errors(std::vector<Change>& changes);
+/// Fills in values and errors. `changed`: members that do not count among those that show how far unchanged rows move.
+void add_errors(std::vector<Change>& changes, const std::set<std::string>& changed = {});
 
 /// Half the width of a change's interval of 95 %.
 double half_width(const Change& change);
@@ -43,7 +44,11 @@ double half_width(const Change& change);
 void find_differing(std::vector<Change>& changes, double rate);
 
 /// The mean change of each member over its rows, weighted by their errors; `group` and `kind` are empty.
-std::vector<Change> means_of_members(const std::vector<Change>& changes);
+std::vector<Change> means_of_members(const std::vector<Change>& changes, const std::set<std::string>& changed = {});
+
+/// Fills in values and errors, and marks members that differ: `add_errors`, `means_of_members` and `find_differing`, once more where
+/// some differ, without these among the others. Returns the members.
+std::vector<Change> find_members(std::vector<Change>& changes, double rate);
 
 /// Marks further rows of members that differ, `means`, where `rate` holds for the rows of these members (Benjamini, Bogomolov 2014).
 void find_differing_of_members(std::vector<Change>& changes, const std::vector<Change>& means, double rate);

@@ -18,7 +18,7 @@ class BenchBaseline : public Cli {
     return gloam(arguments);
   }
 
-  /// Two presets, one of them in a variant and with other steps, on a plane: four rows.
+  /// Two presets, one of them in a variant and with other steps, on one scene: four rows.
   Json before(const Arguments& more = {}) const {
     Arguments arguments = {"--size",       "96x54",       "--rays",     "8",          "--scenes",   "plane",
                            "--techniques", "hbao+",       "--presets",  "low,medium", "--variants", "half",
@@ -82,9 +82,9 @@ TEST_F(BenchBaseline, FailsOnAnErrorThatGrew) {
   write(earlier);
   const Result result = after({"--regression", "error"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(
-      last_line(result).find("gloam: worse than before/bench.json: 1 row farther (hbao+ low on plane); gloam report "),
-      std::string::npos)
+  EXPECT_NE(last_line(result).find(
+                "gloam: worse than before/bench.json: 1 row farther (hbao+ low on courtyard); gloam report "),
+            std::string::npos)
       << result.err;
   EXPECT_NE(result.out.find("farther"), std::string::npos) << result.out;
   EXPECT_TRUE(fs::exists(path("after/bench.json")));
@@ -96,7 +96,7 @@ TEST_F(BenchBaseline, FailsOnATimeThatGrewUnlessErrorsAloneCount) {
   write(earlier);
   const Result result = after({"--regression", "time"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(last_line(result).find("slower (hbao+ medium on plane"), std::string::npos) << result.err;
+  EXPECT_NE(last_line(result).find("slower (hbao+ medium on courtyard"), std::string::npos) << result.err;
   const Result errors = after({"--regression", "error"});
   EXPECT_EQ(errors.status, 0) << errors.err;
 }
@@ -184,7 +184,7 @@ TEST_F(BenchBaseline, WritesWhatReadersOfGoogleBenchmarkNeed) {
   }
   EXPECT_EQ(iterations, 4u * 6);
   EXPECT_EQ(aggregates, (std::set<std::string>{"mean", "median", "stddev", "cv"}));
-  EXPECT_EQ(google["benchmarks"][0]["name"], "plane/hbao+/low/96x54");
+  EXPECT_EQ(google["benchmarks"][0]["name"], "courtyard/hbao+/low/96x54");
   EXPECT_EQ(google["benchmarks"][0]["real_time"], document["results"][0]["ms"]["rounds"][0]);
 }
 
