@@ -15,6 +15,7 @@
 #include "bench/similarity.h"
 #include "bench/subject.h"
 #include "bench/variations.h"
+#include "bench/wanted_rows.h"
 #include "gloam/radius.h"
 
 namespace gloam::bench {
@@ -28,6 +29,7 @@ struct MeasureOptions {
   std::vector<std::string> presets;  ///< only these; empty: all
   std::vector<std::string> variants;
   std::vector<Sweep> sweeps;
+  std::vector<WantedRow> rows;  ///< these only, in place of presets, variants and sweeps; empty: as those say
   /// Off: techniques over all peeled layers, which take several times as long, get one preset and no variants.
   bool layers_in_full = true;
   LadderFor ladder = LadderFor::presets;

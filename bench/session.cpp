@@ -127,7 +127,11 @@ Skipped Session::failure_of(const Variation& v, const Error& error) const {
 }
 
 void Session::enter(const Technique& technique) {
-  const std::vector<Variation> variations = variations_of(technique, subject_.radius.value, options_);
+  const double radius = subject_.radius.value;
+  const std::vector<Variation> variations =
+      options_.rows.empty() ? variations_of(technique, radius, options_)
+                            : wanted_variations(options_.rows, technique, radius, subject_.name, subject_.effect);
+  if (variations.empty() && !options_.rows.empty()) return;
   if (variations.empty()) skip(technique, "", "has none of these presets");
   std::vector<Skipped> failed;
   for (size_t i = 0; i < variations.size(); ++i) {

@@ -10,14 +10,20 @@
 #include "bench/measurement.h"
 #include "bench/native.h"
 #include "bench/tables.h"
+#include "cli/bench_baseline.h"
 #include "cli/bench_chunks.h"
+#include "cli/bench_google.h"
 #include "cli/bench_paper.h"
+#include "cli/bench_processes.h"
 #include "cli/bench_request.h"
+#include "cli/bench_rows.h"
 #include "cli/bench_sequence.h"
 #include "cli/bench_set.h"
 #include "cli/chunk_commands.h"
+#include "cli/report_compare.h"
 #include "cli/shot_flags.h"
 #include "gloam/error.h"
+#include "report/comparison_page.h"
 
 namespace gloam::cli {
 namespace {
@@ -144,6 +150,11 @@ SequenceBenchFlags sequence_flags(const BenchCommand& flags) {
           flags.size.has_value(), !flags.techniques.empty()};
 }
 
+/// Rows of an earlier result, and those of several processes, are measured whole: their figures are compared.
+bool measures_all(const BenchCommand& flags) {
+  return flags.all || !flags.rows.empty() || !flags.baseline.empty() || flags.processes > 1;
+}
+
 /// Throws UsageError for flags about frames without frames.
 void check_flags(const BenchCommand& flags) {
   if (flags.sequence.empty() && flags.choice.frames) throw UsageError("--frames: is for a shot; --sequence names one");
@@ -158,8 +169,14 @@ void check_flags(const BenchCommand& flags) {
     throw UsageError("{}: says how frames are read, and there is none; --frame or --sequence names them", reading);
 }
 
-void bench_command(const BenchCommand& flags) {
-  check_flags(flags);
+void bench_command(const BenchCommand& given) {
+  check_flags(given);
+  // An earlier result says what is measured.
+  const std::string& earlier = given.baseline.empty() ? given.rows : given.baseline;
+  std::optional<report::Source> before;
+  if (!earlier.empty()) before = result_of(earlier);
+  std::vector<WantedRow> rows;
+  const BenchCommand flags = before ? flags_for_rows(given, *before, rows) : given;
   if (flags.chunks > 0) return print_chunks(flags);
   if (!flags.paper.empty()) {
     bench_paper({flags.paper, flags.folder, flags, flags.size, flags.rays, flags.rounds}, flags.json);
@@ -171,18 +188,21 @@ void bench_command(const BenchCommand& flags) {
   Device device = flags.open();
   if (!flags.set.empty()) return bench_set(flags, device);
   BenchOptions options = options_of(flags, device.info(), result);
+  options.rows = rows;
   if (!flags.sequence.empty())
     return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
   make_output_folder(options.scene.folder);
   const std::filesystem::path folder = flags.folder;
   std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
+  if (before) inputs.emplace_back(earlier, before->file.string());
   check_paths(inputs, {{"-o", (folder / "bench.json").string()},
                        {"-o", (options.scene.folder / "scene.exr").string()},
+                       {"--google-benchmark", flags.google_benchmark},
                        {"--json", flags.json.file()}});
   std::vector<std::pair<std::string, RadiusReport>> radii;
   unsigned long long memory = 0;
-  TimeLimit limit = flags.all ? TimeLimit() : TimeLimit(flags.time);
+  TimeLimit limit = measures_all(flags) ? TimeLimit() : TimeLimit(flags.time);
   options.limit = limit;
   if (limit.is_set())
     options.progress = [&limit](const std::string& what, double share) {
@@ -220,10 +240,23 @@ void bench_command(const BenchCommand& flags) {
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
   Json document = document_of(result, options, device.info());
   if (memory > 0) document["memory_bytes"] = memory;
-  document["time_limit_s"] = flags.all ? Json(nullptr) : Json(flags.time);
-  JsonFlag{(folder / "bench.json").string()}.write(document);
+  document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
+  const std::filesystem::path file = folder / "bench.json";
+  JsonFlag{file.string()}.write(document);
+  if (flags.processes > 1) {
+    measure_in_more_processes({flags.processes, flags.repeated, folder, flags.rounds}, document);
+    JsonFlag{file.string()}.write(document);
+  }
+  if (!flags.google_benchmark.empty()) write_google_benchmark(flags.google_benchmark, document);
+  std::optional<ComparedWithBaseline> compared;
+  if (!flags.baseline.empty()) {
+    compared = compare_with_baseline(*before, file);
+    document["comparison"] = report::document_of(compared->comparison, compared->before, compared->now);
+  }
   flags.json.write(document);
+  if (compared) return tell(*compared, flags.regression, flags.json.only_json());
   if (flags.json.only_json()) return;
+  if (before) return fmt::print("wrote {}\n", printable(file.string()));
   print(result, options, device.info());
   for (const auto& [name, radius] : radii) fmt::print("{}: {}\n", printable(name), radius.words());
   fmt::print("wrote {}\n", printable((folder / "bench.json").string()));
@@ -322,15 +355,21 @@ void add_bench(CLI::App& app) {
           ->add_option("--paper", flags->paper,
                        "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()))
           ->type_name("NAME");
+  command
+      ->add_option("--google-benchmark", flags->google_benchmark,
+                   "also write the result in Google Benchmark's form, for tools that read it")
+      ->type_name("FILE.json")
+      ->group("Writing");
   add_chunk_flags(*command, flags->chunks, flags->print, "the scenes, and named techniques,", "Several machines");
   flags->frame_flags.add_to(*command);
+  add_rows_flags(*command, *flags);
   const std::vector<std::string> shared = {"--output", "--size",      "--rounds", "--rays",
                                            "--device", "--no-tuning", "--help",   "--paper"};
   for (CLI::Option* option : command->get_options()) {
     if (!contains(shared, option->get_name())) option->excludes(paper);
   }
   for (const char* option : {"--scenes", "--frame", "--variants", "--sweep", "--ladder", "--rounds", "--no-growth",
-                             "--no-checks", "--no-images", "--chunks", "--time"})
+                             "--no-checks", "--no-images", "--chunks", "--time", "--google-benchmark"})
     sequence->excludes(command->get_option(option));
   flags->app = command;
   flags->json.add_to(*command);
@@ -345,9 +384,11 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/odssao2020 --paper odssao2020\n"
       "  gloam bench -o out/walk --sequence gallery:walk --techniques hbao+,gtao\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium\n"
+      "  gloam bench -o out/before --techniques hbao+,gtao,ssao,hbao --processes 3\n"
+      "  gloam bench -o out/after --baseline out/before/bench.json\n"
       "  gloam bench -o out/light --effects indirect,bounces,specular_occlusion,contact --scenes all");
   command->callback([flags, command] {
-    if (flags->chunks > 0) flags->repeated = repeated_words(*command, not_of_bench_chunks());
+    flags->repeated = repeated_words(*command, flags->chunks > 0 ? not_of_bench_chunks() : not_of_further_processes());
     // Other machines have no one who waits.
     if (flags->chunks > 0 && !flags->all && command->get_option("--time")->count() == 0)
       flags->repeated.push_back("--all");

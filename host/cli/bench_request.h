@@ -12,6 +12,9 @@
 
 namespace gloam::cli {
 
+/// What fails where a result is worse than its baseline.
+enum class Regression { time, error, both };
+
 /// The flags as given.
 struct BenchCommand : DeviceFlags {
   std::vector<std::string> truths;
@@ -23,6 +26,9 @@ struct BenchCommand : DeviceFlags {
   int rounds = 9;
   double time = 60;  ///< seconds
   bool all = false;  ///< no limit
+  std::string rows, baseline, google_benchmark;
+  Regression regression = Regression::both;
+  int processes = 0;  ///< 0: one, or as many as the earlier result has
   bench::LadderFor ladder = bench::LadderFor::presets;
   bool no_growth = false, no_checks = false, no_images = false, print = false;
   int chunks = 0;                     ///< 0: not divided

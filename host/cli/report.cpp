@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "cli/options.h"
+#include "cli/report_compare.h"
 #include "gloam/error.h"
 #include "report/markdown.h"
 #include "report/page.h"
@@ -17,6 +18,7 @@ struct ReportCommand {
   std::vector<std::string> sources;
   std::string markdown, pictures;
   std::optional<int> picture_width;
+  bool compare = false;
   JsonFlag json;
 };
 
@@ -73,13 +75,6 @@ void write_page(const ReportCommand& flags) {
 
 // --- For documentation
 
-/// The path as given; of an absolute path only the last folder and the name, since the page is for other machines.
-std::string shown_path(const std::filesystem::path& path) {
-  if (path.is_relative()) return path.lexically_normal().generic_string();
-  const std::filesystem::path normal = (path / "").lexically_normal().parent_path();  // without a slash at the end
-  return (normal.parent_path().filename() / normal.filename()).generic_string();
-}
-
 std::string command_of(const ReportCommand& flags) {
   std::string command = "gloam report";
   for (const std::string& source : flags.sources) command += " " + quoted(shown_path(source));
@@ -90,10 +85,7 @@ std::string command_of(const ReportCommand& flags) {
 
 std::vector<report::Source> read_sources(const ReportCommand& flags) {
   std::vector<report::Source> sources;
-  for (const std::string& given : flags.sources) {
-    const std::filesystem::path file = report::measurements_file(given);
-    sources.push_back({shown_path(file), file, report::read_measurements_file(file)});
-  }
+  for (const std::string& given : flags.sources) sources.push_back(result_of(given));
   return sources;
 }
 
@@ -150,7 +142,15 @@ void write_markdown(const ReportCommand& flags) {
              counted(page.pictures.size(), "picture"));
 }
 
+void compare_command(const ReportCommand& flags) {
+  if (flags.sources.size() != 2)
+    throw UsageError("--compare: takes two results, the one before and the one after, and {} given",
+                     flags.sources.size() == 1 ? "one is" : fmt::format("{} are", flags.sources.size()));
+  report_compare(flags.sources[0], flags.sources[1], flags.markdown, flags.json);
+}
+
 void report_command(const ReportCommand& flags) {
+  if (flags.compare) return compare_command(flags);
   if (!flags.markdown.empty()) return write_markdown(flags);
   if (!flags.pictures.empty())
     throw UsageError("--pictures {}: needs --markdown FILE.md; report.html has its pictures in itself", flags.pictures);
@@ -181,6 +181,9 @@ void add_report(CLI::App& app) {
   add_number(*command, "--picture-width", flags->picture_width, {0, 65536},
              "reduce wider pictures to this; 0: as stored; default: 480")
       ->type_name("PIXELS");
+  CLI::Option* compare = command->add_flag(
+      "--compare", flags->compare,
+      "say of two results which rows are faster or slower, nearer or farther; --markdown writes all rows as a page");
   command
       ->add_option("--markdown", flags->markdown,
                    "write a page of documentation instead: which technique for which need, and all figures")
@@ -191,12 +194,14 @@ void add_report(CLI::App& app) {
                    "with --markdown: folder for pictures of up to three scenes, which the page shows")
       ->type_name("DIR")
       ->group("Writing");
+  for (const char* of_pages : {"--picture-width", "--pictures"}) compare->excludes(command->get_option(of_pages));
   flags->json.add_to(*command);
   command->footer(
       "Writes DIR/report.html, one file that needs no other and no network. Examples:\n"
       "  gloam report out/bench\n"
       "  gloam report out/bench --picture-width 0 --json -\n"
-      "  gloam report out/bench out/mine/bench.json --markdown page.md --pictures images");
+      "  gloam report out/bench out/mine/bench.json --markdown page.md --pictures images\n"
+      "  gloam report before/bench.json after/bench.json --compare");
   command->callback([flags] { report_command(*flags); });
 }
 

@@ -49,6 +49,10 @@ Reads reads_of(const Object& o) {
   return reads;
 }
 
+RoundRatios round_ratios_of(const Object& o, const std::string& ratio) {
+  return {o.numbers(ratio.c_str()), o.numbers(("cpu_" + ratio).c_str())};
+}
+
 Row row_of(const Object& o) {
   Row row;
   row.technique = o.needed_text("technique");
@@ -73,9 +77,9 @@ Row row_of(const Object& o) {
   row.ratio_to_copy_floor = o.number("ratio_to_copy_floor");
   row.ratio_to_naive = o.number("ratio_to_naive");
   row.ratio_to_native = o.number("ratio_to_native");
-  row.hbao_plus_rounds = o.numbers("ratio_to_hbao_plus_rounds");
-  row.gather_floor_rounds = o.numbers("ratio_to_gather_floor_rounds");
-  row.copy_floor_rounds = o.numbers("ratio_to_copy_floor_rounds");
+  row.hbao_plus_rounds = round_ratios_of(o, "ratio_to_hbao_plus_rounds");
+  row.gather_floor_rounds = round_ratios_of(o, "ratio_to_gather_floor_rounds");
+  row.copy_floor_rounds = round_ratios_of(o, "ratio_to_copy_floor_rounds");
   row.processes = o.numbers("processes");
   row.own_floor_ms = o.number("own_floor_ms");
   row.ratio_to_own_floor = o.number("ratio_to_own_floor");
@@ -107,6 +111,7 @@ Scene scene_of(const Object& o) {
   if (scene.scene_class != "own") scene.scene_class = with_effect(scene.scene_class, scene.effect);
   std::tie(scene.width, scene.height) = o.size("size");
   scene.radius = o.number("radius");
+  scene.radius_from = o.text("radius_from");
   scene.radius_pixels = o.number("radius_pixels");
   scene.truth_noise = o.number("truth_noise");
   scene.truth_image = o.text("truth_image");

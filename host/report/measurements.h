@@ -23,6 +23,11 @@ struct Pass {
   Milliseconds ms;
 };
 
+/// The ratios of each round: of times, and of what the cores spent. Empty in older files, or where there is nothing to compare with.
+struct RoundRatios {
+  std::vector<double> ms, cpu;
+};
+
 /// A part of a technique's time.
 struct Share {
   std::string what;
@@ -61,8 +66,8 @@ struct Row {
   Number rmse_to_truth, bias;
   Number ssim, flip, flicker, inconsistency;
   Number ratio_to_hbao_plus, ratio_to_gather_floor, ratio_to_copy_floor, ratio_to_naive, ratio_to_native;
-  std::vector<double> hbao_plus_rounds, gather_floor_rounds, copy_floor_rounds;  ///< the ratios of each round
-  std::vector<double> processes;                                                 ///< rounds in each, one after another
+  RoundRatios hbao_plus_rounds, gather_floor_rounds, copy_floor_rounds;
+  std::vector<double> processes;  ///< rounds in each process, one after another; empty: all in one
   Number own_floor_ms, ratio_to_own_floor;
   Ladder ladder;
   std::vector<AgainstNaive> naive;
@@ -82,6 +87,7 @@ struct Scene {
   std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"
   std::string kind;           ///< of its item of a set; empty without a set
   Number width, height, radius, radius_pixels, truth_noise;
+  std::string radius_from;  ///< "flag", "frame", "scene", "truth"; empty in older files
   std::string truth_image;  ///< path below the folder; empty: none
   std::string base;         ///< what there is without a technique: "white"; empty in older files
   Number base_rmse, base_bias;

@@ -74,11 +74,15 @@ PAGES = {
             " # your own frame": (" --techniques gtao --presets low --variants none --no-growth # ", MINUTES),
             "--size 1920x1080 --rays 1": ("--size 320x180 --rays 1", MINUTES),
             "--scenes gallery,lounge": ("--scenes plane --size 96x54 --rays 8 --presets low --variants none --no-growth", MINUTES),
+            "hbao+,gtao,ssao,hbao,alchemy --size 480x270 --processes 3": (
+                "hbao+,gtao --scenes plane --size 96x54 --rays 8 --presets low --variants none --rounds 5 --processes 2", MINUTES),
+            "--techniques gtao --google-benchmark": (f"{SMALL} --google-benchmark", MINUTES),
+            "--baseline out/before/bench.json": ("--baseline out/before/bench.json --regression error", "times of a busy machine"),
             "--folder out/fit": ("--folder out/fit --scenes plane,gallery --occluders depth --presets medium --frames 2 --rays 16", MINUTES),
             "--folder out/interiors": ("--folder out/interiors --presets medium --frames 2 --rays 16", MINUTES),
             "--folder out/own": ("--folder out/own --frames 2 --rays 16", MINUTES)},
         not_run={"build/gloam bench -o out/vermeer2021": "takes 6 minutes; cli.Cli.APaperIsMeasuredAgain of script/test --long runs it, smaller"},
-        check="""for n in bench steps mine light naive walk shot; do [ -s out/$n/bench.json ]; done
+        check="""for n in bench steps mine light naive walk shot before after; do [ -s out/$n/bench.json ]; done
             python3 -c 'import json; assert len(json.load(open("out/walk/bench.json"))["sequence"]["frames"]) == 4'"""),
     "docs/blender.md": Page(
         prepare="""export BLENDER_USER_CONFIG=$PWD/config BLENDER_USER_SCRIPTS=$PWD/scripts
