@@ -12,14 +12,23 @@ namespace gloam::test {
 namespace {
 
 /// Flags that take names and files: what is wrong with them a frame, a scene, a device or the registry says.
-const std::set<std::string> flags_of_any_text = {
-    "--adaptive",    "--against",  "--anaglyph", "--camera",       "--camera-path", "--composite", "--device",
-    "--differences", "--display",  "--effects",  "--elsewhere",    "--environment", "--explain",   "--falloff",
-    "--filter",      "--frame",    "--from",     "--history",      "--into",        "--json",      "--markdown",
-    "--only",        "--output",   "--outputs",  "--paper",        "--picture",     "--pictures",  "--plane",
-    "--planes",      "--preset",   "--presets",  "--scan-line",    "--scene",       "--scenes",    "--sequence",
-    "--set",         "--sheet",    "--shot",     "--side-by-side", "--sky",         "--sweep",     "--techniques",
-    "--truth",       "--variants", "--view",     "--views",        "--what",        "--with"};
+const std::set<std::string> flags_of_any_text = {"--adaptive", "--against",     "--anaglyph",
+                                                 "--camera",   "--camera-path", "--composite",
+                                                 "--device",   "--differences", "--display",
+                                                 "--effects",  "--elsewhere",   "--environment",
+                                                 "--explain",  "--falloff",     "--filter",
+                                                 "--frame",    "--from",        "--history",
+                                                 "--into",     "--json",        "--markdown",
+                                                 "--only",     "--output",      "--outputs",
+                                                 "--paper",    "--picture",     "--pictures",
+                                                 "--plane",    "--planes",      "--preset",
+                                                 "--presets",  "--scan-line",   "--scene",
+                                                 "--scenes",   "--sequence",    "--set",
+                                                 "--sheet",    "--shot",        "--side-by-side",
+                                                 "--sky",      "--sweep",       "--techniques",
+                                                 "--truth",    "--variants",    "--view",
+                                                 "--views",    "--what",        "--with",
+                                                 "--rows",     "--baseline",    "--google-benchmark"};
 
 Arguments words_in(const std::string& text) {
   std::istringstream stream(text);
