@@ -384,7 +384,7 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/odssao2020 --paper odssao2020\n"
       "  gloam bench -o out/walk --sequence gallery:walk --techniques hbao+,gtao\n"
       "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium\n"
-      "  gloam bench -o out/before --techniques hbao+,gtao,ssao,hbao --processes 3\n"
+      "  gloam bench -o out/before --techniques hbao+,gtao,ssao,hbao --processes 4\n"
       "  gloam bench -o out/after --baseline out/before/bench.json\n"
       "  gloam bench -o out/light --effects indirect,bounces,specular_occlusion,contact --scenes all");
   command->callback([flags, command] {

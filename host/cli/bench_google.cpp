@@ -12,7 +12,7 @@ namespace {
 using Rounds = std::vector<double>;
 
 /// "courtyard/gtao/medium/half/480x270", with the effect where it is not ambient occlusion. Spaces would end a filter of such tools.
-std::string name_of(const Json& row) {
+std::string benchmark_name_of(const Json& row) {
   std::string name = row.at("scene").get<std::string>() + "/" + row.at("technique").get<std::string>() + "/" +
                      row.at("preset").get<std::string>();
   if (row.at("variant") != "") name += "/" + row.at("variant").get<std::string>();
@@ -65,7 +65,7 @@ void add_row(Json& benchmarks, const Json& row, int family) {
   // Where the cores' time is not known, as of a GPU, readers still expect a number.
   const bool has_cpu = row.contains("cpu_ms") && row.at("cpu_ms").is_object();
   const Rounds cpu = has_cpu ? row.at("cpu_ms").at("rounds").get<Rounds>() : real;
-  const std::string name = name_of(row);
+  const std::string name = benchmark_name_of(row);
   for (size_t i = 0; i < real.size(); ++i) {
     Json entry = entry_of(name, family, real.size());
     entry.update(Json{

@@ -17,7 +17,7 @@ namespace {
 using Rounds = std::vector<double>;
 
 /// What says that two rows are the same.
-std::string name_of(const Json& row) {
+std::string key_of(const Json& row) {
   Json name = Json::array();
   for (const char* key : {"technique", "preset", "variant", "scene", "effect", "width", "height"})
     name.push_back(row.value(key, Json()));
@@ -104,9 +104,9 @@ Json measured_by_process(const MoreProcesses& more, int number) {
 
 void join_rounds(Json& document, const Json& other) {
   std::map<std::string, const Json*> rows;
-  for (const Json& row : other.at("results")) rows[name_of(row)] = &row;
+  for (const Json& row : other.at("results")) rows[key_of(row)] = &row;
   for (Json& row : document.at("results")) {
-    const auto again = rows.find(name_of(row));
+    const auto again = rows.find(key_of(row));
     if (again != rows.end()) join_row(row, *again->second);
   }
   document["processes"] = document.value("processes", 1) + 1;

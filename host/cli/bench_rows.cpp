@@ -9,7 +9,7 @@ namespace gloam::cli {
 namespace {
 
 /// Names as a list for a flag.
-std::string list_of(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
+std::string comma_list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
 const report::Scene* scene_of(const report::Source& source, const std::string& name) {
   for (const report::Scene& scene : source.measurements.scenes) {
@@ -101,9 +101,9 @@ BenchCommand flags_for_rows(BenchCommand flags, const report::Source& source, st
   }
   if (rows.empty()) throw Error("{}: has no row of a technique that this gloam has", source.name);
   check_scenes(flags, source, scenes);
-  flags.techniques = list_of(techniques);
-  if (flags.frame.empty()) flags.scenes = list_of(scenes);
-  flags.effects = list_of(effects);
+  flags.techniques = comma_list(techniques);
+  if (flags.frame.empty()) flags.scenes = comma_list(scenes);
+  flags.effects = comma_list(effects);
   flags.variants = "none";
   if (flags.frame.empty() && !flags.size) flags.size = size_of(source);
   if (!flags.radius) flags.radius = given_radius(source);

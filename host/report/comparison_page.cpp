@@ -43,6 +43,17 @@ std::string origin_text(const Source& source) {
                      m.rows.size() == 1 ? std::string("1 row") : fmt::format("{} rows", m.rows.size()));
 }
 
+/// The first rows, and how many others there are.
+std::string some_of(const std::vector<RowName>& names) {
+  constexpr size_t most = 5;
+  std::vector<std::string> told;
+  for (const RowName& name : names) {
+    if (told.size() < most || names.size() == most + 1) told.push_back(words(name));
+  }
+  if (told.size() < names.size()) told.push_back(fmt::format("{} others (--json has all)", names.size() - told.size()));
+  return enumerate(told);
+}
+
 /// How many rows of a scene have which verdict on time; and which on errors.
 struct Counts {
   std::map<TimeVerdict, size_t> times;
@@ -154,9 +165,7 @@ std::vector<std::string> counts_of(const Comparison& c, const Source& first, con
     lines.push_back(line);
   }
   for (const auto& [names, source] : {std::pair(&c.only_in_first, &first), std::pair(&c.only_in_second, &second)}) {
-    std::vector<std::string> told;
-    for (const RowName& name : *names) told.push_back(words(name));
-    if (!told.empty()) lines.push_back(fmt::format("only in {}: {}", source->name, enumerate(told)));
+    if (!names->empty()) lines.push_back(fmt::format("only in {}: {}", source->name, some_of(*names)));
   }
   return lines;
 }

@@ -20,7 +20,7 @@ class BenchBaseline : public Cli {
 
   /// Two presets, one of them in a variant and with other steps, on one scene: four rows.
   Json before(const Arguments& more = {}) const {
-    Arguments arguments = {"--size",       "96x54",       "--rays",     "8",          "--scenes",   "plane",
+    Arguments arguments = {"--size",       "96x54",       "--rays",     "8",          "--scenes",   "courtyard",
                            "--techniques", "hbao+",       "--presets",  "low,medium", "--variants", "half",
                            "--sweep",      "steps=2",     "--rounds",   "6",          "--ladder",   "none",
                            "--no-growth",  "--no-checks", "--no-images"};

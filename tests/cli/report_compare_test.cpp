@@ -165,7 +165,7 @@ TEST_F(ReportCompare, PrefersWhatTheCoresSpent) {
 
 TEST_F(ReportCompare, SaysWhichErrorsAreNearerAndFarther) {
   Json after = Bench(2).made();
-  after["results"][0]["rmse_to_truth"] = 0.1 * 1.0005;
+  after["results"][0]["rmse_to_truth"] = 0.1 * 1.00005;
   after["results"][1]["rmse_to_truth"] = 0.1 * 1.002;
   after["results"][2]["rmse_to_truth"] = 0.1 * 0.998;
   after["results"][3]["rmse_to_truth"] = nullptr;
@@ -174,8 +174,12 @@ TEST_F(ReportCompare, SaysWhichErrorsAreNearerAndFarther) {
   EXPECT_EQ(document["rows"][1]["error"], "farther");
   EXPECT_EQ(document["rows"][2]["error"], "nearer");
   EXPECT_EQ(document["rows"][3]["error"], "not compared");
+  after["results"][0]["rmse_to_truth"] = 0.1 * 1.0005;
+  EXPECT_EQ(compared(Bench(1).made(), after)["rows"][0]["error"], "farther");
   after["device"] = "another";  // it rounds otherwise
-  EXPECT_EQ(compared(Bench(1).made(), after)["rows"][1]["error"], "same");
+  const Json elsewhere = compared(Bench(1).made(), after);
+  EXPECT_EQ(elsewhere["rows"][0]["error"], "same");
+  EXPECT_EQ(elsewhere["rows"][1]["error"], "farther");
 }
 
 TEST_F(ReportCompare, SaysWhenTheReferenceItselfChanged) {

@@ -74,7 +74,7 @@ PAGES = {
             " # your own frame": (" --techniques gtao --presets low --variants none --no-growth # ", MINUTES),
             "--size 1920x1080 --rays 1": ("--size 320x180 --rays 1", MINUTES),
             "--scenes gallery,lounge": ("--scenes plane --size 96x54 --rays 8 --presets low --variants none --no-growth", MINUTES),
-            "hbao+,gtao,ssao,hbao,alchemy --size 480x270 --processes 3": (
+            "hbao+,gtao,ssao,hbao,alchemy --size 480x270 --processes 4": (
                 "hbao+,gtao --scenes plane --size 96x54 --rays 8 --presets low --variants none --rounds 5 --processes 2", MINUTES),
             "--techniques gtao --google-benchmark": (f"{SMALL} --google-benchmark", MINUTES),
             "--baseline out/before/bench.json": ("--baseline out/before/bench.json --regression error", "times of a busy machine"),

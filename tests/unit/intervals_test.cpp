@@ -97,7 +97,7 @@ TEST(IntervalOfMedian, HoldsTheMedianOfIndependentRoundsAsOftenAsItSays) {
 }
 
 TEST(IntervalOfMedian, HoldsTheMedianOfCorrelatedRoundsNearlyAsOften) {
-  // The ranks of the sign test alone hold it in 89 and 74 of 100 for 40 rounds.
+  // The ranks of the sign test alone hold it in 89 and 74 of 100.
   EXPECT_GT(coverage_of(9, 0.3).held, 0.89);
   EXPECT_GT(coverage_of(40, 0.3).held, 0.92);
   EXPECT_GT(coverage_of(40, 0.6).held, 0.87);
