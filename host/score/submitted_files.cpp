@@ -23,6 +23,16 @@ int take_number(std::string& rest) {
   return digits.size() > 9 ? -1 : std::stoi(digits);
 }
 
+/// The same at the end, as the truths of sets have it: "walk_ao.0007".
+int take_last_number(std::string& rest) {
+  const size_t dot = rest.rfind('.');
+  if (dot == std::string::npos) return 0;
+  std::string end = rest.substr(dot);
+  const int number = take_number(end);
+  if (number != 0 && end.empty()) rest.resize(dot);
+  return end.empty() ? number : 0;
+}
+
 /// Takes "_specular_occlusion" from the end; else the usual effect.
 std::string take_effect(std::string& rest, const std::string& usual) {
   for (const std::string& effect : scored_effects()) {
@@ -37,6 +47,7 @@ std::optional<NamedFile> parsed(const std::string& stem, const Target& target, c
   if (!stem.starts_with(target.name)) return {};
   std::string rest = stem.substr(target.name.size());
   NamedFile named{target.name, "", "", take_number(rest)};
+  if (named.frame == 0) named.frame = take_last_number(rest);
   named.effect = take_effect(rest, effect);
   if (named.frame < 0) return {};
   if (rest.empty()) return named;

@@ -1,4 +1,5 @@
-// Which file of a submission is for which frame, by their names: ITEM[.FRAME][_VIEW][_EFFECT].exr or .png.
+// Which file of a submission is for which frame, by their names: ITEM[.FRAME][_VIEW][_EFFECT].exr or .png,
+// the frame's number also at the end.
 #pragma once
 
 #include <filesystem>

@@ -34,6 +34,8 @@ TEST(ScoreNames, SayItemFrameViewAndEffect) {
   EXPECT_EQ(parse("hall_2_indirect"), "hall_2 0 '' indirect");
   EXPECT_EQ(parse("walk.0012"), "walk 12 '' ao");
   EXPECT_EQ(parse("walk.12_ao"), "walk 12 '' ao");
+  EXPECT_EQ(parse("walk_ao.0012"), "walk 12 '' ao");
+  EXPECT_EQ(parse("walk_ao.x"), "none");
   EXPECT_EQ(parse("pair_left"), "pair 0 'left' ao");
   EXPECT_EQ(parse("pair_right_indirect"), "pair 0 'right' indirect");
   EXPECT_EQ(parse("pair_middle"), "none");
