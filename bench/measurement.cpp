@@ -86,6 +86,7 @@ class Session {
       }
     }
     facts.white = white_.value_or(1);
+    facts.peaks = race_.peaks();
     if (subject_.truths) {
       facts.traced = true;
       facts.made = subject_.truths->made();

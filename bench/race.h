@@ -10,6 +10,7 @@
 
 #include "bench/estimate.h"
 #include "bench/plans.h"
+#include "bench/roofline.h"
 #include "bench/timing.h"
 
 namespace gloam::bench {
@@ -70,6 +71,9 @@ class Race {
 
   /// Fills in the times and ratios of all entries. `progress` is called for single runs, and may be empty.
   void run(int rounds, const std::function<void(int done, int of)>& progress);
+
+  /// What the device reached in the rounds so far; empty where the floors took no part.
+  Peaks peaks() const;
 
   /// Why a baseline took no part, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
