@@ -99,11 +99,29 @@ std::optional<double> ratio_to_naive(const Row& row) {
   return row.against_naive.empty() ? std::optional<double>() : row.against_naive.front().ratio;
 }
 
+/// By count, for the settings that were counted: presets as they are.
+Json count_of_pass(const Row& row, const std::string& pass) {
+  const Variation& v = row.variation;
+  const std::optional<PassCount> count =
+      v.variant.empty() && v.settings.empty() ? count_of(v.technique->name, v.preset, pass) : std::nullopt;
+  if (!count) return nullptr;
+  return {{"operations", count->operations},
+          {"loads", count->loads},
+          {"bytes_loaded", count->bytes_loaded},
+          {"bytes_stored", count->bytes_stored}};
+}
+
+Json document_of(const Peaks& peaks) {
+  return {{"copy_gb_per_s", number(peaks.copy_gb_per_s)},
+          {"gather_g_per_s", number(peaks.gather_g_per_s)},
+          {"fma_gflops", number(peaks.fma_gflops)}};
+}
+
 Json figures_of(const Row& row) {
   const Variation& v = row.variation;
   Json passes = Json::array(), spent_on = Json::array(), naive = Json::array();
   for (const TimedPlan::Pass& pass : row.timed->passes())
-    passes.push_back({{"name", pass.name}, {"ms", milliseconds(pass.ms)}});
+    passes.push_back({{"name", pass.name}, {"ms", milliseconds(pass.ms)}, {"per_pixel", count_of_pass(row, pass.name)}});
   for (const Share& share : row.spent_on) spent_on.push_back({{"what", share.what}, {"share", share.share}});
   for (const AgainstNaive& part : row.against_naive) naive.push_back(document_of(part));
   return {{"technique", v.technique->name},
@@ -168,6 +186,7 @@ Json document_of(const SceneFacts& scene) {
                    {"truth_rays", number(scene.truth_rays)},
                    {"truth_image", text_or_null(scene.truth_image)},
                    {"white", scene.white},
+                   {"peaks", document_of(scene.peaks)},
                    {"base",
                     {{"name", scene.base},
                      {"rmse_to_truth", number(scene.base_errors.rmse)},
@@ -279,6 +298,15 @@ Json origin_of(const DeviceInfo& device) {
           {"set", nullptr}};
 }
 
+/// Those of the largest frame: planes of small ones stay in caches.
+static Peaks peaks_of(const std::vector<SceneFacts>& scenes) {
+  const auto pixels = [](const SceneFacts& scene) { return long(scene.width) * scene.height; };
+  const auto largest = std::max_element(scenes.begin(), scenes.end(), [&](const SceneFacts& a, const SceneFacts& b) {
+    return pixels(a) < pixels(b);
+  });
+  return largest == scenes.end() ? Peaks{} : largest->peaks;
+}
+
 /// Rays per pixel of the truths; none if they differ, or one does not state it.
 static std::optional<double> rays_of(const std::vector<SceneFacts>& scenes) {
   std::optional<double> rays;
@@ -295,6 +323,7 @@ Json document_of(const Measurement& measurement, const MeasureOptions& options, 
   Json document = origin_of(device);
   document.update({{"rounds", options.rounds},
                    {"rays", number(rays_of(measurement.scenes))},
+                   {"peaks", document_of(peaks_of(measurement.scenes))},
                    {"scenes", list_of(measurement.scenes)},
                    {"results", results},
                    {"growth", list_of(measurement.growth)},

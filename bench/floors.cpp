@@ -41,9 +41,17 @@ KernelText copy_text(int lanes) {
   return {flatten("shared/lanes/load.h") + copy_floor_cl, options(lanes), "copy_floor"};
 }
 
+constexpr int fma_steps = 64;
+int fma_sums(int lanes) { return lanes == 16 ? 6 : 12; }  // as fma_peak.cl has them
+
+KernelText fma_text(int lanes) {
+  return {flatten("shared/lanes/load.h") + fma_peak_cl, options(lanes) + fmt::format(" -D FMA_STEPS={}", fma_steps),
+          "fma_peak"};
+}
+
 }  // namespace
 
-std::vector<KernelText> floor_texts(int lanes) { return {gather_text(lanes), copy_text(lanes)}; }
+std::vector<KernelText> floor_texts(int lanes) { return {gather_text(lanes), copy_text(lanes), fma_text(lanes)}; }
 
 Floor::Floor(Device& device, const Frame& frame, const KernelText& text)
     : kernel_(build(device, text.text, text.options, text.kernel)), device_(device) {
@@ -65,6 +73,15 @@ GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& plane
   kernel_.setArg(2, params.max_reach);
   kernel_.setArg(3, planes.depth);
   kernel_.setArg(4, planes.result().buffer);
+}
+
+FmaPeak::FmaPeak(Device& device, const Frame& frame, DevicePlanes& planes)
+    : Floor(device, frame, fma_text(device.info().tuning.lanes)) {
+  kernel_.setArg(1, 0.5f);
+  kernel_.setArg(2, 0.25f);
+  kernel_.setArg(3, planes.result().buffer);
+  const PixelCamera c = pixel_camera(frame);
+  operations_ = 2.0 * fma_steps * fma_sums(device.info().tuning.lanes) * c.pitch * c.height;
 }
 
 CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)

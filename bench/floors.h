@@ -40,4 +40,15 @@ class CopyFloor : public Floor {
   CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes);
 };
 
+/// Fused multiply-adds alone.
+class FmaPeak : public Floor {
+ public:
+  FmaPeak(Device& device, const Frame& frame, DevicePlanes& planes);
+  /// Of one run; a fused multiply-add is two.
+  double operations() const { return operations_; }
+
+ private:
+  double operations_ = 0;
+};
+
 }  // namespace gloam::bench

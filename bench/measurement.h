@@ -84,6 +84,7 @@ struct SceneFacts {
   std::string truth_image;  ///< below the folder; empty: none
   bool traced = false;      ///< the truth was traced from the scene
   std::vector<std::string> made, reused;
+  Peaks peaks;  ///< of the device on it
 };
 
 /// What a time limit left out.

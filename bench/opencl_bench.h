@@ -17,6 +17,7 @@ extern const char* const naive_gtao_cl;
 extern const char* const naive_hbao_plus_cl;
 extern const char* const gather_floor_cl;
 extern const char* const copy_floor_cl;
+extern const char* const fma_peak_cl;
 
 /// Device memory for one computed plane.
 class ResultPlane {

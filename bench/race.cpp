@@ -1,6 +1,7 @@
 #include "bench/race.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/floors.h"
 #include "bench/intervals.h"
@@ -118,6 +119,16 @@ size_t own_passes_in(const Plan& plan) {
                               [&](const PlannedPass& planned) { return planned.technique->name == plan.technique; }));
 }
 
+/// The gather floor samples around these alone.
+size_t foreground_pixels(const Frame& frame) {
+  const Channel& depth = frame.views.front().planes.at("depth").channels[0];
+  size_t count = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) count += std::isfinite(depth.at(x, y));
+  }
+  return count;
+}
+
 /// A part computed by naive kernels and by gloam, and their difference there.
 AgainstNaive part_of(const char* name, const Channel& naive, const Plan& plan, const Frame& frame, Device& device) {
   const RunResult run = gloam::run(plan, frame, device);
@@ -148,6 +159,7 @@ class Race::Baselines {
             std::vector<std::string>& notes)
       : gathers_(device, plain.frame, plain.planes, params),
         copy_(device, plain.frame, plain.planes),
+        fma_(device, plain.frame, plain.planes),
         native_(plain.frame, params, widest_instructions()) {
     if (plain.frame.views[0].camera->orthographic) return;
     native_.run();
@@ -158,8 +170,11 @@ class Race::Baselines {
 
   std::vector<Contender> floors() {
     return {{"gather floor", [this] { return gathers_.run(); }, [this] { return gathers_.cpu_ms(); }},
-            {"copy floor", [this] { return copy_.run(); }, [this] { return copy_.cpu_ms(); }}};
+            {"copy floor", [this] { return copy_.run(); }, [this] { return copy_.cpu_ms(); }},
+            {"fma peak", [this] { return fma_.run(); }, [this] { return fma_.cpu_ms(); }}};
   }
+
+  double fma_operations() const { return fma_.operations(); }
 
   std::vector<Contender> loops() {
     if (!has_native_) return {};
@@ -169,6 +184,7 @@ class Race::Baselines {
  private:
   GatherFloor gathers_;
   CopyFloor copy_;
+  FmaPeak fma_;
   Native native_;
   bool has_native_ = false;
 };
@@ -358,6 +374,24 @@ void Race::add_ratios(size_t index) {
   if (const auto copy = series.find("copy floor"); copy != series.end()) racer.copy_floor_ms = median(copy->second);
   if (naives_[index]) add_naive_ratios(index);
   if (is_native(racer)) racer.to_native = ratio_to(own_passes(*racer.timed), "native");
+}
+
+Peaks Race::peaks() const {
+  if (!baselines_) return {};
+  const Frame& frame = plain_->frame;
+  const Layout layout(frame.width(), frame.height());
+  const auto per_second = [&](const char* contender, double work) -> std::optional<double> {
+    Series all;
+    for (const auto& of_group : series_) {
+      if (const auto known = of_group.find(contender); known != of_group.end())
+        all.insert(all.end(), known->second.begin(), known->second.end());
+    }
+    if (all.empty()) return {};
+    return work / median(all) * 1e-6;  // from ms to 10^9 a second
+  };
+  return {per_second("copy floor", 8.0 * layout.pitch * layout.height),
+          per_second("gather floor", double(directions * steps) * double(foreground_pixels(frame))),
+          per_second("fma peak", baselines_->fma_operations())};
 }
 
 void Race::add_naive_ratios(size_t index) {

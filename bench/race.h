@@ -10,6 +10,7 @@
 
 #include "bench/estimate.h"
 #include "bench/plans.h"
+#include "bench/roofline.h"
 #include "bench/timing.h"
 
 namespace gloam::bench {
@@ -73,6 +74,9 @@ class Race {
 
   /// Measures the own floor of a racer that has run without.
   void add_floor(Racer& racer, int rounds);
+
+  /// What the device reached in the rounds so far; empty where the floors took no part.
+  Peaks peaks() const;
 
   /// Why a baseline took no part, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }

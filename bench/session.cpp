@@ -91,6 +91,7 @@ void Session::add_scene() {
     }
   }
   facts.white = white_.value_or(1);
+  facts.peaks = race_.peaks();
   if (subject_.truths) {
     facts.traced = true;
     facts.made = subject_.truths->made();

@@ -18,6 +18,20 @@ Milliseconds milliseconds_of(const Object& object) {
           object.numbers("rounds")};
 }
 
+std::optional<PassCount> count_of(const Object& pass) {
+  if (pass.json().value("per_pixel", Json()).is_null()) return {};
+  const Object count = pass.object("per_pixel");
+  return PassCount{count.needed_number("operations"), count.needed_number("loads"), count.needed_number("bytes_loaded"),
+                   count.needed_number("bytes_stored")};
+}
+
+std::optional<Peaks> peaks_of(const Object& scene) {
+  const Object peaks = scene.object("peaks");
+  const Peaks found{peaks.number("copy_gb_per_s"), peaks.number("gather_g_per_s"), peaks.number("fma_gflops")};
+  if (!found.copy_gb_per_s && !found.gather_g_per_s && !found.fma_gflops) return {};
+  return found;
+}
+
 Ladder ladder_of(const Object& l) {
   return {l.number("t0w"), l.number("t1"),      l.number("t2"),       l.number("t12"),
           l.number("t3"),  l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
@@ -87,7 +101,7 @@ Row row_of(const Object& o) {
   for (const Object& n : o.list("naive")) row.naive.push_back({n.needed_text("part"), n.needed_number("ratio")});
   for (const Object& s : o.list("spent_on")) row.spent_on.push_back({s.needed_text("what"), s.needed_number("share")});
   for (const Object& p : o.list("passes"))
-    row.passes.push_back({p.needed_text("name"), milliseconds_of(p.needed_object("ms"))});
+    row.passes.push_back({p.needed_text("name"), milliseconds_of(p.needed_object("ms")), count_of(p)});
   row.width = o.number("width");
   row.height = o.number("height");
   row.lanes = o.number("lanes");
@@ -120,6 +134,7 @@ Scene scene_of(const Object& o) {
   scene.base_rmse = base.number("rmse_to_truth");
   scene.base_bias = base.number("bias");
   scene.white = o.number("white").value_or(1);
+  scene.peaks = peaks_of(o);
   return scene;
 }
 

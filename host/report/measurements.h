@@ -18,9 +18,20 @@ struct Milliseconds {
   std::vector<double> rounds = {};  ///< empty in files that keep none
 };
 
+/// What a pass does for each pixel, by count (docs/benchmarking.md).
+struct PassCount {
+  double operations = 0, loads = 0, bytes_loaded = 0, bytes_stored = 0;
+};
+
 struct Pass {
   std::string name;
   Milliseconds ms;
+  std::optional<PassCount> per_pixel;  ///< empty: not counted
+};
+
+/// What the device reached at most on a scene's frame.
+struct Peaks {
+  Number copy_gb_per_s, gather_g_per_s, fma_gflops;
 };
 
 /// The ratios of each round: of times, and of what the cores spent. Empty in older files, or where there is nothing to compare with.
@@ -92,6 +103,7 @@ struct Scene {
   std::string base;         ///< what there is without a technique: "white"; empty in older files
   Number base_rmse, base_bias;
   double white = 1;   ///< value that pictures show as white
+  std::optional<Peaks> peaks;
   size_t source = 0;  ///< index of its file, of several (joined.h)
 };
 

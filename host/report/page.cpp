@@ -29,10 +29,24 @@ Json json(const Ladder& l) {
           {"t4_noise", json(l.t4_noise)}, {"t5", json(l.t5)}};
 }
 
+Json json(const PassCount& count) {
+  return {{"operations", count.operations},
+          {"loads", count.loads},
+          {"bytes_loaded", count.bytes_loaded},
+          {"bytes_stored", count.bytes_stored}};
+}
+
+Json json(const Peaks& peaks) {
+  return {{"copy_gb_per_s", json(peaks.copy_gb_per_s)},
+          {"gather_g_per_s", json(peaks.gather_g_per_s)},
+          {"fma_gflops", json(peaks.fma_gflops)}};
+}
+
 Json json(const Row& row, const PicturesOfFolder& pictures) {
   Json spent_on = Json::array(), passes = Json::array();
   for (const Share& s : row.spent_on) spent_on.push_back({{"what", s.what}, {"share", s.share}});
-  for (const Pass& p : row.passes) passes.push_back({{"name", p.name}, {"ms", json(p.ms)}});
+  for (const Pass& p : row.passes)
+    passes.push_back({{"name", p.name}, {"ms", json(p.ms)}, {"per_pixel", p.per_pixel ? json(*p.per_pixel) : Json(nullptr)}});
   return {{"technique", row.technique},
           {"preset", row.preset},
           {"variant", row.variant},
@@ -73,6 +87,7 @@ Json json(const Scene& scene, const std::vector<Row>& rows, const PicturesOfFold
           {"class", scene.scene_class},
           {"base", {{"name", scene.base}, {"rmse", json(scene.base_rmse)}, {"bias", json(scene.base_bias)}}},
           {"white", scene.white},
+          {"peaks", scene.peaks ? json(*scene.peaks) : Json(nullptr)},
           {"width", json(scene.width)},
           {"height", json(scene.height)},
           {"radius", json(scene.radius)},

@@ -6,6 +6,7 @@ function renderPicked() {
   renderAside();
   renderPictures();
   renderLadder();
+  renderRoofline();
   renderRows();
 }
 

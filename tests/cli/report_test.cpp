@@ -257,6 +257,32 @@ TEST_F(ReportInBrowser, DrawsEveryRowAndAsksForNothing) {
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
+TEST_F(ReportInBrowser, DrawsTheRoofline) {
+  const std::string begin = "result.hidden_without = document.getElementById('roofline').hidden;";
+  EXPECT_EQ(in_browser(begin)["hidden_without"], true);
+  Json document = measurements();
+  document["scenes"][0]["peaks"] = {{"copy_gb_per_s", 8}, {"gather_g_per_s", 1}, {"fma_gflops", 100}};
+  // 48 x 32 pixels in 0.1 ms: 1000 operations each are 15.36 Gflop/s, 15 % of the peak
+  document["results"][1]["passes"] = {
+      {{"name", "hbao+/estimate"}, {"ms", {{"median", 0.1}}},
+       {"per_pixel", {{"operations", 1000}, {"loads", 50}, {"bytes_loaded", 200}, {"bytes_stored", 4}}}},
+      {{"name", "hbao+/uncounted"}, {"ms", {{"median", 0.1}}}, {"per_pixel", nullptr}}};
+  write(document);
+  ASSERT_EQ(report().status, 0);
+  const Json result = in_browser(R"js(
+    pick(keyOf(data.rows[1]));
+    await until(() => document.querySelectorAll('#roofline-chart .passes path').length);
+    result.points = document.querySelectorAll('#roofline-chart .passes path').length;
+    result.roofs = document.querySelectorAll('#roofline-chart .roof_lines line').length;
+    result.cells = [...document.querySelectorAll('#roofline-table tbody td')].map((cell) => cell.textContent);
+    result.remark = document.getElementById('roofline-remark').textContent;
+  )js");
+  EXPECT_EQ(result["points"], 1);
+  EXPECT_EQ(result["roofs"], 3);
+  EXPECT_EQ(result["cells"], Json({"hbao+ medium: hbao+/estimate", "0.100", "1000", "204", "15.4", "0.768", "3.13", "15\u202f%", "77\u202f%", "39\u202f%"}));
+  EXPECT_NE(result["remark"].get<std::string>().find("Not counted: gtao low"), std::string::npos) << result["remark"];
+}
+
 /// A shot of two frames, with one technique by itself and over time.
 Json shot_measurements() {
   Json rows = Json::array();
