@@ -27,7 +27,7 @@ BY_EFFECT = {
     "reflection": ["sssr ultra", "sssr high"],
 }
 BY_KIND = {  # of ambient occlusion: hard frames have no layers, and modules of displays need techniques of any projection
-    "hard": ["evidence ultra", "bitmask high", "gtao high", "hbao+ high", "hbao high"],
+    "hard": ["evidence ultra", "bitmask high", "hbao+ high"],
     "display": ["lightfield-ssao high", "lightfield-ssao ultra", "lightfield-hbao+ high"],
 }
 
@@ -66,7 +66,11 @@ def measure(folder, manifest, recipe):
 
 def freeze(manifest, recipe):
     hashes = recipe.setdefault("hashes", {})
+    rays = {(item["name"], truth["effect"]): truth["rays"] for item in recipe["items"] for truth in item["truths"]}
     for item in manifest["items"]:
+        if any(truth["rays"] != rays[item["name"], truth["effect"]] for truth in item["truths"]):
+            print(f"{item['name']}: was made with other rays than the recipe says, so it is not frozen; make it again")
+            continue
         for file in item["files"] + [file for truth in item["truths"] for file in truth["files"]]:
             if hashes.setdefault(file["file"], file["sha256"]) != file["sha256"]:
                 sys.exit(f"{file['file']}: is frozen with another hash; a set never changes: make the next version")

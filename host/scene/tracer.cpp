@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <tuple>
@@ -36,6 +37,12 @@ bool is_there_already(const std::vector<Surface>& surfaces, size_t count, const 
     if (other.mesh == surface.mesh && other.back_face == surface.back_face && joins(other, surface)) return true;
   }
   return false;
+}
+
+/// Embree's settings. GLOAM_EMBREE_ISA (sse4.2, avx, avx2, avx512) is for trying whether results depend on its instructions.
+std::string reproducible_device() {
+  const char* isa = std::getenv("GLOAM_EMBREE_ISA");
+  return fmt::format("isa={},threads=1", isa ? isa : "sse2");
 }
 
 }  // namespace
@@ -190,7 +197,7 @@ Tracer::Tracer(const Scene& scene, Tracing tracing) : impl_(std::make_unique<Imp
   impl_->bound();
   const auto start = std::chrono::steady_clock::now();
   // Embree's tree, and so which of two triangles that meet under a ray it finds first, depends on the number of threads.
-  impl_->device.reset(rtcNewDevice(impl_->is_reproducible ? "isa=sse2,threads=1" : nullptr));
+  impl_->device.reset(rtcNewDevice(impl_->is_reproducible ? reproducible_device().c_str() : nullptr));
   if (!impl_->device) throw Error("{}: Embree does not start", scene.name);
   impl_->embree.reset(rtcNewScene(impl_->device.get()));
   rtcSetSceneFlags(impl_->embree.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);

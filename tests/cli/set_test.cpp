@@ -95,11 +95,15 @@ TEST_F(Sets, OfFiguresHaveTheFrozenContent) {
 
 /// What `made` compares is the frozen content, from another machine and other numbers of threads.
 TEST_F(Sets, AreTheSameWithOtherThreadsAndInstructions) {
-  const std::map<std::string, std::string> environments[] = {
+  std::vector<std::map<std::string, std::string>> environments = {
       {{"OMP_NUM_THREADS", "1"}},
       {{"OMP_NUM_THREADS", "5"}},
       {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX512F,-AVX,-SSE4_1"}},
       {{"GLIBC_TUNABLES", "glibc.malloc.check=0:glibc.cpu.hwcaps=-AVX512F"}}};
+  // Embree with 4, 8 and 16 lanes, with and without fused multiply-add.
+  if (__builtin_cpu_supports("sse4.2")) environments.push_back({{"GLOAM_EMBREE_ISA", "sse4.2"}});
+  if (__builtin_cpu_supports("avx2")) environments.push_back({{"GLOAM_EMBREE_ISA", "avx2"}});
+  if (__builtin_cpu_supports("avx512vl")) environments.push_back({{"GLOAM_EMBREE_ISA", "avx512"}});
   int number = 0;
   for (const auto& environment : environments) {
     const std::string folder = fmt::format("set{}", number++);
