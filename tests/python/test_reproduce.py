@@ -18,7 +18,7 @@ sys.path.insert(0, str(PROGRAM))
 import catalogue
 import documents
 from intervals import ERROR, EXACT, INTERVALS, RATIO
-from markdown import Number, Table, looks_measured, numbers_in, pictures_of, slug, tables_of, with_numbers
+from markdown import Table, looks_measured, numbers_in, pictures_of, slug, tables_of, with_numbers
 
 catalogue.load()
 PAGES = [SOURCE / "README.md", *sorted(SOURCE.glob("docs/*.md")), *sorted(SOURCE.glob("kernels/*/README.md")),
