@@ -180,6 +180,31 @@ def test_an_interrupted_table_goes_on(small):
     assert [call.split()[0] for call in calls(small)[len(before):]] == ["run", "compare", "run", "compare"]
 
 
+MEASURED = '''
+from catalogue import measurements
+
+@measurements("docs/small.md", "data/results/small/slab.json", minutes=0.1, pages=("docs/small.md", ()))
+def slab(lab):
+    return lab.bench("slab", *"--scenes slab --techniques gtao --presets low --variants none --size 48x27 --rays 8 --rounds 1 --ladder none".split(),
+                     "--no-growth", "--no-checks", "--no-images") / "bench.json"
+'''
+
+
+def test_a_document_of_measurements_is_compared_and_its_page_written(small):
+    (small / "bench" / "reproduce" / "of_small.py").write_text(MEASURED)
+    kept = small / "data" / "results" / "small" / "slab.json"
+    kept.parent.mkdir(parents=True)
+    rows = [{"technique": "gtao", "preset": "low", "variant": "", "scene": "slab", "width": 48, "rmse_to_truth": 0.9}]
+    kept.write_text(json.dumps({"results": rows}))
+    done = reproduce(small, "--write")
+    assert "gtao, low, slab, 48, rmse_to_truth: the page has 0.9000, made again 0." in done.stdout, done.stdout + done.stderr
+    assert len(json.loads(kept.read_text())["results"]) >= 1
+    page = (small / "docs" / "small.md").read_text()
+    assert "data/results/small/slab.json" in page and "--markdown docs/small.md" in " ".join(page.split()) and "gtao" in page
+    again = reproduce(small)
+    assert again.returncode == 0, again.stdout + again.stderr
+
+
 def test_a_failing_command_is_told_in_one_line_and_the_rest_is_made(small):
     entry = small / "bench" / "reproduce" / "of_small.py"
     entry.write_text(ENTRY + ENTRY.replace('"Errors"', '"Others"').replace('"gtao"', '"gtoa"'))
