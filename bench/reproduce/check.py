@@ -80,7 +80,7 @@ def check_picture(entry, root, lab, _):
     import cv2  # only pictures need it
     made, kept = entry.make(lab), pathlib.Path(root) / entry.file
     outcome = Outcome(entry, compared=1, words={f"picture: a PSNR of {LEAST_PSNR} dB"}, text=f"{made}\n", write=lambda: shutil.copy(made, kept))
-    a, b = cv2.imread(str(kept), cv2.IMREAD_UNCHANGED), cv2.imread(str(made), cv2.IMREAD_UNCHANGED)
+    a, b = cv2.imread(str(kept), cv2.IMREAD_COLOR), cv2.imread(str(made), cv2.IMREAD_COLOR)
     if a is None or b is None:
         outcome.outside.append(f"{kept if a is None else made} is no picture")
     elif a.shape != b.shape:

@@ -7,14 +7,15 @@ from intervals import ERROR, EXACT, RATIO
 from markdown import Number
 
 DIGITS = 4  # places after the point to which pages show errors
-KEYS = ("technique", "preset", "variant", "scene", "effect", "plane", "width", "case", "quantity", "x", "tilt", "camera", "name")
+KEYS = ("technique", "preset", "variant", "scene", "effect", "plane", "width", "case", "quantity", "from", "tilt", "direction", "camera", "name")
 ROWS = ("results", "converged", "scales", "planes", "cases", "scenes")
 # Milliseconds hold for one machine, and pages show ratios.
 OF_ERROR = ("rmse_to_truth", "bias", "ssim", "flip", "rmse", "mean_change", "mae", "least", "truth_noise", "radius", "radius_pixels")
 
 
 def key_of(row):
-    return tuple(str(row[k]) for k in KEYS if k in row and not isinstance(row[k], (list, dict)))
+    """What tells a row from others. Documents that are older than other effects do not say that theirs is "ao"."""
+    return tuple(str(row[k]) for k in KEYS if row.get(k) not in (None, "", "ao") and not isinstance(row[k], (list, dict)))
 
 
 def figures_of(row):
@@ -64,17 +65,17 @@ def merged(documents):
 def write(entry, made, kept, root, lab):
     """The document, and the page that is written from it and those beside it."""
     page, flags = entry.pages
-    images, new = made.parent / "images", made.parent / "page.md"
-    shutil.copy(made, kept)
+    path, images = pathlib.Path(root) / page, made.parent / "images"
     beside = kept.parent / "images"  # where the document names its pictures, for as long as the page is made
+    before = path.read_text()
+    shutil.copy(made, kept)
     if images.is_dir():
         shutil.copytree(images, beside, dirs_exist_ok=True)
     try:
         sources = sorted(str(file.relative_to(root)) for file in kept.parent.glob("*.json"))
-        lab.run_again(lab.gloam, "report", *sources, "--markdown", new, *flags)
+        lab.run_again(lab.gloam, "report", *sources, "--markdown", page, *flags)
     finally:
         shutil.rmtree(beside, ignore_errors=True)
-    text, old = new.read_text(), (pathlib.Path(root) / page).read_text()
-    if text.count("![") < old.count("!["):
+    if path.read_text().count("![") < before.count("!["):
+        path.write_text(before)
         raise ValueError(f"{page} shows scenes whose pictures were not made; make all of the page before --write: script/reproduce {page} --write")
-    (pathlib.Path(root) / page).write_text(text.replace(str(new), page))

@@ -1,4 +1,6 @@
 """Runs the commands that a table needs, and keeps what they made: a second run goes on where the first one stopped."""
+import contextlib
+import fcntl
 import hashlib
 import json
 import os
@@ -33,11 +35,10 @@ class Lab:
         """The path of a file, or of files of a pattern (`shot.####.exr`), that `gloam ARGUMENTS` writes to OUT."""
         place = self._place(name, arguments)
         path = place / name
-        if not (place / "done").exists():
-            shutil.rmtree(place, ignore_errors=True)
-            place.mkdir(parents=True)
-            self._run([self.gloam, *(str(path) if a is OUT else str(a) for a in arguments), "-q"])
-            (place / "done").write_text("\n".join("OUT" if a is OUT else str(a) for a in arguments) + "\n")
+        with self._alone_at(place):
+            if not (place / "done").exists():  # else what is there is a part, with which `gloam reference` goes on
+                self._run([self.gloam, *(str(path) if a is OUT else str(a) for a in arguments), "-q"])
+                (place / "done").write_text("\n".join("OUT" if a is OUT else str(a) for a in arguments) + "\n")
         return str(path)
 
     def figures(self, *arguments):
@@ -87,10 +88,10 @@ class Lab:
         """The folder that `gloam bench ARGUMENTS` fills. Interrupted, it goes on with the frames and truths that are there."""
         place = self._place("bench", (name, *arguments)).with_name(f"bench-{name}")
         mark, words = place / "done", "\n".join(map(str, arguments)) + "\n"
-        if not mark.exists() or mark.read_text() != words:
-            place.mkdir(parents=True, exist_ok=True)
-            self._run([self.gloam, "bench", "-o", str(place), *map(str, arguments), "-q"])
-            mark.write_text(words)
+        with self._alone_at(place):
+            if not mark.exists() or mark.read_text() != words:
+                self._run([self.gloam, "bench", "-o", str(place), *map(str, arguments), "-q"])
+                mark.write_text(words)
         return place
 
     def stress(self, technique, *arguments):
@@ -143,6 +144,14 @@ class Lab:
 
     def inconsistency(self, result, *flags):
         return self.figures("compare", "--stereo", result, *flags)["inconsistency"]["mean"]
+
+    @contextlib.contextmanager
+    def _alone_at(self, place):
+        """While a folder is made: another run of script/reproduce waits for it."""
+        place.mkdir(parents=True, exist_ok=True)
+        with open(place / "lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            yield
 
     def _place(self, name, arguments):
         words = [name, *("OUT" if a is OUT else str(a).replace(str(self.folder), "") for a in arguments)]

@@ -93,7 +93,7 @@ CROP = (330, 270)
 CROPS = (("gallery", (330, 330)), ("lounge", (700, 480)), ("courtyard", (640, 560)))  # left and top
 
 
-@picture(PAGE, "docs/images/evidence_crops.png", minutes=2)
+@picture(PAGE, "docs/images/evidence_crops.png", minutes=0.5)
 def crops(lab):
     import cv2
     import gloam

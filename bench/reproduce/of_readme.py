@@ -3,7 +3,7 @@ from catalogue import picture
 from lab import OUT
 
 
-@picture("README.md", "docs/images/gallery_difference.png", minutes=1)
+@picture("README.md", "docs/images/gallery_difference.png", minutes=0.2)
 def difference(lab):
     """As script/demo makes it, at half the size."""
     import cv2

@@ -18,7 +18,7 @@ sys.path.insert(0, str(PROGRAM))
 import catalogue
 import documents
 from intervals import ERROR, EXACT, INTERVALS, RATIO
-from markdown import Number, Table, looks_measured, numbers_in, pictures_of, slug, tables_of, with_numbers
+from markdown import Table, looks_measured, numbers_in, pictures_of, slug, tables_of, with_numbers
 
 catalogue.load()
 PAGES = [SOURCE / "README.md", *sorted(SOURCE.glob("docs/*.md")), *sorted(SOURCE.glob("kernels/*/README.md")),
@@ -112,14 +112,15 @@ def test_documents_are_compared_row_by_row(tmp_path):
 
 ENTRY = '''
 from catalogue import table
+from intervals import ERROR, RATIO
 
-@table("docs/small.md", "Errors", minutes=0.1)
+@table("docs/small.md", "Errors", minutes=0.1, within=lambda row, column: RATIO if column else ERROR)
 def errors(lab):
     frame = lab.frame("slab", "48x27")
     truth = lab.truth("ao", frame, 32)
-    return [[lab.compared(lab.result("gtao", frame, "--preset", preset), truth)["rmse"]] for preset in ("low", "high")]
+    return [[lab.compared(lab.result("gtao", frame, "--preset", preset), truth)["rmse"], 0.75] for preset in ("low", "high")]
 '''
-PAGE = "# A page\n\n## Errors\n\n| preset | RMSE |\n|---|---|\n| low | .{low} |\n| high | .{high} |\n"
+PAGE = "# A page\n\n## Errors\n\n| preset | RMSE | time |\n|---|---|---|\n| low | .900 | 0.70 |\n| high | .900 | 0.70 |\n"
 # Says what it was called with; waits where it is told to.
 WRAPPER = '#!/bin/sh\necho "$1 $2" >> {folder}/calls\nwhile [ -e {folder}/wait ] && [ "$1" = run ]; do sleep 0.05; done\nexec {gloam} "$@"\n'
 
@@ -130,7 +131,7 @@ def small(tmp_path):
     shutil.copytree(PROGRAM, program, ignore=shutil.ignore_patterns("of_*", "__pycache__"))
     (program / "of_small.py").write_text(ENTRY)
     (tmp_path / "docs").mkdir()
-    (tmp_path / "docs" / "small.md").write_text(PAGE.format(low="900", high="900"))
+    (tmp_path / "docs" / "small.md").write_text(PAGE)
     wrapper = tmp_path / "gloam"
     wrapper.write_text(WRAPPER.format(folder=tmp_path, gloam=os.environ["GLOAM_BINARY"]))
     wrapper.chmod(0o755)
@@ -156,10 +157,11 @@ def test_a_table_is_written_and_then_holds_without_running_anything_again(small)
     done = calls(small)
     assert [call.split()[0] for call in done] == ["capture", "reference", "run", "compare", "run", "compare"]
     page = (small / "docs" / "small.md").read_text()
-    assert ".900" not in page and page.startswith("# A page\n\n## Errors\n\n| preset | RMSE |\n|---|---|\n| low | .")
-    second = reproduce(small, "small/errors")
-    assert second.returncode == 0 and "2 of 2 figures are within their intervals" in second.stdout
-    assert calls(small) == done
+    assert ".900" not in page and page.startswith("# A page\n\n## Errors\n\n| preset | RMSE | time |\n|---|---|---|\n| low | .")
+    assert page.count("0.70") == 2, "times are not written without --times"
+    second = reproduce(small, "small/errors", "--write", "--times")
+    assert second.returncode == 0 and "4 of 4 figures are within their intervals" in second.stdout
+    assert calls(small) == done and (small / "docs" / "small.md").read_text().count("0.75") == 2
 
 
 def test_an_interrupted_table_goes_on(small):
@@ -180,6 +182,31 @@ def test_an_interrupted_table_goes_on(small):
     assert [call.split()[0] for call in calls(small)[len(before):]] == ["run", "compare", "run", "compare"]
 
 
+MEASURED = '''
+from catalogue import measurements
+
+@measurements("docs/small.md", "data/results/small/slab.json", minutes=0.1, pages=("docs/small.md", ()))
+def slab(lab):
+    return lab.bench("slab", *"--scenes slab --techniques gtao --presets low --variants none --size 48x27 --rays 8 --rounds 1 --ladder none".split(),
+                     "--no-growth", "--no-checks", "--no-images") / "bench.json"
+'''
+
+
+def test_a_document_of_measurements_is_compared_and_its_page_written(small):
+    (small / "bench" / "reproduce" / "of_small.py").write_text(MEASURED)
+    kept = small / "data" / "results" / "small" / "slab.json"
+    kept.parent.mkdir(parents=True)
+    rows = [{"technique": "gtao", "preset": "low", "variant": "", "scene": "slab", "width": 48, "rmse_to_truth": 0.9}]
+    kept.write_text(json.dumps({"results": rows}))
+    done = reproduce(small, "--write")
+    assert "gtao, low, slab, 48, rmse_to_truth: the page has 0.9000, made again 0." in done.stdout, done.stdout + done.stderr
+    assert len(json.loads(kept.read_text())["results"]) >= 1
+    page = (small / "docs" / "small.md").read_text()
+    assert "data/results/small/slab.json" in page and "--markdown docs/small.md" in " ".join(page.split()) and "gtao" in page
+    again = reproduce(small)
+    assert again.returncode == 0, again.stdout + again.stderr
+
+
 def test_a_failing_command_is_told_in_one_line_and_the_rest_is_made(small):
     entry = small / "bench" / "reproduce" / "of_small.py"
     entry.write_text(ENTRY + ENTRY.replace('"Errors"', '"Others"').replace('"gtao"', '"gtoa"'))
@@ -188,7 +215,13 @@ def test_a_failing_command_is_told_in_one_line_and_the_rest_is_made(small):
     done = reproduce(small)
     assert done.returncode == 1 and "failed: small/others" in done.stderr
     told = [line for line in done.stdout.splitlines() if line.startswith("small/others: failed: ")]
-    assert len(told) == 1 and "did you mean 'gtao'?" in told[0] and "small/errors: 0 of 2" in done.stdout
+    assert len(told) == 1 and "did you mean 'gtao'?" in told[0] and "small/errors: 2 of 4" in done.stdout
+
+
+def test_what_only_some_machines_have_is_left_out_in_one_line(small):
+    (small / "bench" / "reproduce" / "of_small.py").write_text(ENTRY.replace('    frame =', '    from recipes import capture; capture(lab, "no.exr")\n    frame ='))
+    done = reproduce(small)
+    assert done.returncode == 0 and "small/errors: left out: needs no.exr among the frames that are not part of the project" in done.stdout
 
 
 @pytest.mark.parametrize("arguments, status, said", [
