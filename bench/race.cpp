@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/floors.h"
+#include "bench/baselines.h"
 #include "bench/intervals.h"
 #include "bench/measures.h"
 #include "bench/naive.h"
-#include "bench/native.h"
 #include "gloam/error.h"
 
 namespace gloam::bench {
 namespace {
-
-/// Up to this mean absolute difference the native loop computes the same as gloam.
-constexpr double native_tolerance = 1e-4;
 
 /// The technique that the native loop computes, and the preset with its number of samples.
 constexpr const char *reference_technique = "hbao+", *reference_preset = "medium";
@@ -25,14 +21,6 @@ constexpr size_t group_size = 4;
 constexpr const char* racer_prefix = "racer ";
 std::string name_of(size_t racer) { return racer_prefix + std::to_string(racer); }
 
-/// The baselines' frame: one view's depth and normals; missing normals are computed.
-Frame depth_and_normals(const Frame& frame, Device& device) {
-  Frame out = run(make_plan({.outputs = {"depth", "normal"}}, planes_of(frame), "the frame"), frame, device).frame;
-  if (const Plane* given = frame.views.front().find("normal"))
-    out.views.front().planes.insert_or_assign("normal", given->clone());
-  return out;
-}
-
 /// The parameters if a plan computes HBAO+ like the native loop; else null.
 const ParameterValues* as_baseline(const Plan& plan) {
   const ParameterValues* values = values_of(plan, reference_technique);
@@ -41,10 +29,6 @@ const ParameterValues* as_baseline(const Plan& plan) {
                     values->number("power") == 1 && values->text("falloff") == "quadratic" &&
                     values->text("jitter") == "on";
   return same ? values : nullptr;
-}
-
-std::string differs(const char* baseline, const std::string& technique, double difference) {
-  return fmt::format("the {} differs from {} by {:.2g} on average: no ratio to it", baseline, technique, difference);
 }
 
 bool is_own(const TimedPlan& timed, size_t pass) {
@@ -145,57 +129,13 @@ std::vector<Share> split_estimate(double ms, double gathers) {
   return {{"gathers", gathers * ms}, {"arithmetic of the estimate", (1 - gathers) * ms}};
 }
 
-struct Race::Plain {
-  Plain(const Frame& given, Device& device) : frame(depth_and_normals(given, device)), planes(device, frame) {}
-  Frame frame;
-  DevicePlanes planes;
-};
-
-/// The baselines of HBAO+ with 8 x 4 samples, and floors of the device.
-class Race::Baselines {
- public:
-  /// `estimate`: gloam's result; a loop with another result takes no part.
-  Baselines(Device& device, Plain& plain, const HbaoPlusParams& params, const Channel& estimate,
-            std::vector<std::string>& notes)
-      : gathers_(device, plain.frame, plain.planes, params),
-        copy_(device, plain.frame, plain.planes),
-        fma_(device, plain.frame, plain.planes),
-        native_(plain.frame, params, widest_instructions()) {
-    if (plain.frame.views[0].camera->orthographic) return;
-    native_.run();
-    const double difference = mean_difference(native_.result(), estimate);
-    has_native_ = difference <= native_tolerance;
-    if (!has_native_) notes.push_back(differs("native loop", reference_technique, difference));
-  }
-
-  std::vector<Contender> floors() {
-    return {{"gather floor", [this] { return gathers_.run(); }, [this] { return gathers_.cpu_ms(); }},
-            {"copy floor", [this] { return copy_.run(); }, [this] { return copy_.cpu_ms(); }},
-            {"fma peak", [this] { return fma_.run(); }, [this] { return fma_.cpu_ms(); }}};
-  }
-
-  double fma_operations() const { return fma_.operations(); }
-
-  std::vector<Contender> loops() {
-    if (!has_native_) return {};
-    return {{"native", [this] { return native_.run(); }}};
-  }
-
- private:
-  GatherFloor gathers_;
-  CopyFloor copy_;
-  FmaPeak fma_;
-  Native native_;
-  bool has_native_ = false;
-};
-
 Race::Race(const Frame& frame, const std::string& holds, double radius, Device& device)
     : frame_(frame), holds_(holds), radius_(radius), device_(device) {}
 
 Race::~Race() = default;
 
-Race::Plain& Race::plain() {
-  if (!plain_) plain_ = std::make_unique<Plain>(frame_, device_);
+PlainFrame& Race::plain() {
+  if (!plain_) plain_ = std::make_unique<PlainFrame>(frame_, device_);
   return *plain_;
 }
 
@@ -308,8 +248,9 @@ void Race::enter_baselines(const HbaoPlusParams& params) {
   const Frame& frame = plain().frame;
   const Plan estimate = unfiltered_plan(reference_variation_, planes_of(frame), holds_);
   const RunResult result = gloam::run(estimate, frame, device_);
-  baselines_ = std::make_unique<Baselines>(
-      device_, plain(), params, result.frame.views[0].planes.at(estimate.outputs.front()).channels[0], notes_);
+  baselines_ =
+      std::make_unique<Baselines>(device_, plain(), params, reference_technique,
+                                  result.frame.views[0].planes.at(estimate.outputs.front()).channels[0], notes_);
   common_ = baselines_->floors();
   loops_ = baselines_->loops();
 }

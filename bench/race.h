@@ -15,7 +15,9 @@
 
 namespace gloam::bench {
 
+class Baselines;
 class Naive;
+struct PlainFrame;
 
 /// A part of a plan's time.
 struct Share {
@@ -82,10 +84,7 @@ class Race {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  class Baselines;
-  /// One view's depth and normals on the device.
-  struct Plain;
-  Plain& plain();
+  PlainFrame& plain();
   /// Enters HBAO+ 8 x 4 and its baselines, if the frame has their inputs.
   void enter_reference();
   void enter_baselines(const HbaoPlusParams& params);
@@ -110,7 +109,7 @@ class Race {
   std::vector<Contender> common_;  ///< compared with every racer, besides the reference
   std::vector<Contender> loops_;   ///< native loops: compared with racers that compute the same
   Variation reference_variation_;
-  std::unique_ptr<Plain> plain_;
+  std::unique_ptr<PlainFrame> plain_;
   std::unique_ptr<TimedPlan> reference_;
   std::unique_ptr<Baselines> baselines_;
   std::vector<std::unique_ptr<Naive>> naives_;         ///< by racer; null: none

@@ -137,6 +137,7 @@ PAGES = {
                 'Error: camera: fx is nan' '^1004 ' 'frame | radius: none is given'; do
                 grep -- "$text" .log >/dev/null || { echo "nothing printed '$text'"; exit 1; }; done
             python3 "$SNIPPETS/figures.py" docs/python.md"""),
+    "docs/benchmark.md": Page(check="[ -s out/board/leaderboard.html ]"),
     "docs/leaderboard.md": Page(
         prepare=f"gloam bench -o results/mine {SMALL}",
         check="[ -s results/leaderboard.html ] && [ -s board.html ] && [ -s table.json ]"),
