@@ -4,7 +4,6 @@ import difflib
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import time
 
@@ -119,10 +118,11 @@ def main():
         except catalogue.NotHere as why:
             print(f"{entry.name}: left out: {why}", flush=True)
             continue
-        except (Failed, LookupError, ValueError, subprocess.SubprocessError) as error:
+        except Exception as error:  # whatever it is, the others are made
             tell("")
             failed.append(entry.name)
-            print(f"{entry.name}: failed: {error}", flush=True)
+            what = "" if isinstance(error, (Failed, ValueError)) else f"{type(error).__name__}: "
+            print(f"{entry.name}: failed: {what}{error}", flush=True)
             continue
         report(outcome)
         keep(outcome, options.folder, options.write)

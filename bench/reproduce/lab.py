@@ -66,7 +66,8 @@ class Lab:
         if not file.exists():
             self.tell(" ".join(map(str, ("gloam", *arguments))))
             begun = time.monotonic()
-            process = subprocess.Popen([self.gloam, *map(str, arguments), "-q"], cwd=self.root, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            process = subprocess.Popen([self.gloam, *map(str, arguments), "-q"], cwd=self.root, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.PIPE)
             said = process.stderr.read().decode()
             _, status, used = os.wait4(process.pid, 0)
             if status:

@@ -24,4 +24,5 @@ def missed(lab, frame, preset):
 @table(PAGE, "contact-mask", minutes=1, within=SENSITIVE)
 def mask(lab):
     frames = [str(effect_files(lab, "contact", "contact", scene)[0]) for scene in SCENES]
-    return [[100 * computed_share(lab, "contact-shadow", frame, "--length", 0.5, "--only", "contact-mask"), missed(lab, frame, "medium"), missed(lab, frame, "ultra")] for frame in frames]
+    wanted = [100 * computed_share(lab, "contact-shadow", frame, "--length", 0.5, "--only", "contact-mask") for frame in frames]
+    return [[share, missed(lab, frame, "medium"), missed(lab, frame, "ultra")] for share, frame in zip(wanted, frames)]

@@ -8,17 +8,20 @@ TECHNIQUES = ("hbao+", "gtao", "alchemy")
 RADIUS = ("--radius", 0.5)
 
 
-def planes(lab, technique, frame, *flags):
+def plane(lab, name, technique, frame, *flags):
+    """Of all views together."""
     import gloam
-    return gloam.read(lab.result(technique, frame, *flags))
+    import numpy
+    values = gloam.read(lab.result(technique, frame, *flags), planes=[name])[name]
+    return numpy.concatenate(values) if isinstance(values, list) else values
 
 
 def of_mask(lab, frame, radius):
     """Shares of pixels: wanted, and for each technique left out although its filtered AO lies below 254/255."""
-    mask = planes(lab, "corner-mask", frame, *radius)["mask"]
+    mask = plane(lab, "mask", "corner-mask", frame, *radius)
     cells = [100 * float(mask.mean())]
     for technique in TECHNIQUES:
-        whole, only = (planes(lab, technique, frame, *radius, *flags)["ao"] for flags in ((), ("--only", "corner-mask")))
+        whole, only = (plane(lab, "ao", technique, frame, *radius, *flags) for flags in ((), ("--only", "corner-mask")))
         cells.append(100 * float(((whole < 254 / 255) & (only == 1) & (mask == 0)).mean()))
     return cells
 
@@ -35,8 +38,8 @@ def total_ms(lab, technique, frame, *flags):
     return lab.figures("run", technique, frame, "-o", lab.unused("result.exr"), "--repeat", 9, *flags)["total_ms"]["median"]
 
 
-def differing(lab, a, b):
-    return 100 * float((abs(a["ao"] - b["ao"]) > 1 / 255).mean())
+def differing(a, b):
+    return 100 * float((abs(a - b) > 1 / 255).mean())
 
 
 @table(PAGE, "hidden-mask", minutes=3, within=lambda row, column: (SENSITIVE, RATIO, SENSITIVE, ERROR)[column])
@@ -46,9 +49,9 @@ def hidden_mask(lab):
         frame = lab.frame(scene, "1920x1080", "--planes", "normal", "--stochastic", 4)
         everywhere, with_mask, alone = (lab.result(technique, frame, *RADIUS, *flags)
                                         for technique, flags in (("sd-gtao", ()), ("sd-gtao", masked), ("gtao", ())))
-        differences = [differing(lab, planes(lab, "sd-gtao", frame, *RADIUS), planes(lab, technique, frame, *RADIUS, *flags))
+        differences = [differing(plane(lab, "ao", "sd-gtao", frame, *RADIUS), plane(lab, "ao", technique, frame, *RADIUS, *flags))
                        for technique, flags in (("sd-gtao", masked), ("gtao", ()))]
-        wanted = 100 * float(planes(lab, "hidden-mask", frame, *RADIUS)["mask"].mean())
+        wanted = 100 * float(plane(lab, "mask", "hidden-mask", frame, *RADIUS).mean())
         time = total_ms(lab, "sd-gtao", frame, *RADIUS, *masked) / total_ms(lab, "sd-gtao", frame, *RADIUS)
         rows.append([wanted, time, tuple(differences), tuple(rmse(lab, image, everywhere) for image in (with_mask, alone))])
     return rows

@@ -69,7 +69,7 @@ def against_time(lab):
     folder = lab.bench("evidence", "--scenes", "gallery", "--size", "1920x1080", "--techniques", "hbao+,gtao,bitmask,evidence", "--variants", "none",
                        "--ladder", "none", "--no-growth", "--no-checks", "--no-images")
     found = {(r["technique"], r["preset"]): r for r in json.loads((folder / "bench.json").read_text())["results"]}
-    return [[(found[technique, preset]["ratio_to_hbao_plus"], found[technique, preset]["rmse_to_truth"]) for preset in ("low", "medium", "high", "ultra")]
+    return [[tuple(found[technique, preset][name] for name in ("ratio_to_hbao_plus", "rmse_to_truth")) for preset in ("low", "medium", "high", "ultra")]
             for technique in ("gtao", "bitmask", "evidence")]
 
 

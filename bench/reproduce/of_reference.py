@@ -41,7 +41,8 @@ def what_they_take(lab):
     for kind, *flags in KINDS:
         cells = []
         for scene in ("courtyard", "lounge"):
-            frame, sky = lab.frame(scene, "960x540"), lab.made("sky.exr", "capture", scene, "-o", lab.unused("of_sky.exr"), "--size", "96x54", "--sky", OUT)
+            frame = lab.frame(scene, "960x540")
+            sky = lab.made("sky.exr", "capture", scene, "-o", lab.unused("of_sky.exr"), "--size", "96x54", "--sky", OUT)
             light = ("--environment", sky) if kind == "environment" else ()
             told = lab.figures("reference", kind, frame, "-o", lab.unused("truth.exr"), "--samples", 256, *flags, *light)
             cells += [told["seconds"], told["noise"]]

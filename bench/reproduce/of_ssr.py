@@ -75,8 +75,8 @@ def wu2024(lab):
         return list(zip(of_eye(what, "left", technique), of_eye(what, "right", technique)))
 
     def module(figure, row, column):
-        return [next(v for (f, r, c), v in facts.items() if f.startswith(f"Figures 10 to 14: {scene}") and f.endswith(figure) and (r, c) == (row, column))
-                for scene in PAPERS_SCENES]
+        return [next(v for (f, r, c), v in facts.items()
+                     if f.startswith(f"Figures 10 to 14: {scene}") and f.endswith(figure) and (r, c) == (row, column)) for scene in PAPERS_SCENES]
 
     def time(row):
         return [named(times, "Equal samples and marching: time", row, scene)["ratio"] for scene in PAPERS_SCENES]
@@ -86,7 +86,8 @@ def wu2024(lab):
                               and r.endswith("left") and c == column) for scene in PAPERS_SCENES]
 
     apart, shown = "how far the errors of both eyes are apart", "where 90 % of the reflection is shown too"
-    ssim = [[(value, None) for value in of_eye("SSIM to the truth", eye, technique)] for eye in ("left", "right") for technique in ("sssr", "stereo-ssr")]
+    ssim = [[(value, None) for value in of_eye("SSIM to the truth", eye, technique)]
+            for eye in ("left", "right") for technique in ("sssr", "stereo-ssr")]
     pairs = [of_eyes(what, technique) for what in ("FLIP to the truth", "RMSE to the truth", "RMSE to the truth, of what a screen shows")
              for technique in ("sssr", "stereo-ssr")]
     without = list(zip(*(module("SSIM", f"without {part}", "left") for part in ("traversal", "fade", "reprojection"))))

@@ -219,7 +219,8 @@ def test_a_failing_command_is_told_in_one_line_and_the_rest_is_made(small):
 
 
 def test_what_only_some_machines_have_is_left_out_in_one_line(small):
-    (small / "bench" / "reproduce" / "of_small.py").write_text(ENTRY.replace('    frame =', '    from recipes import capture; capture(lab, "no.exr")\n    frame ='))
+    needed = '    from recipes import capture; capture(lab, "no.exr")\n    frame ='
+    (small / "bench" / "reproduce" / "of_small.py").write_text(ENTRY.replace("    frame =", needed))
     done = reproduce(small)
     assert done.returncode == 0 and "small/errors: left out: needs no.exr among the frames that are not part of the project" in done.stdout
 
