@@ -276,7 +276,7 @@ TEST_F(Score, AnotherSetIsRefused) {
   const Result result = score_images();
   EXPECT_EQ(result.status, 0) << "the items are the same, and so is their hash: " << result.err;
   fs::remove(truth("room", "indirect"));
-  ok({"reference", "indirect", frame("room"), "-o", truth("room", "indirect"), "--samples", "8"});
+  ok({"reference", "indirect", frame("room"), "-o", truth("room", "indirect"), "--samples", "64"});
   write_manifest();
   const Result other = score_images();
   EXPECT_EQ(other.status, 1);
