@@ -41,7 +41,7 @@ KernelText copy_text(int lanes) {
   return {flatten("shared/lanes/load.h") + copy_floor_cl, options(lanes), "copy_floor"};
 }
 
-constexpr int fma_steps = 64;
+constexpr int fma_steps = 16;
 int fma_sums(int lanes) { return lanes == 16 ? 6 : 12; }  // as fma_peak.cl has them
 
 KernelText fma_text(int lanes) {

@@ -280,7 +280,7 @@ TEST_F(ReportInBrowser, DrawsTheRoofline) {
   EXPECT_EQ(result["points"], 1);
   EXPECT_EQ(result["roofs"], 3);
   EXPECT_EQ(result["cells"], Json({"hbao+ medium: hbao+/estimate", "0.100", "1000", "204", "15.4", "0.768", "3.13", "15\u202f%", "77\u202f%", "39\u202f%"}));
-  EXPECT_NE(result["remark"].get<std::string>().find("Not counted: gtao low"), std::string::npos) << result["remark"];
+  EXPECT_NE(result["remark"].get<std::string>().find("Not counted: hbao+ low."), std::string::npos) << result["remark"];
 }
 
 /// A shot of two frames, with one technique by itself and over time.
