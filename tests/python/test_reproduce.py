@@ -234,6 +234,14 @@ def test_bad_input_is_told_in_one_line(small, arguments, status, said):
     assert (done.returncode, done.stderr) == (status, said)
 
 
+def test_without_a_build_the_script_says_so(small):
+    (small / "script").mkdir()
+    shutil.copy(SOURCE / "script" / "reproduce", small / "script")
+    environment = {**os.environ, "PATH": f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"}
+    done = subprocess.run([small / "script" / "reproduce", "small"], capture_output=True, text=True, env=environment)
+    assert (done.returncode, done.stderr) == (1, f"reproduce: {small}/build/gloam: is not there; script/build makes it, or --gloam names another\n")
+
+
 def test_the_list_counts_what_is_shared_once_and_names_records():
     done = subprocess.run([sys.executable, str(PROGRAM), "--list"], capture_output=True, text=True)
     assert done.returncode == 0 and f"{len(catalogue.ENTRIES)} in all, " in done.stdout
