@@ -117,8 +117,8 @@ function rooflineSpec({points, peaks, width}) {
         interactive: false,
         encode: {
           enter: {
-            x: {scale: 'x', field: 'x2', offset: -6},
-            y: {scale: 'y', field: 'y2', offset: -7},
+            x: {scale: 'x', field: 'x2', offset: {signal: 'datum.flat ? -6 : -34'}},
+            y: {scale: 'y', field: 'y2', offset: {signal: 'datum.flat ? -7 : 16'}},
             align: {value: 'right'},
             fill: {value: colours.faint},
             text: {field: 'name'}
