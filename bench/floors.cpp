@@ -42,7 +42,7 @@ KernelText copy_text(int lanes) {
 }
 
 constexpr int fma_steps = 16;
-int fma_sums(int lanes) { return lanes == 16 ? 6 : 12; }  // as fma_peak.cl has them
+constexpr int fma_sums = 12;  // as fma_peak.cl has them
 
 KernelText fma_text(int lanes) {
   return {flatten("shared/lanes/load.h") + fma_peak_cl, options(lanes) + fmt::format(" -D FMA_STEPS={}", fma_steps),
@@ -81,7 +81,7 @@ FmaPeak::FmaPeak(Device& device, const Frame& frame, DevicePlanes& planes)
   kernel_.setArg(2, 0.25f);
   kernel_.setArg(3, planes.result().buffer);
   const PixelCamera c = pixel_camera(frame);
-  operations_ = 2.0 * fma_steps * fma_sums(device.info().tuning.lanes) * c.pitch * c.height;
+  operations_ = 2.0 * fma_steps * fma_sums * c.pitch * c.height;
 }
 
 CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)

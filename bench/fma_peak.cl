@@ -1,5 +1,5 @@
-// Fused multiply-adds and nothing else, in as many independent sums as hide their latency and fit the registers. Compiled after
-// shared/lanes/load.h. -D FMA_STEPS: multiply-adds of each sum
+// Fused multiply-adds and nothing else, in as many independent sums as hide their latency. Compiled after shared/lanes/load.h.
+// -D FMA_STEPS: multiply-adds of each sum
 #define STEP(sum) sum = fma(sum, factor, added);
 #define SIX(a, b, c, d, e, f) STEP(a) STEP(b) STEP(c) STEP(d) STEP(e) STEP(f)
 
@@ -8,18 +8,10 @@ kernel void fma_peak(Frame frame, float scale, float offset, PLANE_OUT result) {
   // Known only at run time, so that nothing is computed while compiling; sums stay finite, as scale is below 1.
   const real factor = (real)(scale), added = (real)(offset);
   real a = added, b = a + 1, c = a + 2, d = a + 3, e = a + 4, f = a + 5;
-#if LANES != 16
   real g = a + 6, h = a + 7, i = a + 8, j = a + 9, k = a + 10, l = a + 11;
-#endif
   for (int step = 0; step < FMA_STEPS; ++step) {
     SIX(a, b, c, d, e, f)
-#if LANES != 16
     SIX(g, h, i, j, k, l)
-#endif
   }
-  real sum = a + b + c + d + e + f;
-#if LANES != 16
-  sum += g + h + i + j + k + l;
-#endif
-  store(sum, result, here);
+  store(a + b + c + d + e + f + g + h + i + j + k + l, result, here);
 }
