@@ -81,7 +81,7 @@ class Table:
 
     def write(self, rows):
         for i, cells in enumerate(rows):
-            self.lines[self.first + 2 + i] = "| " + " | ".join(cells) + " |"
+            self.lines[self.first + 2 + i] = "|" + "".join(f" {cell} |" if cell else " |" for cell in cells)
         self.path.write_text("\n".join(self.lines))
 
 

@@ -1,7 +1,7 @@
 """kernels/corner_mask/README.md"""
 from catalogue import table
 from intervals import ERROR, RATIO, SENSITIVE
-from recipes import rmse, where_captured
+from recipes import computed_share, rmse, where_captured
 
 PAGE = "kernels/corner_mask/README.md"
 TECHNIQUES = ("hbao+", "gtao", "alchemy")
@@ -51,7 +51,7 @@ def hidden_mask(lab):
                                         for technique, flags in (("sd-gtao", ()), ("sd-gtao", masked), ("gtao", ())))
         differences = [differing(plane(lab, "ao", "sd-gtao", frame, *RADIUS), plane(lab, "ao", technique, frame, *RADIUS, *flags))
                        for technique, flags in (("sd-gtao", masked), ("gtao", ()))]
-        wanted = 100 * float(plane(lab, "mask", "hidden-mask", frame, *RADIUS).mean())
+        wanted = 100 * computed_share(lab, "sd-gtao", frame, *RADIUS, "--only", "hidden-mask", "--filter", "none")
         time = total_ms(lab, "sd-gtao", frame, *RADIUS, *masked) / total_ms(lab, "sd-gtao", frame, *RADIUS)
         rows.append([wanted, time, tuple(differences), tuple(rmse(lab, image, everywhere) for image in (with_mask, alone))])
     return rows

@@ -69,7 +69,8 @@ def against_time(lab):
     folder = lab.bench("evidence", "--scenes", "gallery", "--size", "1920x1080", "--techniques", "hbao+,gtao,bitmask,evidence", "--variants", "none",
                        "--ladder", "none", "--no-growth", "--no-checks", "--no-images")
     found = {(r["technique"], r["preset"]): r for r in json.loads((folder / "bench.json").read_text())["results"]}
-    return [[tuple(found[technique, preset][name] for name in ("ratio_to_hbao_plus", "rmse_to_truth")) for preset in ("low", "medium", "high", "ultra")]
+    names, presets = ("ratio_to_hbao_plus", "rmse_to_truth"), ("low", "medium", "high", "ultra")
+    return [[tuple(found[technique, preset][name] for name in names) for preset in presets]
             for technique in ("gtao", "bitmask", "evidence")]
 
 

@@ -40,7 +40,7 @@ def fireflies(lab):
     return [*rows, *[[None] * 4] * 4]
 
 
-@table(PAGE, "Fireflies", 2, minutes=4)
+@table(PAGE, "Fireflies", 2, minutes=2)
 def more_slices(lab):
     settings = (("--preset", "high"), ("--preset", "high", "--rays", 4), ("--preset", "medium", "--directions", 2),
                 ("--preset", "high", "--directions", 2))

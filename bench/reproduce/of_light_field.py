@@ -2,7 +2,7 @@
 from catalogue import picture
 from lab import OUT
 
-SHARED = {"minutes": 4, "shares": "eighty modules"}
+SHARED = {"minutes": 1, "shares": "eighty modules"}
 
 
 def modules(lab):

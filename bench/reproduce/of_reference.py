@@ -18,7 +18,7 @@ def luminance(colours):
     return float((colours @ [0.2126, 0.7152, 0.0722]).mean())
 
 
-@table(PAGE, "What the built-in scenes have to measure", minutes=3)
+@table(PAGE, "What the built-in scenes have to measure", minutes=1)
 def scenes(lab):
     rows = []
     for scene in SCENES:

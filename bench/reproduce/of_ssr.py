@@ -26,7 +26,7 @@ def figures(lab, frame, result, view):
     return lab.compared(result, lab.truth("reflection", frame, 64), "--plane", "reflection", "--view", view)
 
 
-@table(PAGE, "Which rays of the other eye count", minutes=4)
+@table(PAGE, "Which rays of the other eye count", minutes=1)
 def rays_that_count(lab):
     frames = [pair(lab, scene, "480x270", *MATERIALS) for scene in ("gallery", "lounge", "banquet")]
     rows = []

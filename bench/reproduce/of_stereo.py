@@ -73,7 +73,7 @@ def other_estimators_reduced(lab):
     return rows
 
 
-@table(PAGE, "With other estimators", 2, minutes=6, labels=2)
+@table(PAGE, "With other estimators", 2, minutes=2, labels=2)
 def other_estimators(lab):
     rows = []
     for technique, letters_of in (("stereo-gtao", "ABCD"), ("stereo-bitmask", "ABCD"), ("stereo-sd-hbao+", "AD")):
@@ -85,7 +85,7 @@ def other_estimators(lab):
     return rows
 
 
-@table(PAGE, "Indirect light", minutes=4)
+@table(PAGE, "Indirect light", minutes=1)
 def indirect(lab):
     frames = [pair(lab, scene, "480x270") for scene in (*SCENES, "lounge")]
     rows = []
