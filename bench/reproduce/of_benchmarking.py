@@ -20,3 +20,4 @@ def sequence(lab):
 
 record(PAGE, "A paper, measured again", why="how long commands of minutes take on two idle cores")
 record(PAGE, "What was measured", why="many runs of two builds, one made slower on purpose, for half a day on a machine with other work")
+record(PAGE, "The roofline", 2, why="two runs on a machine with other work, whose shares of peaks are that machine's")
