@@ -232,8 +232,8 @@ TEST_F(Sets, RefuseWhatCannotBe) {
             std::string::npos);
 }
 
-/// Each file of an item has a hash, or none of them, while a set is being frozen; no hash is of another file.
-TEST_F(Sets, AreFrozenByItem) {
+/// Each file of each item has a hash, and no hash is of another file.
+TEST_F(Sets, AreFrozenWholly) {
   for (const sets::Recipe& recipe : sets::recipes()) {
     size_t frozen = 0;
     for (const sets::ItemRecipe& item : recipe.items) {
@@ -243,7 +243,7 @@ TEST_F(Sets, AreFrozenByItem) {
       }
       const auto has_hash = [&](const std::string& file) { return recipe.hashes.count(file) == 1; };
       const size_t count = size_t(std::count_if(files.begin(), files.end(), has_hash));
-      EXPECT_TRUE(count == 0 || count == files.size()) << recipe.name << " " << item.name;
+      EXPECT_EQ(count, files.size()) << recipe.name << " " << item.name;
       frozen += count;
     }
     EXPECT_EQ(recipe.hashes.size(), frozen) << recipe.name << " has hashes of files that no item has";
