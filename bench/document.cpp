@@ -7,17 +7,12 @@
 #include <thread>
 
 #include "base/command_line.h"
+#include "base/json_text.h"
 #include "bench/commit.h"
 #include "bench/intervals.h"
 
 namespace gloam::bench {
 namespace {
-
-Json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json milliseconds(const Series& ms) {
   const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
@@ -81,9 +76,9 @@ Json samples_of(const Row& row) {
 const char* resolution_name(int resolution) { return resolution == 1 ? "full" : resolution == 2 ? "half" : "quarter"; }
 
 Json document_of(const Ladder& l) {
-  return {{"t0w", number(l.t0w)},           {"t1", number(l.t1)}, {"t2", number(l.t2)},
-          {"t12", number(l.t12)},           {"t3", number(l.t3)}, {"t4_bias", number(l.t4_bias)},
-          {"t4_noise", number(l.t4_noise)}, {"t5", number(l.t5)}};
+  return {{"t0w", or_null(l.t0w)},           {"t1", or_null(l.t1)}, {"t2", or_null(l.t2)},
+          {"t12", or_null(l.t12)},           {"t3", or_null(l.t3)}, {"t4_bias", or_null(l.t4_bias)},
+          {"t4_noise", or_null(l.t4_noise)}, {"t5", or_null(l.t5)}};
 }
 
 Json document_of(const AgainstNaive& part) {
@@ -91,8 +86,8 @@ Json document_of(const AgainstNaive& part) {
           {"ms", milliseconds(part.ms)},
           {"naive_ms", milliseconds(part.naive_ms)},
           {"ratio", part.ratio},
-          {"mean_difference", number(part.mean_difference)},
-          {"max_difference", number(part.greatest_difference)}};
+          {"mean_difference", or_null(part.mean_difference)},
+          {"max_difference", or_null(part.greatest_difference)}};
 }
 
 std::optional<double> ratio_to_naive(const Row& row) {
@@ -112,16 +107,17 @@ Json count_of_pass(const Row& row, const std::string& pass) {
 }
 
 Json document_of(const Peaks& peaks) {
-  return {{"copy_gb_per_s", number(peaks.copy_gb_per_s)},
-          {"gather_g_per_s", number(peaks.gather_g_per_s)},
-          {"fma_gflops", number(peaks.fma_gflops)}};
+  return {{"copy_gb_per_s", or_null(peaks.copy_gb_per_s)},
+          {"gather_g_per_s", or_null(peaks.gather_g_per_s)},
+          {"fma_gflops", or_null(peaks.fma_gflops)}};
 }
 
 Json figures_of(const Row& row) {
   const Variation& v = row.variation;
   Json passes = Json::array(), spent_on = Json::array(), naive = Json::array();
   for (const TimedPlan::Pass& pass : row.timed->passes())
-    passes.push_back({{"name", pass.name}, {"ms", milliseconds(pass.ms)}, {"per_pixel", count_of_pass(row, pass.name)}});
+    passes.push_back(
+        {{"name", pass.name}, {"ms", milliseconds(pass.ms)}, {"per_pixel", count_of_pass(row, pass.name)}});
   for (const Share& share : row.spent_on) spent_on.push_back({{"what", share.what}, {"share", share.share}});
   for (const AgainstNaive& part : row.against_naive) naive.push_back(document_of(part));
   return {{"technique", v.technique->name},
@@ -143,24 +139,24 @@ Json figures_of(const Row& row) {
           {"ms", milliseconds_and_rounds(row.ms)},
           {"passes", passes},
           {"own_floor_ms", row.own_floor_ms.empty() ? Json(nullptr) : Json(median(row.own_floor_ms))},
-          {"ratio_to_own_floor", number(row.to_own_floor)},
+          {"ratio_to_own_floor", or_null(row.to_own_floor)},
           {"spent_on", spent_on},
-          {"ratio_to_naive", number(ratio_to_naive(row))},
+          {"ratio_to_naive", or_null(ratio_to_naive(row))},
           {"naive", naive},
-          {"ratio_to_native", number(row.to_native)},
-          {"ratio_to_gather_floor", number(row.to_gather_floor)},
-          {"ratio_to_copy_floor", number(row.to_copy_floor)},
-          {"copy_floor_ms", number(row.copy_floor_ms)},
-          {"ratio_to_hbao_plus", number(row.to_hbao_plus)},
-          {"rmse_to_truth", number(row.errors.rmse)},
-          {"bias", number(row.errors.bias)},
-          {"ssim", number(row.similarity.ssim)},
-          {"flip", number(row.similarity.flip)},
+          {"ratio_to_native", or_null(row.to_native)},
+          {"ratio_to_gather_floor", or_null(row.to_gather_floor)},
+          {"ratio_to_copy_floor", or_null(row.to_copy_floor)},
+          {"copy_floor_ms", or_null(row.copy_floor_ms)},
+          {"ratio_to_hbao_plus", or_null(row.to_hbao_plus)},
+          {"rmse_to_truth", or_null(row.errors.rmse)},
+          {"bias", or_null(row.errors.bias)},
+          {"ssim", or_null(row.similarity.ssim)},
+          {"flip", or_null(row.similarity.flip)},
           {"flicker", nullptr},
-          {"inconsistency", number(row.inconsistency)},
+          {"inconsistency", or_null(row.inconsistency)},
           {"kind", nullptr},
           {"ladder", document_of(row.ladder)},
-          {"image", text_or_null(row.image)}};
+          {"image", or_null(row.image)}};
 }
 
 Json document_of(const Row& row) {
@@ -182,15 +178,15 @@ Json document_of(const SceneFacts& scene) {
                    {"radius", scene.radius.value},
                    {"radius_from", name_of(scene.radius.from)},
                    {"radius_pixels", scene.radius_pixels},
-                   {"truth_noise", number(scene.truth_noise)},
-                   {"truth_rays", number(scene.truth_rays)},
-                   {"truth_image", text_or_null(scene.truth_image)},
+                   {"truth_noise", or_null(scene.truth_noise)},
+                   {"truth_rays", or_null(scene.truth_rays)},
+                   {"truth_image", or_null(scene.truth_image)},
                    {"white", scene.white},
                    {"peaks", document_of(scene.peaks)},
                    {"base",
                     {{"name", scene.base},
-                     {"rmse_to_truth", number(scene.base_errors.rmse)},
-                     {"bias", number(scene.base_errors.bias)}}}};
+                     {"rmse_to_truth", or_null(scene.base_errors.rmse)},
+                     {"bias", or_null(scene.base_errors.bias)}}}};
   if (scene.traced) {
     document["made"] = scene.made;
     document["reused"] = scene.reused;
@@ -206,7 +202,7 @@ Json document_of(const GrowthFacts& facts) {
   return {{"technique", facts.technique},
           {"over", facts.growth.over},
           {"scene", facts.scene},
-          {"exponent", number(exponent(facts.growth.points))},
+          {"exponent", or_null(exponent(facts.growth.points))},
           {"points", points}};
 }
 
@@ -216,8 +212,8 @@ Json document_of(const ConvergedFacts& facts) {
           {"effect", facts.effect},
           {"depths", depths_of(*facts.technique)},
           {"views", facts.technique->views},
-          {"rmse_to_truth", number(facts.errors.rmse)},
-          {"bias", number(facts.errors.bias)}};
+          {"rmse_to_truth", or_null(facts.errors.rmse)},
+          {"bias", or_null(facts.errors.bias)}};
 }
 
 Json document_of(const ScaleFacts& facts) {
@@ -232,13 +228,12 @@ Json document_of(const PlaneFacts& facts) {
 }
 
 Json document_of(const Skipped& s) {
-  return {
-      {"technique", s.technique}, {"preset", text_or_null(s.preset)}, {"scene", text_or_null(s.scene)}, {"why", s.why}};
+  return {{"technique", s.technique}, {"preset", or_null(s.preset)}, {"scene", or_null(s.scene)}, {"why", s.why}};
 }
 
 Json document_of(const LeftOut& l) {
-  return {{"technique", text_or_null(l.technique)},
-          {"preset", text_or_null(l.preset)},
+  return {{"technique", or_null(l.technique)},
+          {"preset", or_null(l.preset)},
           {"variant", l.variant},
           {"scene", l.scene},
           {"effect", l.effect},
@@ -250,9 +245,9 @@ Json document_of(const PaperTime& t) {
           {"row", t.row},
           {"column", t.column},
           {"ms", t.ms},
-          {"ratio", number(t.ratio)},
-          {"paper_ms", number(t.paper_ms)},
-          {"paper_ratio", number(t.paper_ratio)},
+          {"ratio", or_null(t.ratio)},
+          {"paper_ms", or_null(t.paper_ms)},
+          {"paper_ratio", or_null(t.paper_ratio)},
           {"base", t.base}};
 }
 
@@ -301,9 +296,8 @@ Json origin_of(const DeviceInfo& device) {
 /// Those of the largest frame: planes of small ones stay in caches.
 static Peaks peaks_of(const std::vector<SceneFacts>& scenes) {
   const auto pixels = [](const SceneFacts& scene) { return long(scene.width) * scene.height; };
-  const auto largest = std::max_element(scenes.begin(), scenes.end(), [&](const SceneFacts& a, const SceneFacts& b) {
-    return pixels(a) < pixels(b);
-  });
+  const auto largest = std::max_element(
+      scenes.begin(), scenes.end(), [&](const SceneFacts& a, const SceneFacts& b) { return pixels(a) < pixels(b); });
   return largest == scenes.end() ? Peaks{} : largest->peaks;
 }
 
@@ -322,7 +316,7 @@ Json document_of(const Measurement& measurement, const MeasureOptions& options, 
   for (const auto& row : measurement.rows) results.push_back(document_of(*row));
   Json document = origin_of(device);
   document.update({{"rounds", options.rounds},
-                   {"rays", number(rays_of(measurement.scenes))},
+                   {"rays", or_null(rays_of(measurement.scenes))},
                    {"peaks", document_of(peaks_of(measurement.scenes))},
                    {"scenes", list_of(measurement.scenes)},
                    {"results", results},

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "base/json_text.h"
 #include "base/statistics.h"
 #include "gloam/frame_numbers.h"
 
 namespace gloam::bench {
 namespace {
-
-Json figure_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 std::vector<int> numbers_of(const MeasuredSequence& sequence) {
   std::vector<int> numbers;
@@ -22,13 +21,13 @@ Json json_of(const SequenceRow& row) {
           {"preset", row.variation.name()},
           {"temporal", row.variation.temporal},
           {"ms", {{"median", median(row.ms)}, {"min", *least}, {"max", *most}}},
-          {"ratio_to_hbao_plus", figure_or_null(row.ratio)},
+          {"ratio_to_hbao_plus", or_null(row.ratio)},
           {"rmse", row.rmse},
           {"worst", {{"frame", row.worst_frame}, {"rmse", row.worst_rmse}}},
           {"ssim", row.ssim},
-          {"flicker", figure_or_null(row.flicker.flicker())},
-          {"new_rmse", figure_or_null(row.flicker.new_rmse())},
-          {"old_rmse", figure_or_null(row.flicker.old_rmse())}};
+          {"flicker", or_null(row.flicker.flicker())},
+          {"new_rmse", or_null(row.flicker.new_rmse())},
+          {"old_rmse", or_null(row.flicker.old_rmse())}};
 }
 
 /// ".0123"
@@ -44,10 +43,8 @@ Json document_of(const MeasuredSequence& sequence, const SequenceMeasurement& me
   Json rows = Json::array(), skipped = Json::array();
   for (const SequenceRow& row : measurement.rows) rows.push_back(json_of(row));
   for (const Skipped& s : measurement.skipped)
-    skipped.push_back({{"technique", s.technique},
-                       {"preset", s.preset.empty() ? Json(nullptr) : Json(s.preset)},
-                       {"scene", s.scene.empty() ? Json(nullptr) : Json(s.scene)},
-                       {"why", s.why}});
+    skipped.push_back(
+        {{"technique", s.technique}, {"preset", or_null(s.preset)}, {"scene", or_null(s.scene)}, {"why", s.why}});
   const Frame& first = sequence.frames.front().frame;
   Json document = origin_of(device);
   document.update({{"results", Json::array()},
@@ -58,10 +55,10 @@ Json document_of(const MeasuredSequence& sequence, const SequenceMeasurement& me
                      {"size", {first.width(), first.height()}},
                      {"radius", sequence.radius.value},
                      {"radius_from", name_of(sequence.radius.from)},
-                     {"truth_rays", figure_or_null(sequence.truth_rays)},
-                     {"truth_noise", figure_or_null(sequence.truth_noise)},
-                     {"truth_change", figure_or_null(measurement.truth_change)},
-                     {"comparable", figure_or_null(measurement.comparable)},
+                     {"truth_rays", or_null(sequence.truth_rays)},
+                     {"truth_noise", or_null(sequence.truth_noise)},
+                     {"truth_change", or_null(measurement.truth_change)},
+                     {"comparable", or_null(measurement.comparable)},
                      {"motion", measurement.motions},
                      {"made", sequence.made},
                      {"reused", sequence.reused},

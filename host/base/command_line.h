@@ -1,4 +1,4 @@
-// The command as it was given.
+// Command lines: this one as it was given, and words as a shell takes them.
 #pragma once
 
 #include <string>
@@ -9,5 +9,11 @@ namespace gloam {
 /// The program's name without its folder, and its arguments; of absolute paths the last folder and the name, since files that hold a
 /// command are passed on. Empty where the system does not tell.
 std::vector<std::string> command_line();
+
+/// A word as a POSIX shell reads it back: in quotes where it needs them.
+std::string quoted_for_shell(const std::string& word);
+
+/// Words as a line for a shell.
+std::string shell_line(const std::vector<std::string>& words);
 
 }  // namespace gloam

@@ -1,5 +1,6 @@
 #include "base/json_text.h"
 
+#include <cmath>
 #include <string_view>
 
 #include "gloam/error.h"
@@ -50,6 +51,14 @@ nlohmann::json json_of_text(const std::string& text, const std::string& name) {
 
 bool is_nonfinite_literal(const nlohmann::json& value) {
   return value == "NaN" || value == "Infinity" || value == "-Infinity";
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json or_null(const std::string& text) {
+  return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
 }
 
 }  // namespace gloam

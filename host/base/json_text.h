@@ -1,7 +1,8 @@
-// JSON from files that people and scripts write.
+// JSON from files that people and scripts write, and values of JSON that may be missing.
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace gloam {
@@ -15,6 +16,11 @@ nlohmann::json parse_shallow(const std::string& text, const std::string& name);
 /// Parses JSON that people and scripts write. NaN and Infinity, which Python writes and JSON lacks, become strings of these names.
 /// Throws Error that begins with `name`.
 nlohmann::json json_of_text(const std::string& text, const std::string& name);
+
+/// A number; null where there is none, or one that JSON cannot hold.
+nlohmann::ordered_json or_null(const std::optional<double>& number);
+/// A text; null for an empty one.
+nlohmann::ordered_json or_null(const std::string& text);
 
 /// Whether a value is one of these strings.
 bool is_nonfinite_literal(const nlohmann::json& value);

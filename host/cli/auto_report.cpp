@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "base/json_text.h"
 #include "cli/auto_goal.h"
 #include "cli/options.h"
 
 namespace gloam::cli {
 namespace {
-
-Json number_or_null(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
 Json document_of(const EffectChoice& choice) {
   return {{"name", choice.technique->effect.name},
@@ -23,11 +22,11 @@ Json document_of(const Outcome& o) {
   Json effect = document_of(o.decision.effect);
   effect["runs"] = o.runs() ? Json(o.decision.request.outputs.front()) : Json(nullptr);
   effect["ms"] = o.ms;
-  effect["ms_everywhere"] = number_or_null(o.ms_everywhere);
-  effect["ms_masked"] = number_or_null(o.ms_masked);
+  effect["ms_everywhere"] = or_null(o.ms_everywhere);
+  effect["ms_masked"] = or_null(o.ms_masked);
   effect["masked"] = o.is_masked;
-  effect["change"] = number_or_null(o.change);
-  effect["lost"] = number_or_null(o.lost);
+  effect["change"] = or_null(o.change);
+  effect["lost"] = or_null(o.lost);
   effect["refinements"] = Json::array();
   for (const EffectChoice& refinement : o.decision.refinements)
     effect["refinements"].push_back(document_of(refinement));
@@ -48,7 +47,7 @@ Json chosen_of(const std::vector<Outcome>& outcomes) {
                       {"resolution", request.resolution},
                       {"masked", o.is_masked},
                       {"expected_ms", o.ms - o.decision.effect.classify_ms},
-                      {"expected_error", number_or_null(o.lost)}});
+                      {"expected_error", or_null(o.lost)}});
   }
   return chosen;
 }

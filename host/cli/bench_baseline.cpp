@@ -87,7 +87,7 @@ void tell(const ComparedWithBaseline& compared, Regression regression, bool quie
   if (worse.empty()) return;
   print_notes();  // an error leaves them out
   throw Error("worse than {}: {}; gloam report {} {} --compare --markdown FILE.md shows all rows", before,
-              fmt::join(worse, ", "), quoted(before), quoted(now));
+              fmt::join(worse, ", "), quoted_for_shell(before), quoted_for_shell(now));
 }
 
 }  // namespace gloam::cli

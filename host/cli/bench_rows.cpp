@@ -28,9 +28,8 @@ bool is_known(const std::string& technique) {
 }
 
 std::string command_of(const report::Source& source) {
-  std::string text;
-  for (const std::string& word : source.measurements.command) text += (text.empty() ? "" : " ") + quoted(word);
-  return text.empty() ? "not in the file" : text;
+  const std::vector<std::string>& words = source.measurements.command;
+  return words.empty() ? "not in the file" : shell_line(words);
 }
 
 /// Throws Error for scenes that are none of the built-in ones, without a frame in their place.

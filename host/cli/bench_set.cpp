@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/json_text.h"
 #include "bench/document.h"
 #include "bench/effects.h"
 #include "bench/sequence.h"
@@ -177,7 +178,6 @@ class SetBench {
 
   /// A row of a sequence, as those of frames.
   Json row_of(const SequenceRow& row, const Target& target, const score::LoadedFrame& first) const {
-    const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
     const auto [least, most] = std::minmax_element(row.ms.begin(), row.ms.end());
     const Variation& v = row.variation;
     return {{"technique", v.technique->name},
@@ -193,13 +193,13 @@ class SetBench {
             {"width", first.frame.width()},
             {"height", first.frame.height()},
             {"ms", {{"median", median(row.ms)}, {"min", *least}, {"max", *most}, {"rounds", row.ms}}},
-            {"ratio_to_hbao_plus", number(row.ratio)},
+            {"ratio_to_hbao_plus", or_null(row.ratio)},
             {"ratio_to_gather_floor", nullptr},
             {"rmse_to_truth", row.rmse},
             {"bias", row.bias},
             {"ssim", row.ssim},
-            {"flip", number(row.flip)},
-            {"flicker", number(row.flicker.flicker())},
+            {"flip", or_null(row.flip)},
+            {"flicker", or_null(row.flicker.flicker())},
             {"inconsistency", nullptr},
             {"image", nullptr}};
   }
@@ -213,7 +213,7 @@ class SetBench {
     for (const char* list : {"scenes", "results"}) {
       for (Json& each : made[list]) {
         const auto kind = kinds_.find(each.value(list == std::string("scenes") ? "name" : "scene", ""));
-        if (kind != kinds_.end()) each["kind"] = kind->second.empty() ? Json(nullptr) : Json(kind->second);
+        if (kind != kinds_.end()) each["kind"] = or_null(kind->second);
       }
     }
     for (const Json& row : kept_) made["results"].push_back(row);

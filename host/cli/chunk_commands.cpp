@@ -55,12 +55,10 @@ std::vector<std::string> repeated_words(const CLI::App& command, std::set<std::s
 }
 
 void print_chunk(const std::vector<std::string>& words, const std::vector<std::string>& more) {
-  std::string line = fmt::format("cd {} && {}", quoted_for_shell(std::filesystem::current_path().string()),
-                                 quoted_for_shell(program_path()));
-  for (const auto* part : {&words, &more}) {
-    for (const std::string& word : *part) line += " " + quoted_for_shell(word);
-  }
-  fmt::print("{}\n", line);
+  std::vector<std::string> all = {program_path()};
+  all.insert(all.end(), words.begin(), words.end());
+  all.insert(all.end(), more.begin(), more.end());
+  fmt::print("cd {} && {}\n", quoted_for_shell(std::filesystem::current_path().string()), shell_line(all));
 }
 
 void end_of_chunks() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/json_text.h"
 #include "cli/compare_figures.h"
 #include "cli/compare_sequence_files.h"
 #include "cli/memory.h"
@@ -133,13 +134,11 @@ Metrics means_of(const SequenceComparison& c) {
   return means;
 }
 
-Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 Json pair_document(const std::optional<FlickerSums>& pair) {
   const FlickerSums sums = pair.value_or(FlickerSums{});
-  return {{"flicker", number_or_null(sums.flicker())},   {"truth_change", number_or_null(sums.truth_change())},
-          {"comparable", number_or_null(sums.share())},  {"new_share", number_or_null(sums.new_share())},
-          {"new_rmse", number_or_null(sums.new_rmse())}, {"old_rmse", number_or_null(sums.old_rmse())}};
+  return {{"flicker", or_null(sums.flicker())},   {"truth_change", or_null(sums.truth_change())},
+          {"comparable", or_null(sums.share())},  {"new_share", or_null(sums.new_share())},
+          {"new_rmse", or_null(sums.new_rmse())}, {"old_rmse", or_null(sums.old_rmse())}};
 }
 
 Json row_document(const SequenceComparison& c, const SequenceRow& row) {

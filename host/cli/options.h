@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/command_line.h"
 #include "base/lists.h"
 #include "cli/frame_flags.h"
 #include "cli/notes.h"
@@ -41,9 +42,6 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
 
 /// "1 file", "3 files"
 std::string counted(size_t count, const char* what);
-
-/// A word quoted for a shell.
-std::string quoted(const std::string& word);
 
 /// median, min, max
 Json milliseconds(std::vector<double> ms);

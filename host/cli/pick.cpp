@@ -99,14 +99,14 @@ std::string reading_flags(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group() != "Reading the frame") continue;
-    for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted(value);
+    for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted_for_shell(value);
   }
   return text;
 }
 
 std::string run_line(const PickCommand& flags, const Variation& v) {
   const bool is_shot = FramePattern::is_pattern(flags.frame);
-  std::string line = fmt::format("gloam run {} {} -o {}", v.technique->name, quoted(flags.frame),
+  std::string line = fmt::format("gloam run {} {} -o {}", v.technique->name, quoted_for_shell(flags.frame),
                                  is_shot ? "'ao.####.exr'" : measured_plane(*v.technique) + ".exr");
   if (v.temporal) line += " --temporal";
   if (!v.preset.empty()) line += " --preset " + v.preset;

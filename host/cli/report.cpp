@@ -77,9 +77,9 @@ void write_page(const ReportCommand& flags) {
 
 std::string command_of(const ReportCommand& flags) {
   std::string command = "gloam report";
-  for (const std::string& source : flags.sources) command += " " + quoted(shown_path(source));
-  command += " --markdown " + quoted(shown_path(flags.markdown));
-  if (!flags.pictures.empty()) command += " --pictures " + quoted(shown_path(flags.pictures));
+  for (const std::string& source : flags.sources) command += " " + quoted_for_shell(shown_path(source));
+  command += " --markdown " + quoted_for_shell(shown_path(flags.markdown));
+  if (!flags.pictures.empty()) command += " --pictures " + quoted_for_shell(shown_path(flags.pictures));
   return command;
 }
 

@@ -45,8 +45,8 @@ void report_compare(const std::string& first, const std::string& second, const s
   const report::Comparison comparison = report::compare(a, b);
   note(comparison.notes);
   if (!markdown.empty()) {
-    const std::string command = fmt::format("gloam report {} {} --compare --markdown {}", quoted(a.name),
-                                            quoted(b.name), quoted(shown_path(markdown)));
+    const std::string command = fmt::format("gloam report {} {} --compare --markdown {}", quoted_for_shell(a.name),
+                                            quoted_for_shell(b.name), quoted_for_shell(shown_path(markdown)));
     write_text(markdown, report::page_of(comparison, a, b, command));
   }
   json.write(report::document_of(comparison, a, b));

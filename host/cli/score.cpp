@@ -227,7 +227,7 @@ class ScoreRun {
     } else {
       print_scores(entry_, rows_, fits_);
       fmt::print("{} {}: gloam report {} shows them\n", result_->is_new() ? "wrote" : "added to",
-                 printable(result_->path().string()), printable(quoted(flags_.folder)));
+                 printable(result_->path().string()), printable(quoted_for_shell(flags_.folder)));
     }
     if (left_out.empty()) return;
     std::fflush(stdout);

@@ -183,10 +183,8 @@ std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::
   const bool has_own = !own_technique(target.effect).empty(), is_whole = target.is_sequence && has("{frames}");
   const size_t frames = is_whole ? 1 : target.frames.size();
   const double per = is_whole ? double(target.frames.size()) : 1;  // of a frame
-  std::vector<std::string> own;
   if (has_own) {
-    own = own_words(target, target.frames.front());
-    for (const std::string& word : own) times.gloam_command += (times.gloam_command.empty() ? "" : " ") + quoted(word);
+    times.gloam_command = shell_line(own_words(target, target.frames.front()));
   }
   const auto run_own = [&](const TargetFrame& at) {
     std::vector<std::string> words = own_words(target, at);

@@ -186,7 +186,8 @@ void print_verification(const std::string& folder, const Verification& found) {
   for (const Problem& one : found.problems) fmt::print("{} {}\n", printable(one.file), printable(one.problem));
   if (!found.missing.empty())
     fmt::print("not complete: {} not made: {}; gloam set make {} -o {} makes them\n",
-               counted(found.missing.size(), "item"), enumerate(found.missing), found.manifest.set, quoted(folder));
+               counted(found.missing.size(), "item"), enumerate(found.missing), found.manifest.set,
+               quoted_for_shell(folder));
   if (!found.unfrozen.empty())
     fmt::print("not frozen yet, so compared with the manifest alone: {}\n", enumerate(found.unfrozen));
   if (found.problems.empty())

@@ -97,7 +97,7 @@ void gather(const StressRequest& request, const ResultsByTechnique& known, Stres
 
 /// The device flags to repeat a trial: a device asked for by name, and the devices compared with.
 std::string device_flags(const StressCommand& flags) {
-  return flags.as_text() + (flags.against == "all" ? "" : " --against " + quoted(flags.against));
+  return flags.as_text() + (flags.against == "all" ? "" : " --against " + quoted_for_shell(flags.against));
 }
 
 /// Examines all techniques, several at a time. An ordinary error of one of them, such as a missing device, ends all. The file of

@@ -88,7 +88,7 @@ void DeviceFlags::add_to(CLI::App& app, const std::string& group) {
 Device DeviceFlags::open() const { return Device(device, !no_tuning); }
 
 std::string DeviceFlags::as_text() const {
-  return (device.empty() ? "" : " --device " + quoted(device)) + (no_tuning ? " --no-tuning" : "");
+  return (device.empty() ? "" : " --device " + quoted_for_shell(device)) + (no_tuning ? " --no-tuning" : "");
 }
 
 void RunFlags::add_to(CLI::App& app) {

@@ -1,17 +1,11 @@
 #include "leaderboard/commands.h"
 
-#include "sequence/chunks.h"
+#include "base/command_line.h"
 
 namespace gloam::leaderboard {
 namespace {
 
 using report::Json;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string command;
-  for (const std::string& word : words) command += (command.empty() ? "" : " ") + quoted_for_shell(word);
-  return command;
-}
 
 std::string value_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
@@ -49,18 +43,18 @@ std::string run_command(const Row& row, const Item& item, const report::SetFacts
   if (!add_variant(row, words)) return "";
   for (const auto& [name, value] : row.settings.items())
     words.insert(words.end(), {"--set", name + "=" + value_text(value)});
-  return joined(words);
+  return shell_line(words);
 }
 
 std::string measuring_command(const Row& row, const report::Measurements& file) {
-  if (row.submitted.is_null()) return joined(file.command);
+  if (row.submitted.is_null()) return shell_line(file.command);
   std::vector<std::string> words;
   if (const auto by = row.submitted.find("scored_by"); by != row.submitted.end() && by->is_array()) {
     for (const Json& word : *by) {
       if (word.is_string()) words.push_back(word);
     }
   }
-  return joined(words);
+  return shell_line(words);
 }
 
 }  // namespace gloam::leaderboard

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/json_text.h"
 #include "gloam/error.h"
 #include "leaderboard/commands.h"
 #include "leaderboard/embedded.h"
@@ -17,12 +18,9 @@ namespace {
 using report::Json;
 using report::Measurements;
 
-Json json(const Number& number) { return number ? Json(*number) : Json(nullptr); }
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
 Json json(const report::SetFacts& set) {
   if (set.name.empty()) return nullptr;
-  return {{"name", set.name}, {"part", set.part}, {"seed", json(set.seed)}, {"hash", set.hash}};
+  return {{"name", set.name}, {"part", set.part}, {"seed", or_null(set.seed)}, {"hash", set.hash}};
 }
 
 void add_figures(Json& object, const Figures& figures) {
@@ -35,13 +33,13 @@ Json json(const Source& file) {
   const Measurements& m = file.measurements;
   return {{"file", file.name},
           {"set", json(m.set)},
-          {"gloam", text_or_null(m.gloam)},
-          {"commit", text_or_null(m.commit)},
-          {"date", text_or_null(m.date)},
-          {"device", text_or_null(m.device)},
-          {"cpu", text_or_null(m.cpu)},
-          {"driver", text_or_null(m.driver)},
-          {"rounds", json(m.rounds)},
+          {"gloam", or_null(m.gloam)},
+          {"commit", or_null(m.commit)},
+          {"date", or_null(m.date)},
+          {"device", or_null(m.device)},
+          {"cpu", or_null(m.cpu)},
+          {"driver", or_null(m.driver)},
+          {"rounds", or_null(m.rounds)},
           {"rows", m.rows.size()},
           {"submitted", m.submitted.size()},
           {"command", m.command}};
@@ -158,12 +156,12 @@ class Making {
 
   Json json_of(const Item& item) const {
     return {{"name", item.name},
-            {"kind", text_or_null(item.kind)},
-            {"class", text_or_null(item.item_class)},
-            {"width", json(item.width)},
-            {"height", json(item.height)},
-            {"radius", json(item.radius)},
-            {"truth_noise", json(item.truth_noise)}};
+            {"kind", or_null(item.kind)},
+            {"class", or_null(item.item_class)},
+            {"width", or_null(item.width)},
+            {"height", or_null(item.height)},
+            {"radius", or_null(item.radius)},
+            {"truth_noise", or_null(item.truth_noise)}};
   }
 
   Json json_of(const Row& row, size_t entry, size_t item, const EffectTable& table, const Board& board) const {
@@ -171,15 +169,15 @@ class Making {
     add_figures(made, figures_of(row));
     if (row.submitted.is_null()) made["ms"] = row.ms.median;
     const Measurements& file = results_.files[row.source].measurements;
-    made["run"] = text_or_null(run_command(row, table.items[item], board.set));
+    made["run"] = or_null(run_command(row, table.items[item], board.set));
     // The file states the command of its own rows.
     if (!row.submitted.is_null()) {
       const report::SubmittedFacts facts = report::facts_of(row.submitted);
-      made["measured_by"] = text_or_null(measuring_command(row, file));
+      made["measured_by"] = or_null(measuring_command(row, file));
       for (const auto& [name, value] :
            {std::pair("fit_exponent", facts.fit_exponent), std::pair("fit_strength", facts.fit_strength),
             std::pair("fit_scale", facts.fit_scale), std::pair("whole_ms", facts.whole_ms)})
-        made[name] = json(value);
+        made[name] = or_null(value);
     }
     return made;
   }
@@ -208,7 +206,7 @@ class Making {
     Json made = {{"files", Json::array()}, {"boards", Json::array()}};
     for (const Source& file : results_.files) {
       made["files"].push_back(json(file));
-      made["files"].back()["measured_by"] = text_or_null(measuring_command(Row{}, file.measurements));
+      made["files"].back()["measured_by"] = or_null(measuring_command(Row{}, file.measurements));
     }
     for (const auto& [board, tables] : boards_) {
       Json effects = Json::array();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "report/markdown_text.h"
@@ -67,8 +68,6 @@ std::string counted(const std::map<Verdict, size_t>& counts) {
   return enumerate(parts);
 }
 
-Json number(const Number& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json change_document(const std::optional<RelativeChange>& change) {
   if (!change) return nullptr;
   return {{"value", change->value}, {"interval", {change->low, change->high}}};
@@ -82,10 +81,10 @@ Json document_of(const RowName& name) {
 Json document_of(const ComparedRow& row) {
   Json document = document_of(row.name);
   document.update({{"time", name_of(row.time)},
-                   {"ratio", {number(row.ratio_from), number(row.ratio_to)}},
+                   {"ratio", {or_null(row.ratio_from), or_null(row.ratio_to)}},
                    {"change", change_document(row.change)},
                    {"error", name_of(row.error)},
-                   {"rmse", {number(row.rmse_from), number(row.rmse_to)}}});
+                   {"rmse", {or_null(row.rmse_from), or_null(row.rmse_to)}}});
   return document;
 }
 
@@ -194,10 +193,10 @@ Json document_of(const Comparison& c, const Source& first, const Source& second)
   for (const auto& [scene, width] : c.widths) widths[scene] = width;
   return {{"first", origin_document(first)},
           {"second", origin_document(second)},
-          {"reference", c.reference.empty() ? Json(nullptr) : Json(c.reference)},
+          {"reference", or_null(c.reference)},
           {"times_of", c.by_cpu ? "cpu_ms" : "ms"},
-          {"reference_change", number(c.reference_change)},
-          {"others_change", number(c.others_change)},
+          {"reference_change", or_null(c.reference_change)},
+          {"others_change", or_null(c.others_change)},
           {"half_widths", widths},
           {"rate", c.options.rate},
           {"margin", c.options.margin},

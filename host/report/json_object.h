@@ -8,17 +8,18 @@
 #include <utility>
 #include <vector>
 
+#include "base/json_object.h"
 #include "gloam/error.h"
 #include "report/measurements.h"
 
 namespace gloam::report {
 
-/// An object of the file, and its path in the file for messages: "results[3]".
-class Object {
+/// An object of the file.
+class Object : public JsonObject {
  public:
   Object(const Json& value, std::string file, std::string place)
-      : value_(value), file_(std::move(file)), place_(std::move(place)) {
-    if (!value_.is_object()) fail(place_.empty() ? "the document" : place_, value_, "an object");
+      : JsonObject(value, std::move(file), std::move(place)) {
+    if (!value.is_object()) fail(place_or("the document"), value, "an object");
   }
 
   /// Empty if it is null or missing.
@@ -48,7 +49,7 @@ class Object {
 
   Object object(const char* key) const {
     const Json* value = find(key);
-    return Object(value ? *value : nothing, file_, path_of(key));
+    return Object(value ? *value : nothing, file(), path_of(key));
   }
 
   Object needed_object(const char* key) const {
@@ -62,7 +63,7 @@ class Object {
     if (!value) return items;
     if (!value->is_array()) fail(path_of(key), *value, "a list");
     for (size_t i = 0; i < value->size(); ++i)
-      items.emplace_back(value->at(i), file_, fmt::format("{}[{}]", path_of(key), i));
+      items.emplace_back(value->at(i), file(), fmt::format("{}[{}]", path_of(key), i));
     return items;
   }
 
@@ -100,28 +101,15 @@ class Object {
     return {value->at(0).get<double>(), value->at(1).get<double>()};
   }
 
-  const Json& json() const { return value_; }
-
  private:
   static inline const Json nothing = Json::object();
 
-  const Json* find(const char* key) const {
-    const auto found = value_.find(key);
-    return found == value_.end() || found->is_null() ? nullptr : &*found;
-  }
-  std::string path_of(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
-
   [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
-    std::string shown = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-    if (shown.size() > 40) shown = shown.substr(0, 37) + "...";
-    throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file_, place, shown, needed);
+    throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file(), place, shown(value), needed);
   }
   [[noreturn]] void missing(const char* key) const {
-    throw Error("{}: {} is missing; gloam bench makes the file anew", file_, path_of(key));
+    throw Error("{}: {} is missing; gloam bench makes the file anew", file(), path_of(key));
   }
-
-  const Json& value_;
-  std::string file_, place_;
 };
 
 }  // namespace gloam::report

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/json_text.h"
 #include "page/html.h"
 #include "report/embedded.h"
 #include "report/embedded_pictures.h"
@@ -19,7 +20,7 @@ struct PicturesOfFolder {
 
 // --- Data for the page, fronts included: the page computes none.
 
-Json json(const Number& number) { return number ? Json(*number) : Json(nullptr); }
+Json json(const Number& number) { return or_null(number); }
 
 Json json(const Milliseconds& ms) { return {{"median", ms.median}, {"min", ms.min}, {"max", ms.max}}; }
 

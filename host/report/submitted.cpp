@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/json_text.h"
+
 namespace gloam::report {
 namespace {
 
@@ -80,7 +82,6 @@ SubmittedFacts facts_of(const Json& submitted) {
 }
 
 Json submitted_row(const Row& row, Json on_page) {
-  const auto json = [](const Number& value) { return value ? Json(*value) : Json(nullptr); };
   const SubmittedFacts facts = facts_of(row.submitted);
   on_page["ms"] = {{"median", nullptr}, {"min", nullptr}, {"max", nullptr}};
   on_page["submitted"] = {{"version", facts.version},
@@ -88,14 +89,14 @@ Json submitted_row(const Row& row, Json on_page) {
                           {"device", facts.device},
                           {"authors", facts.authors},
                           {"convention", facts.convention},
-                          {"stated_ms", json(facts.stated_ms)},
-                          {"fit_rmse", json(facts.fit_rmse)},
-                          {"fit_exponent", json(facts.fit_exponent)},
-                          {"fit_strength", json(facts.fit_strength)},
-                          {"fit_scale", json(facts.fit_scale)},
-                          {"whole_ms", json(facts.whole_ms)},
-                          {"whole_gloam_ms", json(facts.whole_gloam_ms)},
-                          {"whole_ratio", json(facts.whole_ratio)}};
+                          {"stated_ms", or_null(facts.stated_ms)},
+                          {"fit_rmse", or_null(facts.fit_rmse)},
+                          {"fit_exponent", or_null(facts.fit_exponent)},
+                          {"fit_strength", or_null(facts.fit_strength)},
+                          {"fit_scale", or_null(facts.fit_scale)},
+                          {"whole_ms", or_null(facts.whole_ms)},
+                          {"whole_gloam_ms", or_null(facts.whole_gloam_ms)},
+                          {"whole_ratio", or_null(facts.whole_ratio)}};
   return on_page;
 }
 

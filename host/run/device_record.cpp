@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "run/kept_folders.h"
 #include "run/kernel_sources.h"
 
@@ -19,8 +20,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 fs::path path_of(const DeviceInfo& info) { return path_in_cache("devices", info); }
-
-Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
 std::optional<double> number_of(const Json& document, const char* name) {
   if (!document.at(name).is_number()) return {};
@@ -36,8 +35,8 @@ Json document_of(const DeviceInfo& info, const DeviceRecord& record) {
           {"held", record.held},
           {"failures", record.failures},
           {"tuning", tuning},
-          {"cold_ms", number_or_null(record.cold_ms)},
-          {"warm_ms", number_or_null(record.warm_ms)}};
+          {"cold_ms", or_null(record.cold_ms)},
+          {"warm_ms", or_null(record.warm_ms)}};
 }
 
 /// The tuning, if kernels can run with it.

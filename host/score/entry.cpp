@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/lists.h"
 #include "bench/effects.h"
@@ -13,27 +14,25 @@
 namespace gloam::score {
 namespace {
 
-using Value = nlohmann::json;
-
 constexpr size_t longest_name = 60;
 
-/// An object of the entry, and its place for messages: "convention".
-class Fields {
+/// An object of the entry.
+class Fields : public JsonObject {
  public:
-  Fields(const Value& object, std::string file, std::string place, const std::vector<std::string>& allowed)
-      : object_(object), file_(std::move(file)), place_(std::move(place)) {
-    if (!object_.is_object())
-      throw Error("{}: {} is {}, not an object such as {{\"name\": \"my method\"}}", file_,
-                  place_.empty() ? "the entry" : place_, shown(object_));
-    for (const auto& [key, value] : object_.items()) {
+  Fields(const Json& object, std::string file, std::string place, const std::vector<std::string>& allowed)
+      : JsonObject(object, std::move(file), std::move(place)) {
+    if (!object.is_object())
+      throw Error("{}: {} is {}, not an object such as {{\"name\": \"my method\"}}", this->file(),
+                  place_or("the entry"), shown(object));
+    for (const auto& [key, value] : object.items()) {
       if (!contains(allowed, key))
-        throw Error("{}: no key '{}'{}; {} are allowed", file_, place_of(key), suggestion(key, allowed),
+        throw Error("{}: no key '{}'{}; {} are allowed", this->file(), path_of(key), suggestion(key, allowed),
                     enumerate(allowed));
     }
   }
 
-  bool has(const char* key) const { return object_.contains(key) && !object_.at(key).is_null(); }
-  const Value& value(const char* key) const { return object_.at(key); }
+  bool has(const char* key) const { return find(key) != nullptr; }
+  const Json& value(const char* key) const { return json().at(key); }
 
   std::string text(const char* key) const {
     if (!has(key)) return "";
@@ -52,10 +51,10 @@ class Fields {
     return number_of(value(key), key, least, most);
   }
 
-  double number_of(const Value& given, const std::string& key, double least, double most) const {
+  double number_of(const Json& given, const std::string& key, double least, double most) const {
     const bool is_number = given.is_number() && std::isfinite(given.get<double>());
     if (!is_number || given.get<double>() < least || given.get<double>() > most)
-      throw Error("{}: {} is {}; a number from {:g} to {:g} is allowed", file_, place_of(key), shown(given), least,
+      throw Error("{}: {} is {}; a number from {:g} to {:g} is allowed", file(), path_of(key), shown(given), least,
                   most);
     return given.get<double>();
   }
@@ -68,27 +67,15 @@ class Fields {
   }
 
   [[noreturn]] void refuse(const std::string& key, const std::string& allowed) const {
-    throw Error("{}: {} is {}; {} is allowed", file_, place_of(key), shown(object_.at(key)), allowed);
+    throw Error("{}: {} is {}; {} is allowed", file(), path_of(key), shown(json().at(key)), allowed);
   }
-
-  std::string place_of(const std::string& key) const { return place_.empty() ? key : place_ + "." + key; }
-  const std::string& file() const { return file_; }
-
- private:
-  static std::string shown(const Value& value) {
-    const std::string text = value.dump(-1, ' ', true, Value::error_handler_t::replace);
-    return text.size() > 40 ? text.substr(0, 37) + "..." : text;
-  }
-
-  const Value& object_;
-  std::string file_, place_;
 };
 
 const std::vector<std::string> resolutions = {"full", "half", "quarter"};
 
 std::optional<std::pair<double, double>> range_of(const Fields& fields) {
   if (!fields.has("range")) return {};
-  const Value& given = fields.value("range");
+  const Json& given = fields.value("range");
   const bool is_pair = given.is_array() && given.size() == 2 && given[0].is_number() && given[1].is_number();
   if (!is_pair || !std::isfinite(given[0].get<double>()) || !std::isfinite(given[1].get<double>()) ||
       given[0].get<double>() >= given[1].get<double>())
@@ -96,7 +83,7 @@ std::optional<std::pair<double, double>> range_of(const Fields& fields) {
   return std::pair(given[0].get<double>(), given[1].get<double>());
 }
 
-Convention convention_of(const Value& object, const std::string& file, const std::string& effect) {
+Convention convention_of(const Json& object, const std::string& file, const std::string& effect) {
   const Fields fields(object, file, "convention",
                       {"inverted", "exponent", "strength", "range", "resolution", "radius", "falloff"});
   Convention convention;
@@ -112,7 +99,7 @@ Convention convention_of(const Value& object, const std::string& file, const std
     if (!is_share(effect) && (convention.inverted || convention.strength != 1) && fields.has(key))
       throw Error(
           "{}: {}: the effect is '{}', which has no largest value; only planes from 0 to 1 have a {}; leave it out",
-          file, fields.place_of(key), effect, key == std::string("inverted") ? "inverse" : "strength");
+          file, fields.path_of(key), effect, key == std::string("inverted") ? "inverse" : "strength");
   }
   return convention;
 }
@@ -120,7 +107,7 @@ Convention convention_of(const Value& object, const std::string& file, const std
 void read_times(const Fields& fields, Entry& entry) {
   constexpr double longest = 1e9;
   if (!fields.has("time_ms")) return;
-  const Value& given = fields.value("time_ms");
+  const Json& given = fields.value("time_ms");
   if (!given.is_object()) {
     if (!given.is_number()) fields.refuse("time_ms", "a number of milliseconds, or one for each item {\"ITEM\": 2.5},");
     entry.time_ms = fields.number_of(given, "time_ms", 0, longest);
@@ -132,11 +119,11 @@ void read_times(const Fields& fields, Entry& entry) {
 
 Json authors_of(const Fields& fields) {
   if (!fields.has("authors")) return nullptr;
-  const Value& given = fields.value("authors");
-  const auto is_text = [](const Value& each) { return each.is_string(); };
+  const Json& given = fields.value("authors");
+  const auto is_text = [](const Json& each) { return each.is_string(); };
   if (!given.is_string() && !(given.is_array() && std::all_of(given.begin(), given.end(), is_text)))
     fields.refuse("authors", "a text or a list of texts");
-  return Json::parse(given.dump());
+  return given;
 }
 
 void check_name(const Fields& fields, const std::string& name) {
@@ -165,7 +152,7 @@ bool is_share(const std::string& effect) { return plane_kind(effect).meaning == 
 
 Entry read_entry(const std::filesystem::path& file) {
   const std::string path = file.string();
-  const Value document = json_of_text(read_text(file), path);
+  const Json document = json_of_text(read_text(file), path);
   const Fields fields(
       document, path, "",
       {"name", "version", "link", "authors", "settings", "device", "time_ms", "effect", "convention", "licence"});
@@ -179,7 +166,7 @@ Entry read_entry(const std::filesystem::path& file) {
   entry.authors = authors_of(fields);
   if (fields.has("settings")) {
     if (!fields.value("settings").is_object()) fields.refuse("settings", "an object such as {\"samples\": 8}");
-    entry.settings = Json::parse(fields.value("settings").dump());
+    entry.settings = fields.value("settings");
   }
   read_times(fields, entry);
   entry.effect = fields.word("effect", scored_effects(), "ao");
@@ -188,7 +175,6 @@ Entry read_entry(const std::filesystem::path& file) {
 }
 
 Json document_of(const Convention& convention) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
   Json range = nullptr;
   if (convention.range) range = Json::array({convention.range->first, convention.range->second});
   return {{"inverted", convention.inverted},
@@ -198,8 +184,8 @@ Json document_of(const Convention& convention) {
           {"resolution", resolutions[convention.scale == 1   ? 0
                                      : convention.scale == 2 ? 1
                                                              : 2]},
-          {"radius", number(convention.radius)},
-          {"falloff", convention.falloff.empty() ? Json(nullptr) : Json(convention.falloff)}};
+          {"radius", or_null(convention.radius)},
+          {"falloff", or_null(convention.falloff)}};
 }
 
 }  // namespace gloam::score

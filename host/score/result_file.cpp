@@ -4,17 +4,13 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/statistics.h"
 #include "bench/document.h"
 #include "gloam/error.h"
 
 namespace gloam::score {
 namespace {
-
-Json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json milliseconds(const std::vector<double>& ms) {
   const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
@@ -30,24 +26,24 @@ Json stated(const std::optional<double>& ms) {
 Json views_of(const Figures& figures) {
   Json views = Json::object();
   for (const auto& [view, m] : figures.views)
-    views[view] = {{"rmse_to_truth", m.rmse}, {"bias", m.bias}, {"ssim", m.ssim}, {"flip", number(m.flip)}};
+    views[view] = {{"rmse_to_truth", m.rmse}, {"bias", m.bias}, {"ssim", m.ssim}, {"flip", or_null(m.flip)}};
   return views;
 }
 
 Json submitted_of(const Scored& scored, const Entry& entry, const RowDetails& details) {
   Json submitted = {{"name", entry.name},
-                    {"version", text_or_null(entry.version)},
-                    {"link", text_or_null(entry.link)},
+                    {"version", or_null(entry.version)},
+                    {"link", or_null(entry.link)},
                     {"authors", entry.authors},
-                    {"licence", text_or_null(entry.licence)},
-                    {"device", text_or_null(entry.device)},
-                    {"time_ms", number(entry.stated_time(scored.target.name))},
+                    {"licence", or_null(entry.licence)},
+                    {"device", or_null(entry.device)},
+                    {"time_ms", or_null(entry.stated_time(scored.target.name))},
                     {"settings", entry.settings},
                     {"convention", document_of(entry.convention)},
                     {"fit", nullptr},
                     {"whole", details.whole ? document_of(*details.whole) : Json(nullptr)},
                     {"views", views_of(scored.figures)},
-                    {"rmse_at_own_size", number(scored.figures.rmse_at_own_size)},
+                    {"rmse_at_own_size", or_null(scored.figures.rmse_at_own_size)},
                     {"scored_by", details.scored_by}};
   if (!scored.target.is_sequence) return submitted;
   submitted["frames"] = scored.frames;
@@ -141,7 +137,7 @@ Json row_of(const Scored& scored, const Entry& entry, const RowDetails& details)
                                       : "quarter"},
           {"scene", target.name},
           {"effect", target.effect},
-          {"kind", text_or_null(target.kind)},
+          {"kind", or_null(target.kind)},
           {"width", scored.scene.width},
           {"height", scored.scene.height},
           {"ms", stated(entry.stated_time(target.name))},
@@ -150,10 +146,10 @@ Json row_of(const Scored& scored, const Entry& entry, const RowDetails& details)
           {"rmse_to_truth", f.rmse},
           {"bias", f.bias},
           {"ssim", f.ssim},
-          {"flip", number(f.flip)},
-          {"flicker", number(f.flicker)},
-          {"inconsistency", number(f.inconsistency)},
-          {"image", text_or_null(scored.picture)},
+          {"flip", or_null(f.flip)},
+          {"flicker", or_null(f.flicker)},
+          {"inconsistency", or_null(f.inconsistency)},
+          {"image", or_null(scored.picture)},
           {"submitted", submitted_of(scored, entry, details)}};
 }
 
@@ -165,12 +161,12 @@ Json document_of(const BestFit& fit, const Figures& figures, const std::string& 
           {"rmse_to_truth", figures.rmse},
           {"bias", figures.bias},
           {"ssim", figures.ssim},
-          {"flip", number(figures.flip)}};
+          {"flip", or_null(figures.flip)}};
 }
 
 Json scene_of(const Scored& scored) {
   Json scene = bench::document_of(scored.scene);
-  scene["kind"] = text_or_null(scored.target.kind);
+  scene["kind"] = or_null(scored.target.kind);
   return scene;
 }
 

@@ -23,7 +23,4 @@ std::vector<std::vector<Item>> chunks_of(const std::vector<Item>& items, int cou
 /// Frames as parse_frame_numbers (frame_numbers.h) reads them: "1-3,7,9-12".
 std::string frames_as_flag(const std::vector<int>& frames);
 
-/// A word as a POSIX shell reads it back: in quotes where it needs them.
-std::string quoted_for_shell(const std::string& word);
-
 }  // namespace gloam

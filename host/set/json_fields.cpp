@@ -7,33 +7,16 @@
 #include "gloam/error.h"
 
 namespace gloam::sets {
-namespace {
-
-/// A value as it stands in the document, cut short.
-std::string shown(const Json& value) {
-  constexpr size_t most = 40;
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() > most) text = text.substr(0, most) + "...";
-  return text;
-}
-
-}  // namespace
-
 JsonFields::JsonFields(const Json& value, std::string file, std::string place)
-    : value_(value), file_(std::move(file)), place_(std::move(place)) {
-  if (!value_.is_object())
-    throw Error("{}: {} is {}; it must be an object", file_, place_.empty() ? "the document" : place_, shown(value_));
+    : JsonObject(value, std::move(file), std::move(place)) {
+  if (!value.is_object())
+    throw Error("{}: {} is {}; it must be an object", this->file(), place_or("the document"), shown(value));
 }
 
 void JsonFields::refuse(const std::string& key, const std::string& expected) const {
-  const auto found = value_.find(key);
-  if (found == value_.end()) throw Error("{}: {} is missing; {}", file_, path_of(key), expected);
-  throw Error("{}: {} is {}; {}", file_, path_of(key), shown(*found), expected);
-}
-
-const Json* JsonFields::find(const char* key) const {
-  const auto found = value_.find(key);
-  return found == value_.end() || found->is_null() ? nullptr : &*found;
+  const auto found = json().find(key);
+  if (found == json().end()) throw Error("{}: {} is missing; {}", file(), path_of(key), expected);
+  throw Error("{}: {} is {}; {}", file(), path_of(key), shown(*found), expected);
 }
 
 const Json& JsonFields::needed(const char* key) const {
@@ -72,7 +55,8 @@ const Json& JsonFields::list(const char* key) const {
 std::vector<JsonFields> JsonFields::objects(const char* key) const {
   std::vector<JsonFields> all;
   const Json& values = list(key);
-  for (size_t i = 0; i < values.size(); ++i) all.emplace_back(values[i], file_, fmt::format("{}[{}]", path_of(key), i));
+  for (size_t i = 0; i < values.size(); ++i)
+    all.emplace_back(values[i], file(), fmt::format("{}[{}]", path_of(key), i));
   return all;
 }
 
@@ -91,17 +75,16 @@ std::vector<int> JsonFields::wholes(const char* key, int low, int high) const {
   return all;
 }
 
-JsonFields JsonFields::object(const char* key) const { return JsonFields(needed(key), file_, path_of(key)); }
+JsonFields JsonFields::object(const char* key) const { return JsonFields(needed(key), file(), path_of(key)); }
 
 void JsonFields::check_keys(const std::vector<std::string>& known) const {
-  for (const auto& [key, value] : value_.items()) {
+  for (const auto& [key, value] : json().items()) {
     if (!contains(known, key))
-      throw Error("{}: {} is not known{}; there are {}", file_, path_of(key), suggestion(key, known), enumerate(known));
+      throw Error("{}: {} is not known{}; there are {}", file(), path_of(key), suggestion(key, known),
+                  enumerate(known));
   }
 }
 
-Json parse_document(const std::string& text, const std::string& file) {
-  return Json(json_of_text(text, file));
-}
+Json parse_document(const std::string& text, const std::string& file) { return Json(json_of_text(text, file)); }
 
 }  // namespace gloam::sets

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/json_object.h"
+
 namespace gloam::sets {
 
 using Json = nlohmann::ordered_json;
 
-class JsonFields {
+class JsonFields : public JsonObject {
  public:
   /// `place`: the object's path in the document, "items[3]"; empty for the document itself. Throws Error if it is no object.
   JsonFields(const Json& value, std::string file, std::string place);
@@ -23,21 +25,16 @@ class JsonFields {
   std::vector<std::string> texts(const char* key) const;
   std::vector<int> wholes(const char* key, int low, int high) const;
   JsonFields object(const char* key) const;
-  const Json* find(const char* key) const;  ///< nullptr if it is missing or null
   /// Throws Error for a key that is not `known`: a misspelt one would count as missing.
   void check_keys(const std::vector<std::string>& known) const;
 
   /// Throws Error: "FILE: FIELD is VALUE; EXPECTED".
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const;
-  std::string path_of(const std::string& key) const { return place_.empty() ? key : place_ + "." + key; }
 
  private:
   const Json& needed(const char* key) const;
   const Json& list(const char* key) const;
   int checked_whole(const Json& value, const std::string& key, int low, int high) const;
-
-  const Json& value_;
-  std::string file_, place_;
 };
 
 /// Parses a document. Throws Error that begins with `file`.

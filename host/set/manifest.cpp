@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "set/json_fields.h"
@@ -90,7 +91,7 @@ Json document_of(const SetTruth& truth) {
   return {{"effect", truth.effect},
           {"rays", truth.rays},
           {"noise", truth.noise},
-          {"best_error", truth.best_error ? Json(*truth.best_error) : Json()},
+          {"best_error", or_null(truth.best_error)},
           {"files", document_of(truth.files)}};
 }
 

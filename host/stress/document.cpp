@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json_text.h"
 namespace gloam::stress {
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 double number_of(const Json& value) { return value.is_null() ? INFINITY : value.get<double>(); }
 
 Json document_of(const Place& place) {
@@ -21,8 +21,8 @@ Place place_from(const Json& document) {
 
 Json document_of(const Finding& finding) {
   return {{"what", finding.what},
-          {"worst", number(finding.worst)},
-          {"bound", number(finding.bound)},
+          {"worst", or_null(finding.worst)},
+          {"bound", or_null(finding.bound)},
           {"held", finding.held()},
           {"trial", finding.trial},
           {"conditions", finding.conditions},
