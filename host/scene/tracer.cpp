@@ -240,9 +240,12 @@ std::optional<Surface> Tracer::Impl::nearest_beside(const TracerRay& ray, double
     return std::tuple(at.distance, one.mesh, one.triangle);
   };
   const RawHit* best = nullptr;
+  decltype(place_of(hit)) best_place;
   for (const RawHit& one : hits) {
-    if (std::get<0>(place_of(one)) <= ray.near || std::get<0>(place_of(one)) > ray.far) continue;
-    if (!best || place_of(one) < place_of(*best)) best = &one;
+    const auto place = place_of(one);
+    if (std::get<0>(place) <= ray.near || std::get<0>(place) > ray.far || (best && place >= best_place)) continue;
+    best = &one;
+    best_place = place;
   }
   if (!best) return {};
   return surface(ray, *best);
