@@ -30,10 +30,8 @@ std::vector<sets::SetFile> files_of_frame(const std::vector<sets::SetFile>& file
 
 /// The frozen hashes of a set by file; empty for a set that this gloam does not know, and for one made from a seed.
 std::map<std::string, std::string> frozen_hashes(const sets::Manifest& manifest) {
-  for (const sets::Recipe& recipe : sets::recipes()) {
-    if (recipe.name == manifest.set && manifest.part == "public") return recipe.hashes;
-  }
-  return {};
+  const sets::Recipe* recipe = manifest.part == "public" ? sets::recipe_named(manifest.set) : nullptr;
+  return recipe ? recipe->hashes : std::map<std::string, std::string>();
 }
 
 /// Throws Error for the first file whose content is not what the manifest says, or not what the set's name stands for.

@@ -113,22 +113,30 @@ SetTruth ItemMaker::made_truth(const TruthRecipe& truth) {
 }
 
 /// Frame and truth come from one closed form.
-void ItemMaker::make_hard() {
+void ItemMaker::make_hard(SetItem& item) {
   const std::string identity = identity_of(recipe_, item_);
   const std::string frame_name = frame_files(item_)[0], truth_name = truth_files(item_, "ao")[0];
   const int kept_before = kept_;
-  if (!kept_hash(frame_name, identity).empty() && !kept_hash(truth_name, identity).empty()) return;
-  kept_ = kept_before;
-  HardFrame made = hard_frame(item_.hard, item_.width, item_.height, item_.radius);
-  made.frame.numbers["aoRadius"] = made.truth.numbers["aoRadius"] = item_.radius;
-  made.truth.numbers["aoNoise"] = 0;
-  made.truth.attributes["aoDefinition"] =
-      "closed form of the cosine-weighted share of directions in which nothing is "
-      "nearer than aoRadius";
-  made.frame.attributes[identity_name] = made.truth.attributes[identity_name] = identity;
-  write_frame(folder_ / frame_name, made.frame);
-  write_frame(folder_ / truth_name, made.truth);
-  made_ += 2;
+  std::string of_frame = kept_hash(frame_name, identity);
+  std::string of_truth = of_frame.empty() ? "" : kept_hash(truth_name, identity);
+  if (of_truth.empty()) {
+    kept_ = kept_before;
+    HardFrame made = hard_frame(item_.hard, item_.width, item_.height, item_.radius);
+    made.frame.numbers["aoRadius"] = made.truth.numbers["aoRadius"] = item_.radius;
+    made.truth.numbers["aoNoise"] = 0;
+    made.truth.attributes["aoDefinition"] =
+        "closed form of the cosine-weighted share of directions in which nothing is "
+        "nearer than aoRadius";
+    made.frame.attributes[identity_name] = made.truth.attributes[identity_name] = identity;
+    write_frame(folder_ / frame_name, made.frame);
+    write_frame(folder_ / truth_name, made.truth);
+    made_ += 2;
+    of_frame = content_hash(folder_ / frame_name);
+    of_truth = content_hash(folder_ / truth_name);
+  }
+  item.files = {{frame_name, of_frame}};
+  item.truths = {{"ao", 0, 0, {}, {{truth_name, of_truth}}}};
+  if (!item_.truths.empty()) item.truths[0].best_error = item_.truths[0].best_error;
 }
 
 SetItem ItemMaker::make() {
@@ -137,11 +145,7 @@ SetItem ItemMaker::make() {
   item.radius = item_.radius;
   item.licence = recipe_.licence;
   if (item_.kind == "hard") {
-    make_hard();
-    const std::string frame = frame_files(item_)[0], truth = truth_files(item_, "ao")[0];
-    item.files = {{frame, content_hash(folder_ / frame)}};
-    item.truths = {{"ao", 0, 0, {}, {{truth, content_hash(folder_ / truth)}}}};
-    if (!item_.truths.empty()) item.truths[0].best_error = item_.truths[0].best_error;
+    make_hard(item);
     return item;
   }
   for (size_t i = 0; i < frame_files(item_).size(); ++i) {

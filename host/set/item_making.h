@@ -28,7 +28,7 @@ class ItemMaker {
   SetFile frame_file(size_t i);
   SetFile truth_file(size_t i, const TruthRecipe& truth);
   void trace(size_t i, const TruthRecipe& truth, const std::filesystem::path& file, const std::string& identity);
-  void make_hard();
+  void make_hard(SetItem& item);
   std::string kept_hash(const std::string& file, const std::string& identity);
   SetTruth made_truth(const TruthRecipe& truth);
   int number(size_t i) const { return item_.frames.empty() ? 0 : item_.frames[i]; }

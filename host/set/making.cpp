@@ -64,12 +64,6 @@ std::vector<SetItem> merged(const Recipe& recipe, const std::vector<SetItem>& ma
   return items;
 }
 
-std::vector<SetFile> files_of(const SetItem& item) {
-  std::vector<SetFile> files = item.files;
-  for (const SetTruth& truth : item.truths) files.insert(files.end(), truth.files.begin(), truth.files.end());
-  return files;
-}
-
 /// `frames_differ`: a truth starts from its frame.
 std::string likely_cause(const Recipe& recipe, const MakeOptions& options, const std::string& file,
                          bool frames_differ) {

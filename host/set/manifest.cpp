@@ -193,6 +193,12 @@ std::string hash_of(const std::vector<SetItem>& items) {
   return sum.digits();
 }
 
+std::vector<SetFile> files_of(const SetItem& item) {
+  std::vector<SetFile> files = item.files;
+  for (const SetTruth& truth : item.truths) files.insert(files.end(), truth.files.begin(), truth.files.end());
+  return files;
+}
+
 const SetItem* find_item(const Manifest& manifest, const std::string& name) {
   for (const SetItem& item : manifest.items) {
     if (item.name == name) return &item;

@@ -69,6 +69,9 @@ std::string hash_of(const SetItem& item);
 /// SHA-256 over the items' hashes in order.
 std::string hash_of(const std::vector<SetItem>& items);
 
+/// Its frames, then the files of its truths.
+std::vector<SetFile> files_of(const SetItem& item);
+
 /// nullptr if there is none.
 const SetItem* find_item(const Manifest& manifest, const std::string& name);
 const SetTruth* find_truth(const SetItem& item, const std::string& effect);

@@ -137,12 +137,22 @@ const std::vector<Recipe>& recipes() {
   return all;
 }
 
-const Recipe& find_recipe(const std::string& name) {
-  std::vector<std::string> names;
+const Recipe* recipe_named(const std::string& name) {
   for (const Recipe& recipe : recipes()) {
-    if (recipe.name == name) return recipe;
-    names.push_back(recipe.name);
+    if (recipe.name == name) return &recipe;
   }
+  return nullptr;
+}
+
+std::vector<std::string> recipe_names() {
+  std::vector<std::string> names;
+  for (const Recipe& recipe : recipes()) names.push_back(recipe.name);
+  return names;
+}
+
+const Recipe& find_recipe(const std::string& name) {
+  if (const Recipe* recipe = recipe_named(name)) return *recipe;
+  const std::vector<std::string> names = recipe_names();
   throw UsageError("no set '{}'{}; there are {} (gloam set list)", name, suggestion(name, names), enumerate(names));
 }
 

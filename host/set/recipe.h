@@ -48,6 +48,9 @@ struct Recipe {
 
 /// Those of data/sets/, sorted by name.
 const std::vector<Recipe>& recipes();
+std::vector<std::string> recipe_names();
+/// nullptr if there is none.
+const Recipe* recipe_named(const std::string& name);
 /// Throws UsageError for an unknown name, with the nearest one.
 const Recipe& find_recipe(const std::string& name);
 

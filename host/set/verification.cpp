@@ -13,21 +13,17 @@ namespace {
 namespace fs = std::filesystem;
 
 const Recipe& recipe_for(const fs::path& folder, const Manifest& manifest) {
-  std::vector<std::string> names;
-  for (const Recipe& recipe : recipes()) {
-    if (recipe.name == manifest.set) return recipe;
-    names.push_back(recipe.name);
-  }
+  if (const Recipe* recipe = recipe_named(manifest.set)) return *recipe;
   throw Error(
       "{}: holds the set '{}', made by gloam {}, and this gloam knows {}: verify it with that version, or make another",
-      (folder / "manifest.json").string(), manifest.set, manifest.gloam, enumerate(names));
+      (folder / "manifest.json").string(), manifest.set, manifest.gloam, enumerate(recipe_names()));
 }
 
 std::vector<SetFile> files_of(const Manifest& manifest) {
   std::vector<SetFile> files;
   for (const SetItem& item : manifest.items) {
-    files.insert(files.end(), item.files.begin(), item.files.end());
-    for (const SetTruth& truth : item.truths) files.insert(files.end(), truth.files.begin(), truth.files.end());
+    const std::vector<SetFile> own = files_of(item);
+    files.insert(files.end(), own.begin(), own.end());
   }
   return files;
 }
