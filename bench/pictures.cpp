@@ -4,6 +4,7 @@
 #include <cctype>
 #include <opencv2/core.hpp>
 
+#include "gloam/error.h"
 #include "gloam/planes.h"
 #include "picture/picture.h"
 
@@ -59,6 +60,26 @@ double white_of(const Plane& plane, const Channel& depth) {
   const auto brightest = values.begin() + std::ptrdiff_t(values.size() * 99 / 100);
   std::nth_element(values.begin(), brightest, values.end());
   return *brightest > 0 ? *brightest : 1;
+}
+
+std::string picture_folder(const std::string& scene, const std::string& effect) {
+  return "images/" + file_name(scene + (effect == "ao" ? "" : "_" + effect));
+}
+
+const View& pictured_view(const Frame& frame, const std::vector<const Image*>& images) {
+  const auto is_in_all = [&](const View& view) {
+    return std::all_of(images.begin(), images.end(),
+                       [&](const Image* image) { return !image || image->count(view.name); });
+  };
+  const auto found = std::find_if(frame.views.begin(), frame.views.end(), is_in_all);
+  return found == frame.views.end() ? frame.views.front() : *found;
+}
+
+void make_folder_of(const std::filesystem::path& folder, const std::string& path) {
+  const std::filesystem::path made = (folder / path).parent_path();
+  std::error_code error;
+  std::filesystem::create_directories(made, error);
+  if (error) throw Error("{}: cannot be made ({})", made.string(), error.message());
 }
 
 }  // namespace gloam::bench

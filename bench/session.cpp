@@ -199,24 +199,16 @@ std::string Session::picture_of(const Variation& variation, const Image& image) 
 
 std::string Session::picture(const std::string& name, const Image& image) {
   if (options_.folder.empty()) return "";
-  const std::string of_effect = subject_.effect == "ao" ? "" : "_" + subject_.effect;
-  const std::string folder = "images/" + file_name(subject_.name + of_effect);
+  const std::string folder = picture_folder(subject_.name, subject_.effect);
   std::string path = fmt::format("{}/{}.png", folder, file_name(name));
   for (int number = 2; contains(pictures_, path); ++number)
     path = fmt::format("{}/{}_{}.png", folder, file_name(name), number);
   pictures_.push_back(path);
-  std::error_code error;
-  std::filesystem::create_directories(options_.folder / folder, error);
-  if (error) throw Error("{}: cannot be made ({})", (options_.folder / folder).string(), error.message());
-  // The first view that image and truth share: the truth may have one view.
-  const auto is_known = [&](const View& v) {
-    return image.count(v.name) && (!subject_.truth || subject_.truth->image.count(v.name));
-  };
-  const auto& views = subject_.frame.views;
-  const auto known = std::find_if(views.begin(), views.end(), is_known);
-  const View& view = known == views.end() ? views.front() : *known;
+  make_folder_of(options_.folder, path);
+  const Image* truth = subject_.truth ? &subject_.truth->image : nullptr;
+  const View& view = pictured_view(subject_.frame, {&image, truth});
   const Channel& depth = view.planes.at("depth").channels[0];
-  if (!white_) white_ = white_of((subject_.truth ? subject_.truth->image : image).at(view.name), depth);
+  if (!white_) white_ = white_of((truth ? *truth : image).at(view.name), depth);
   write_grey(options_.folder / path, image.at(view.name), depth, *white_);
   return path;
 }

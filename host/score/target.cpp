@@ -15,7 +15,7 @@ namespace {
 
 /// The value that pictures of an effect show as white.
 double white_of(const LoadedFrame& loaded) {
-  const View& view = pictured_view(loaded);
+  const View& view = bench::pictured_view(loaded.frame, {&loaded.truth.image});
   return bench::white_of(loaded.truth.image.at(view.name), view.planes.at("depth").channels[0]);
 }
 
@@ -55,24 +55,12 @@ LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOpt
   return loaded;
 }
 
-std::string picture_folder(const Target& target) {
-  return "images/" + bench::file_name(target.name + (target.effect == "ao" ? "" : "_" + target.effect));
-}
-
-const View& pictured_view(const LoadedFrame& loaded) {
-  const auto& views = loaded.frame.views;
-  const auto has_truth = [&](const View& view) { return loaded.truth.image.count(view.name) > 0; };
-  const auto found = std::find_if(views.begin(), views.end(), has_truth);
-  return found == views.end() ? views.front() : *found;
-}
-
 std::string write_picture(const std::filesystem::path& folder, const Target& target, const std::string& name,
                           const LoadedFrame& loaded, const bench::Image& image) {
-  const std::string below = picture_folder(target), path = fmt::format("{}/{}.png", below, bench::file_name(name));
-  std::error_code error;
-  std::filesystem::create_directories(folder / below, error);
-  if (error) throw Error("{}: cannot be made ({})", (folder / below).string(), error.message());
-  const View& view = pictured_view(loaded);
+  const std::string path =
+      fmt::format("{}/{}.png", bench::picture_folder(target.name, target.effect), bench::file_name(name));
+  bench::make_folder_of(folder, path);
+  const View& view = bench::pictured_view(loaded.frame, {&loaded.truth.image});
   const auto shown = image.find(view.name);
   if (shown == image.end()) return "";
   bench::write_grey(folder / path, shown->second, view.planes.at("depth").channels[0], white_of(loaded));

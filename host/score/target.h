@@ -50,10 +50,6 @@ LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOpt
 /// What a report says of the scene, with a picture of its truth below `folder` (empty: without).
 bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder);
 
-/// The folder of a target's pictures below that of the results, and the view that pictures show.
-std::string picture_folder(const Target& target);
-const View& pictured_view(const LoadedFrame& loaded);
-
 /// Writes a picture of one view as PNG below `folder`; returns its path there. Throws Error.
 std::string write_picture(const std::filesystem::path& folder, const Target& target, const std::string& name,
                           const LoadedFrame& loaded, const bench::Image& image);
