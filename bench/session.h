@@ -35,7 +35,7 @@ class Session {
     Variation variation;
     std::optional<FirstLook> look;  ///< none: not looked at, or not possible
     std::unique_ptr<Row> row;       ///< once it is in the race
-    bool is_near_front = false, has_similarity = false, has_ladder = false, has_floor = false, failed = false;
+    bool is_near_front = false, has_similarity = false, has_ladder = false, failed = false;
   };
 
   std::vector<const Technique*> those_measured() const;

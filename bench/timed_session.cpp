@@ -241,7 +241,7 @@ void Session::add_parts(std::vector<Candidate>& all, const TimeLimit& limit, boo
     tell("gathers alone", int(i), int(some.size()));
     Candidate& c = *some[i];
     Expected floor(2 + 1e-3 * 2 * (floor_rounds + 2) * c.look->ms);
-    c.has_floor = floor.done_within(limit, [&] { race_.add_floor(*c.row, floor_rounds); });
+    floor.done_within(limit, [&] { race_.add_floor(*c.row, floor_rounds); });
   }
   for (size_t i = 0; i < some.size(); ++i) {
     Candidate& c = *some[i];
@@ -301,7 +301,7 @@ void Session::list_left_out(const std::vector<Candidate>& all) {
       leave_out(c.variation, "rounds");
     } else {
       if (subject_.truth && !c.has_similarity) leave_out(c.variation, "SSIM and FLIP");
-      if (!c.has_floor) leave_out(c.variation, "own floor");
+      if (!c.row->gathers) leave_out(c.variation, "own floor");
       if (has_ladder(c.variation) && !c.has_ladder) leave_out(c.variation, "ladder");
     }
   }
