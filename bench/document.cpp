@@ -12,12 +12,8 @@
 #include "bench/intervals.h"
 
 namespace gloam::bench {
-namespace {
 
-Json milliseconds(const Series& ms) {
-  const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
-  return {{"median", median(ms)}, {"min", *least}, {"max", *most}};
-}
+namespace {
 
 /// Six digits: what a timer and the machine's load leave of a figure.
 Json shortened(double value) { return std::stod(fmt::format("{:.6g}", value)); }

@@ -16,11 +16,10 @@ std::vector<int> numbers_of(const MeasuredSequence& sequence) {
 }
 
 Json json_of(const SequenceRow& row) {
-  const auto [least, most] = std::minmax_element(row.ms.begin(), row.ms.end());
   return {{"technique", row.variation.technique->name},
           {"preset", row.variation.name()},
           {"temporal", row.variation.temporal},
-          {"ms", {{"median", median(row.ms)}, {"min", *least}, {"max", *most}}},
+          {"ms", milliseconds(row.ms)},
           {"ratio_to_hbao_plus", or_null(row.ratio)},
           {"rmse", row.rmse},
           {"worst", {{"frame", row.worst_frame}, {"rmse", row.worst_rmse}}},

@@ -1,8 +1,10 @@
 #include "base/json_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
+#include "base/statistics.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -59,6 +61,12 @@ nlohmann::ordered_json or_null(const std::optional<double>& number) {
 
 nlohmann::ordered_json or_null(const std::string& text) {
   return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
+}
+
+nlohmann::ordered_json milliseconds(const std::vector<double>& ms) {
+  if (ms.empty()) return {{"median", median(ms)}, {"min", 0}, {"max", 0}};
+  const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
+  return {{"median", median(ms)}, {"min", *least}, {"max", *most}};
 }
 
 }  // namespace gloam

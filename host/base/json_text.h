@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gloam {
 
@@ -21,6 +22,9 @@ nlohmann::json json_of_text(const std::string& text, const std::string& name);
 nlohmann::ordered_json or_null(const std::optional<double>& number);
 /// A text; null for an empty one.
 nlohmann::ordered_json or_null(const std::string& text);
+
+/// The median, the least and the greatest of times; 0 for none.
+nlohmann::ordered_json milliseconds(const std::vector<double>& ms);
 
 /// Whether a value is one of these strings.
 bool is_nonfinite_literal(const nlohmann::json& value);

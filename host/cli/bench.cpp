@@ -9,11 +9,11 @@
 #include "bench/effects.h"
 #include "bench/measurement.h"
 #include "bench/native.h"
-#include "bench/tables.h"
 #include "cli/bench_baseline.h"
 #include "cli/bench_chunks.h"
 #include "cli/bench_google.h"
 #include "cli/bench_paper.h"
+#include "cli/bench_print.h"
 #include "cli/bench_processes.h"
 #include "cli/bench_request.h"
 #include "cli/bench_rows.h"
@@ -29,86 +29,6 @@ namespace gloam::cli {
 namespace {
 
 using namespace gloam::bench;
-
-void print(const Table& table) {
-  fmt::print("\n{}\n", printable(table.title));
-  print_table(table.rows, table.first_number);
-  for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
-}
-
-/// Techniques with only one preset measured.
-std::vector<std::string> measured_in_short(const Measurement& result, const BenchOptions& options) {
-  std::vector<std::string> names;
-  for (const auto& row : result.rows) {
-    if (in_short(*row->variation.technique, options)) add_new(names, row->variation.technique->name);
-  }
-  return names;
-}
-
-/// Measured techniques whose growth was not measured.
-std::vector<std::string> without_growth(const Measurement& result, const BenchOptions& options) {
-  std::vector<std::string> names;
-  for (const auto& row : result.rows) {
-    const Technique* t = row->variation.technique;
-    if (std::find(options.growth.begin(), options.growth.end(), t) == options.growth.end()) add_new(names, t->name);
-  }
-  return names;
-}
-
-/// "rounds of 12 settings, the ladder of 3": what a time limit left out.
-std::string left_out_in_words(const std::vector<LeftOut>& left_out) {
-  std::vector<std::string> kinds, words;
-  for (const LeftOut& l : left_out) add_new(kinds, l.what);
-  for (const std::string& kind : kinds) {
-    const auto count =
-        std::count_if(left_out.begin(), left_out.end(), [&](const LeftOut& l) { return l.what == kind; });
-    const bool is_of_settings = std::any_of(left_out.begin(), left_out.end(),
-                                            [&](const LeftOut& l) { return l.what == kind && !l.preset.empty(); });
-    const bool is_of_techniques =
-        !is_of_settings && std::any_of(left_out.begin(), left_out.end(),
-                                       [&](const LeftOut& l) { return l.what == kind && !l.technique.empty(); });
-    const char* things = is_of_settings ? "setting" : "technique";
-    words.push_back(is_of_settings || is_of_techniques
-                        ? fmt::format("{} of {} {}{}", kind, count, things, count == 1 ? "" : "s")
-                        : kind);
-  }
-  return enumerate(words);
-}
-
-std::string rounds_in_words(const Measurement& result, const BenchOptions& options) {
-  if (!options.limit.is_set() || result.rows.empty()) return fmt::format("{} rounds", options.rounds);
-  const auto [fewest, most] = std::minmax_element(
-      result.rows.begin(), result.rows.end(), [](const auto& a, const auto& b) { return a->ms.size() < b->ms.size(); });
-  return fmt::format("{} to {} rounds", (*fewest)->ms.size(), (*most)->ms.size());
-}
-
-void print(const Measurement& result, const BenchOptions& options, const DeviceInfo& device) {
-  fmt::print("{}, {} ({}); {}\n", cpu_model(), device.name, device.platform, rounds_in_words(result, options));
-  fmt::print(
-      "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
-      "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: no other is as fast\nand as close, "
-      "and better in one of the two.\n");
-  for (const SceneFacts& scene : result.scenes) {
-    print(table_of_scene(result, scene));
-    if (const Table table = table_of_baselines(result, scene); table.rows.size() > 1 || !table.below.empty())
-      print(table);
-  }
-  if (const std::vector<std::string> names = measured_in_short(result, options); !names.empty())
-    fmt::print("\nof {} one preset: --techniques measures those that it names in full\n", enumerate(names));
-  if (!result.growth.empty()) {
-    print(table_of_growth(result));
-    const std::vector<std::string> others = without_growth(result, options);
-    if (!others.empty())
-      fmt::print("not of {}: --techniques measures the growth of those that it names\n", enumerate(others));
-  }
-  for (const Skipped& s : result.skipped) {
-    const std::string preset = s.preset.empty() ? "" : " " + s.preset, where = s.scene.empty() ? "" : " on " + s.scene;
-    fmt::print("skipped {}{}{}: {}\n", s.technique, preset, printable(where), printable(s.why));
-  }
-  if (!result.left_out.empty())
-    fmt::print("\nleft out to end in time: {}; --time 5m measures more, --all everything\n",
-               left_out_in_words(result.left_out));
-}
 
 /// Throws UsageError for what cannot be divided, too.
 void print_chunks(const BenchCommand& flags) {

@@ -7,7 +7,7 @@
 #include "bench/effects.h"
 #include "bench/sequence.h"
 #include "bench/sequence_document.h"
-#include "bench/tables.h"
+#include "cli/bench_print.h"
 #include "cli/score_targets.h"
 #include "gloam/error.h"
 #include "score/result_file.h"
@@ -61,7 +61,7 @@ class SetBench {
       return skipped.scene.empty() && !needs_naming(find_technique(skipped.technique)).empty();
     });
     make_output_folder(flags_.folder);
-    file_.emplace(flags_.folder, set_.id, GLOAM_VERSION);
+    file_.emplace(flags_.folder, set_.id);
     kept_ = submitted_rows();
     check_paths({}, {{"-o", file_->path().string()}, {"--json", flags_.json.file()}});
   }
@@ -178,7 +178,6 @@ class SetBench {
 
   /// A row of a sequence, as those of frames.
   Json row_of(const SequenceRow& row, const Target& target, const score::LoadedFrame& first) const {
-    const auto [least, most] = std::minmax_element(row.ms.begin(), row.ms.end());
     const Variation& v = row.variation;
     return {{"technique", v.technique->name},
             {"preset", v.name()},
@@ -192,7 +191,7 @@ class SetBench {
             {"kind", target.kind},
             {"width", first.frame.width()},
             {"height", first.frame.height()},
-            {"ms", {{"median", median(row.ms)}, {"min", *least}, {"max", *most}, {"rounds", row.ms}}},
+            {"ms", score::milliseconds_of(row.ms)},
             {"ratio_to_hbao_plus", or_null(row.ratio)},
             {"ratio_to_gather_floor", nullptr},
             {"rmse_to_truth", row.rmse},
@@ -206,7 +205,6 @@ class SetBench {
 
   Json document() const {
     Json made = document_of(result_, options_, device_.info());
-    made["gloam"] = GLOAM_VERSION;
     made["set"] = score::document_of(set_.id);
     for (const SceneFacts& scene : sequence_scenes_) made["scenes"].push_back(document_of(scene));
     for (const Json& row : sequence_rows_) made["results"].push_back(row);
@@ -242,13 +240,8 @@ class SetBench {
   void print() const {
     fmt::print("{}, {} ({}); set {}\n", cpu_model(), device_.info().name, device_.info().platform,
                printable(score::in_words(set_.id)));
-    const auto print_one = [](const Table& table) {
-      fmt::print("\n{}\n", printable(table.title));
-      print_table(table.rows, table.first_number);
-      for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
-    };
-    for (const SceneFacts& scene : result_.scenes) print_one(table_of_scene(result_, scene));
-    for (const Measured& each : sequences_) print_one(table_of_sequence(each.sequence, each.rows));
+    for (const SceneFacts& scene : result_.scenes) cli::print(table_of_scene(result_, scene));
+    for (const Measured& each : sequences_) cli::print(table_of_sequence(each.sequence, each.rows));
     for (const Skipped& s : result_.skipped)
       fmt::print("skipped {}{}{}: {}\n", s.technique, s.preset.empty() ? "" : " " + s.preset,
                  s.scene.empty() ? "" : (s.technique.empty() ? "" : " on ") + printable(s.scene), printable(s.why));

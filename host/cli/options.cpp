@@ -94,12 +94,6 @@ void JsonFlag::write(const Json& document, const std::vector<std::string>& compl
   }
 }
 
-Json milliseconds(std::vector<double> ms) {
-  const double middle = median(ms);
-  const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
-  return {{"median", middle}, {"min", ms.empty() ? 0 : *least}, {"max", ms.empty() ? 0 : *most}};
-}
-
 Json plan_document(const Plan& plan, const std::vector<std::string>& decoded) {
   Json document = {{"outputs", plan.outputs},
                    {"passes", Json::array()},

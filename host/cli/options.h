@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/command_line.h"
+#include "base/json_text.h"
 #include "base/lists.h"
 #include "cli/frame_flags.h"
 #include "cli/notes.h"
@@ -42,9 +43,6 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
 
 /// "1 file", "3 files"
 std::string counted(size_t count, const char* what);
-
-/// median, min, max
-Json milliseconds(std::vector<double> ms);
 
 /// JSON of a plan, as documented.
 Json plan_document(const Plan& plan, const std::vector<std::string>& decoded);

@@ -1,8 +1,8 @@
 // gloam score IMAGES --json ENTRY.json: figures of images that other methods made
 #include <algorithm>
-#include <fstream>
 #include <memory>
 
+#include "base/command_line.h"
 #include "base/files.h"
 #include "bench/pictures.h"
 #include "cli/score_command.h"
@@ -43,15 +43,6 @@ struct ScoreFlags {
   bool prints_json() const { return std::find(json.begin(), json.end(), "-") != json.end(); }
 };
 
-/// This process's command line.
-std::vector<std::string> command_line() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  if (!words.empty()) words.front() = "gloam";
-  return words;
-}
-
 void check_flags(const ScoreFlags& flags) {
   const bool has_command = !flags.command.command.empty();
   if (flags.images.empty() && !has_command)
@@ -88,7 +79,7 @@ class ScoreRun {
       : flags_(flags), entry_(score::read_entry(flags.entry())), reading_(flags.frame_flags.read_options()) {
     find_targets();
     make_output_folder(flags.folder);
-    result_.emplace(flags.folder, set_, GLOAM_VERSION);
+    result_.emplace(flags.folder, set_);
     check_paths({{"--json", flags.entry()}}, {{"-o", result_->path().string()}});
     score::ScoringOptions options;
     if (!flags.no_images) options.folder = flags.folder;

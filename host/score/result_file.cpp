@@ -12,11 +12,6 @@
 namespace gloam::score {
 namespace {
 
-Json milliseconds(const std::vector<double>& ms) {
-  const auto [least, most] = std::minmax_element(ms.begin(), ms.end());
-  return {{"median", median(ms)}, {"min", *least}, {"max", *most}, {"rounds", ms}};
-}
-
 /// A time that nobody measured here has no rounds.
 Json stated(const std::optional<double>& ms) {
   if (!ms) return nullptr;
@@ -88,11 +83,10 @@ std::optional<SetId> set_in(const Json& document) {
   return id;
 }
 
-Json new_document(const std::optional<SetId>& set, const std::string& version) {
+Json new_document(const std::optional<SetId>& set) {
   Json document = bench::origin_of(DeviceInfo{});
   document["device"] = nullptr;  // nothing was computed here
   document["driver"] = nullptr;
-  document["gloam"] = version;
   document["set"] = set ? document_of(*set) : Json(nullptr);
   for (const char* list : {"scenes", "results", "growth", "converged", "scales", "planes", "skipped", "paper"})
     document[list] = Json::array();
@@ -100,6 +94,12 @@ Json new_document(const std::optional<SetId>& set, const std::string& version) {
 }
 
 }  // namespace
+
+Json milliseconds_of(const std::vector<double>& rounds) {
+  Json document = milliseconds(rounds);
+  document["rounds"] = rounds;
+  return document;
+}
 
 Json document_of(const SetId& set) {
   return {
@@ -116,9 +116,9 @@ Json document_of(const WholeTimes& whole) {
   for (size_t i = 0; i < std::min(whole.ms.size(), whole.gloam_ms.size()); ++i)
     ratios.push_back(whole.ms[i] / whole.gloam_ms[i]);
   Json document = {{"command", whole.command},
-                   {"ms", milliseconds(whole.ms)},
+                   {"ms", milliseconds_of(whole.ms)},
                    {"gloam_command", whole.gloam_command},
-                   {"gloam_ms", whole.gloam_ms.empty() ? Json(nullptr) : milliseconds(whole.gloam_ms)},
+                   {"gloam_ms", whole.gloam_ms.empty() ? Json(nullptr) : milliseconds_of(whole.gloam_ms)},
                    {"ratio", ratios.empty() ? Json(nullptr) : Json(median(ratios))},
                    {"ratio_rounds", ratios}};
   return document;
@@ -170,12 +170,12 @@ Json scene_of(const Scored& scored) {
   return scene;
 }
 
-ResultFile::ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set, const std::string& version)
+ResultFile::ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set)
     : path_(folder / "bench.json") {
   std::error_code unknown;
   is_new_ = !std::filesystem::exists(path_, unknown);
   if (is_new_) {
-    document_ = new_document(set, version);
+    document_ = new_document(set);
     return;
   }
   try {

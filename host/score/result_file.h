@@ -39,11 +39,14 @@ Json row_of(const Scored& scored, const Entry& entry, const RowDetails& details)
 Json document_of(const BestFit& fit, const Figures& figures, const std::string& effect);
 Json scene_of(const Scored& scored);
 
+/// Median, least and greatest, and every round.
+Json milliseconds_of(const std::vector<double>& rounds);
+
 class ResultFile {
  public:
   /// Reads what is there. `set`: none for frames of the user's own. Throws Error for a file that is no result of gloam, or of another
   /// set.
-  ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set, const std::string& version);
+  ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set);
 
   std::filesystem::path path() const { return path_; }
   bool is_new() const { return is_new_; }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/command_line.h"
 #include "camera/camera_list.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"

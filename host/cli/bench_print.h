@@ -1,0 +1,14 @@
+// What gloam bench prints of its measurements.
+#pragma once
+
+#include "bench/tables.h"
+#include "cli/bench_request.h"
+
+namespace gloam::cli {
+
+void print(const bench::Table& table);
+
+/// Tables of all scenes, what was skipped and what a time limit left out.
+void print(const bench::Measurement& result, const BenchOptions& options, const DeviceInfo& device);
+
+}  // namespace gloam::cli
