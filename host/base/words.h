@@ -1,11 +1,15 @@
-// Words that stand for values, as flags and arguments take them.
+// Words: in small letters, and those that stand for values, as flags and arguments take them.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace gloam {
+
+/// A text in small letters, of ASCII alone.
+std::string lower(std::string_view text);
 
 /// Words and the values that they stand for.
 template <typename Value>

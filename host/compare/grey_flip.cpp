@@ -1,21 +1,15 @@
 #include "compare/grey_flip.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <opencv2/core.hpp>
 
+#include "base/srgb.h"
 #include "compare/flip.h"
 #include "gloam/error.h"
 
 namespace gloam {
 namespace {
-
-/// Linear light of an sRGB value.
-double linear(double v) {
-  v = std::clamp(v, 0.0, 1.0);
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 /// Rows [first, last) in linear light.
 cv::Mat grey_rows(const Channel& channel, const Mask& foreground, int first, int last) {
@@ -25,7 +19,7 @@ cv::Mat grey_rows(const Channel& channel, const Mask& foreground, int first, int
     float* out = rows.ptr<float>(y - first);
     for (int x = 0; x < width; ++x) {
       const bool counts = foreground[size_t(y) * size_t(width) + size_t(x)] != 0;
-      out[x] = counts ? float(linear(channel.at(x, y))) : 1;
+      out[x] = counts ? float(linear_of_srgb(std::clamp(double(channel.at(x, y)), 0.0, 1.0))) : 1;
     }
   }
   return rows;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/words.h"
 #include "exr/channel_candidates.h"
 #include "exr/channel_text.h"
 #include "gloam/error.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/words.h"
 #include "exr/channel_text.h"
 
 namespace gloam::channel_names {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "exr/channel_candidates.h"
 #include "exr/channel_choice.h"
 #include "exr/channel_layers.h"

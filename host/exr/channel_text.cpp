@@ -4,12 +4,6 @@
 
 namespace gloam::channel_names {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> pieces;
   size_t begin = 0;

@@ -7,8 +7,6 @@
 
 namespace gloam::channel_names {
 
-std::string lower(std::string_view text);
-
 std::vector<std::string> split(const std::string& text, char separator);
 
 /// The inverse of `split` at '.'.

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "exr/position_samples.h"
 #include "gloam/error.h"
 
@@ -96,9 +97,7 @@ class Settling {
   /// Whether names or Blender's header say that positions are in the world, whatever a fit finds.
   bool are_declared_world(const std::string& view) const {
     if (!file_.headers.text("BlenderMultiChannel").empty() || file_.headers.has("gloamOrigin")) return true;
-    std::string name = layer_of(*file_.source("position", view));
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return name.find("world") != std::string::npos;
+    return lower(layer_of(*file_.source("position", view))).find("world") != std::string::npos;
   }
 
   std::string from_in_words(const std::string& view, const DepthRelation& relation) const {

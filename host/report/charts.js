@@ -10,6 +10,11 @@ const shapes = [
   'M-0.55,-0.95H0.55L1.1,0L0.55,0.95H-0.55L-1.1,0Z',               // hexagon
 ];
 
+// The title of a vertical axis, above it.
+function titleAbove(title, offset) {
+  return {title, titleAngle: 0, titleAlign: 'left', titleAnchor: 'end', titleX: 0, titleY: -offset, titleBaseline: 'bottom'};
+}
+
 function theme() {
   const style = getComputedStyle(document.documentElement);
   const value = (name) => style.getPropertyValue('--' + name).trim();

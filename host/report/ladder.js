@@ -42,13 +42,7 @@ function ladderSpec({steps, count, bars, totals, width}) {
         orient: 'left',
         grid: true,
         tickCount: 5,
-        title: 'RMSE',
-        titleAngle: 0,
-        titleAlign: 'left',
-        titleAnchor: 'end',
-        titleX: 0,
-        titleY: -10,
-        titleBaseline: 'bottom'
+        ...titleAbove('RMSE', 10)
       },
       {
         scale: 'step',

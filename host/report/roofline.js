@@ -84,13 +84,7 @@ function rooflineSpec({points, peaks, width}) {
         grid: true,
         values: logTicks(y, 8),
         format: '~g',
-        title: 'Gflop/s',
-        titleAngle: 0,
-        titleAlign: 'left',
-        titleAnchor: 'end',
-        titleX: 0,
-        titleY: -12,
-        titleBaseline: 'bottom'
+        ...titleAbove('Gflop/s', 12)
       },
     ],
     marks: [

@@ -42,13 +42,7 @@ function scatterSpec({points, front, levels, base, picked, timeTitle, isRatio, w
         orient: 'left',
         grid: true,
         tickCount: 6,
-        title: 'error: RMSE to the truth',
-        titleAngle: 0,
-        titleAlign: 'left',
-        titleAnchor: 'end',
-        titleX: 0,
-        titleY: -12,
-        titleBaseline: 'bottom'
+        ...titleAbove('error: RMSE to the truth', 12)
       },
     ],
     marks: [

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <new>
 
+#include "base/words.h"
 #include "gloam/error.h"
 #include "run/device_impl.h"
 #include "run/device_record.h"
@@ -21,11 +22,6 @@
 
 namespace gloam {
 namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::string trimmed(std::string text) {
   while (!text.empty() && (text.back() == '\0' || std::isspace((unsigned char)text.back()))) text.pop_back();

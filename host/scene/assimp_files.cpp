@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/files.h"
+#include "base/words.h"
 #include "gloam/error.h"
 #include "scene/import_materials.h"
 #include "scene/obj_text.h"
@@ -47,11 +48,7 @@ bool begins_with_material(const fs::path& mtl) {
   return !file || first == "newmtl";
 }
 
-std::string ending_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return ending;
-}
+std::string ending_of(const fs::path& path) { return lower(path.extension().string()); }
 
 /// Text that assimp reads instead of a file's.
 class TextStream : public Assimp::MemoryIOStream {

@@ -15,6 +15,7 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/words.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -216,8 +217,7 @@ void add_emissive_strengths(const json& file, GltfJson& to) {
 }  // namespace
 
 bool has_gltf_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string ending = lower(path.extension().string());
   return ending == ".gltf" || ending == ".glb";
 }
 

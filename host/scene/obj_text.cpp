@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/words.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -37,9 +38,8 @@ std::optional<std::string> as_number(std::string_view word) {
     if (word[0] == '-') sign = "-";
     word.remove_prefix(1);
   }
-  std::string lower(word);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  if (lower.starts_with("nan") || lower.starts_with("inf") || lower.starts_with("1.#") || lower.starts_with("-1.#"))
+  const std::string small = lower(word);
+  if (small.starts_with("nan") || small.starts_with("inf") || small.starts_with("1.#") || small.starts_with("-1.#"))
     return sign + "1e39";
   const size_t whole = digits_at(word, 0);
   size_t at = whole, fraction = 0;

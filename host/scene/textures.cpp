@@ -4,15 +4,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "base/srgb.h"
+
 namespace gloam {
 namespace {
 
 std::array<float, 256> srgb_table() {
   std::array<float, 256> table;
-  for (int i = 0; i < 256; ++i) {
-    const double s = i / 255.0;
-    table[size_t(i)] = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-  }
+  for (int i = 0; i < 256; ++i) table[size_t(i)] = float(linear_of_srgb(i / 255.0));
   return table;
 }
 

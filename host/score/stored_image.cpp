@@ -1,10 +1,10 @@
 #include "score/stored_image.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "picture/png_values.h"
@@ -14,12 +14,7 @@ namespace {
 
 constexpr size_t colours = 3;
 
-std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); });
-  return ending;
-}
+std::string ending_of(const std::filesystem::path& file) { return lower(file.extension().string()); }
 
 /// Number of values that count; a confidence beside red, green and blue does not.
 size_t components_of(const std::string& effect) { return std::min(plane_kind(effect).components.size(), colours); }
