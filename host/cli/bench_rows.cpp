@@ -137,11 +137,11 @@ void add_rows_flags(CLI::App& app, BenchCommand& flags) {
       ->type_name("N")
       ->group(group);
   for (const char* chosen : {"--effects", "--techniques", "--presets", "--scenes", "--variants", "--sweep", "--ladder",
-                             "--no-growth", "--no-checks", "--no-images", "--sequence", "--chunks"}) {
+                             "--no-growth", "--no-checks", "--no-images", "--sequence", "--chunks", "--time"}) {
     rows->excludes(app.get_option(chosen));
     baseline->excludes(app.get_option(chosen));
   }
-  app.get_option("--processes")->excludes(app.get_option("--sequence"));
+  for (const char* other : {"--sequence", "--time"}) app.get_option("--processes")->excludes(app.get_option(other));
 }
 
 }  // namespace gloam::cli

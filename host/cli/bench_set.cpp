@@ -43,6 +43,9 @@ void check_set_flags(const BenchCommand& flags) {
     if (flags.app->get_option(flag)->count() > 0)
       throw UsageError("{}: the set says what is measured; leave it out", flag);
   }
+  if (flags.app->get_option("--time")->count() > 0)
+    throw UsageError(
+        "--time: of a set everything is measured; leave it out, or choose --items, --techniques or --presets");
   for (const CLI::Option* option : flags.app->get_options()) {
     if (option->get_group() == "Reading the frame" && option->count() > 0)
       throw UsageError("{}: says how frames are read, and those of a set say it themselves; leave it out",

@@ -114,6 +114,7 @@ class ScoreRun {
       ScoredSet found = read_set(flags_.set);
       set_ = found.id;
       targets_ = std::move(found.targets);
+      of_set_ = targets_;
       if (!flags_.items.empty()) keep_items(targets_, split_list(flags_.items, "--items"));
       return;
     }
@@ -129,7 +130,10 @@ class ScoreRun {
     std::vector<std::string> effects = {entry_.effect};
     if (!are_free) {
       files_.emplace(flags_.images, targets_, entry_.effect);
-      for (const fs::path& path : files_->unknown()) note({no_item(path)});
+      for (const fs::path& path : files_->unknown()) {
+        const bool is_of_another = score::parse_image_name(path.stem().string(), of_set_, entry_.effect).has_value();
+        if (!is_of_another) note({no_item(path)});
+      }
       if (files_->size() > 0) effects = files_->effects();
     }
     std::erase_if(targets_, [&](const score::Target& target) { return !contains(effects, target.effect); });
@@ -230,7 +234,7 @@ class ScoreRun {
   const score::Entry entry_;
   const ReadOptions reading_;
   std::optional<score::SetId> set_;
-  std::vector<score::Target> targets_;
+  std::vector<score::Target> targets_, of_set_;  ///< those chosen, and all of the set
   std::optional<score::ResultFile> result_;
   std::optional<score::Scoring> scoring_;
   std::optional<MethodCommand> command_;

@@ -141,6 +141,16 @@ TEST_F(Score, ImagesThatLookInvertedAreScoredAndNamed) {
       << result.err;
 }
 
+TEST_F(Score, OfImagesOfItemsThatWereNotChosenNothingIsSaid) {
+  write_all(same);
+  const Result chosen = score_images({"--items", "room"});
+  ASSERT_EQ(chosen.status, 0) << chosen.err;
+  EXPECT_EQ(chosen.err.find("of no item"), std::string::npos) << chosen.err;
+  fs::copy_file(path("images/room_ao.exr"), path("images/stranger.exr"));
+  const Result other = score_images({"--items", "room"});
+  EXPECT_NE(other.err.find("stranger.exr: its name is of no item"), std::string::npos) << other.err;
+}
+
 TEST_F(Score, PicturesOfEightAndSixteenBits) {
   const Frame ao = plane_of(truth("room", "ao"), "ao");
   const Channel& values = ao.views[0].planes.at("ao").channels[0];
