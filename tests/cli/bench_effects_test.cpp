@@ -120,7 +120,8 @@ TEST_F(BenchEffects, AreThoseThatTruthsHold) {
   EXPECT_EQ(other.status, 1);
   EXPECT_NE(other.err.find("no plane 'specular_occlusion' to measure against"), std::string::npos) << other.err;
 
-  const Result picked = gloam({"pick", frame, "--truth", contact, "--error", "0.9", "--rounds", "1", "--json", "-"});
+  // Within .35 are all presets at full resolution, of which medium takes twice as long as low; at half, two differ by a few hundredths.
+  const Result picked = gloam({"pick", frame, "--truth", contact, "--error", "0.35", "--json", "-"});
   ASSERT_EQ(picked.status, 0) << picked.err;
   EXPECT_EQ(picked.json()["technique"], "contact-shadow");
   EXPECT_NE(picked.json()["command"].get<std::string>().find("-o contact.exr --preset low --length 0.5"),

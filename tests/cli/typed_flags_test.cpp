@@ -194,7 +194,7 @@ TEST_P(TypedFlags, LeaveHelpToThoseWhoAskForIt) {
 
 const char* const commands[] = {"info",        "run",   "compare", "plan",   "list",  "capture",
                                 "reference",   "bench", "score",   "pick",   "auto",  "report",
-                                "leaderboard", "set",   "view",    "stress", "doctor"};
+                                "leaderboard", "view",  "set",     "stress", "doctor"};
 
 INSTANTIATE_TEST_SUITE_P(Commands, TypedFlags, ::testing::ValuesIn(commands),
                          [](const auto& info) { return std::string(info.param); });
