@@ -14,11 +14,12 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// How much later a variant is looked at than its preset, in doublings of the distance to the front.
+/// How much later a setting is looked at, in doublings of the distance to the front. Lower resolutions are looked at soon: they take a part of
+/// the time and run kernels that are compiled already, where each preset has kernels of its own.
 double delay_of(const Variation& v) {
-  if (v.variant.empty()) return 0;
-  if (v.resolution == 2 && v.variant == "half") return 0.2;
-  if (v.resolution == 4 && v.variant == "quarter") return 0.5;
+  if (v.variant.empty()) return 0.3;
+  const bool is_lower = (v.resolution == 2 && v.variant == "half") || (v.resolution == 4 && v.variant == "quarter");
+  if (is_lower) return 0;
   return v.math == Math::fast && v.real == Real::float32 && v.storage == Storage::float32
              ? 0.5
              : 3;  // swept, or another precision

@@ -50,7 +50,7 @@ std::vector<double> distances_to_front(const std::vector<FirstLook>& looks);
 /// Indices of the settings in the order in which they are looked at first: one preset of each technique, `preset` if there is one.
 std::vector<size_t> first_looks(const std::vector<Variation>& variations, const std::string& preset);
 
-/// Indices of all others, those of techniques near the front first, presets before variants that other presets suggest less.
+/// Indices of all others, those of techniques near the front first, lower resolutions before further presets, other precisions last.
 /// `distance_of`: of the technique of a variation, by what was looked at.
 std::vector<size_t> later_looks(const std::vector<Variation>& variations, const std::vector<size_t>& first,
                                 const std::function<double(const Variation&)>& distance_of);
