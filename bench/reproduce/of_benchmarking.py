@@ -20,4 +20,5 @@ def sequence(lab):
 
 record(PAGE, "A paper, measured again", why="how long commands of minutes take on two idle cores")
 record(PAGE, "What was measured", why="many runs of two builds, one made slower on purpose, for half a day on a machine with other work")
+record(PAGE, "What was measured", 2, why="twenty processes of two builds, one made slower on purpose, on an idle machine")
 record(PAGE, "The roofline", 2, why="two runs on a machine with other work, whose shares of peaks are that machine's")
