@@ -15,6 +15,9 @@ namespace {
 /// The technique that the native loop computes, and the preset with its number of samples.
 constexpr const char *reference_technique = "hbao+", *reference_preset = "medium";
 
+/// The reference of light-field displays: the same samples, through any projection.
+constexpr const char* reference_of_displays = "lightfield-hbao+";
+
 /// Number of rows that share one run of the baselines, so that the two times of a ratio are close together.
 constexpr size_t group_size = 4;
 
@@ -34,6 +37,11 @@ const ParameterValues* as_baseline(const Plan& plan) {
 bool is_own(const TimedPlan& timed, size_t pass) {
   const std::vector<PlannedPass>& passes = timed.plan().passes;
   return passes[pass].technique->name == timed.plan().technique;
+}
+
+bool is_of_display(const Frame& frame) {
+  return std::any_of(frame.views.begin(), frame.views.end(),
+                     [](const View& view) { return view.camera && view.camera->slits; });
 }
 
 void add(Series& sum, const Series& ms) {
@@ -231,8 +239,14 @@ void Race::add_group(size_t first, size_t end, std::vector<Contender>& contender
 }
 
 void Race::enter_reference() {
+  const bool on_display = is_of_display(frame_);
+  const std::string name = on_display ? reference_of_displays : reference_technique;
+  if (on_display)
+    notes_.push_back(
+        fmt::format("on light-field displays ratios to HBAO+ are to {} {}, since {} cannot compute such views", name,
+                    reference_preset, reference_technique));
   for (const Technique& t : registry()) {
-    if (t.name == reference_technique) reference_variation_ = {&t, reference_preset, radius_};
+    if (t.name == name) reference_variation_ = {&t, reference_preset, radius_};
   }
   if (!reference_variation_.technique) return;
   try {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/lists.h"
 #include "bench/document.h"
+#include "gloam/error.h"
 
 namespace gloam::cli {
 
@@ -49,6 +51,32 @@ std::string left_out_in_words(const std::vector<LeftOut>& left_out) {
   return enumerate(words);
 }
 
+/// What is skipped for the same reason: `whats` on all of `scenes`, which may be empty.
+struct SkippedTogether {
+  std::vector<std::string> whats, scenes;
+  std::string why;
+};
+
+std::vector<SkippedTogether> together(const std::vector<Skipped>& skipped) {
+  std::vector<SkippedTogether> by_what, all;
+  for (const Skipped& s : skipped) {
+    const std::string what = s.preset.empty() ? s.technique : s.technique + " " + s.preset;
+    auto same = std::find_if(by_what.begin(), by_what.end(),
+                             [&](const SkippedTogether& t) { return t.why == s.why && t.whats.front() == what; });
+    if (same == by_what.end()) same = by_what.insert(by_what.end(), {{what}, {}, s.why});
+    if (!s.scene.empty()) add_new(same->scenes, s.scene);
+  }
+  for (const SkippedTogether& each : by_what) {
+    const auto same = std::find_if(
+        all.begin(), all.end(), [&](const SkippedTogether& t) { return t.why == each.why && t.scenes == each.scenes; });
+    if (same == all.end())
+      all.push_back(each);
+    else
+      same->whats.push_back(each.whats.front());
+  }
+  return all;
+}
+
 std::string rounds_in_words(const Measurement& result, const BenchOptions& options) {
   if (!options.limit.is_set() || result.rows.empty()) return fmt::format("{} rounds", options.rounds);
   const auto [fewest, most] = std::minmax_element(
@@ -62,6 +90,15 @@ void print(const Table& table) {
   fmt::print("\n{}\n", printable(table.title));
   print_table(table.rows, table.first_number);
   for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
+}
+
+void print_skipped(const std::vector<Skipped>& skipped) {
+  for (const SkippedTogether& each : together(skipped)) {
+    // Of an effect that is not measured there is a scene alone.
+    const std::string what = each.whats.front().empty() ? "" : enumerate(each.whats);
+    const std::string where = each.scenes.empty() ? "" : (what.empty() ? "" : " on ") + enumerate(each.scenes);
+    fmt::print("skipped {}{}: {}\n", what, printable(where), printable(each.why));
+  }
 }
 
 void print(const Measurement& result, const BenchOptions& options, const DeviceInfo& device) {
@@ -83,10 +120,7 @@ void print(const Measurement& result, const BenchOptions& options, const DeviceI
     if (!others.empty())
       fmt::print("not of {}: --techniques measures the growth of those that it names\n", enumerate(others));
   }
-  for (const Skipped& s : result.skipped) {
-    const std::string preset = s.preset.empty() ? "" : " " + s.preset, where = s.scene.empty() ? "" : " on " + s.scene;
-    fmt::print("skipped {}{}{}: {}\n", s.technique, preset, printable(where), printable(s.why));
-  }
+  print_skipped(result.skipped);
   if (!result.left_out.empty())
     fmt::print("\nleft out to end in time: {}; --time 5m measures more, --all everything\n",
                left_out_in_words(result.left_out));

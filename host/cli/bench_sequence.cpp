@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/sequence_document.h"
+#include "cli/bench_print.h"
 #include "cli/memory.h"
 #include "cli/shot.h"
 #include "gloam/error.h"
@@ -175,8 +176,7 @@ void print(const MeasuredSequence& sequence, const SequenceMeasurement& measured
   fmt::print("\n{}\n", printable(table.title));
   print_table(table.rows, table.first_number);
   for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
-  for (const Skipped& s : measured.skipped)
-    fmt::print("skipped {}{}: {}\n", s.technique, s.preset.empty() ? "" : " " + s.preset, printable(s.why));
+  print_skipped(measured.skipped);
 }
 
 }  // namespace

@@ -245,9 +245,7 @@ class SetBench {
                printable(score::in_words(set_.id)));
     for (const SceneFacts& scene : result_.scenes) cli::print(table_of_scene(result_, scene));
     for (const Measured& each : sequences_) cli::print(table_of_sequence(each.sequence, each.rows));
-    for (const Skipped& s : result_.skipped)
-      fmt::print("skipped {}{}{}: {}\n", s.technique, s.preset.empty() ? "" : " " + s.preset,
-                 s.scene.empty() ? "" : (s.technique.empty() ? "" : " on ") + printable(s.scene), printable(s.why));
+    print_skipped(result_.skipped);
     fmt::print("wrote {}\n", printable(file_->path().string()));
   }
 

@@ -64,6 +64,27 @@ TEST_F(BenchSet, LeavesOutWhatIsNotTheSets) {
   EXPECT_TRUE(row("pair", "hbao+").is_object());
 }
 
+// The reference of ratios, hbao+, cannot compute views of a display.
+TEST_F(BenchSet, MeasuresDisplaysBesideWhatComputesThem) {
+  ok({"set", "make", "small", "--only", "display,corner", "-o", path("small")});
+  const Result result = gloam({"bench", "--set", path("small"), "-o", path("out"), "--presets", "medium", "--rounds",
+                               "1", "--techniques", "lightfield-hbao+,lightfield-ssao,gtao,ssao"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("ratios to HBAO+ are to lightfield-hbao+ medium"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("skipped gtao and ssao on display: view 'module00' is of a light-field display's module"),
+            std::string::npos)
+      << result.out;
+  for (const char* technique : {"lightfield-hbao+", "lightfield-ssao"}) {
+    const Json measured = row("display", technique);
+    ASSERT_TRUE(measured.is_object()) << technique;
+    EXPECT_EQ(measured["kind"], "display");
+    EXPECT_GT(measured["ratio_to_hbao_plus"], 0) << technique;
+    EXPECT_GT(measured["rmse_to_truth"], 0) << technique;
+  }
+  EXPECT_TRUE(row("display", "gtao").is_null());
+  EXPECT_TRUE(row("corner", "gtao").is_object());
+}
+
 TEST_F(BenchSet, RefusesFlagsThatSayWhatASetSays) {
   for (const Arguments& more : {Arguments{"--scenes", "plane"}, {"--radius", "1"}, {"--fov", "60"}}) {
     const Result result = bench(more);
