@@ -37,7 +37,7 @@ struct ScoreFlags {
       found = each;
     }
     if (found.empty())
-      throw UsageError("--json ENTRY.json is required: what made the images; {{\"name\": \"my method\"}} is enough");
+      throw UsageError("--json ENTRY.json is required: what made the images; {\"name\": \"my method\"} is enough");
     return found;
   }
   bool prints_json() const { return std::find(json.begin(), json.end(), "-") != json.end(); }

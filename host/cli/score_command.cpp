@@ -44,6 +44,11 @@ std::string pattern_of(const fs::path& file, int frame) {
 
 MethodCommand::MethodCommand(const ScoreCommandFlags& flags, const fs::path& folder)
     : flags_(flags), words_(words_of_command(flags.command, flag)), folder_(folder) {
+  // A misspelt placeholder is told before one that is missing.
+  Target target;
+  target.name = "ITEM";
+  const TargetFrame at;
+  for (const std::string& word : words_) with_values(word, values_for(target, at, "", "image.exr"), flag);
   const bool by_frame = has("{frame}") && has("{image}"), by_sequence = has("{frames}") && has("{images}");
   if (by_frame == by_sequence)
     throw UsageError(
@@ -54,10 +59,6 @@ MethodCommand::MethodCommand(const ScoreCommandFlags& flags, const fs::path& fol
   if (by_sequence && has("{view}"))
     throw UsageError("{} {}: {{view}} goes with {{frame}} and {{image}}, one run per frame and view", flag,
                      flags.command);
-  Target target;
-  target.name = "ITEM";
-  const TargetFrame at;
-  for (const std::string& word : words_) with_values(word, values_for(target, at, "", "image.exr"), flag);
 }
 
 bool MethodCommand::has(const char* placeholder) const {

@@ -25,11 +25,10 @@ void check_sets(const Source& first, const Source& second) {
   const SetFacts &a = first.measurements.set, &b = second.measurements.set;
   const bool same = a.name == b.name && a.part == b.part && a.seed == b.seed && a.hash == b.hash;
   if (same) return;
-  const std::string name = a.name.empty() ? b.name : a.name;
   throw Error(
       "{} is of {} and {} of {}: frames of the same name differ, so nothing can be compared; measure both on one set "
-      "(gloam set verify {} tells which one a folder is)",
-      first.name, words(a), second.name, words(b), name);
+      "(gloam set verify DIR tells which one a folder is)",
+      first.name, words(a), second.name, words(b));
 }
 
 bool differ(const Number& a, const Number& b, double tolerance) {

@@ -365,7 +365,8 @@ TEST_F(Score, EntriesAreChecked) {
 TEST_F(Score, CommandLinesAreChecked) {
   write_all(same);
   const std::pair<Arguments, std::string> told[] = {
-      {{"score", path("images"), "--set", path("set"), "-o", path("out")}, "--json ENTRY.json is required"},
+      {{"score", path("images"), "--set", path("set"), "-o", path("out")},
+       "--json ENTRY.json is required: what made the images; {\"name\": \"my method\"} is enough"},
       {{"score", "--json", path("entry.json"), "--set", path("set"), "-o", path("out")}, "IMAGES are required"},
       {{"score", path("images"), "--json", path("entry.json"), "-o", path("out")}, "--set DIR is required"},
       {{"score", path("images"), "--json", path("entry.json"), "--set", path("set"), "--fov", "60", "-o", path("out")},
@@ -381,6 +382,9 @@ TEST_F(Score, CommandLinesAreChecked) {
       {{"score", "--command", "engine {frame} {image} {sise}", "--json", path("entry.json"), "--set", path("set"), "-o",
         path("out")},
        "{sise} stands for nothing"},
+      {{"score", "--command", "engine {frame} {imag}", "--json", path("entry.json"), "--set", path("set"), "-o",
+        path("out")},
+       "{imag}"},
       {{"score", "--command", "engine '{frame} {image}", "--json", path("entry.json"), "--set", path("set"), "-o",
         path("out")},
        "the quote ' has no end"},
