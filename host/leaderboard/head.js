@@ -38,7 +38,11 @@ function itemsChooser() {
     const choices = tableNow().choices.filter((choice) => choice.what === what);
     return choices.length ? element('optgroup', {label}, choices.map(option)) : [];
   };
-  const options = [option(tableNow().choices[0]), group('kind', 'by kind'), group('class', 'by class')].flat();
+  const hasKinds = tableNow().choices.some(({what}) => what === 'kind');
+  const options = [
+    option(tableNow().choices[0]), group('kind', 'by kind'),
+    group('class', hasKinds ? 'single frames, by class' : 'by class')
+  ].flat();
   return chooser('Items', options, state.choice, (value) => choose({choice: Number(value)}));
 }
 
@@ -47,12 +51,12 @@ function renderChoices() {
   if (data.boards.length > 1) {
     parts.push(...data.boards.map(
         (board, index) => pressButton(
-            board.title, index === state.board, () => choose({board: index, effect: 0, choice: 0, device: ''}))));
+            board.title, index === state.board, () => choose({board: index, effect: 0, device: ''}))));
     parts.push(element('span', {class: 'gap'}));
   }
   parts.push(...effects.map(
       (each, index) => pressButton(
-          effectTitle(each.effect), index === state.effect, () => choose({effect: index, choice: 0, device: ''}),
+          effectTitle(each.effect), index === state.effect, () => choose({effect: index, device: ''}),
           {class: 'effect'})));
   if (tableNow().choices.length > 1) parts.push(itemsChooser());
   if (devicesNow().length > 1) {

@@ -10,6 +10,7 @@ function bestEntry() {
 function choose(changes) {
   const isOtherTable = 'board' in changes || 'effect' in changes;
   Object.assign(state, changes);
+  if (isOtherTable) state.choice = tellingChoice();
   if (isOtherTable || !choiceNow().rows.some((row) => row.entry === state.picked)) state.picked = bestEntry();
   if (isOtherTable) state.item = null;
   render();
@@ -25,7 +26,8 @@ function render() {
 
 function start() {
   // Without plain rows, variants are shown from the start: otherwise the page would be empty.
-  if (!choiceNow().rows.some((row) => !entryOf(row).variant)) state.variants = true;
+  if (!tableNow().entries.some((entry) => !entry.variant)) state.variants = true;
+  state.choice = tellingChoice();
   state.picked = bestEntry();
   renderFiles();
   render();

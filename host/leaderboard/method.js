@@ -80,8 +80,12 @@ function renderItems() {
     number('eyes differ', 'eyes', errorFigure), number('error at fit', 'fit_error', errorFigure),
     {name: 'best fit', value: (row) => fitWords(row) || null}
   ];
+  // A kind or a class that all items share would take the room of figures.
+  const differs = (column) => unique(rows.map(column.value)).length > 1;
+  const isShown = (column) => column.name === 'item' ||
+      (['kind', 'class'].includes(column.name) ? differs(column) : rows.some((row) => is(column.value(row))));
   sortedTable(
-      byId('items-table'), columns.filter((column) => column.name === 'item' || rows.some((row) => is(column.value(row)))), rows,
+      byId('items-table'), columns.filter(isShown), rows,
       {isPicked: (row) => row.item === state.item, pick: (row) => pickItem(row.item)});
 }
 

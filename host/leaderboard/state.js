@@ -50,7 +50,16 @@ function figureOf(row, key) {
 const isAtFit = (row, key) => state.fit && fitted[key] && is(row[fitted[key]]);
 
 /// Measured on all items of the choice that any method was measured on.
-const isWhole = (row) => row.items === choiceNow().items.length;
+const isWhole = (row, choice = choiceNow()) => row.items === choice.items.length;
+
+/// The number of the choice that says most: on which most methods have means, of most items. Some methods compute only pairs of eyes or
+/// displays and others never do, so all items together would show hardly any.
+function tellingChoice() {
+  const isCounted = (row, choice) => isWhole(row, choice) && (state.variants || !entryOf(row).variant);
+  const said = tableNow().choices.map(
+      (choice) => choice.items.length * choice.rows.filter((row) => isCounted(row, choice)).length);
+  return said.indexOf(Math.max(...said));
+}
 
 function isShown(row) {
   const entry = entryOf(row);

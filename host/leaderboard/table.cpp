@@ -146,28 +146,33 @@ Choice choice_over(const EffectTable& table, const std::string& what, const std:
   return choice;
 }
 
-/// All items, then each kind and each class where there are several.
+/// All items, then each kind and each class of single frames where there are several. Pairs of eyes and displays would leave most
+/// methods of a class without means, since other techniques compute them.
 std::vector<Choice> choices_of(const EffectTable& table) {
   std::set<size_t> all;
   std::vector<std::string> kinds, classes;
   for (size_t i = 0; i < table.items.size(); ++i) {
     all.insert(i);
     if (!table.items[i].kind.empty()) add_new(kinds, table.items[i].kind);
-    if (!table.items[i].item_class.empty()) add_new(classes, table.items[i].item_class);
+  }
+  const auto is_single = [&](const Item& item) { return kinds.size() < 2 || item.kind == "frame"; };
+  for (const Item& item : table.items) {
+    if (!item.item_class.empty() && is_single(item)) add_new(classes, item.item_class);
   }
   std::vector<Choice> choices{choice_over(table, "all", "", all)};
-  const auto add_each = [&](const char* what, const std::vector<std::string>& names, std::string Item::*field) {
+  const auto add_each = [&](const char* what, const std::vector<std::string>& names, std::string Item::*field,
+                            const auto& counts) {
     for (const std::string& name : names) {
       std::set<size_t> items;
       for (const size_t i : all) {
-        if (table.items[i].*field == name) items.insert(i);
+        if (table.items[i].*field == name && counts(table.items[i])) items.insert(i);
       }
       if (Choice choice = choice_over(table, what, name, items); !choice.items.empty() && names.size() > 1)
         choices.push_back(std::move(choice));
     }
   };
-  add_each("kind", kinds, &Item::kind);
-  add_each("class", classes, &Item::item_class);
+  add_each("kind", kinds, &Item::kind, [](const Item&) { return true; });
+  add_each("class", classes, &Item::item_class, is_single);
   return choices;
 }
 

@@ -289,6 +289,19 @@ TEST_F(Leaderboard, SaysOnceWhereAFileHasNoPictures) {
 }
 
 /// The page, if there is a browser.
+TEST_F(Leaderboard, ClassesAreOfSingleFrames) {
+  Json document = measurements();
+  document["scenes"] = {scene("hall", "frame"), scene("statue", "frame"), scene("hall-display", "display")};
+  document["scenes"][1]["class"] = "object";
+  document["results"] = {row("hbao+", "hall", "frame", 0.2, 1), row("hbao+", "statue", "frame", 0.1, 1),
+                         row("lightfield-hbao+", "hall-display", "display", 0.02, 1)};
+  write("a/bench.json", document);
+  const Json made = Json::parse(leaderboard().out);
+  EXPECT_EQ(row_of(made, "architecture", "hbao+")["error"], 0.2);
+  EXPECT_TRUE(row_of(made, "architecture", "lightfield-hbao+").is_null());
+  EXPECT_TRUE(row_of(made, "all", "hbao+")["error"].is_null()) << "not measured on the display";
+}
+
 class LeaderboardInBrowser : public Leaderboard {
  protected:
   void SetUp() override {
@@ -377,6 +390,26 @@ TEST_F(LeaderboardInBrowser, ChoosesItemsVariantsAndTheFit) {
   EXPECT_EQ(result["frames"], Json({"gtao medium", "gtao medium", "Engine <b>AO</b> 7submitted", "hbao+ medium"}));
   EXPECT_EQ(result["fit"][0], "Engine <b>AO</b> 7submitted");
   EXPECT_EQ(result["fit"][1], "fit 0.0600 (best)");
+}
+
+// Displays are computed by other techniques, so all items together have no mean of any technique.
+TEST_F(LeaderboardInBrowser, OpensOnTheItemsThatMostMethodsHaveMeansOf) {
+  Json document = measurements();
+  document["scenes"].push_back(scene("stair", "frame"));
+  document["scenes"].push_back(scene("statue", "display"));
+  document["results"] = {row("hbao+", "hall", "frame", 0.2, 1), row("hbao+", "stair", "frame", 0.1, 1),
+                         row("gtao", "hall", "frame", 0.1, 1), row("gtao", "stair", "frame", 0.1, 1),
+                         row("lightfield-hbao+", "statue", "display", 0.02, 1)};
+  write("a/bench.json", document);
+  const Json result = look(R"js(
+    result.heading = document.getElementById('choice-name').textContent;
+    result.first = [names(), cell(0, 'error').textContent];
+    result.heads = [...document.querySelectorAll('#items-table th')].map((th) => th.textContent);
+  )js");
+  EXPECT_EQ(result["heading"], "on single frames, 2 items");
+  EXPECT_EQ(result["first"][0], Json({"gtao medium", "hbao+ medium"}));
+  EXPECT_NE(result["first"][1], "–");
+  EXPECT_EQ(std::count(result["heads"].begin(), result["heads"].end(), "kind"), 0) << "all are frames";
 }
 
 TEST_F(LeaderboardInBrowser, ShowsTheMethodThatIsPickedByKeyOrClick) {
