@@ -1,15 +1,44 @@
 #include "base/command_line.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 namespace gloam {
 namespace {
 
+bool is_of_system(const std::string& path) {
+  return path.starts_with("/usr/") || path.starts_with("/bin/") || path.starts_with("/dev/");
+}
+
+/// Of an absolute path the last folder and the name; of the system's own, which others have as well, all.
 std::string without_folders(const std::string& word) {
-  if (word.empty() || word.front() != '/') return word;
+  if (word.empty() || word.front() != '/' || is_of_system(word)) return word;
   const std::filesystem::path path = (std::filesystem::path(word) / "").lexically_normal().parent_path();
   return (path.parent_path().filename() / path.filename()).generic_string();
+}
+
+}  // namespace
+
+std::string command_without_folders(const std::string& command) {
+  std::string made;
+  for (size_t at = 0; at < command.size();) {
+    const size_t end = std::min(command.find_first_of(" '\"=", at), command.size());
+    made += without_folders(command.substr(at, end - at));
+    if (end < command.size()) made += command[end];
+    at = end + 1;
+  }
+  return made;
+}
+
+namespace {
+
+std::string argument_without_folders(const std::string& word, const std::string& before) {
+  const std::string of_command = "--command";
+  if (before == of_command || word.starts_with(of_command + "=")) return command_without_folders(word);
+  const size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+  if (equals == std::string::npos) return without_folders(word);
+  return word.substr(0, equals + 1) + without_folders(word.substr(equals + 1));
 }
 
 }  // namespace
@@ -17,7 +46,11 @@ std::string without_folders(const std::string& word) {
 std::vector<std::string> command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
-  for (std::string word; std::getline(file, word, '\0');) words.push_back(without_folders(word));
+  std::string before;
+  for (std::string word; std::getline(file, word, '\0');) {
+    words.push_back(argument_without_folders(word, before));
+    before = word;
+  }
   if (!words.empty()) words.front() = std::filesystem::path(words.front()).filename().string();
   return words;
 }

@@ -7,8 +7,11 @@
 namespace gloam {
 
 /// The program's name without its folder, and its arguments; of absolute paths the last folder and the name, since files that hold a
-/// command are passed on. Empty where the system does not tell.
+/// command are passed on. Paths of the system (/usr, /bin, /dev) stay, since others have them, too. Empty where the system does not tell.
 std::vector<std::string> command_line();
+
+/// The same of each word of a command that is one argument: "/home/a/bin/engine {frame}" is "bin/engine {frame}".
+std::string command_without_folders(const std::string& command);
 
 /// A word as a POSIX shell reads it back: in quotes where it needs them.
 std::string quoted_for_shell(const std::string& word);

@@ -180,12 +180,12 @@ std::vector<std::string> MethodCommand::own_words(const Target& target, const Ta
 
 std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::vector<std::string>& notes) try {
   score::WholeTimes times;
-  times.command = flags_.command;
+  times.command = command_without_folders(flags_.command);
   const bool has_own = !own_technique(target.effect).empty(), is_whole = target.is_sequence && has("{frames}");
   const size_t frames = is_whole ? 1 : target.frames.size();
   const double per = is_whole ? double(target.frames.size()) : 1;  // of a frame
   if (has_own) {
-    times.gloam_command = shell_line(own_words(target, target.frames.front()));
+    times.gloam_command = command_without_folders(shell_line(own_words(target, target.frames.front())));
   }
   const auto run_own = [&](const TargetFrame& at) {
     std::vector<std::string> words = own_words(target, at);

@@ -57,9 +57,15 @@ TEST_F(ScoreCommand, ScoresAMethodThatGloamHasNotGot) {
     EXPECT_EQ(whole["gloam_ms"]["rounds"].size(), 2u) << item;
     EXPECT_EQ(whole["ratio_rounds"].size(), 2u);
     EXPECT_GT(whole["ratio"], 0);
-    EXPECT_NE(whole["gloam_command"].get<std::string>().find("gloam run ao "), std::string::npos);
+    EXPECT_EQ(whole["gloam_command"].get<std::string>().rfind("gloam run ao frames/", 0), 0u) << whole["gloam_command"];
     EXPECT_TRUE(of_item["ms"].is_null()) << "what is measured whole is no time of kernels";
   }
+  // Of the command as it was given, the folders of this machine alone are left out.
+  const Json scored_by = row("room", "plane AO")["submitted"]["scored_by"];
+  const auto flag = std::find(scored_by.begin(), scored_by.end(), "--command");
+  ASSERT_NE(flag, scored_by.end());
+  EXPECT_EQ(*(flag + 1),
+            "/usr/bin/python3 score/plane_ao.py --in {frame} --out {image} --camera {camera} --radius {radius}");
   EXPECT_TRUE(row("pair", "plane AO")["inconsistency"].is_number());
   EXPECT_TRUE(row("walk", "plane AO")["flicker"].is_number());
   const fs::path images = path("out/submitted/plane-AO");
