@@ -63,7 +63,10 @@ def merged(documents):
 
 
 def write(entry, made, kept, root, lab):
-    """The document, and the page that is written from it and those beside it."""
+    """The document, and the page that is written from it and those beside it, if any."""
+    if not entry.pages:
+        shutil.copy(made, kept)
+        return
     page, flags = entry.pages
     path, images = pathlib.Path(root) / page, made.parent / "images"
     beside = kept.parent / "images"  # where the document names its pictures, for as long as the page is made

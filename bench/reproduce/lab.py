@@ -81,9 +81,9 @@ class Lab:
         path.write_text(text)
         return str(path)
 
-    def run_again(self, *command):
-        """Runs another program of the project, whatever it has made before."""
-        return self._run([str(c) for c in command])
+    def run_again(self, *command, fine=(0,)):
+        """Runs another program of the project, whatever it has made before. `fine`: its exit statuses that are no failure."""
+        return self._run([str(c) for c in command], fine=fine)
 
     def bench(self, name, *arguments):
         """The folder that `gloam bench ARGUMENTS` fills. Interrupted, it goes on with the frames and truths that are there."""
