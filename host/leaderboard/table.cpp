@@ -21,11 +21,6 @@ using EntryKey = std::tuple<bool, std::string, std::string, std::string, std::st
 
 EntryKey key_of(const Entry& e) { return {e.is_submitted, e.technique, e.preset, e.variant, e.device, e.driver}; }
 
-/// The class without the effect that its name tells.
-std::string class_of(const Scene& scene) {
-  return scene.scene_class.substr(0, scene.scene_class.find(" (" + scene.effect + ")"));
-}
-
 Entry entry_of(const Row& row, const Measurements& m) {
   Entry entry;
   entry.technique = row.technique;
@@ -61,7 +56,7 @@ class Filling {
   void add(const Scene& scene, size_t file) {
     const auto [known, is_new] = item_of_.emplace(scene.name, table_.items.size());
     if (is_new)
-      table_.items.push_back({scene.title, scene.kind, class_of(scene), scene.width, scene.height, scene.radius,
+      table_.items.push_back({scene.title, scene.kind, scene.own_class, scene.width, scene.height, scene.radius,
                               scene.truth_noise, scene.white, file, scene.truth_image});
     Item& item = table_.items[known->second];
     check_same(item.width, scene.width, "width", item, file);

@@ -153,14 +153,13 @@ function renderLadder() {
         'span', {class: 'chip' + (key === state.picked ? ' is-picked' : '')}, square,
         nameOf(row) + (key === state.picked ? ' · picked' : ''), remove);
   }));
-  const place = byId('ladder-chart'),
-        any = rows.some(({row}) => is(row.rmse) || steps.some((step) => is(row.ladder[step.key])));
+  const place = byId('ladder-chart'), any = rows.some(({row}) => steps.some((step) => is(row.ladder[step.key])));
   place.hidden = !any;
   if (!any) {
     clearChart(place);
     return byId('ladder-table')
         .replaceChildren(
-            element('p', {class: 'remark'}, `On ${scene} no step of the ladder is at hand for what is picked.`));
+            element('p', {class: 'remark'}, `On ${scene} no step of the ladder is at hand for what is picked; gloam bench --ladder presets measures it.`));
   }
   const bars = rows.flatMap(
       ({row, index, colour, opacity}) => steps.map(

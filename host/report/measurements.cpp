@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/files.h"
 #include "base/lists.h"
@@ -115,13 +116,26 @@ Row row_of(const Object& o) {
   return row;
 }
 
+void set_kinds_apart(std::vector<Scene>& scenes) {
+  const std::map<std::string, std::string> apart{{"sequence", "sequences"},
+                                                 {"eyes", "pairs of eyes"},
+                                                 {"display", "light-field displays"},
+                                                 {"hard", "hard cases"}};
+  const bool has_frames =
+      std::any_of(scenes.begin(), scenes.end(), [](const Scene& scene) { return scene.kind == "frame"; });
+  for (Scene& scene : scenes) {
+    if (const auto kind = apart.find(scene.kind); has_frames && kind != apart.end())
+      scene.scene_class = with_effect(kind->second, scene.effect);
+  }
+}
+
 Scene scene_of(const Object& o) {
   Scene scene;
   scene.title = o.needed_text("name");
   scene.effect = effect_of(o);
   scene.name = with_effect(scene.title, scene.effect);
   scene.kind = o.text("kind");
-  scene.scene_class = o.text("class");
+  scene.own_class = scene.scene_class = o.text("class");
   if (scene.scene_class != "own") scene.scene_class = with_effect(scene.scene_class, scene.effect);
   std::tie(scene.width, scene.height) = o.size("size");
   scene.radius = o.number("radius");
@@ -226,6 +240,7 @@ Measurements measurements_of(const Object& o) {
   m.rounds = o.number("rounds");
   m.rays = o.number("rays");
   for (const Object& each : o.list("scenes")) m.scenes.push_back(scene_of(each));
+  set_kinds_apart(m.scenes);
   for (const Object& each : o.needed_list("results")) {
     Row row = row_of(each);
     (row.submitted.is_null() ? m.rows : m.submitted).push_back(std::move(row));

@@ -92,9 +92,11 @@ struct Row {
   Json submitted;     ///< of a submitted row (gloam score): what its authors state (submitted.h); null for others
 };
 
-/// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery (indirect)".
+/// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery (indirect)". Of a
+/// set the class is of single frames; other kinds are classes of their own, since other techniques compute pairs of eyes and displays.
 struct Scene {
   std::string name, scene_class;
+  std::string own_class;      ///< as the file has it: "architecture"
   std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"
   std::string kind;           ///< of its item of a set; empty without a set
   Number width, height, radius, radius_pixels, truth_noise;
@@ -102,7 +104,7 @@ struct Scene {
   std::string truth_image;  ///< path below the folder; empty: none
   std::string base;         ///< what there is without a technique: "white"; empty in older files
   Number base_rmse, base_bias;
-  double white = 1;   ///< value that pictures show as white
+  double white = 1;  ///< value that pictures show as white
   std::optional<Peaks> peaks;
   size_t source = 0;  ///< index of its file, of several (joined.h)
 };

@@ -137,6 +137,27 @@ TEST_F(Report, GivesTheFrontsAsJson) {
   EXPECT_EQ(document["classes"][0]["front"][0], point);
 }
 
+// Other techniques compute displays: a class that held both would have means of hardly any technique.
+TEST_F(Report, KindsOfItemsOfASetAreClassesOfTheirOwn) {
+  Json document = measurements();
+  document["scenes"][0]["kind"] = "frame";
+  document["scenes"][1] = {
+      {"name", "hall-display"}, {"size", {48, 32}}, {"class", "architecture"}, {"kind", "display"}};
+  document["results"] = {row("hall", "hbao+", "medium", 1, 0.19),
+                         row("hall-display", "lightfield-hbao+", "medium", 1, 0.1)};
+  write(document);
+  const Result result = report({"--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json classes = result.json()["classes"];
+  ASSERT_EQ(classes.size(), 2u);
+  for (const auto& [i, name, technique] :
+       {std::tuple(0, "architecture", "hbao+"), std::tuple(1, "light-field displays", "lightfield-hbao+")}) {
+    EXPECT_EQ(classes[size_t(i)]["name"], name);
+    ASSERT_EQ(classes[size_t(i)]["front"].size(), 1u) << name;
+    EXPECT_EQ(classes[size_t(i)]["front"][0]["technique"], technique);
+  }
+}
+
 TEST_F(Report, ReducesPicturesByAveragingWhatIsThere) {
   // The left half is background, then black and white columns alternate: their average is grey, without the background's black.
   cv::Mat stripes(4, 64, CV_8UC2, cv::Scalar(0, 0));
@@ -228,6 +249,19 @@ TEST_F(Report, SaysWhatIsWrong) {
   EXPECT_FALSE(fs::exists(path("out/report.html")));
 }
 
+TEST_F(ReportInBrowser, SaysThatThereIsNoLadder) {
+  Json document = measurements();
+  for (Json& each : document["results"]) each.erase("ladder");
+  write(document);
+  ASSERT_EQ(report().status, 0);
+  const Json result = in_browser(R"js(
+    result.hidden = document.getElementById('ladder-chart').hidden;
+    result.words = document.getElementById('ladder-table').textContent;
+  )js");
+  EXPECT_EQ(result["hidden"], true);
+  EXPECT_NE(result["words"].get<std::string>().find("gloam bench --ladder presets measures it"), std::string::npos);
+}
+
 TEST_F(ReportInBrowser, DrawsEveryRowAndAsksForNothing) {
   const Json result = in_browser(R"js(
     const drawn = () => points().length;
@@ -264,7 +298,8 @@ TEST_F(ReportInBrowser, DrawsTheRoofline) {
   document["scenes"][0]["peaks"] = {{"copy_gb_per_s", 8}, {"gather_g_per_s", 1}, {"fma_gflops", 100}};
   // 48 x 32 pixels in 0.1 ms: 1000 operations each are 15.36 Gflop/s, 15 % of the peak
   document["results"][1]["passes"] = {
-      {{"name", "hbao+/estimate"}, {"ms", {{"median", 0.1}}},
+      {{"name", "hbao+/estimate"},
+       {"ms", {{"median", 0.1}}},
        {"per_pixel", {{"operations", 1000}, {"loads", 50}, {"bytes_loaded", 200}, {"bytes_stored", 4}}}},
       {{"name", "hbao+/uncounted"}, {"ms", {{"median", 0.1}}}, {"per_pixel", nullptr}}};
   write(document);
@@ -279,7 +314,8 @@ TEST_F(ReportInBrowser, DrawsTheRoofline) {
   )js");
   EXPECT_EQ(result["points"], 1);
   EXPECT_EQ(result["roofs"], 3);
-  EXPECT_EQ(result["cells"], Json({"hbao+ medium: hbao+/estimate", "0.100", "1000", "204", "15.4", "0.768", "3.13", "15\u202f%", "77\u202f%", "39\u202f%"}));
+  EXPECT_EQ(result["cells"], Json({"hbao+ medium: hbao+/estimate", "0.100", "1000", "204", "15.4", "0.768", "3.13",
+                                   "15\u202f%", "77\u202f%", "39\u202f%"}));
   EXPECT_NE(result["remark"].get<std::string>().find("Not counted: hbao+ low."), std::string::npos) << result["remark"];
 }
 
