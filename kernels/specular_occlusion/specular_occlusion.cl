@@ -63,10 +63,14 @@ kernel void specular_occlusion_from_cone(Frame frame, Params params, PLANE depth
   // GGX has half of its microfacets within tan = alpha of the normal; their directions are turned twice as far.
   const real alpha = larger(g.alpha, (real)(NARROWEST)), square = alpha * alpha;
   const Cap lobe = cap_of((1 - square) / (1 + square));
-  const Cap open = cap_of(clamp(load(cone, here), (real)(0), (real)(1))), hemisphere = cap_of((real)(0));
+  const real narrowed = clamp(load(cone, here), (real)(0), (real)(1));
+  const Cap open = cap_of(narrowed), hemisphere = cap_of((real)(0));
   const real all = common_share(lobe, hemisphere, clamp(dot3(mirrored, g.normal), (real)(-1), (real)(1)));
   const real seen = common_share(lobe, open, clamp(dot3(mirrored, bent), (real)(-1), (real)(1)));
-  const mask is_there = all > (scalar)1e-6f;
+  // A cone that is the surface's hemisphere to rounding is open: seen edge-on, narrow lobes would magnify the last bits of the bent
+  // normal.
+  const mask is_hemisphere = (narrowed <= (scalar)1e-6f) & (dot3(g.normal, bent) > (scalar)(1 - 5e-7f));
+  const mask is_there = (all > (scalar)1e-6f) & !is_hemisphere;
   store_share(g, choose(is_there, seen / choose(is_there, all, (real)(1)), (real)(1)), result, here);
 }
 

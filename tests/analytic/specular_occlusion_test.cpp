@@ -102,6 +102,26 @@ TEST(SpecularOcclusion, FromConesIsWhatCapsHaveInCommon) {
   EXPECT_LE(worst, 5e-3);
 }
 
+// Bent normals of an open surface differ from its normal in the last bits, which narrow lobes seen edge-on magnify.
+TEST(SpecularOcclusion, OfAConeThatIsTheHemisphereIsOpen) {
+  for (const double tilt : {0.0, 1.0, 1.5, 1.55, 1.57}) {
+    Frame frame = shoot(orthographic(16, 2, 1), tilted_plane(3, tilt, 0));
+    fill(frame, "roughness", 0.05);
+    fill(frame, "cone", 1.2e-7);
+    for (size_t i = 0; i < 3; ++i) {
+      Channel &bent = plane_of(frame, "bent_normal").channels[i], &normal = plane_of(frame, "normal").channels[i];
+      for (int y = 0; y < 2; ++y) {
+        for (int x = 0; x < 16; ++x) bent.at(x, y) = normal.at(x, y) + (i == 0 ? 2.4e-7f : 0);
+      }
+    }
+    const Frame out = run_method("cone", frame);
+    for (int x = 0; x < 16; ++x) {
+      if (!is_background(value_at(frame, "depth", x, 1)))
+        EXPECT_EQ(value_at(out, "specular_occlusion", x, 1), 1) << tilt << " " << x;
+    }
+  }
+}
+
 /// The open share of a GGX lobe with height-correlated masking: microfacets are drawn in proportion to D (n.h), each direction
 /// weighted by BRDF * cosine over its density.
 double open_share(const IntegralCase& test, const Receiver& here, double roughness, double reach) {
