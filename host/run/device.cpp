@@ -13,6 +13,7 @@
 
 #include "base/words.h"
 #include "gloam/error.h"
+#include "run/build_log.h"
 #include "run/device_impl.h"
 #include "run/device_record.h"
 #include "run/driver.h"
@@ -143,13 +144,6 @@ const Found& choose_device(const std::vector<Found>& found, const std::string& t
   return *widest;
 }
 
-/// The compiler's log on one line, shortened.
-std::string short_log(std::string log) {
-  log = trimmed(log);
-  for (size_t at = 0; (at = log.find('\n', at)) != std::string::npos;) log.replace(at, 1, "; ");
-  return log.size() > 4000 ? log.substr(0, 4000) + " ..." : log;
-}
-
 }  // namespace
 
 std::vector<DeviceInfo> list_devices(const std::string& text) {
@@ -248,20 +242,21 @@ void Device::Impl::keep(const std::string& key, const cl::Program& program) cons
   }
 }
 
-cl::Program& Device::Impl::program(const std::string& source, const std::string& kernel, const std::string& options) {
+cl::Program& Device::Impl::program(const std::string& source, const std::string& kernel,
+                                   const ParameterList& parameters, const std::string& options) {
   const std::string name = source + " " + kernel + " " + options;
   const auto known = programs.find(name);
   if (known != programs.end()) return known->second;
   const DriverAtWork driver;
-  const std::string text = with_one_kernel(flatten(source), kernel), key = key_of(text, options);
+  const std::string text = kernel_text(source, kernel, parameters), key = key_of(text, options);
   std::unique_ptr<cl::Program> built = kept_program(key, options);
   if (built) return programs.emplace(name, std::move(*built)).first->second;
   built = std::make_unique<cl::Program>(context, text);
   try {
     built->build({device}, options.c_str());
   } catch (const cl::Error& error) {
-    throw Error("kernels/{} does not build on {} with {} ({}): {}", source, "'" + label_of(info) + "'", options,
-                cl_error_name(error.err()), short_log(built->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device)));
+    const std::string log = trimmed(built->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
+    throw Error("{}", build_failure(label_of(info), kernel, options, log.empty() ? cl_error_name(error.err()) : log));
   } catch (const std::exception& error) {
     // PoCL's compiler has thrown through PoCL, whose locks stay taken: releasing the program would wait for ever.
     built.release();

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gloam/device.h"
+#include "gloam/parameters.h"
 #include "run/kernel_cache.h"
 
 namespace gloam {
@@ -25,8 +26,10 @@ struct Device::Impl {
 
   KernelCache cache;  ///< compiled kernels on disk; none where the driver keeps its own
 
-  /// The built program of a kernel of a file. Throws Error with the build log.
-  cl::Program& program(const std::string& source, const std::string& kernel, const std::string& options);
+  /// The built program of a kernel of a file for a technique with these parameters. Throws Error with the first error of the build
+  /// log, and the name of the file that holds all of it.
+  cl::Program& program(const std::string& source, const std::string& kernel, const ParameterList& parameters,
+                       const std::string& options);
 
  private:
   std::string key_of(const std::string& source, const std::string& options) const;

@@ -46,6 +46,14 @@ std::string flatten(const std::string& file) {
   return out;
 }
 
+std::string struct_of(const ParameterList& parameters) {
+  if (parameters.empty()) return "";
+  std::string fields;
+  for (const Parameter& parameter : parameters)
+    fields += fmt::format("  {} {};\n", parameter.type == Parameter::Type::floating ? "float" : "int", parameter.name);
+  return fmt::format("typedef struct {{\n{}}} {};\n", fields, parameters.type);
+}
+
 std::string with_one_kernel(const std::string& source, const std::string& kernel) {
   const std::string start = "kernel void ";
   std::istringstream lines(source);
@@ -58,6 +66,10 @@ std::string with_one_kernel(const std::string& source, const std::string& kernel
     out += line + "\n";
   }
   return out;
+}
+
+std::string kernel_text(const std::string& file, const std::string& kernel, const ParameterList& parameters) {
+  return struct_of(parameters) + with_one_kernel(flatten(file), kernel);
 }
 
 }  // namespace gloam

@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "gloam/parameters.h"
+
 namespace gloam {
 
 /// Path below kernels/ -> text.
@@ -13,8 +15,14 @@ const std::map<std::string, std::string>& kernel_sources();
 /// and line. Throws Error for a missing file.
 std::string flatten(const std::string& file);
 
+/// A technique's parameters as the struct that its kernels take, in OpenCL C; empty where there are none.
+std::string struct_of(const ParameterList& parameters);
+
 /// The text with all other kernels made static functions. Unused ones are dropped, so PoCL compiles files with several kernels a
 /// third faster. Kernels whose name is a macro stay.
 std::string with_one_kernel(const std::string& source, const std::string& kernel);
+
+/// The whole text of one kernel of a file, as it is compiled for a technique.
+std::string kernel_text(const std::string& file, const std::string& kernel, const ParameterList& parameters);
 
 }  // namespace gloam

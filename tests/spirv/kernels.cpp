@@ -120,6 +120,10 @@ std::vector<Way> further_ways() {
           {"spir64", {.lanes = 1, .gathers_only = true}}};
 }
 
+std::string text_of(const Constants& constants) {
+  return kernel_text(constants.source, constants.kernel, constants.planned.technique->parameters);
+}
+
 /// Every `n`-th of the sets of constants of one kernel, so that at most so many are left; in the long run all.
 std::vector<const Constants*> some_of(const std::vector<const Constants*>& all) {
   constexpr size_t most = 4;
@@ -134,29 +138,29 @@ class Listing {
  public:
   explicit Listing(const std::string& folder) : folder_(folder), list_(folder + "/list") {}
 
-  /// Returns the text's file.
-  std::string add_text(const std::string& text) {
-    const std::string name = fmt::format("{}.cl", ++texts_);
-    std::ofstream(folder_ + "/" + name) << text;
-    return name;
-  }
-
   void add(const std::string& text, const Way& way, const std::string& options) {
-    list_ << fmt::format("{} {} {} {} {}\n", text, way.target, way.options.lanes,
+    list_ << fmt::format("{} {} {} {} {}\n", add_text(text), way.target, way.options.lanes,
                          way.options.real == Real::float64 ? "double" : "float", options);
   }
 
  private:
+  /// Returns the text's file.
+  std::string add_text(const std::string& text) {
+    const auto [known, is_new] = names_.try_emplace(text, fmt::format("{}.cl", names_.size() + 1));
+    if (is_new) std::ofstream(folder_ + "/" + known->second) << text;
+    return known->second;
+  }
+
   std::string folder_;
   std::ofstream list_;
-  int texts_ = 0;
+  std::map<std::string, std::string> names_;  ///< files by text
 };
 
 /// Lists the kernels that `gloam bench` compares with.
 void list_baselines(Listing& listing) {
   std::vector<bench::KernelText> texts = bench::naive_texts();
   for (bench::KernelText& floor : bench::floor_texts(1)) texts.push_back(std::move(floor));
-  for (const bench::KernelText& each : texts) listing.add(listing.add_text(each.text), usual, each.options);
+  for (const bench::KernelText& each : texts) listing.add(each.text, usual, each.options);
 }
 
 /// Lists the kernels whose number, divided by `parts`, leaves `part`.
@@ -169,12 +173,12 @@ void list_kernels(const std::string& folder, size_t part, size_t parts) {
   size_t number = 0;
   for (const auto& [unused, all] : by_name) {
     if (number++ % parts != part) continue;
-    const std::string text = listing.add_text(with_one_kernel(flatten(all.front()->source), all.front()->kernel));
     const std::vector<const Constants*> some = some_of(all);
-    for (const Constants* constants : some) listing.add(text, usual, options_of(constants->planned, usual.options));
+    for (const Constants* constants : some)
+      listing.add(text_of(*constants), usual, options_of(constants->planned, usual.options));
     for (const Way& way : further_ways()) {
       for (const Constants* constants : some) {
-        listing.add(text, way, options_of(constants->planned, way.options));
+        listing.add(text_of(*constants), way, options_of(constants->planned, way.options));
         if (!is_long_run()) break;
       }
     }

@@ -25,6 +25,14 @@ TEST(KernelSources, AProgramKeepsOneKernel) {
   EXPECT_EQ(kernels_of(with_one_kernel(file, "stereo_blend")), std::vector<std::string>{"stereo_blend"});
 }
 
+TEST(KernelSources, TheStructOfParametersIsWrittenFromTheTable) {
+  const ParameterList list = {"AnyParams",
+                              {float_parameter("radius", 0.5, 0, 1, "", ""), bool_parameter("jitter", on, ""),
+                               choice_parameter("falloff", "none", "(quadratic, none)", "")}};
+  EXPECT_EQ(struct_of(list), "typedef struct {\n  float radius;\n  int jitter;\n  int falloff;\n} AnyParams;\n");
+  EXPECT_EQ(struct_of({}), "");
+}
+
 TEST(KernelSources, KernelsNamedByAMacroStay) {
   const std::vector<std::string> kept = kernels_of(with_one_kernel(flatten("lightfield/lightfield.cl"), "other"));
   EXPECT_TRUE(contains(kept, "ESTIMATE_NAME"));

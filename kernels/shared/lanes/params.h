@@ -1,5 +1,5 @@
-// A technique's parameters, written once as a list and used four times: as the host's struct with defaults, as the kernel's
-// struct, for the size check on both sides, and as the table behind flags, JSON, range errors and docs.
+// A technique's parameters, written once as a list and used three times: as the host's struct with defaults, for the check of its
+// size, and as the table behind flags, JSON, range errors, docs and the kernels' struct.
 //
 //   #define NAME_PARAMS(P)
 //     P(float,  radius,     0.5f, 0, INFINITY, "scene units", "reach of an occluder")
@@ -9,27 +9,16 @@
 //     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
 //   PARAMS(NameParams, NAME_PARAMS)
 //
-// Kernels name the struct Params, and are compiled with -D Params=NameParams.
+// Kernels name the struct Params. The host writes it before a kernel's text, from the table (struct_of, run/kernel_sources.h): OpenCL C
+// has no variadic macros, without which a list of entries of different lengths cannot become a struct.
 // Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints, and a file is the number of its
 // name (file_name, gloam/parameters.h), which only the host reads.
 #ifndef GLOAM_PARAMS_H
 #define GLOAM_PARAMS_H
 
-#define PARAM_STORED_float float
-#define PARAM_STORED_int int
-#define PARAM_STORED_bool int
-#define PARAM_STORED_choice int
-#define PARAM_STORED_file int
-#define PARAM_ONE(...) +1
-
 #ifdef __OPENCL_C_VERSION__
 
-#define PARAM_FIELD(type, name, ...) PARAM_STORED_##type name;
-#define PARAMS(Type, LIST) \
-  typedef struct {         \
-    LIST(PARAM_FIELD)      \
-  } Type;                  \
-  typedef char Type##_size_check[sizeof(Type) == 4 * (0 LIST(PARAM_ONE)) ? 1 : -1];
+#define PARAMS(Type, LIST)
 
 #else
 
@@ -37,6 +26,7 @@
 
 #include "gloam/parameters.h"
 
+#define PARAM_ONE(...) +1
 #define PARAM_CHOICES(...) __VA_ARGS__
 #define PARAM_FIELD_float(name, value, ...) float name = value;
 #define PARAM_FIELD_int(name, value, ...) int name = value;
