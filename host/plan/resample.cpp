@@ -52,7 +52,9 @@ Pass upsample(const std::string& plane, int resolution) {
                     "depth",
                     "normal"},
           .writes = {{"result", plane}},
-          .defines = {{"SCALE", resolution}, {"OUTSIDE", int(plane_kind(plane).outside)}},
+          .defines = {{"SCALE", resolution},
+                      {"OUTSIDE", int(plane_kind(plane).outside)},
+                      {"UNIT_INTERVAL", plane_kind(plane).meaning == PlaneKind::unit_interval}},
           .can_skip = true};
 }
 

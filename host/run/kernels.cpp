@@ -1,5 +1,7 @@
 #include "run/kernels.h"
 
+#include <cstdlib>
+
 #include "gloam/error.h"
 #include "run/arguments.h"
 #include "run/driver.h"
@@ -37,6 +39,10 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
   if (options.math == Math::fast) text += " -D MATH_FAST=1";
   if (options.math == Math::precise && info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
+  if (info.type == "gpu") text += " -D NATIVE_INVERSE_SQRT=1";
+  // Tests make quotients inexact, as they are on GPUs (docs/portability.md).
+  if (const char* error = std::getenv("GLOAM_QUOTIENT_ERROR"); error && *error)
+    text += fmt::format(" -D QUOTIENT_ERROR={}", std::atoi(error));
   if (options.gathers_only) text += " -D GATHERS_ONLY=1";
   if (const std::string& type = planned.technique->parameters.type; !type.empty()) text += " -D Params=" + type;
   for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
@@ -46,8 +52,8 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
 cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
                         const RunOptions& options, int lanes) {
   const std::string& source = source_of(*planned.technique, planned.pass);
-  cl::Program& program =
-      device.program(source, planned.pass.kernel, build_options(planned, device.info, options, lanes));
+  cl::Program& program = device.program(source, planned.pass.kernel, planned.technique->parameters,
+                                        build_options(planned, device.info, options, lanes));
   cl::Kernel kernel;
   try {
     kernel = cl::Kernel(program, planned.pass.kernel.c_str());

@@ -55,7 +55,7 @@ static inline __attribute__((always_inline)) real squared_sine(Frame frame, Rece
   const real3 v = towards_near(frame, r.point, to_real(dx), to_real(dy), relative_depth(r.point, r.depth, sample));
   const real height = fused_dot3(r.normal, v), square = square_of(v);
   *is_above = height > 0;
-  return choose(*is_above & (square < farthest), height * height / square, (real)(0));
+  return choose(*is_above & (square < farthest), quotient(height * height, square), (real)(0));
 }
 
 #ifdef OCCLUDERS_LAYERS
@@ -82,7 +82,7 @@ static inline __attribute__((always_inline)) mask something_rises(Frame frame, P
                                                                   SEARCHED_PLANE Receiver r, Fan fan, int within) {
   // In units of the pixel's depth. One pixel wider than the radius, since other pixels of the two cells may be nearer to each
   // other; deeper by the range, as far as SSAO lets occluders stand before the point (estimators/ball.h).
-  const real radius = 1 / sqrt(r.reach.inverse_square) + (r.point.across_x + r.point.across_y);
+  const real radius = quotient((real)(1), sqrt(r.reach.inverse_square)) + (r.point.across_x + r.point.across_y);
   const real farthest = radius * radius * (1 + 4 * params.range * params.range);
   mask rises = r.point.background;
   for (int d = 0; d < DIRECTIONS; ++d) {

@@ -56,7 +56,7 @@ static inline real3 bent_normal_of(OpenDirections d, real3 normal) {
 // Cosine of the cone's half angle: directions spread evenly over a cap of that size have a mean of length (1 + cosine) / 2.
 // 0 where a whole hemisphere is open, 1 where nothing is.
 static inline real cone_of(OpenDirections d) {
-  const real length = sqrt(dot3(d.sum, d.sum)), cosine = 2 * length / larger(d.weight, (real)(1e-12f)) - 1;
+  const real length = sqrt(dot3(d.sum, d.sum)), cosine = quotient(2 * length, larger(d.weight, (real)(1e-12f))) - 1;
   return choose(d.weight > (scalar)1e-6f, smaller(larger(cosine, (real)(0)), (real)(1)), (real)(1));
 }
 
@@ -93,7 +93,7 @@ static inline void set_lobe(OpenDirections* d, int here, PLANE roughness) {
 
 static inline real open_lobe_of(OpenDirections d) {
   const mask is_there = d.lobe > 0;
-  return larger(1 - choose(is_there, d.lobe_closed, (real)(0)) / choose(is_there, d.lobe, (real)(1)), (real)(0));
+  return larger(1 - quotient(choose(is_there, d.lobe_closed, (real)(0)), choose(is_there, d.lobe, (real)(1))), (real)(0));
 }
 #else
 #define ROUGHNESS_ARGUMENT

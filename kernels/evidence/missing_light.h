@@ -66,7 +66,7 @@ static inline __attribute__((always_inline)) void add_missing_light(real3* missi
   add_missing_of_side(&light, &closed, search, slice, shift, (scalar)1, right);
   add_missing_of_side(&light, &closed, search, slice, 1 - shift, (scalar)-1, left);
   const mask is_known = closed > 0;
-  const real share = choose(is_known, closed_share, (real)(0)) / choose(is_known, closed, (real)(1));
+  const real share = quotient(choose(is_known, closed_share, (real)(0)), choose(is_known, closed, (real)(1)));
   missing->x = multiply_add(share, light.x, missing->x);
   missing->y = multiply_add(share, light.y, missing->y);
   missing->z = multiply_add(share, light.z, missing->z);

@@ -68,6 +68,6 @@ kernel void gaussian_vertical(Frame frame, GaussianParams params, PLANE sum, PLA
     weights = multiply_add((real)(w), load(weight, there), weights);
   }
   // The sum is at least 1, the pixel's own weight, unless the pixel is background.
-  const real filtered = values / choose(background, (real)(1), weights);
+  const real filtered = mean_up_to_one(values, choose(background, (real)(1), weights));
   store(choose(background | !is_wanted, (real)(1), filtered), result, here);
 }

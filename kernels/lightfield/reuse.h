@@ -30,7 +30,7 @@ static inline real fetched_at(Frame f, real x, real y, integer nearest_place, re
     weights += choose(counts, weight, (real)(0));
   }
   const mask is_known = weights > (scalar)0x1p-8f;
-  return choose(is_known, sum / choose(is_known, weights, (real)(1)), gather(plane, nearest_place));
+  return choose(is_known, mean_up_to_one(sum, choose(is_known, weights, (real)(1))), gather(plane, nearest_place));
 }
 
 // AO that a key view has at the pixel where it shows a point `v` (view space of the pixel at hand), and whether it shows that

@@ -6,13 +6,19 @@
 // joint_upsample_of_both: from the reduced pixels of two views that agree (shared/stereo/upsample.h); `neighbour`: the other view,
 // reduced.
 // -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample, _color, _color_alpha: the value of background and of unknown
-//    pixels), TWO_VIEWS, COMPONENTS (joint_upsample_of_both)
+//    pixels), UNIT_INTERVAL (1: the plane is at most 1), TWO_VIEWS, COMPONENTS (joint_upsample_of_both)
 #include "resample/params.h"
 #include "shared/filter/upsample.h"
 #include "shared/lanes/wanted.h"
 #if TWO_VIEWS
 #include "shared/lanes/components.h"
 #include "shared/stereo/upsample.h"
+#endif
+
+#if UNIT_INTERVAL
+#define MEAN mean_up_to_one
+#else
+#define MEAN quotient
 #endif
 
 static inline void subsample_plane(Frame frame, Frame other, PLANE source, PLANE_OUT result) {
@@ -57,8 +63,7 @@ kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLAN
                          normal_y, normal_z);
   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
   const mask known = !is_background(s.plane.depth) & (w.total > 0);
-  // Divided exactly, so that rounding does not lead beyond the values that are mixed.
-  const real mean = weighted(w, s, source) / choose(known, w.total, (real)(1));
+  const real mean = MEAN(weighted(w, s, source), choose(known, w.total, (real)(1)));
   store(choose(known & is_wanted, mean, (real)(OUTSIDE)), result, s.here);
 }
 #endif
@@ -93,8 +98,7 @@ kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour
       mix_around_other(&m, &b, there, neighbour.frame, counts, others, other_sources.planes[c]);
     }
     const mask known = is_surface & (m.total > 0);
-    // Divided exactly, as above.
-    store(choose(known, m.sum / choose(known, m.total, (real)(1)), (real)(OUTSIDE)), results.planes[c], s.here);
+    store(choose(known, MEAN(m.sum, choose(known, m.total, (real)(1))), (real)(OUTSIDE)), results.planes[c], s.here);
   }
 }
 #endif
@@ -122,7 +126,12 @@ kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams param
 #ifdef OUTSIDE
 static inline void upsample_plane(Weights w, Site s, mask known, PLANE source, PLANE_OUT result) {
   const real total = choose(known, w.total, (real)(1));
-  store(choose(known, weighted(w, s, source) / total, (real)(OUTSIDE)), result, s.here);
+  store(choose(known, MEAN(weighted(w, s, source), total), (real)(OUTSIDE)), result, s.here);
+}
+
+static inline void upsample_share(Weights w, Site s, mask known, PLANE source, PLANE_OUT result) {
+  const real total = choose(known, w.total, (real)(1));
+  store(choose(known, mean_up_to_one(weighted(w, s, source), total), (real)(OUTSIDE)), result, s.here);
 }
 
 kernel void joint_upsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
@@ -154,6 +163,6 @@ kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams 
   upsample_plane(w, s, known, source_r, result_r);
   upsample_plane(w, s, known, source_g, result_g);
   upsample_plane(w, s, known, source_b, result_b);
-  upsample_plane(w, s, known, source_a, result_a);
+  upsample_share(w, s, known, source_a, result_a);
 }
 #endif

@@ -71,7 +71,7 @@ kernel void specular_occlusion_from_cone(Frame frame, Params params, PLANE depth
   // normal.
   const mask is_hemisphere = (narrowed <= (scalar)1e-6f) & (dot3(g.normal, bent) > (scalar)(1 - 5e-7f));
   const mask is_there = (all > (scalar)1e-6f) & !is_hemisphere;
-  store_share(g, choose(is_there, seen / choose(is_there, all, (real)(1)), (real)(1)), result, here);
+  store_share(g, choose(is_there, quotient(seen, choose(is_there, all, (real)(1))), (real)(1)), result, here);
 }
 
 // How far a lobe of another roughness is another lobe.
@@ -141,5 +141,5 @@ kernel void specular_occlusion_columns(Frame frame, Params params, PLANE depth, 
                   load(sum, there), load(weight, there));
   }
   const mask is_known = sums.weight > 0;
-  store_share(g, choose(is_known, sums.sum, (real)(1)) / choose(is_known, sums.weight, (real)(1)), result, here);
+  store_share(g, mean_up_to_one(choose(is_known, sums.sum, (real)(1)), choose(is_known, sums.weight, (real)(1))), result, here);
 }

@@ -56,7 +56,7 @@ kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLAN
   const real before =
       clamp(choose(takes_image, value_of(as_image, history_frames), value_of(as_surface, history_frames)), (real)(0),
             (real)((scalar)params.most_frames - 1));
-  const real share = (scalar)1 / (before + 1);
+  const real share = quotient((real)(1), before + 1);
   for (int c = 0; c < 4; ++c) {
     const real own = choose(s.reflects & is_wanted, load(now[c], here), (real)(0));
     const real kept = kept_near(around_here[c], choose(takes_image, of_image[c], of_surface[c]), params.kept_within);

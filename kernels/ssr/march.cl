@@ -232,7 +232,7 @@ kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, P
 #endif
   global const int* entries = (global const int*)list;
   // Down the columns of work-items: devices start the image row by row, and the first rows would get all the work.
-  const int item = (int)(get_global_id(0) * get_global_size(1) + get_global_id(1)), count = entries[0];
+  const int item = FIRST_X / LANES * image.height + ROW_Y, count = entries[0];
   // Divided rather than multiplied: in a large image the product would overflow an int.
   if (count == 0 || item > (count - 1) / RAYS_PER_ITEM) return;
   int next = item * RAYS_PER_ITEM;

@@ -45,7 +45,7 @@ static inline void take_ray(Reflected* sum, Reflector s, SeenRay ray, mask count
   const real3 h = make3(light.x + s.to_eye.x, light.y + s.to_eye.y, larger(light.z + s.to_eye.z, (real)(1e-6f)));
   const real share = reflected_share(s.alpha, s.to_eye, light, h, hidden_per_seen(s.alpha, s.to_eye));
   counts &= (light.z > 0) & (ray.density > 0);
-  const real w = choose(counts, share / choose(counts, ray.density, (real)(1)), (real)(0));
+  const real w = choose(counts, quotient(share, choose(counts, ray.density, (real)(1))), (real)(0));
   const real grazing = choose(counts, w * grazing_share(dot3(light, h) * inverse_sqrt(dot3(h, h))), (real)(0)),
              straight = w - grazing;
   const real3 radiance = choose3(counts, ray.radiance, make3((real)(0), (real)(0), (real)(0)));
@@ -85,7 +85,7 @@ static inline void take_rays_of_other(Frame frame, Neighbour n, Reflector s, Oth
                                       Reflected* sum) {
   const mask has_met = counts & (sum->met > 0);
   if (!ANY(has_met)) return;
-  const real expected = sum->length / choose(has_met, sum->met, (real)(1));
+  const real expected = quotient(sum->length, choose(has_met, sum->met, (real)(1)));
   const Projection there = same_virtual_image(frame, n, s, expected, has_met);
   const real3 p = position_at(frame, s.point.x, s.point.y, s.depth);
   const real per_depth = (scalar)1 / s.depth;
@@ -194,11 +194,11 @@ kernel void ssr_resolve(Frame frame,
 #endif
 #if TEMPORAL
   const mask has_met = sum.met > 0;
-  store(choose(has_met, sum.length / choose(has_met, sum.met, (real)(1)), (real)(0)), reach, here);
+  store(choose(has_met, quotient(sum.length, choose(has_met, sum.met, (real)(1))), (real)(0)), reach, here);
 #endif
   const mask is_known = (sum.weights > (scalar)1e-12f) & is_wanted;
   const real albedo = choose(s.is_mirror, (real)(1), directional_albedo(s.roughness, s.to_eye.z));
-  const real scale = choose(is_known, albedo / choose(is_known, sum.weights, (real)(1)), (real)(0));
+  const real scale = choose(is_known, quotient(albedo, choose(is_known, sum.weights, (real)(1))), (real)(0));
   const real3 f0 = reflectance_at(reflectance_r, reflectance_g, reflectance_b, here);
   // Surfaces too rough for rays reflect the environment, with Fresnel's term for the mirror direction.
   const mask has_environment = is_rough & is_wanted;
@@ -223,5 +223,5 @@ kernel void ssr_resolve(Frame frame,
   store(choose(is_known, scale * (f0.z * sum.straight.z + sum.grazing.z),
                evenly * (f0.z + (1 - f0.z) * middle) * environment.z),
         reflection_b, here);
-  store(choose(is_known, sum.confidence / choose(is_known, sum.weights, (real)(1)), (real)(0)), reflection_a, here);
+  store(choose(is_known, mean_up_to_one(sum.confidence, choose(is_known, sum.weights, (real)(1))), (real)(0)), reflection_a, here);
 }

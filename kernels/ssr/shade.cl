@@ -77,7 +77,7 @@ static inline real3 color_at(Frame frame, Image image, Start s, Hit hit, real3 m
   }
   const integer here = FRAME_GUARD + hit.row * frame.pitch + hit.column;
   const mask is_known = weights > (scalar)1e-3f;
-  const real scale = (scalar)1 / choose(is_known, weights, (real)(1));
+  const real scale = quotient((real)(1), choose(is_known, weights, (real)(1)));
   return choose3(is_known, scale3(sum, scale), gather_radiance(image.color_r, image.color_g, image.color_b, here));
 }
 
@@ -97,7 +97,7 @@ static inline Sight sight_of(Frame frame, Image image, Start s, Hit hit) {
   const real facing = dot3(s.direction, n);
   const mask has_normal = dot3(n, n) > (scalar)0.25f, faces = !has_normal | (facing <= 0);
   // Where the ray crosses the plane of the pixel that it meets, if that is near the pixel.
-  const real to_plane = dot3(met, n) / smaller(facing, (real)(-1e-3f));
+  const real to_plane = quotient(dot3(met, n), smaller(facing, (real)(-1e-3f)));
   const real past = choose(hit.background, s.line.end, steps_past(s.line, hit));
   const real crossing = steps_to(frame, s.line, larger(to_plane, (real)(0)));
   const mask crosses = hit.surface & has_normal & (to_plane > 0) & (fabs(crossing - past) <= 1);

@@ -70,7 +70,7 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
       sum_before[c] += choose(counts, value_before, (real)(0));
     }
   }
-  const real share = (scalar)1 / larger(pixels, (real)(1));
+  const real share = quotient((real)(1), larger(pixels, (real)(1)));
   real difference = 0, variance = 0;
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c) {
@@ -78,8 +78,8 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
     difference += change.difference;
     variance += change.variance;
   }
-  const real excess = difference / variance - tolerance * share;
-  return (scalar)1 / ((scalar)1 / count + larger(excess, (real)(0)));
+  const real excess = quotient(difference, variance) - tolerance * share;
+  return quotient((real)(1), quotient((real)(1), count) + larger(excess, (real)(0)));
 }
 
 kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANES(now), PLANE depth, PLANES(before),
@@ -109,7 +109,7 @@ kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANES(
   }
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c) {
-    const real mean = (load(befores.planes[c], here) * count + load(nows.planes[c], here)) / (count + 1);
+    const real mean = mean_of(load(befores.planes[c], here) * count + load(nows.planes[c], here), count + 1);
     store(choose(is_surface, mean, NO_RESULT), results.planes[c], here);
   }
   store(choose(is_surface, count + 1, (real)(0)), frames, here);

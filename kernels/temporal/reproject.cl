@@ -117,7 +117,7 @@ kernel void temporal_reproject(Frame frame, Neighbour neighbour, Params params, 
   real share;
   const Past same = past_of_same(corners, history_frames, is_same, &share);
   const real count = value_of(same, history_frames);
-  const real known = (scalar)1 / ((scalar)1 / larger(count, (real)(1)) + params.edge_loss * (1 - share));
+  const real known = quotient((real)(1), quotient((real)(1), larger(count, (real)(1))) + params.edge_loss * (1 - share));
   const mask is_known = same.is_known & is_surface;
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c)

@@ -79,7 +79,7 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, De
     occluded += counted(counts, found);
     whole += column.high - column.low;
   }
-  return choose(whole > 0, occluded / whole, (real)(0));
+  return choose(whole > 0, quotient(occluded, whole), (real)(0));
 }
 
 kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE depth, PLANE normal_x, PLANE normal_y,

@@ -25,7 +25,6 @@ static inline Taps filtered_taps(Frame frame, Params params, Sources sources, PL
   return taps_around(frame, plane, x, y, here, sources, depth, normal_x, normal_y, normal_z);
 }
 
-// Divided exactly, so that an open neighbourhood stays exactly open.
 kernel void bilateral(Frame frame, Params params, PLANES(source), PLANE depth, PLANE normal_x, PLANE normal_y,
                       PLANE normal_z, WANTED_ARGUMENT PLANES_OUT(result)) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
@@ -36,7 +35,7 @@ kernel void bilateral(Frame frame, Params params, PLANES(source), PLANE depth, P
   const mask counts = !is_background(load(depth, here)) & is_wanted;
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c)
-    store(choose(counts, taps.sums[c] / taps.weights, FILTER_OUTSIDE), results.planes[c], here);
+    store(choose(counts, mean_of(taps.sums[c], taps.weights), FILTER_OUTSIDE), results.planes[c], here);
 }
 
 #endif

@@ -5,7 +5,7 @@
 //
 //   const Site s = site_at(frame, other, distance, angle, depth, normal_x, normal_y, normal_z);
 //   const Weights w = weights_of(s, frame, low_depth, low_normal_x, low_normal_y, low_normal_z);
-//   ... weighted(w, s, source) / w.total ...
+//   ... quotient(weighted(w, s, source), w.total) ...
 #ifndef GLOAM_UPSAMPLE_H
 #define GLOAM_UPSAMPLE_H
 

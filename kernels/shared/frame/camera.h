@@ -26,7 +26,7 @@ static inline Anchor anchor_at(Frame f, real x, real y, real depth) {
   a.x = x;
   a.y = y;
   a.background = is_background(depth);
-  a.inverse_depth = (scalar)1 / choose(a.background, (real)(1), depth);
+  a.inverse_depth = quotient((real)(1), choose(a.background, (real)(1), depth));
   a.lateral = f.perspective + f.parallel * a.inverse_depth;
   a.across_x = f.scale_x * a.lateral;
   a.across_y = f.scale_y * a.lateral;

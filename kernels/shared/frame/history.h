@@ -54,7 +54,7 @@ static inline Past past_of_same(Corners corners, PLANE history_frames, const mas
   }
   *share = sum;
   past.is_known = sum > (scalar)0.01f;
-  const real scale = (scalar)1 / choose(past.is_known, sum, (real)(1));
+  const real scale = quotient((real)(1), choose(past.is_known, sum, (real)(1)));
 #pragma unroll
   for (int k = 0; k < 4; ++k) past.weight[k] = choose(past.is_known, past.weight[k] * scale, (real)(0));
   return past;
@@ -103,7 +103,7 @@ static inline Alike alike_around(Frame frame, PLANE depth, real own, scalar same
         to_mask((column >= 0) & (column < frame.width)) & !is_background(z) & (fabs(z - own) <= same_depth * own);
     count += choose(alike.counts[i], (real)(1), (real)(0));
   }
-  alike.share = (scalar)1 / larger(count, (real)(1));
+  alike.share = quotient((real)(1), larger(count, (real)(1)));
   return alike;
 }
 

@@ -53,6 +53,15 @@ static inline real source_at(Sources sources, int component, int i) {
 #endif
 }
 
+// The weighted mean of a component. One component is a share: open or visible, at most 1.
+static inline real mean_of(real sum, real weights) {
+#if COMPONENTS == 1
+  return mean_up_to_one(sum, weights);
+#else
+  return quotient(sum, weights);
+#endif
+}
+
 // The same value for all components.
 static inline void store_all(real value, Results results, int here) {
 #pragma unroll

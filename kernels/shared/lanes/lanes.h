@@ -127,6 +127,28 @@ static inline integer choose_integer(mask m, integer a, integer b) { return inte
 static inline real smaller(real a, real b) { return a < b ? a : b; }
 static inline real larger(real a, real b) { return a > b ? a : b; }
 
+// a / b, as far from it as the device's division is: half a unit in the last place on CPUs, 2.5 where OpenCL allows it and nothing else
+// is asked for (-cl-fp32-correctly-rounded-divide-sqrt), as on GPUs. -D QUOTIENT_ERROR=N makes every quotient N units too large (N < 0:
+// too small), so that a CPU finds what relies on the rounding.
+static inline real quotient(real a, real b) {
+#ifdef QUOTIENT_ERROR
+#ifdef REAL_DOUBLE
+  return (a / b) * (1 + (scalar)(QUOTIENT_ERROR)*0x1p-52);
+#else
+  return (a / b) * (1 + (scalar)(QUOTIENT_ERROR)*0x1p-23f);
+#endif
+#else
+  return a / b;
+#endif
+}
+
+// The mean of values of at most 1, from the sum of weight times value and the sum of the weights, added in the same order: at most 1, and
+// exactly 1 where all values are, whatever the device's division does. (Rounding keeps order, so the sum is at most that of the weights.)
+static inline real mean_up_to_one(real sum, real weights) {
+  const real mean = quotient(sum, weights);
+  return choose((sum < weights) & (mean < 1), mean, (real)(1));
+}
+
 typedef struct {
   real x, y, z;
 } real3;

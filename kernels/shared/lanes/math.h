@@ -42,13 +42,14 @@ static inline real kept_radiance(real color) { return smaller(larger(color, (rea
 
 static inline real fused_dot3(real3 a, real3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
 
-// 2 / sqrt(x) for x > 0; the factor 2 saves the fast mode a multiplication. Fast: one lane uses the device's own. Several lanes
-// refine a guess by Newton steps: the CPU's guess (12 or 14 bits) by one step, relative error below 5e-7; or a guess from
-// exponent arithmetic by a tuned and a plain step (Lomont 2003; constants of Kadlec 2010), relative error below 7e-7.
+// 2 / sqrt(x) for x > 0; the factor 2 saves the fast mode a multiplication. Fast: one lane uses the device's own, and so do several on
+// a GPU, which has an instruction for it (NATIVE_INVERSE_SQRT). Several lanes of a CPU refine a guess by Newton steps: the CPU's guess
+// (12 or 14 bits) by one step, relative error below 5e-7; or a guess from exponent arithmetic by a tuned and a plain step (Lomont 2003;
+// constants of Kadlec 2010), relative error below 7e-7.
 static inline real twice_inverse_sqrt(real x) {
 #if !defined(MATH_FAST) || defined(REAL_DOUBLE)
-  return (scalar)2 / sqrt(x);
-#elif LANES == 1
+  return quotient((real)(2), sqrt(x));
+#elif LANES == 1 || defined(NATIVE_INVERSE_SQRT)
   return 2 * native_rsqrt(x);
 #else
 #ifdef X86_INVERSE_SQRT
@@ -63,7 +64,7 @@ static inline real twice_inverse_sqrt(real x) {
 
 // As twice_inverse_sqrt; the fast mode leaves out the last step: relative error below 8e-4.
 static inline real quick_twice_inverse_sqrt(real x) {
-#if !defined(MATH_FAST) || defined(REAL_DOUBLE) || LANES == 1
+#if !defined(MATH_FAST) || defined(REAL_DOUBLE) || LANES == 1 || defined(NATIVE_INVERSE_SQRT)
   return twice_inverse_sqrt(x);
 #elif defined(X86_INVERSE_SQRT)
   return 2 * X86_INVERSE_SQRT(x);
@@ -81,7 +82,7 @@ static inline real quick_inverse(real x) {
   const real y = X86_INVERSE(x);
   return y * multiply_add(-x, y, (real)(2));
 #else
-  return (scalar)1 / x;
+  return quotient((real)(1), x);
 #endif
 }
 
@@ -121,7 +122,7 @@ static inline real square_of(real3 v) {
 
 static inline real3 normalise3(real3 v) { return scale3(v, inverse_sqrt(dot3(v, v))); }
 // A unit vector with the same bits in every mode, for directions that decide which pixel is read.
-static inline real3 exactly_normalised(real3 v) { return scale3(v, (scalar)1 / sqrt(dot3(v, v))); }
+static inline real3 exactly_normalised(real3 v) { return scale3(v, quotient((real)(1), sqrt(dot3(v, v)))); }
 
 // Cosine and sine of a number of whole turns, 0 <= turns <= 1. Taylor polynomials about the nearest quarter turn, in
 // multiplications and additions: the same bits on every device. Absolute error below 3e-7 in float, 1e-13 in double.

@@ -14,7 +14,7 @@
 #include "shared/frame/camera.h"
 
 // 1 / depth, or -depth for an orthographic camera: changes evenly along the image of a line or a plane. Background has the least.
-static inline real nearness_of(Frame f, real depth) { return f.perspective > 0 ? (scalar)1 / depth : -depth; }
+static inline real nearness_of(Frame f, real depth) { return f.perspective > 0 ? quotient((real)(1), depth) : -depth; }
 static inline scalar nearness_of_background(Frame f) { return f.perspective > 0 ? (scalar)0 : -(scalar)INFINITY; }
 
 typedef struct {

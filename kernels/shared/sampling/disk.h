@@ -19,7 +19,7 @@ typedef struct {
 static inline Disk disk_of(Frame f, Anchor a, Surface s, Reach reach, Noise noise) {
   real cosine, sine;
   cosine_sine_of_turns(noise.turn, &cosine, &sine);
-  const real inverse_level = (scalar)1 / s.level;
+  const real inverse_level = quotient((real)(1), s.level);
   const real sheared = a.ray_x * a.ray_y * inverse_level, long_y = s.length * inverse_level;
   const real pixels_x = smaller(reach.pixels_x, reach.pixels_y * (f.scale_y / f.scale_x));
   const real pixels_y = pixels_x * (f.scale_x / f.scale_y);

@@ -72,7 +72,7 @@ static inline real share_of_side(real cosine, real sine, real mass) {
 // `cosine`, `sine`: of the slice's angle about the line to the eye.
 static inline Slice slice_at(Anchor a, Surface s, real cosine, real sine) {
   Slice c;
-  const real inverse_level = (scalar)1 / s.level;
+  const real inverse_level = quotient((real)(1), s.level);
   // The slice's tangent at right angles to the line to the eye, moved along that line into the plane of the pixel's depth: the
   // image's x and y axes turned about the line to the eye, written out.
   const real x = cosine * s.level;

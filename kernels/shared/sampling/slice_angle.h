@@ -14,14 +14,14 @@
 // with a mean of 1 over half a turn. The inverse of W has no closed form: a - sin(2a) (p + q cos(2a) + r cos^2(2a)) is fitted to
 // it, with p, q and r polynomials in s^2. The fit need not be exact: the returned derivative is the fit's own.
 static inline real turn_by_weight(Anchor a, Surface s, real* cosine, real* sine) {
-  const real inverse_level = (scalar)1 / s.level;
+  const real inverse_level = quotient((real)(1), s.level);
   // normal . tangent, as slice_at has it, of the slices at 0 and at a quarter turn.
   const real across_at_zero =
       s.normal.x * s.level + (a.ray_x * a.ray_y * s.normal.y + a.ray_x * s.length * s.facing) * inverse_level;
   const real across_at_quarter = (s.normal.y * s.length + a.ray_y * s.facing) * inverse_level;
   // Beside the image, where work-items may lie, normals are of any length.
   const real all = across_at_zero * across_at_zero + across_at_quarter * across_at_quarter, square = smaller(all, (real)(1));
-  const real inverse = (scalar)1 / sqrt(all + (scalar)1e-20f);
+  const real inverse = quotient((real)(1), sqrt(all + (scalar)1e-20f));
   // Of the angle from the normal's own slice. Where the normal points to the eye, `square` is 0 and nothing is turned.
   const real from_cosine = (*cosine * across_at_zero + *sine * across_at_quarter) * inverse;
   const real from_sine = (*sine * across_at_zero - *cosine * across_at_quarter) * inverse;

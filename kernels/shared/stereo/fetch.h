@@ -5,6 +5,7 @@
 
 #include "shared/frame/neighbour.h"
 #include "shared/frame/surface.h"
+#include "shared/lanes/components.h"
 #include "shared/lanes/pixel_row.h"
 
 // The planes that describe the other eye's surfaces.
@@ -90,11 +91,10 @@ static inline __attribute__((always_inline)) real weighted_between(const Between
   return b->how == expected ? weighted_sum(b, other, plane, expected) : weighted_sum(b, other, plane, ANYWHERE);
 }
 
-// Weighted mean of a plane of the other eye, valid where `is_known`. The pixels were expected in a row.
+// Weighted mean of a component of the other eye (components.h), valid where `is_known`. The pixels were expected in a row.
 static inline __attribute__((always_inline)) real fetch_between(const Between* b, Frame other,
                                                                 global const float* plane) {
-  // Divided exactly, so that an open neighbourhood stays exactly open.
-  return weighted_between(b, other, IN_A_ROW, plane) / choose(b->is_known, b->share, (real)(1));
+  return mean_of(weighted_between(b, other, IN_A_ROW, plane), choose(b->is_known, b->share, (real)(1)));
 }
 
 #endif

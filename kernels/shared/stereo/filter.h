@@ -39,7 +39,7 @@ kernel void bilateral_weighted(Frame frame, Params params, PLANES(source), SOURC
   const mask is_surface = !is_background(z);
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c)
-    store(choose(is_surface, taps.sums[c] / taps.weights, NO_RESULT), results.planes[c], here);
+    store(choose(is_surface, mean_of(taps.sums[c], taps.weights), NO_RESULT), results.planes[c], here);
 #if WITH_SOURCE_WEIGHTS
   const real before = load(source_weights, here);
 #else
@@ -69,8 +69,10 @@ kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANES
                  surface_planes(other_depth, other_normal_x, other_normal_y, other_normal_z), IN_A_ROW, &b);
   real w = (real)(1);
   if (ANY(b.is_known)) {
-    const real weight = b.share * fetch_between(&b, neighbour.frame, other_weights);
-    w = smooth_step((scalar)0.5 - params.blend, (scalar)0.5 + params.blend, own_weight / (own_weight + weight));
+    const real other_weight =
+        quotient(weighted_between(&b, neighbour.frame, IN_A_ROW, other_weights), choose(b.is_known, b.share, (real)(1)));
+    const real weight = b.share * other_weight;
+    w = smooth_step((scalar)0.5 - params.blend, (scalar)0.5 + params.blend, quotient(own_weight, own_weight + weight));
   }
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c) {
