@@ -13,15 +13,27 @@ size_t largest_divisor(size_t number, size_t most) {
   return most;
 }
 
+size_t largest_power_of_two(size_t most) {
+  size_t power = 1;
+  while (2 * power <= most) power *= 2;
+  return power;
+}
+
 /// Work-group size. A CPU driver recompiles a kernel for every size, and by itself chooses a size per image size, for small
 /// images the whole image: that costs seconds, and what each work-item keeps overflows the stack. So one size serves all small
-/// images, and few serve large ones. `most`: 0 lets the driver choose, as on other devices.
+/// images, and few serve large ones. `most`: 0 lets the driver choose.
 cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows, size_t most) {
   if (most == 0) return cl::NullRange;
   constexpr size_t few_items = 1 << 14, widest = 32;
   if (info.type == "cpu" && columns * rows < few_items) return cl::NDRange(1, 1);
-  const size_t width = largest_divisor(columns, std::min(most, widest));
-  return cl::NDRange(width, largest_divisor(rows, most / width));
+  if (info.type == "cpu") {
+    const size_t width = largest_divisor(columns, std::min(most, widest));
+    return cl::NDRange(width, largest_divisor(rows, most / width));
+  }
+  // Whole warps, and as many rows whatever the height is: the rows that are left over are a launch of their own.
+  size_t width = largest_power_of_two(std::min(most, widest));
+  while (columns % width != 0) width /= 2;
+  return cl::NDRange(width, std::min(largest_power_of_two(most / width), largest_power_of_two(rows)));
 }
 
 /// Work-items per row of a strip, a multiple of the group's. For passes with a wide footprint a CPU computes the image strip by
@@ -48,11 +60,16 @@ Launched launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, cons
   const size_t columns = size_t(layout.pitch / tuning.lanes), rows = size_t(layout.height);
   const cl::NDRange group = group_size(device.info, columns, rows, most_per_group_of(kernel, device, tuning));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
+  const size_t rows_left = group.dimensions() == 2 ? rows % group[1] : 0;
   cl::Event first, last;
   for (size_t from = 0; from < columns; from += strip)
-    device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(from, 0), cl::NDRange(std::min(strip, columns - from), rows),
-                                      group, nullptr, from == 0 ? &first : &last);
+    device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(from, 0),
+                                      cl::NDRange(std::min(strip, columns - from), rows - rows_left), group, nullptr,
+                                      from == 0 ? &first : &last);
   if (strip >= columns) last = first;
+  if (rows_left > 0)
+    device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(0, rows - rows_left), cl::NDRange(columns, rows_left),
+                                      cl::NDRange(group[0], 1), nullptr, &last);
   last.wait();
   const double cpu = process_cpu_ms() - cpu_before;
   const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
