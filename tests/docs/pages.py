@@ -123,13 +123,15 @@ PAGES = {
         check="[ -s line.png ] && [ -s each.module00.exr ] && gloam capture statue -o desk.exr --display desk.json --size 40x30"),
     "docs/memory.md": Page(prepare="gloam capture plane -o large.exr --size 2048x2048 --planes normal"),
     "docs/portability.md": Page(
-        instead={"--device TEXT": ("--device Portable", DEVICE),
+        instead={"script/check-device NVIDIA": ('GLOAM=gloam "$GLOAM_SOURCE_DIR/script/check-device" --quick Portable', DEVICE),
+                 "script/update-devices": ("true", "it writes into the source tree"),
+                 "--device TEXT": ("--device Portable", DEVICE),
                  # A known fault, not noise: with 8 or 4 lanes, cases 13 and 14 of gaussian are beyond their bounds. doctor chooses 8 on
                  # a busy machine, and stress then takes what doctor chose; in a cache of its own it takes the device's 16.
                  "gloam stress all": ("GLOAM_CACHE_DIR=$HOME/undoctored gloam stress gaussian",
                                       MINUTES + "; and gaussian does not hold with the 8 lanes that doctor may choose"),
                  "bench -o out/device": (f"bench -o out/device {SMALL}", MINUTES)},
-        check="[ -s out/device/report.html ] && [ -s stress.json ]"),
+        check="[ -s out/device/times.json ] && [ -s out/device/report.html ] && [ -s stress.json ]"),
     "docs/python.md": Page(
         needs=("cv2", "matplotlib"),
         check="""for text in 'beside the box 0\\.' 'far from it 1\\.00' "UsageError: no technique 'gtoa' (did you mean 'gtao'?)" \\
