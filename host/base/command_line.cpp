@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/words.h"
+#include "gloam/error.h"
+
 namespace gloam {
 namespace {
 
@@ -55,7 +58,21 @@ std::vector<std::string> command_line() {
   return words;
 }
 
+namespace {
+
+/// A word as every POSIX shell makes it, of printable characters alone. Line ends at its end are lost: such a file is not found.
+std::string made_by_printf(const std::string& word) {
+  std::string format = word.starts_with("-") ? "\\055" : "";  // no option of printf
+  for (const char c : word.substr(format.empty() ? 0 : 1))
+    format += c == '%' ? "%%" : c == '\\' ? "\\\\" : c == '\'' ? "\\047" : std::string(1, c);
+  return "\"$(printf '" +
+         without_unprintables(format, [](unsigned char byte) { return fmt::format("\\{:03o}", byte); }) + "')\"";
+}
+
+}  // namespace
+
 std::string quoted_for_shell(const std::string& word) {
+  if (on_one_line(word) != word) return made_by_printf(word);
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
   std::string quoted = "'";

@@ -13,7 +13,7 @@ std::vector<std::string> command_line();
 /// The same of each word of a command that is one argument: "/home/a/bin/engine {frame}" is "bin/engine {frame}".
 std::string command_without_folders(const std::string& command);
 
-/// A word as a POSIX shell reads it back: in quotes where it needs them.
+/// A word as a POSIX shell reads it back: in quotes where it needs them. Always one line of printable text, whatever is in the word.
 std::string quoted_for_shell(const std::string& word);
 
 /// Words as a line for a shell.

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <tuple>
 
+#include "base/words.h"
+
 namespace gloam {
 namespace {
 
@@ -47,40 +49,17 @@ bool abbreviates(std::string_view name, std::string_view candidate) {
          std::equal(start.begin(), start.end(), whole.begin(), [](char a, char b) { return lower(a) == lower(b); });
 }
 
-/// Length of the UTF-8 character that `text` begins with, bytes; 0 for an invalid or a control character.
-size_t printable_length(std::string_view text) {
-  const auto byte = [&](size_t i) { return i < text.size() ? unsigned(static_cast<unsigned char>(text[i])) : 0u; };
-  const unsigned first = byte(0);
-  if (first < 0x80) return first >= 0x20 && first != 0x7f;
-  const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  unsigned code = first & (0x7fu >> length);
-  for (size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-    code = code << 6 | (byte(i) & 0x3f);
-  }
-  constexpr unsigned smallest[] = {0, 0, 0xa0, 0x800, 0x10000};  // U+0080 to U+009F are control characters too
-  const bool known = first >= 0xc2 && first < 0xf5 && code >= smallest[length] && code <= 0x10ffff;
-  const bool surrogate = code >= 0xd800 && code < 0xe000, line_end = code == 0x2028 || code == 0x2029;
-  const bool turns_text = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
-  return known && !surrogate && !line_end && !turns_text ? length : 0;
-}
-
 }  // namespace
 
 std::string printable(std::string_view text) {
-  std::string result;
-  while (!text.empty()) {
-    const size_t length = printable_length(text);
-    if (length == 0)
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
-    else
-      result += text.substr(0, length);
-    text.remove_prefix(std::max<size_t>(length, 1));
-  }
-  return result;
+  constexpr size_t longest_line = 4000;  ///< bytes; names and values come from files of anybody
+  return shortened(on_one_line(text), longest_line);
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
+  constexpr size_t longest_name =
+      100;  // nothing that has a name here is longer, and a distance takes the product of the lengths
+  if (name.size() > longest_name) return "";
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
   if (std::none_of(name.begin(), name.end(), is_letter)) return "";
   // Up to a third of the letters wrong, or two swapped, counts as a typing error; an abbreviation counts as one error.

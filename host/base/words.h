@@ -1,6 +1,7 @@
 // Words: in small letters, and those that stand for values, as flags and arguments take them.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,16 @@ namespace gloam {
 
 /// A text in small letters, of ASCII alone.
 std::string lower(std::string_view text);
+
+/// A text in which each byte that has no place in one line of a terminal is replaced: control characters (line ends too), characters that
+/// change the direction of text, and bytes that are not UTF-8.
+std::string without_unprintables(std::string_view text, const std::function<std::string(unsigned char)>& shown);
+
+/// The same, with \xNN for each of these bytes.
+std::string on_one_line(std::string_view text);
+
+/// A text of at most `most` bytes: of a longer one the beginning and the end, and how many are left out between.
+std::string shortened(std::string_view text, size_t most);
 
 /// Words and the values that they stand for.
 template <typename Value>

@@ -102,7 +102,8 @@ void print_skipped(const std::vector<Skipped>& skipped) {
 }
 
 void print(const Measurement& result, const BenchOptions& options, const DeviceInfo& device) {
-  fmt::print("{}, {} ({}); {}\n", cpu_model(), device.name, device.platform, rounds_in_words(result, options));
+  fmt::print("{}, {} ({}); {}\n", cpu_model(), printable(device.name), printable(device.platform),
+             rounds_in_words(result, options));
   fmt::print(
       "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
       "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: no other is as fast\nand as close, "

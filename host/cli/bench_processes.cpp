@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/statistics.h"
 #include "bench/intervals.h"
 #include "cli/children.h"
@@ -97,7 +98,8 @@ Json measured_by_process(const MoreProcesses& more, int number) {
   if (end.status != 0)
     throw Error("process {} of {} failed: {}; {} holds what was measured before", number, more.processes,
                 end.ended_by.empty() ? last_line_of(end) : end.ended_by, (more.folder / "bench.json").string());
-  return Json::parse(read_text(folder / "bench.json"));
+  const std::filesystem::path file = folder / "bench.json";
+  return ordered_json_of_text(read_text(file), file.string());
 }
 
 }  // namespace

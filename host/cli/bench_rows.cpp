@@ -52,11 +52,14 @@ void check_scenes(const BenchCommand& flags, const report::Source& source, const
   }
 }
 
+/// A number of a file of anybody as a whole one.
+int whole(double number) { return int(std::clamp(number, 0.0, 1e9)); }
+
 std::optional<Size> size_of(const report::Source& source) {
   std::optional<Size> size;
   for (const report::Row& row : source.measurements.rows) {
     if (!row.width || !row.height) continue;
-    const Size of_row{int(*row.width), int(*row.height)};
+    const Size of_row{whole(*row.width), whole(*row.height)};
     if (size && *size != of_row)
       throw Error("{}: has rows of several sizes; compare files of one size each", source.name);
     size = of_row;
@@ -106,7 +109,7 @@ BenchCommand flags_for_rows(BenchCommand flags, const report::Source& source, st
   flags.variants = "none";
   if (flags.frame.empty() && !flags.size) flags.size = size_of(source);
   if (!flags.radius) flags.radius = given_radius(source);
-  if (!flags.rays && source.measurements.rays) flags.rays = int(*source.measurements.rays);
+  if (!flags.rays && source.measurements.rays) flags.rays = whole(*source.measurements.rays);
   if (flags.app->count("--rounds") == 0 && rounds_of(source) > 0) flags.rounds = rounds_of(source);
   if (flags.processes == 0) flags.processes = processes_of(source);
   flags.ladder = bench::LadderFor::none;

@@ -83,7 +83,7 @@ Json capture_document(const Scene& scene, const CaptureOptions& options, const C
 void print_capture(const Scene& scene, const CaptureOptions& options, const CaptureFigures& f) {
   fmt::print("{}: {} faces in {} meshes, {}x{}\n", printable(scene.name), f.faces, f.meshes, options.width,
              options.height);
-  fmt::print("{}{}\n", f.camera,
+  fmt::print("{}{}\n", printable(f.camera),
              f.ao_radius ? fmt::format("; AO radius that suits: {:g} scene units", *f.ao_radius) : "");
   if (options.peel > 0)
     fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);

@@ -203,7 +203,8 @@ std::vector<std::string> cells_of(const std::string& name, const Metrics& m, con
 
 void print_sequence(const SequenceComparison& c, const CompareFlags& flags, const std::vector<std::string>& written) {
   print_heading(c.planes, flags);
-  fmt::print("{} frames: {}\nmotion: {}\n\n", c.rows.size(), frames_in_words(c.shot.numbers()), motion_in_words(c));
+  fmt::print("{} frames: {}\nmotion: {}\n\n", c.rows.size(), frames_in_words(c.shot.numbers()),
+             printable(motion_in_words(c)));
   std::vector<std::vector<std::string>> table = {{"frame", "RMSE", "MAE", "bias", "SSIM", "GMSD"}};
   if (c.rows.front().figures.flip) table.front().push_back("FLIP");
   table.front().insert(table.front().end(), {"flicker", "truth's change", "comparable"});

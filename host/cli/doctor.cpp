@@ -36,8 +36,9 @@ std::string verdict_of(const Diagnosis& diagnosis) {
 void print(const Diagnosis& diagnosis) {
   const DeviceInfo& info = diagnosis.info;
   const DeviceRecord& record = diagnosis.record;
-  fmt::print("{} ({}, driver {})\n  {}\n", info.name, info.platform, info.driver, verdict_of(diagnosis));
-  for (const std::string& failure : record.failures) fmt::print("  FAILED: {}\n", failure);
+  fmt::print("{} ({}, driver {})\n  {}\n", printable(info.name), printable(info.platform), printable(info.driver),
+             printable(verdict_of(diagnosis)));
+  for (const std::string& failure : record.failures) fmt::print("  FAILED: {}\n", printable(failure));
   if (record.tuning) {
     std::vector<std::string> times;
     for (const doctor::Timed& one : diagnosis.timed)
@@ -51,7 +52,7 @@ void print(const Diagnosis& diagnosis) {
                *record.cold_ms, *record.warm_ms);
   fmt::print("  compiled kernels: {}\n", info.keeps_kernels ? "kept by the driver" : "kept by gloam");
   for (const std::string& lack : diagnosis.lacks) fmt::print("  lacks {}\n", lack);
-  for (const std::string& text : diagnosis.notes) fmt::print("  note: {}\n", text);
+  for (const std::string& text : diagnosis.notes) fmt::print("  note: {}\n", printable(text));
 }
 
 Json document_of(const Diagnosis& diagnosis) {

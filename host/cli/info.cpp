@@ -118,11 +118,11 @@ std::string most_wanted(const std::map<std::string, int>& lacking) {
 /// At most three lines; with `by_technique` one for each technique.
 void print_lacks(const Abilities& abilities, bool by_technique) {
   if (by_technique) {
-    for (const auto& [technique, words] : abilities.words) fmt::print("lacks  {}: {}\n", technique, words);
+    for (const auto& [technique, words] : abilities.words) fmt::print("lacks  {}: {}\n", technique, printable(words));
     return;
   }
   if (!abilities.planes.empty()) fmt::print("lacks  planes: {}\n", most_wanted(abilities.planes));
-  if (!abilities.views.empty()) fmt::print("lacks  views: {}\n", most_wanted(abilities.views));
+  if (!abilities.views.empty()) fmt::print("lacks  views: {}\n", printable(most_wanted(abilities.views)));
   const size_t count = abilities.words.size();
   if (count > 0) fmt::print("       --lacks says which of them each of {} techniques needs\n", count);
 }
@@ -151,7 +151,7 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   if (!unread.empty()) fmt::print("not read: {}\n", printable(first_names(unread)));
   fmt::print("\n");
   for (const auto& [view, camera] : document["cameras"].items())
-    fmt::print("camera {}{}\n", view.empty() ? "" : "of " + printable(view) + ": ", camera_line(camera));
+    fmt::print("camera {}{}\n", view.empty() ? "" : "of " + printable(view) + ": ", printable(camera_line(camera)));
   if (!document["depth_convention"].is_null()) {
     fmt::print("depth  {}, background {:.2f} %\n", document["depth_convention"].get<std::string>(),
                100 * document["background_share"].get<double>());
@@ -218,7 +218,7 @@ void print_lines_for_blender(const std::vector<std::string>& lines) {
   if (lines.empty()) return;
   fmt::print(
       "\nIf Blender rendered the frame, these lines in its Python console write the camera beside the frame:\n\n");
-  for (const std::string& line : lines) fmt::print("{}\n", line);
+  for (const std::string& line : lines) fmt::print("{}\n", printable(line));
 }
 
 void describe(const InfoFlags& flags, std::vector<std::string> pictures) {

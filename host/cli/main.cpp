@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "cli/completion.h"
 #include "cli/list_techniques.h"
 #include "cli/options.h"
@@ -250,6 +251,8 @@ static int status_of_command(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     const std::string limit = gloam::memory_limit();
     return failed(("out of memory" + (limit.empty() ? "; use a smaller frame" : limit)).c_str(), 1);
+  } catch (const nlohmann::json::exception& error) {
+    return failed(("a value of JSON is of another type than expected: " + gloam::reason_of(error)).c_str(), 1);
   } catch (const std::exception& error) {
     return failed(error.what(), 1);
   }

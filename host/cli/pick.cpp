@@ -163,7 +163,7 @@ void print_left_out(const Picked& picked) {
     else
       slow[s.why].push_back(s.preset);
   }
-  for (const auto& [why, presets] : slow) fmt::print("left out {}: {}\n", fmt::join(presets, "; "), why);
+  for (const auto& [why, presets] : slow) fmt::print("left out {}: {}\n", fmt::join(presets, "; "), printable(why));
   if (out_of_time > 0)
     fmt::print("left out {} settings for want of time: --time 5m tries more, --all everything\n", out_of_time);
 }
@@ -181,7 +181,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   }
   print_table(rows, 4);
   fmt::print("{} of {} settings that were tried; {}; errors to {}; {} decides (--by)\n", picked.finalists.size(),
-             picked.tried, printable(device.name), picked.truth, name_of(by));
+             picked.tried, printable(device.name), printable(picked.truth), name_of(by));
   print_left_out(picked);
 }
 
@@ -261,7 +261,7 @@ void pick_command(const PickCommand& flags) {
   if (flags.json.only_json()) return;
   print(picked, options.by, device.info());
   radius.print();
-  fmt::print("{}\n", printable(command));
+  fmt::print("{}\n", command);
 }
 
 }  // namespace

@@ -12,15 +12,15 @@ namespace {
 
 void print_plan(const Plan& plan, const std::vector<std::string>& decoded) {
   fmt::print("outputs   {}\n", fmt::join(plan.outputs, ", "));
-  fmt::print("decoded   {}\n", decoded.empty() ? "nothing" : fmt::format("{}", fmt::join(decoded, ", ")));
+  fmt::print("decoded   {}\n", decoded.empty() ? "nothing" : printable(fmt::format("{}", fmt::join(decoded, ", "))));
   for (const PlannedPass& planned : plan.passes) {
     std::vector<std::string> reads, writes;
     for (const Binding& b : planned.pass.reads) reads.push_back(b.plane);
     for (const Binding& b : planned.pass.writes) writes.push_back(b.plane);
     fmt::print("pass      {}: {} -> {}\n", planned.label(), fmt::join(reads, ", "), fmt::join(writes, ", "));
   }
-  for (const auto& [what, why] : plan.skipped) fmt::print("skipped   {}: {}\n", what, why);
-  for (const std::string& what : plan.depends_on_pixels) fmt::print("by pixels {}\n", what);
+  for (const auto& [what, why] : plan.skipped) fmt::print("skipped   {}: {}\n", printable(what), printable(why));
+  for (const std::string& what : plan.depends_on_pixels) fmt::print("by pixels {}\n", printable(what));
 }
 
 /// The radius from the depth, the only plane that is decoded.

@@ -77,7 +77,8 @@ void print_times(const RunResult& result, const DeviceInfo& device, const Stopwa
   print_table(rows, views ? 2 : 1);
   std::vector<std::string> parts;
   for (const auto& [name, ms] : watch.laps) parts.push_back(fmt::format("{} {:.0f}", name, ms));
-  fmt::print("{}, {} lanes; wall {:.0f} ms: {}\n", device.name, result.lanes, watch.total(), fmt::join(parts, ", "));
+  fmt::print("{}, {} lanes; wall {:.0f} ms: {}\n", printable(device.name), result.lanes, watch.total(),
+             fmt::join(parts, ", "));
 }
 
 /// The label of the pass that computes the pixels that the first estimate leaves out.
@@ -168,7 +169,8 @@ std::future<Device> start_device(const RunFlags& flags, const PlannedFrame& plan
 
 void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result,
                   const std::vector<std::string>& copied) {
-  if (!plan.wanted.empty()) fmt::print("'{}' left out {:.1f} % of the pixels\n", plan.mask, 100 * result.skipped_share);
+  if (!plan.wanted.empty())
+    fmt::print("'{}' left out {:.1f} % of the pixels\n", printable(plan.mask), 100 * result.skipped_share);
   if (!plan.rest.empty())
     fmt::print("{} computed {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
   if (!flags.out.empty()) fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));

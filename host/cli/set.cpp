@@ -131,7 +131,8 @@ void print_result(const SetCommand& flags, const MakeResult& result) {
   if (!result.unfrozen.empty())
     fmt::print("not frozen yet, so compared with nothing: {}\n", enumerate(result.unfrozen));
   for (const Difference& one : result.differences)
-    fmt::print("{}: expected {}, got {}; likely cause: {}\n", one.file, one.expected, one.got, one.cause);
+    fmt::print("{}: expected {}, got {}; likely cause: {}\n", printable(one.file), one.expected, printable(one.got),
+               printable(one.cause));
 }
 
 void check_make_flags(const SetCommand& flags) {
@@ -186,13 +187,13 @@ void print_verification(const std::string& folder, const Verification& found) {
   for (const Problem& one : found.problems) fmt::print("{} {}\n", printable(one.file), printable(one.problem));
   if (!found.missing.empty())
     fmt::print("not complete: {} not made: {}; gloam set make {} -o {} makes them\n",
-               counted(found.missing.size(), "item"), enumerate(found.missing), found.manifest.set,
+               counted(found.missing.size(), "item"), enumerate(found.missing), quoted_for_shell(found.manifest.set),
                quoted_for_shell(folder));
   if (!found.unfrozen.empty())
     fmt::print("not frozen yet, so compared with the manifest alone: {}\n", enumerate(found.unfrozen));
   if (found.problems.empty())
     fmt::print("{}: {} of {} {} as {}; hash {}\n", printable(folder), counted(size_t(found.files), "file"),
-               found.manifest.set, found.files == 1 ? "is" : "are",
+               printable(found.manifest.set), found.files == 1 ? "is" : "are",
                found.manifest.seed ? "the manifest says" : "frozen", found.manifest.hash);
 }
 

@@ -164,10 +164,16 @@ void write_page(const std::string& path, const std::vector<stress::Json>& docume
 
 stress::Json read_document(const std::string& path) {
   const stress::Json document = json_of_text(read_text(path), path);
+  const auto refuse = [&] {
+    throw Error("{}: holds no results of this gloam's stress command; gloam stress all --json FILE writes some", path);
+  };
   try {
     stress::stability_page({document});
+    for (const stress::Json& entry : document.at("cases")) entry.at("replay").get<std::string>();
   } catch (const Error&) {
-    throw Error("{}: holds no results of this gloam's stress command; gloam stress all --json FILE writes some", path);
+    refuse();
+  } catch (const stress::Json::exception&) {
+    refuse();
   }
   return document;
 }

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "gloam/error.h"
 #include "report/hard_cases.h"
 
@@ -33,8 +34,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// A file's document; discarded for a file that is not JSON.
-Json document_of(const fs::path& file) { return Json::parse(read_text(file), nullptr, false); }
+Json document_of(const fs::path& file) { return ordered_json_of_text(read_text(file), file.string()); }
 
 void check_one_version(const Board& board, const Results& results, const Source& added) {
   const Source& first = results.files[board.files.front()];

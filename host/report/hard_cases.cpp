@@ -16,8 +16,8 @@ HardCases hard_cases_of(const Json& document, const std::filesystem::path& file)
   for (const Object& each : all.needed_list("cases")) {
     const Json holds = each.json().value("held", Json());
     if (!holds.is_boolean())
-      throw Error("{}: a case of {} does not say whether it is held; gloam stress makes the file anew", file.string(),
-                  each.needed_text("technique"));
+      throw Error("{}: a case of {} does not say whether it is held; remove the file, and gloam stress makes it anew",
+                  file.string(), each.needed_text("technique"));
     const auto [known, is_new] =
         held[each.needed_text("technique")].emplace(each.needed_number("case"), holds.get<bool>());
     known->second = known->second && holds.get<bool>();

@@ -47,6 +47,13 @@ class Object : public JsonObject {
     return *number(key);
   }
 
+  size_t needed_count(const char* key) const {
+    constexpr double most = 1e9;
+    const double value = needed_number(key);
+    if (!(value >= 0 && value <= most)) fail(path_of(key), *find(key), "a count");
+    return size_t(value);
+  }
+
   Object object(const char* key) const {
     const Json* value = find(key);
     return Object(value ? *value : nothing, file(), path_of(key));
@@ -105,10 +112,11 @@ class Object : public JsonObject {
   static inline const Json nothing = Json::object();
 
   [[noreturn]] void fail(const std::string& place, const Json& value, const char* needed) const {
-    throw Error("{}: {} is {}, not {}; gloam bench makes the file anew", file(), place, shown(value), needed);
+    throw Error("{}: {} is {}, not {}; remove the file, and gloam bench makes it anew", file(), place, shown(value),
+                needed);
   }
   [[noreturn]] void missing(const char* key) const {
-    throw Error("{}: {} is missing; gloam bench makes the file anew", file(), path_of(key));
+    throw Error("{}: {} is missing; remove the file, and gloam bench makes it anew", file(), path_of(key));
   }
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "report/json_object.h"
@@ -60,7 +61,7 @@ Reads reads_by_name(const std::string& technique) {
 Reads reads_of(const Object& o) {
   Reads reads = reads_by_name(o.needed_text("technique"));
   if (const auto depths = o.texts("depths")) reads.depths = *depths;
-  reads.views = int(o.number("views").value_or(1));
+  reads.views = int(std::clamp(o.number("views").value_or(1), 0.0, 1e9));
   return reads;
 }
 
@@ -219,14 +220,14 @@ std::map<std::string, HeldCases> stability_of(const Object& o) {
   std::map<std::string, HeldCases> stability;
   for (const auto& [technique, counts] : o.json().items()) {
     const Object each = o.needed_object(technique.c_str());
-    stability[technique] = {size_t(each.needed_number("held")), size_t(each.needed_number("cases"))};
+    stability[technique] = {each.needed_count("held"), each.needed_count("cases")};
   }
   return stability;
 }
 
 SetFacts set_of(const Object& o) { return {o.text("name"), o.text("part"), o.text("hash"), o.number("seed")}; }
 
-Measurements measurements_of(const Object& o) {
+Measurements content_of(const Object& o) {
   Measurements m;
   m.device = o.text("device");
   m.cpu = o.text("cpu");
@@ -277,21 +278,9 @@ void add_scenes_of_rows(Measurements& m, const std::vector<Row>& rows) {
   }
 }
 
-Json parsed(const std::filesystem::path& file) {
-  try {
-    return Json::parse(read_text(file));
-  } catch (const nlohmann::json::exception& e) {
-    const std::string why = e.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
-    throw Error("{}: is not JSON: {}; gloam bench makes the file anew", file.string(),
-                why.substr(std::min(why.find("] ") + 2, why.size())));
-  }
-}
-
 Measurements read_file(const std::filesystem::path& file) {
-  const Json document = parsed(file);
-  Measurements m = measurements_of(Object(document, file.string(), ""));
-  for (const auto* rows : {&m.rows, &m.submitted}) add_scenes_of_rows(m, *rows);
-  return m;
+  const std::string name = file.string();
+  return measurements_of(ordered_json_of_text(read_text(file), name), name);
 }
 
 [[noreturn]] void nothing_to_show(const std::filesystem::path& file) {
@@ -301,6 +290,12 @@ Measurements read_file(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+Measurements measurements_of(const Json& document, const std::string& name) {
+  Measurements m = content_of(Object(document, name, ""));
+  for (const auto* rows : {&m.rows, &m.submitted}) add_scenes_of_rows(m, *rows);
+  return m;
+}
 
 bool reads_peeled_layers(const Reads& reads) { return contains(reads.depths, "peel"); }
 

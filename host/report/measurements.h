@@ -201,6 +201,9 @@ struct Measurements {
 /// entry.
 Measurements read_measurements(const std::filesystem::path& folder);
 
+/// The same from its content; `name` is the file's.
+Measurements measurements_of(const Json& document, const std::string& name);
+
 /// The bench.json that a path names: the file itself, or the one in the folder. Throws Error if there is neither.
 std::filesystem::path measurements_file(const std::filesystem::path& folder_or_file);
 

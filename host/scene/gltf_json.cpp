@@ -59,12 +59,7 @@ json parsed(const fs::path& path) {
   const std::string ending = path.extension().string();
   const bool binary = ending.size() == 4;
   const std::string text = binary ? json_of_glb(path) : read_text(path);
-  try {
-    return parse_shallow(text, path.string());
-  } catch (const json::exception& e) {
-    const std::string reason = e.what();  // "[json.exception.parse_error.101] parse error at line ..."
-    throw Error("{}: is not glTF: {}", path.string(), reason.substr(std::min(reason.find("] ") + 2, reason.size())));
-  }
+  return standard_json(text, path.string(), "is not glTF");
 }
 
 // --- Fields that may be missing or of another type
