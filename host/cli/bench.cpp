@@ -11,6 +11,7 @@
 #include "bench/native.h"
 #include "cli/bench_baseline.h"
 #include "cli/bench_chunks.h"
+#include "cli/bench_file.h"
 #include "cli/bench_google.h"
 #include "cli/bench_paper.h"
 #include "cli/bench_print.h"
@@ -120,6 +121,7 @@ void bench_command(const BenchCommand& given) {
                        {"-o", (options.scene.folder / "scene.exr").string()},
                        {"--google-benchmark", flags.google_benchmark},
                        {"--json", flags.json.file()}});
+  const BenchFile written(flags.folder);
   std::vector<std::pair<std::string, RadiusReport>> radii;
   unsigned long long memory = 0;
   TimeLimit limit = measures_all(flags) ? TimeLimit() : TimeLimit(flags.time);
@@ -134,6 +136,7 @@ void bench_command(const BenchCommand& given) {
       MeasureOptions of_effect = for_effect(options, effect);
       Subject subject =
           own_subject(flags.frame, flags.frame_flags, flags.truths, effect, of_effect.techniques, options.scene);
+      written.check(subject);
       memory = std::max(memory, subject.memory_bytes);
       if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
       of_effect.limit = limit.part(1.0 / double(subjects--));
@@ -145,6 +148,7 @@ void bench_command(const BenchCommand& given) {
       MeasureOptions of_effect = for_effect(options, effect);
       const auto start = std::chrono::steady_clock::now();
       Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene);
+      written.check(subject);
       limit.extend(seconds_since(start));  // capturing and tracing are done once, and their files stay
       if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
       of_effect.limit = limit.part(1.0 / double(subjects--));
@@ -161,11 +165,11 @@ void bench_command(const BenchCommand& given) {
   Json document = document_of(result, options, device.info());
   if (memory > 0) document["memory_bytes"] = memory;
   document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
-  const std::filesystem::path file = folder / "bench.json";
-  JsonFlag{file.string()}.write(document);
+  const std::filesystem::path file = written.path();
+  written.write(document);
   if (flags.processes > 1) {
     measure_in_more_processes({flags.processes, flags.repeated, folder, flags.rounds}, document);
-    JsonFlag{file.string()}.write(document);
+    written.write(document);
   }
   if (!flags.google_benchmark.empty()) write_google_benchmark(flags.google_benchmark, document);
   std::optional<ComparedWithBaseline> compared;

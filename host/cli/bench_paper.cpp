@@ -7,6 +7,7 @@
 #include "base/lists.h"
 #include "bench/document.h"
 #include "bench/papers/paper.h"
+#include "cli/bench_file.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"
@@ -46,13 +47,14 @@ void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   make_output_folder(options.folder);
   const std::filesystem::path document = options.folder / "bench.json", page = options.folder / (paper.name + ".md");
   check_paths({}, {{"-o", document.string()}, {"-o", page.string()}, {"--json", json.file()}});
+  const BenchFile file(options.folder);
   const PaperResult result = paper.reproduce(device, options);
   erase_status();
   const std::string text = page_of(paper, result, options, device.info());
   write_text(page, text);
-  const Json written = document_of(result, options, device.info());
-  JsonFlag{document.string()}.write(written);
-  json.write(written);
+  const Json measured = document_of(result, options, device.info());
+  file.write(measured);
+  json.write(measured);
   if (json.only_json()) return;
   fmt::print("{}\nwrote {} and {}\n", text, printable(page.string()), printable(document.string()));
 }

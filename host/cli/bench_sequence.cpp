@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/sequence_document.h"
+#include "cli/bench_file.h"
 #include "cli/bench_print.h"
 #include "cli/memory.h"
 #include "cli/shot.h"
@@ -169,7 +170,7 @@ void leave_out_layers(MeasureOptions& options, std::vector<Skipped>& skipped, co
 
 void print(const MeasuredSequence& sequence, const SequenceMeasurement& measured, const DeviceInfo& device) {
   const Table table = table_of_sequence(sequence, measured);
-  fmt::print("{}, {} ({})\n", cpu_model(), device.name, device.platform);
+  fmt::print("{}, {} ({})\n", cpu_model(), printable(device.name), printable(device.platform));
   fmt::print(
       "ms: kernels of one frame, median over the frames; /hbao+: over HBAO+ medium on the same frame.\n"
       "RMSE, SSIM: mean over the frames; flicker: of the error, from frame to frame (docs/sequences.md).\n");
@@ -252,6 +253,8 @@ void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given
                     const std::vector<Skipped>& skipped, Device& device, const JsonFlag& json) {
   const std::string document_path = (std::filesystem::path(flags.folder) / "bench.json").string();
   const std::vector<NamedPath> outputs = {{"-o", document_path}, {"--json", json.file()}};
+  make_output_folder(flags.folder);
+  const BenchFile written(flags.folder);
   MeasuredShot shot;
   if (FramePattern::is_pattern(flags.sequence)) {
     shot = measure_own_shot(flags, given, scene, skipped, device, outputs);
@@ -267,7 +270,7 @@ void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given
     shot.measured = measured_on(shot.sequence, options, left_out, device);
   }
   const Json document = document_of(shot.sequence, shot.measured, device.info());
-  JsonFlag{document_path}.write(document);
+  written.write(document);
   json.write(document);
   if (json.only_json()) return;
   print(shot.sequence, shot.measured, device.info());

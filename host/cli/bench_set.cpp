@@ -7,10 +7,10 @@
 #include "bench/effects.h"
 #include "bench/sequence.h"
 #include "bench/sequence_document.h"
+#include "cli/bench_file.h"
 #include "cli/bench_print.h"
 #include "cli/score_targets.h"
 #include "gloam/error.h"
-#include "score/result_file.h"
 
 namespace gloam::cli {
 namespace {
@@ -65,7 +65,6 @@ class SetBench {
     });
     make_output_folder(flags_.folder);
     file_.emplace(flags_.folder, set_.id);
-    kept_ = submitted_rows();
     check_paths({}, {{"-o", file_->path().string()}, {"--json", flags_.json.file()}});
   }
 
@@ -101,15 +100,6 @@ class SetBench {
     MeasuredSequence sequence;
     SequenceMeasurement rows;
   };
-
-  /// What gloam score has added to results of this set.
-  Json submitted_rows() const {
-    Json rows = Json::array();
-    for (const Json& row : file_->document()["results"]) {
-      if (row.is_object() && row.contains("submitted") && row["submitted"].is_object()) rows.push_back(row);
-    }
-    return rows;
-  }
 
   /// Those for an effect; for two eyes also the techniques of two views, unless the user names techniques.
   MeasureOptions options_for(const Target& target) const {
@@ -217,31 +207,13 @@ class SetBench {
         if (kind != kinds_.end()) each["kind"] = or_null(kind->second);
       }
     }
-    for (const Json& row : kept_) made["results"].push_back(row);
-    keep_scenes(made["scenes"]);
     return made;
   }
 
-  /// Adds the scenes of kept rows that were not measured.
-  void keep_scenes(Json& scenes) const {
-    const auto is_same = [](const Json& a, const Json& b) {
-      return a.value("name", "") == b.value("name", "") && a.value("effect", "ao") == b.value("effect", "ao");
-    };
-    for (const Json& before : file_->document()["scenes"]) {
-      const auto is_it = [&](const Json& scene) { return is_same(scene, before); };
-      const auto is_of_it = [&](const Json& row) {
-        return row.value("scene", "") == before.value("name", "") &&
-               row.value("effect", "ao") == before.value("effect", "ao");
-      };
-      if (std::none_of(scenes.begin(), scenes.end(), is_it) && std::any_of(kept_.begin(), kept_.end(), is_of_it))
-        scenes.push_back(before);
-    }
-  }
-
-  void write() const { JsonFlag{file_->path().string()}.write(document()); }
+  void write() const { file_->write(document()); }
 
   void print() const {
-    fmt::print("{}, {} ({}); set {}\n", cpu_model(), device_.info().name, device_.info().platform,
+    fmt::print("{}, {} ({}); set {}\n", cpu_model(), printable(device_.info().name), printable(device_.info().platform),
                printable(score::in_words(set_.id)));
     for (const SceneFacts& scene : result_.scenes) cli::print(table_of_scene(result_, scene));
     for (const Measured& each : sequences_) cli::print(table_of_sequence(each.sequence, each.rows));
@@ -254,8 +226,7 @@ class SetBench {
   const BenchCommand flags_;
   BenchOptions options_;
   Measurement result_;
-  std::optional<score::ResultFile> file_;
-  Json kept_ = Json::array();
+  std::optional<BenchFile> file_;
   std::vector<Measured> sequences_;
   std::vector<SceneFacts> sequence_scenes_;
   std::vector<Json> sequence_rows_;

@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "base/statistics.h"
+#include "cli/noted.h"
 #include "gloam/error.h"
 #include "run/plan_files.h"
 #include "technique/default_technique.h"
@@ -84,10 +85,8 @@ void JsonFlag::add_to(CLI::App& app) {
 
 void JsonFlag::write(const Json& document, const std::vector<std::string>& complete) const {
   if (path.empty()) return;
-  Json with_notes = document;
-  if (document.is_object() && !document.contains("notes")) with_notes["notes"] = notes_so_far();
   try {
-    write_document(path, with_notes.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_document(path, noted(document).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } catch (const Error& error) {
     if (complete.empty()) throw;
     throw Error("{}; {} {} complete", error.what(), enumerate(complete), complete.size() == 1 ? "is" : "are");

@@ -94,7 +94,7 @@ class ScoreRun {
   }
 
   void run() {
-    earlier_ = result_->rows_of(entry_.name);
+    earlier_ = result_->found().rows_of(entry_.name);
     for (size_t i = 0; i < targets_.size(); ++i) {
       show_status(targets_[i].in_words(), double(i) / double(targets_.size()));
       score_one(targets_[i]);
@@ -102,8 +102,12 @@ class ScoreRun {
     add_fits();
     std::vector<std::pair<std::string, std::string>> kept;
     for (const ScoredRow& row : rows_) kept.emplace_back(row.scored.target.name, row.scored.target.effect);
-    if (set_ && flags_.items.empty() && !rows_.empty()) result_->remove_others(entry_.name, kept);
-    if (!rows_.empty()) result_->write();
+    if (!rows_.empty()) {
+      result_->update([&](score::Results& results) {
+        for (const ScoredRow& row : rows_) results.set_fit(row.row, row.row["submitted"]["fit"]);
+        if (set_ && flags_.items.empty()) results.remove_others(entry_.name, kept);
+      });
+    }
     erase_status();
     tell();
   }
@@ -177,8 +181,7 @@ class ScoreRun {
       note(notes);
     }
     rows_.push_back({*scored, {}, score::row_of(*scored, entry_, details)});
-    result_->put(rows_.back().row, score::scene_of(*scored));
-    result_->write();
+    result_->update([&](score::Results& results) { results.put(rows_.back().row, score::scene_of(*scored)); });
     say_on_interruption(interruption_words());
   }
 
@@ -200,7 +203,6 @@ class ScoreRun {
       row.at_fit = scoring_->score_fitted(target, files, *fit);
       if (!row.at_fit) continue;
       row.row["submitted"]["fit"] = score::document_of(*fit, *row.at_fit, target.effect);
-      result_->set_fit(row.row, row.row["submitted"]["fit"]);
     }
   }
 
@@ -222,7 +224,7 @@ class ScoreRun {
     } else {
       print_scores(entry_, rows_, fits_);
       fmt::print("{} {}: gloam report {} shows them\n", result_->is_new() ? "wrote" : "added to",
-                 printable(result_->path().string()), printable(quoted_for_shell(flags_.folder)));
+                 printable(result_->path().string()), quoted_for_shell(flags_.folder));
     }
     if (left_out.empty()) return;
     std::fflush(stdout);

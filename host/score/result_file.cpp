@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/file_lock.h"
 #include "base/files.h"
+#include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/statistics.h"
 #include "bench/document.h"
 #include "gloam/error.h"
+#include "report/measurements.h"
 
 namespace gloam::score {
 namespace {
@@ -46,32 +49,54 @@ Json submitted_of(const Scored& scored, const Entry& entry, const RowDetails& de
   return submitted;
 }
 
-bool is_row_of(const Json& row, const std::string& name) {
-  return row.is_object() && row.contains("submitted") && row["submitted"].is_object() &&
-         row["submitted"].value("name", "") == name;
-}
-
 std::string text_in(const Json& object, const char* key, const std::string& usual = "") {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : usual;
 }
 
-/// Scene and effect that a row or a scene is of.
-std::pair<std::string, std::string> place_of(const Json& object, const char* name) {
-  return {text_in(object, name), text_in(object, "effect", "ao")};
+bool is_submitted(const Json& row) {
+  const auto found = row.find("submitted");
+  return found != row.end() && found->is_object();
 }
 
+bool is_row_of(const Json& row, const std::string& entry) {
+  return is_submitted(row) && text_in(row["submitted"], "name") == entry;
+}
+
+/// Scene and effect that a row or a scene is of.
+using Place = std::pair<std::string, std::string>;
+Place place_of(const Json& object, const char* name) {
+  return {text_in(object, name), text_in(object, "effect", "ao")};
+}
+Place place_of_row(const Json& row) { return place_of(row, "scene"); }
+Place place_of_scene(const Json& scene) { return place_of(scene, "name"); }
+
 /// Throws Error for two scenes of one name that differ in size or radius.
-void check_same(const Json& before, const Json& now, const std::filesystem::path& path) {
+void check_same(const Json& before, const Json& now, const std::string& file) {
   const auto differs = [&](const char* key) {
-    if (!before.contains(key) || before[key].is_null() || now[key].is_null()) return false;
-    if (!before[key].is_number()) return before[key] != now[key];
-    return std::abs(before[key].get<double>() - now[key].get<double>()) > 1e-4 * std::abs(now[key].get<double>());
+    const Json &a = before.value(key, Json()), &b = now.value(key, Json());
+    if (a.is_null() || b.is_null()) return false;
+    if (!a.is_number() || !b.is_number()) return a != b;
+    return std::abs(a.get<double>() - b.get<double>()) > 1e-4 * std::abs(b.get<double>());
   };
   for (const char* key : {"size", "radius"}) {
     if (differs(key))
-      throw Error("{}: '{}' there has the {} {}, and here {}; write these results to another folder (-o)",
-                  path.string(), text_in(now, "name"), key, before[key].dump(), now[key].dump());
+      throw Error("{}: '{}' there has the {} {}, and here {}; write these results to another folder (-o)", file,
+                  text_in(now, "name"), key, shown(before[key]), shown(now[key]));
+  }
+}
+
+/// The scene of a place; null if there is none.
+Json* scene_at(Json& scenes, const Place& place) {
+  const auto is_it = [&](const Json& scene) { return place_of_scene(scene) == place; };
+  const auto found = std::find_if(scenes.begin(), scenes.end(), is_it);
+  return found == scenes.end() ? nullptr : &*found;
+}
+
+/// What a scene does not say, as another says it.
+void fill_in(Json& scene, const Json& other) {
+  for (const char* key : {"truth_image", "kind", "base", "white"}) {
+    if ((!scene.contains(key) || scene[key].is_null()) && other.contains(key)) scene[key] = other[key];
   }
 }
 
@@ -92,6 +117,11 @@ Json new_document(const std::optional<SetId>& set) {
     document[list] = Json::array();
   return document;
 }
+
+/// Bytes of the lock's file.
+constexpr int change_byte = 0, measuring_byte = 1;
+
+std::filesystem::path lock_of(const std::filesystem::path& folder) { return folder / ".gloam-lock-bench"; }
 
 }  // namespace
 
@@ -170,55 +200,42 @@ Json scene_of(const Scored& scored) {
   return scene;
 }
 
-ResultFile::ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set)
-    : path_(folder / "bench.json") {
-  std::error_code unknown;
-  is_new_ = !std::filesystem::exists(path_, unknown);
-  if (is_new_) {
-    document_ = new_document(set);
-    return;
-  }
-  try {
-    document_ = Json::parse(read_text(path_));
-  } catch (const nlohmann::json::exception&) {
-    throw Error("{}: is not JSON, so nothing can be added to it; remove it, or name another folder (-o)",
-                path_.string());
-  }
-  if (!document_.is_object() || !document_.contains("results") || !document_["results"].is_array())
-    throw Error("{}: is no result of gloam bench or gloam score; name another folder (-o)", path_.string());
-  if (!document_.contains("scenes") || !document_["scenes"].is_array()) document_["scenes"] = Json::array();
-  const std::optional<SetId> before = set_in(document_);
-  if (before && !set)
-    throw Error("{}: is of the set {}, and no --set is given; name another folder (-o)", path_.string(),
-                in_words(*before));
-  if (set && !before && !document_["results"].empty())
-    throw Error("{}: is of no set, and --set is {}; name another folder (-o)", path_.string(), in_words(*set));
-  if (set && before && before->hash != set->hash)
-    throw Error("{}: is of the set {}, and --set is {}: another version; name another folder (-o)", path_.string(),
-                in_words(*before), in_words(*set));
-  if (set) document_["set"] = document_of(*set);
+Results::Results(const std::string& text, std::string name) : name_(std::move(name)) {
+  document_ = ordered_json_of_text(text, name_);
+  report::measurements_of(document_, name_);
+  if (!document_.contains("scenes") || document_["scenes"].is_null()) document_["scenes"] = Json::array();
 }
 
-size_t ResultFile::rows_of(const std::string& name) const {
+Results::Results(const std::optional<SetId>& set, std::string name)
+    : document_(new_document(set)), name_(std::move(name)) {}
+
+size_t Results::rows_of(const std::string& entry) const {
   const Json& rows = document_["results"];
-  return size_t(std::count_if(rows.begin(), rows.end(), [&](const Json& row) { return is_row_of(row, name); }));
+  return size_t(std::count_if(rows.begin(), rows.end(), [&](const Json& row) { return is_row_of(row, entry); }));
 }
 
-void ResultFile::put(Json row, Json scene) {
+size_t Results::measured_rows() const {
+  const auto length = [](const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_array() ? found->size() : 0;
+  };
+  const Json& rows = document_["results"];
+  const auto submitted = size_t(std::count_if(rows.begin(), rows.end(), is_submitted));
+  return rows.size() - submitted + length(document_, "paper") +
+         length(document_.value("sequence", Json::object()), "rows");
+}
+
+void Results::put(Json row, Json scene) {
   Json &rows = document_["results"], &scenes = document_["scenes"];
-  const auto place = place_of(row, "scene");
-  const auto is_scene = [&](const Json& each) { return each.is_object() && place_of(each, "name") == place; };
-  const auto known = std::find_if(scenes.begin(), scenes.end(), is_scene);
-  if (known == scenes.end()) {
-    scenes.push_back(std::move(scene));
+  const Place place = place_of_row(row);
+  if (Json* known = scene_at(scenes, place)) {
+    check_same(*known, scene, name_);
+    fill_in(*known, scene);
   } else {
-    check_same(*known, scene, path_);
-    for (const char* key : {"truth_image", "kind", "base", "white"}) {
-      if (!known->contains(key) || (*known)[key].is_null()) (*known)[key] = scene[key];
-    }
+    scenes.push_back(std::move(scene));
   }
-  const std::string name = row["submitted"]["name"];
-  const auto is_before = [&](const Json& each) { return is_row_of(each, name) && place_of(each, "scene") == place; };
+  const std::string entry = row["submitted"]["name"];
+  const auto is_before = [&](const Json& each) { return is_row_of(each, entry) && place_of_row(each) == place; };
   const auto before = std::find_if(rows.begin(), rows.end(), is_before);
   if (before != rows.end())
     *before = std::move(row);
@@ -226,25 +243,85 @@ void ResultFile::put(Json row, Json scene) {
     rows.push_back(std::move(row));
 }
 
-void ResultFile::set_fit(const Json& row, Json fit) {
+void Results::set_fit(const Json& row, const Json& fit) {
   for (Json& each : document_["results"]) {
-    if (is_row_of(each, row["submitted"]["name"]) && place_of(each, "scene") == place_of(row, "scene"))
+    if (is_row_of(each, row["submitted"]["name"]) && place_of_row(each) == place_of_row(row))
       each["submitted"]["fit"] = fit;
   }
 }
 
-void ResultFile::remove_others(const std::string& name, const std::vector<std::pair<std::string, std::string>>& kept) {
+void Results::remove_others(const std::string& entry, const std::vector<Place>& kept) {
   Json left = Json::array();
   for (Json& row : document_["results"]) {
-    const bool is_other =
-        is_row_of(row, name) && std::find(kept.begin(), kept.end(), place_of(row, "scene")) == kept.end();
+    const bool is_other = is_row_of(row, entry) && std::find(kept.begin(), kept.end(), place_of_row(row)) == kept.end();
     if (!is_other) left.push_back(std::move(row));
   }
   document_["results"] = std::move(left);
 }
 
-void ResultFile::write() const {
-  write_text(path_, document_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+void Results::check_scene(const Json& scene) const {
+  const Place place = place_of_scene(scene);
+  const auto is_on_it = [&](const Json& row) { return is_submitted(row) && place_of_row(row) == place; };
+  const Json& rows = document_["results"];
+  if (std::none_of(rows.begin(), rows.end(), is_on_it)) return;
+  Json scenes = document_["scenes"];
+  if (const Json* known = scene_at(scenes, place)) check_same(*known, scene, name_);
+}
+
+void Results::put_measured(Json measured) {
+  if (!measured.contains("scenes")) measured["scenes"] = Json::array();
+  for (const Json& scene : measured["scenes"]) check_scene(scene);
+  for (Json& row : document_["results"]) {
+    if (!is_submitted(row)) continue;
+    const Place place = place_of_row(row);
+    Json *before = scene_at(document_["scenes"], place), *now = scene_at(measured["scenes"], place);
+    if (before && now) fill_in(*now, *before);
+    if (before && !now) measured["scenes"].push_back(*before);
+    measured["results"].push_back(std::move(row));
+  }
+  document_ = std::move(measured);
+}
+
+ResultFile::ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set)
+    : path_(folder / "bench.json"), set_(set), found_(set, path_.string()) {
+  std::error_code unknown;
+  is_new_ = !std::filesystem::exists(path_, unknown);
+  found_ = read();
+}
+
+Results ResultFile::read() const {
+  std::error_code unknown;
+  const std::string name = path_.string();
+  if (!std::filesystem::exists(path_, unknown)) return Results(set_, name);
+  Results results(read_text(path_), name);
+  const std::optional<SetId> before = set_in(results.document_);
+  if (before && !set_)
+    throw Error("{}: is of the set {}, and no --set is given; name another folder (-o)", name, in_words(*before));
+  if (set_ && !before && !results.document_["results"].empty())
+    throw Error("{}: is of no set, and --set is {}; name another folder (-o)", name, in_words(*set_));
+  if (set_ && before && before->hash != set_->hash)
+    throw Error("{}: is of the set {}, and --set is {}: another version; name another folder (-o)", name,
+                in_words(*before), in_words(*set_));
+  if (set_) results.document_["set"] = document_of(*set_);
+  return results;
+}
+
+void ResultFile::update(const std::function<void(Results&)>& change) const {
+  constexpr double patience = 120;  ///< seconds; a change takes a fraction of one
+  const FileLock lock(lock_of(path_.parent_path()), {{change_byte, change_byte}}, patience);
+  if (lock.is_held_by_another())
+    throw Error("{}: another gloam has not come to an end with it for {} s; end that one, and run this again",
+                path_.string(), patience);
+  Results results = read();
+  change(results);
+  write_text(path_, results.document_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+MeasuringAlone::MeasuringAlone(const std::filesystem::path& folder)
+    : lock_(lock_of(folder), {{measuring_byte, measuring_byte}}) {
+  if (lock_.is_held_by_another())
+    throw Error("-o {}: another gloam bench measures into it; wait for its end, or name another folder",
+                folder.string());
 }
 
 }  // namespace gloam::score

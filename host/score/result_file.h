@@ -1,11 +1,13 @@
-// The results that a submission joins: DIR/bench.json.
+// The results that measurements and submissions join: DIR/bench.json.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/file_lock.h"
 #include "score/entry.h"
 #include "score/scoring.h"
 
@@ -42,30 +44,70 @@ Json scene_of(const Scored& scored);
 /// Median, least and greatest, and every round.
 Json milliseconds_of(const std::vector<double>& rounds);
 
-class ResultFile {
+/// What a result file holds: rows of gloam's own, those that were submitted, and the scenes of both.
+class Results {
  public:
-  /// Reads what is there. `set`: none for frames of the user's own. Throws Error for a file that is no result of gloam, or of another
-  /// set.
-  ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set);
+  /// `name`: of the file, for messages. Throws Error for a text that `gloam report` would not read either.
+  Results(const std::string& text, std::string name);
+  /// Without a row. `set`: none for frames of the user's own.
+  Results(const std::optional<SetId>& set, std::string name);
 
-  std::filesystem::path path() const { return path_; }
-  bool is_new() const { return is_new_; }
   /// Number of rows of an entry.
-  size_t rows_of(const std::string& name) const;
+  size_t rows_of(const std::string& entry) const;
+  /// Number of rows that gloam measured; those of a shot, or of a paper's tables, count too.
+  size_t measured_rows() const;
 
   /// Adds a row and its scene, in place of the same entry's row on the same scene. Throws Error for a scene of the same name that is another.
   void put(Json row, Json scene);
   /// Gives a row its fit.
-  void set_fit(const Json& row, Json fit);
+  void set_fit(const Json& row, const Json& fit);
   /// Removes an entry's rows that are not among `kept`, as pairs of scene and effect.
-  void remove_others(const std::string& name, const std::vector<std::pair<std::string, std::string>>& kept);
-  void write() const;
+  void remove_others(const std::string& entry, const std::vector<std::pair<std::string, std::string>>& kept);
+  /// Replaces all but the submitted rows and their scenes by what gloam measured. Throws Error as `check_scene`.
+  void put_measured(Json measured);
+  /// Throws Error if submitted rows are on a scene of this name that is another.
+  void check_scene(const Json& scene) const;
+
   const Json& document() const { return document_; }
 
  private:
-  std::filesystem::path path_;
+  friend class ResultFile;
   Json document_;
+  std::string name_;
+};
+
+/// DIR/bench.json, which several commands and processes add to.
+class ResultFile {
+ public:
+  /// Reads what is there. Throws Error for a file that is no result of gloam, or of another set.
+  ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set);
+
+  std::filesystem::path path() const { return path_; }
+  bool is_new() const { return is_new_; }
+  /// What was there when this object was made.
+  const Results& found() const { return found_; }
+
+  /// Changes the file as it is now, and replaces it whole. Other processes wait meanwhile, so that none loses what another has added.
+  /// Throws Error as the constructor does, and if another process does not come to an end.
+  void update(const std::function<void(Results&)>& change) const;
+
+ private:
+  Results read() const;
+
+  std::filesystem::path path_;
+  std::optional<SetId> set_;
   bool is_new_ = true;
+  Results found_;
+};
+
+/// While gloam's own techniques are measured into a folder. Results that were submitted may join meanwhile; a second measurement, which would
+/// replace the first and disturb its times, is refused. Throws Error.
+class MeasuringAlone {
+ public:
+  explicit MeasuringAlone(const std::filesystem::path& folder);
+
+ private:
+  FileLock lock_;
 };
 
 }  // namespace gloam::score
