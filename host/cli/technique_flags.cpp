@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "run/kept_folders.h"
 
 namespace gloam::cli {
 namespace {
@@ -85,7 +86,11 @@ void DeviceFlags::add_to(CLI::App& app, const std::string& group) {
       ->group(group);
 }
 
-Device DeviceFlags::open() const { return Device(device, !no_tuning); }
+Device DeviceFlags::open() const {
+  Device opened(device, !no_tuning);
+  if (const std::string foreign = foreign_folders_note(); !foreign.empty()) note({foreign});
+  return opened;
+}
 
 std::string DeviceFlags::as_text() const {
   return (device.empty() ? "" : " --device " + quoted_for_shell(device)) + (no_tuning ? " --no-tuning" : "");

@@ -82,6 +82,7 @@ std::vector<Found> find_devices() {
   const DriverAtWork driver;
   std::vector<cl::Platform> platforms;
   try {
+    const PoclLeftovers leftovers;
     cl::Platform::get(&platforms);
   } catch (const cl::Error&) {
     platforms.clear();

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -60,10 +58,10 @@ fs::path path_in_cache(const std::string& folder, const DeviceInfo& info) {
 std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
   const fs::path path = path_of(info);
   if (path.empty()) return {};
-  std::ifstream in(path);
-  if (!in) return {};
+  const std::optional<std::string> text = kept_text(path);
+  if (!text) return {};
   try {
-    const Json document = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
+    const Json document = ordered_json_of_text(*text, path.string());
     if (document.at("device") != key_of(info)) return {};
     DeviceRecord record;
     record.held = document.at("held");
@@ -76,6 +74,8 @@ std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
     return record;
   } catch (const Json::exception&) {
     return {};
+  } catch (const Error&) {
+    return {};
   }
 }
 
@@ -84,6 +84,7 @@ void keep_record(const DeviceInfo& info, const DeviceRecord& record) {
   if (path.empty()) throw Error("the result cannot be kept: {}", cache_folder().why_elsewhere);
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
+  make_way(path);
   const std::string text = document_of(info, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   write_atomically(
       path, [&](NewFile& file) { file.append(text); }, FileFor::cache);

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "gloam/error.h"
 #include "run/device_record.h"
+#include "run/kept_folders.h"
 
 namespace gloam {
 namespace {
@@ -23,14 +23,16 @@ fs::path path_of(const DeviceInfo& info) { return path_in_cache("speeds", info);
 EffectSpeeds::EffectSpeeds(const DeviceInfo& info) : info_(info) {
   const fs::path path = path_of(info);
   if (path.empty()) return;
-  std::ifstream in(path);
-  if (!in) return;
+  const std::optional<std::string> text = kept_text(path);
+  if (!text) return;
   try {
-    const Json document = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
+    const Json document = ordered_json_of_text(*text, path.string());
     if (document.at("device") != key_of(info) || document.at("kernels") != hash_of_kernels()) return;
     for (const auto& [settings, ns] : document.at("ns_per_pixel").items())
       if (ns.is_number() && double(ns) > 0) speeds_[settings] = ns;
   } catch (const Json::exception&) {
+    speeds_.clear();
+  } catch (const Error&) {
     speeds_.clear();
   }
 }
@@ -53,6 +55,7 @@ void EffectSpeeds::keep() const {
   const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
+  make_way(path);
   try {
     write_atomically(
         path, [&](NewFile& file) { file.append(text); }, FileFor::cache);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <vector>
 
@@ -30,12 +28,6 @@ std::string digest_of(const std::string& text) {
 /// What a file begins with: the key's digest and the program's, one line each.
 std::string header_of(const std::string& key_digest, const std::string& program) {
   return fmt::format("{}{}\n{}\n", magic, key_digest, digest_of(program));
-}
-
-std::optional<std::string> bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return {};
-  return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
 /// The program in a file's bytes, if they are whole and are this key's.
@@ -90,7 +82,7 @@ fs::path KernelCache::path_of(const std::string& key) const { return folder_ / (
 
 std::optional<std::string> KernelCache::find(const std::string& key) const {
   if (folder_.empty()) return {};
-  const std::optional<std::string> bytes = bytes_of(path_of(key));
+  const std::optional<std::string> bytes = kept_text(path_of(key));
   if (!bytes) return {};
   std::optional<std::string> program = program_in(*bytes, digest_of(key));
   if (!program) remove_damaged(path_of(key));
@@ -106,6 +98,7 @@ void KernelCache::keep(const std::string& key, const std::string& program) const
       file.append(header_of(digest_of(key), program));
       file.append(program);
     };
+    make_way(path_of(key));
     write_atomically(path_of(key), write, FileFor::cache);
   } catch (const Error&) {
     return;
@@ -120,7 +113,7 @@ KernelCache::Check KernelCache::check() const {
   Check result;
   if (folder_.empty()) return result;
   for (const fs::directory_entry& entry : entries_of(folder_)) {
-    const std::optional<std::string> bytes = bytes_of(entry.path());
+    const std::optional<std::string> bytes = kept_text(entry.path());
     if (bytes && program_in(*bytes, entry.path().stem().string())) {
       ++result.kept;
     } else {
