@@ -12,8 +12,6 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "gloam/error.h"
@@ -175,11 +173,13 @@ class Temporary {
 
 std::atomic<const char*> interruption_text{nullptr};
 std::atomic<int> group_to_kill{0};
+std::atomic<void (*)()> function_to_call{nullptr};
 void say(const char* text) { [[maybe_unused]] const ssize_t put = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 extern "C" void remove_and_leave(int signal) {
   if (leaving.exchange(true)) return;  // a second signal, on another thread: one report is enough
   if (const int group = group_to_kill.load()) ::kill(-group, SIGKILL);
+  if (void (*const function)() = function_to_call.load()) function();
   while (being_made.load() > 0) continue;  // other threads do: this one delays signals while it makes one
   unsigned written = files_written.load();
   for (TemporaryName& slot : temporaries)
@@ -306,6 +306,8 @@ void remove_temporaries_on_signal() {
   files_written.store(0);
 }
 
+void call_on_signal(void (*function)()) { function_to_call.store(function); }
+
 void kill_group_on_signal(int group) { group_to_kill.store(group); }
 
 void say_on_interruption(const char* text) { interruption_text.store(text); }
@@ -322,12 +324,47 @@ void check_regular(const fs::path& path) {
     throw Error("{}: is a device or a pipe; name a regular file", path.string());
 }
 
+namespace {
+
+/// A file that is read; closed at the end. It does not wait for the other end of a pipe.
+class OpenFile {
+ public:
+  explicit OpenFile(const fs::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  bool is_regular() const {
+    struct stat about {};
+    return ::fstat(descriptor_, &about) == 0 && S_ISREG(about.st_mode);
+  }
+  /// Number of bytes; below 0 for a failure.
+  ssize_t read(std::array<char, 1 << 16>& bytes) const {
+    ssize_t got = -1;
+    do got = ::read(descriptor_, bytes.data(), bytes.size());
+    while (got < 0 && errno == EINTR);
+    return got;
+  }
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
 std::string read_text(const fs::path& path) {
-  check_regular(path);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
+  const OpenFile file(path);
+  const int failure = errno;
+  if (!file.is_open() || !file.is_regular()) check_regular(path);
+  if (!file.is_open()) throw Error("{}: cannot read: {}", path.string(), std::strerror(failure));
+  std::string text;
+  std::array<char, 1 << 16> bytes;
+  ssize_t got = 0;
+  while ((got = file.read(bytes)) > 0) text.append(bytes.data(), size_t(got));
+  if (got < 0) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   return text;
 }
 

@@ -53,6 +53,9 @@ void remove_temporaries_on_signal();
 /// Replaces the number of files written in that line by a text, from now on. `text` must live as long as the program.
 void say_on_interruption(const char* text);
 
+/// That handler also calls a function, of system calls alone.
+void call_on_signal(void (*function)());
+
 /// That handler also kills this group of processes; 0: none. Groups of children do not get a terminal's Ctrl-C.
 void kill_group_on_signal(int group);
 

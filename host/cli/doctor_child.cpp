@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/elapsed.h"
+#include "base/temporary_folder.h"
 #include "cli/children.h"
 #include "doctor/measure.h"
 #include "doctor/self_test.h"
@@ -25,24 +26,6 @@ constexpr double patience = 120;  ///< seconds without a sign of life; compiling
 
 const std::string& table() { return data_files().at("self_test.json"); }
 
-/// A folder for what a start takes, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_((fs::temp_directory_path() / "gloam-doctor-XXXXXX").string()) {
-    if (!mkdtemp(path_.data())) throw Error("{}: no folder can be made", path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path operator/(const char* name) const { return fs::path(path_) / name; }
-
- private:
-  std::string path_;
-};
-
 /// Milliseconds of a command from its start to its end; none if it fails.
 std::optional<double> time_of_start(const std::vector<std::string>& arguments,
                                     const std::map<std::string, std::string>& environment) {
@@ -55,7 +38,8 @@ std::optional<double> time_of_start(const std::vector<std::string>& arguments,
 
 /// Times two runs of a command on an image: where no kernels are kept, and where those of the first are.
 void measure_starts(Diagnosis& diagnosis, const std::function<void()>& goes_on) {
-  const TemporaryFolder folder;
+  const TemporaryFolder temporary("doctor");
+  const fs::path& folder = temporary.path();
   const fs::path frame = folder / "frame.exr", cache = folder / "cache";
   fs::create_directory(cache);
   write_frame(frame, stress::shoot(stress::perspective(640, 360), stress::room()));

@@ -4,13 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
 
+#include "base/temporary_folder.h"
 #include "bench/effects.h"
 #include "cli/pick_shot.h"
 #include "cli/shot_flags.h"
@@ -185,25 +184,6 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   print_left_out(picked);
 }
 
-/// A temporary folder for a traced truth; the destructor removes it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gloam-pick-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw Error("{}: no folder can be made: {}", pattern, std::strerror(errno));
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code unknown;
-    std::filesystem::remove_all(path_, unknown);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& flags) {
   SceneOptions scene;
   scene.folder = folder;
@@ -214,7 +194,7 @@ SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& f
 }
 
 void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch("pick");
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
   const SequenceBenchFlags sequence{.sequence = flags.frame,
@@ -241,7 +221,7 @@ void pick_command(const PickCommand& flags) {
   std::vector<NamedPath> inputs = {{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
   check_paths(inputs, {{"--json", flags.json.file()}});
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch("pick");
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
   // Tracing a truth is done once, and does not count.

@@ -1,14 +1,14 @@
 // Hard case 11: images of every shape. Memory beside an image must not affect it.
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
+#include "base/file_lock.h"
 #include "gloam/planes.h"
 #include "stress/case.h"
 #include "stress/frames.h"
@@ -108,17 +108,17 @@ Measured difference_of_tiles(const std::string& name, const Channel& values) {
 /// Only one process at a time computes so large an image: the next one then sees how much memory is left.
 class LargeImageAlone {
  public:
-  LargeImageAlone() : file_(open(path().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ >= 0) flock(file_, LOCK_EX);
+  LargeImageAlone() {
+    constexpr double patience = 1e9;  ///< seconds; the parent ends a child that takes too long
+    const std::string name = fmt::format(".gloam-stress-large-image-{}", getuid());
+    try {
+      lock_.emplace(std::filesystem::temp_directory_path() / name, FileLock::Ranges{{0, 0}}, patience);
+    } catch (const std::exception&) {  // without it, two may take more memory than there is
+    }
   }
-  ~LargeImageAlone() {
-    if (file_ >= 0) close(file_);
-  }
-  LargeImageAlone(const LargeImageAlone&) = delete;
 
  private:
-  static std::string path() { return (std::filesystem::temp_directory_path() / "gloam-stress-large-image").string(); }
-  int file_;
+  std::optional<FileLock> lock_;
 };
 
 /// Relative excess of the memory taken over the prediction; below 0 if less was taken. The compiler's memory is not counted.
