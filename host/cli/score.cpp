@@ -5,6 +5,7 @@
 #include "base/command_line.h"
 #include "base/files.h"
 #include "bench/pictures.h"
+#include "cli/memory.h"
 #include "cli/score_command.h"
 #include "cli/score_print.h"
 #include "cli/score_targets.h"
@@ -66,7 +67,8 @@ void check_flags(const ScoreFlags& flags) {
   }
   if (flags.set.empty()) return;
   for (const CLI::Option* option : flags.app->get_options()) {
-    if (option->get_group() == "Reading the frame" && option->count() > 0 && option->get_name() != "--plane")
+    if (option->get_group() == "Reading the frame" && option->count() > 0 && option->get_name() != "--plane" &&
+        option->get_name() != "--limit-memory")
       throw UsageError("{}: says how frames are read, and those of a set say it themselves; leave it out",
                        option->get_name());
   }
@@ -86,6 +88,9 @@ class ScoreRun {
     options.frames = reading_;
     options.frames.channels.clear();
     options.images.channels = reading_.channels;
+    options.afford = [this](const std::string& file, unsigned long long bytes) {
+      planned_memory(flags_.frame_flags, file, process_bytes + bytes, "use a smaller one");
+    };
     scoring_.emplace(entry_, options);
     if (!flags.command.command.empty())
       command_.emplace(flags.command, fs::path(flags.folder) / "submitted" / bench::file_name(entry_.name));

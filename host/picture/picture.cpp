@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/memory.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
@@ -172,6 +173,10 @@ cv::Mat read_png(const std::filesystem::path& path) {
   if ((long long)png.width * png.height > max_pixels)
     throw Error("{}: has {}x{} pixels; {} are read at most", path.string(), png.width, png.height, max_pixels);
   png.format = PNG_FORMAT_GA;
+  const unsigned long long bytes = PNG_IMAGE_SIZE(png);
+  if (bytes > available_memory())
+    throw Error("{}: has {}x{} pixels, which take {} of memory, and {} are available", path.string(), png.width,
+                png.height, memory_in_words(bytes), memory_in_words(available_memory()));
   cv::Mat image(int(png.height), int(png.width), CV_8UC2);
   if (!png_image_finish_read(&png, nullptr, image.data, png_int_32(image.step[0]), nullptr))
     throw Error("{}: cannot be read as PNG: {}", path.string(), png.message);

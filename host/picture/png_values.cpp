@@ -32,6 +32,8 @@ struct Decoding {
   }
 };
 
+constexpr png_alloc_size_t largest_chunk = 1 << 20;
+
 void keep_reason(png_structp png, png_const_charp text) {
   static_cast<Decoding*>(png_get_error_ptr(png))->why = text;
   png_longjmp(png, 1);
@@ -77,7 +79,7 @@ Channel channel_of(const Decoding& d, int component) {
 
 }  // namespace
 
-PngValues read_png_values(const std::filesystem::path& path) {
+PngValues read_png_values(const std::filesystem::path& path, const std::function<void(const PngSize&)>& check) {
   check_regular(path);
   Decoding d;
   const auto refuse = [&]() { return Error("{}: cannot be read as PNG: {}", path.string(), d.why); };
@@ -85,11 +87,14 @@ PngValues read_png_values(const std::filesystem::path& path) {
   if (!d.file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &d, keep_reason, ignore_warning);
   d.info = d.png ? png_create_info_struct(d.png) : nullptr;
+  if (d.png) png_set_chunk_malloc_max(d.png, largest_chunk);  // texts and profiles, which a file may have compressed
   if (!d.info) throw Error("{}: cannot be read as PNG: out of memory", path.string());
   if (!read_header(d)) throw refuse();
   if ((long long)d.width * d.height > max_pixels)
     throw Error("{}: has {}x{} pixels; {} are read at most", path.string(), d.width, d.height, max_pixels);
   const size_t row = png_get_rowbytes(d.png, d.info);
+  const unsigned long long decoded = row + size_t(d.channels) * sizeof(float) * d.width;
+  if (check) check({int(d.width), int(d.height), decoded * d.height});
   d.bytes.resize(row * d.height);
   for (size_t y = 0; y < d.height; ++y) d.rows.push_back(d.bytes.data() + y * row);
   if (!read_rows(d)) throw refuse();

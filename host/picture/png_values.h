@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "gloam/frame.h"
@@ -15,7 +16,13 @@ struct PngValues {
   std::vector<Channel> channels;  ///< one of grey, three of colours
 };
 
-/// Throws Error naming `path` if it is no PNG, damaged, or larger than `max_pixels`.
-PngValues read_png_values(const std::filesystem::path& path);
+/// What a PNG's header says before anything is decoded: its size, and the bytes that decoding takes.
+struct PngSize {
+  int width = 0, height = 0;
+  unsigned long long bytes = 0;
+};
+
+/// `check` throws for a size that is not wanted. Throws Error naming `path` if it is no PNG, damaged, or larger than `max_pixels`.
+PngValues read_png_values(const std::filesystem::path& path, const std::function<void(const PngSize&)>& check = {});
 
 }  // namespace gloam

@@ -54,6 +54,8 @@ void EmbeddedPictures::embed(int width, const std::function<void(int done, int o
       index_[names_[i]] = count_++;
     } catch (const Error& error) {
       notes_.push_back(fmt::format("{}; the page goes without this picture", error.what()));
+    } catch (const cv::Exception&) {  // what it throws where memory runs out
+      notes_.push_back(fmt::format("{}: memory ran out; the page goes without this picture", (folder / name).string()));
     }
     if (progress) progress(int(i + 1), int(names_.size()));
   }

@@ -150,9 +150,10 @@ std::vector<std::string> scored_effects() {
 
 bool is_share(const std::string& effect) { return plane_kind(effect).meaning == PlaneKind::unit_interval; }
 
-Entry read_entry(const std::filesystem::path& file) {
-  const std::string path = file.string();
-  const Json document = json_of_text(read_text(file), path);
+Entry read_entry(const std::filesystem::path& file) { return entry_of(read_text(file), file.string()); }
+
+Entry entry_of(const std::string& text, const std::string& path) {
+  const Json document = json_of_text(text, path);
   const Fields fields(
       document, path, "",
       {"name", "version", "link", "authors", "settings", "device", "time_ms", "effect", "convention", "licence"});

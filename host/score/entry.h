@@ -46,6 +46,8 @@ bool is_share(const std::string& effect);
 /// Throws Error in one line that names the file, the key, its value, and what is allowed: for an unknown key, a value of another type or
 /// out of range, a name that a technique of gloam has, and a convention that the effect has not.
 Entry read_entry(const std::filesystem::path& file);
+/// The same from the file's content.
+Entry entry_of(const std::string& text, const std::string& file);
 
 /// As in the entry, with what it leaves out.
 Json document_of(const Convention& convention);

@@ -92,17 +92,17 @@ void undo(const Convention& c, const std::string& effect, StoredImage& stored) {
   });
 }
 
-void check_size(const StoredImage& stored, int scale, const Layout& frame, const std::string& file) {
+void check_size(int width, int height, int scale, const Layout& frame, const std::string& file) {
   const auto fits = [scale](int size, int whole) {
     return size == whole / scale || size == (whole + scale - 1) / scale;
   };
-  if (fits(stored.width, frame.width) && fits(stored.height, frame.height)) return;
+  if (fits(width, frame.width) && fits(height, frame.height)) return;
   std::string hint;
   for (const auto& [word, other] : {std::pair("full", 1), {"half", 2}, {"quarter", 4}}) {
-    if (stored.width == (frame.width + other - 1) / other && stored.height == (frame.height + other - 1) / other)
+    if (width == (frame.width + other - 1) / other && height == (frame.height + other - 1) / other)
       hint = fmt::format("; \"resolution\": \"{}\" in the entry's convention says so", word);
   }
-  throw Error("{}: is {}x{}, and {}x{} is needed for a frame of {}x{}{}", file, stored.width, stored.height,
+  throw Error("{}: is {}x{}, and {}x{} is needed for a frame of {}x{}{}", file, width, height,
               (frame.width + scale - 1) / scale, (frame.height + scale - 1) / scale, frame.width, frame.height, hint);
 }
 

@@ -14,7 +14,7 @@ namespace gloam::score {
 void undo(const Convention& convention, const std::string& effect, StoredImage& stored);
 
 /// Throws Error, naming the file, unless the image has the frame's size divided by the scale, rounded up or down.
-void check_size(const StoredImage& stored, int scale, const Layout& frame, const std::string& file);
+void check_size(int width, int height, int scale, const Layout& frame, const std::string& file);
 
 /// An image of a lower resolution at the frame's size: between the centres of its pixels, linearly. Values that are not finite and
 /// pixels that cover no surface do not count.

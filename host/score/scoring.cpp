@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "base/lists.h"
 #include "bench/sequence.h"
 #include "compare/plane_pairs.h"
 #include "gloam/error.h"
 #include "gloam/flicker.h"
+#include "run/driver.h"
 #include "score/plain_image.h"
 
 namespace gloam::score {
@@ -106,9 +108,12 @@ bench::Image Scoring::plain_image(const Target& target, const LoadedFrame& loade
   for (const SubmittedFile& file : files) {
     const std::string path = file.path.string();
     const bool is_of_all = file.view.empty();
+    const auto check = [&](int width, int height, unsigned long long bytes) {
+      check_size(width, height, scale, layout, path);
+      afford(path, bytes + loaded.bytes());
+    };
     StoredImage stored =
-        read_stored({file.path, target.effect, is_of_all ? views : std::vector{file.view}, options_.images});
-    check_size(stored, scale, layout, path);
+        read_stored({file.path, target.effect, is_of_all ? views : std::vector{file.view}, options_.images, check});
     undo(entry_.convention, target.effect, stored);
     if (scale > 1) {
       const Layout small(stored.width, stored.height);
@@ -130,6 +135,10 @@ bench::Image Scoring::plain_image(const Target& target, const LoadedFrame& loade
     throw Error("{}: no image of view {}; {}_VIEW_{}.exr names one", names_of(files), enumerate(missing), target.name,
                 target.effect);
   return image;
+}
+
+void Scoring::afford(const std::string& file, unsigned long long bytes) const {
+  if (options_.afford) options_.afford(file, bytes);
 }
 
 void Scoring::note_radius(const Target& target, const LoadedFrame& loaded) {
@@ -163,7 +172,12 @@ std::optional<Scoring::Walked> Scoring::walk(const Target& target, const FilesOf
                                              bool is_first) {
   Walked walked;
   for (const TargetFrame& at : target.frames) {
+    const auto leave_out = [&](const std::string& why) {
+      walked.missing.push_back(at.number);
+      if (is_first) left_out_.push_back({target.in_words(at.number), why});
+    };
     try {
+      afford(at.frame.string(), bytes_to_load(at, target.effect, options_.frames));
       LoadedFrame loaded = load(at, target.effect, options_.frames, notes_);
       std::optional<double> own;
       const bench::Image plain = plain_image(target, loaded, files_of(target, at), own);
@@ -185,8 +199,9 @@ std::optional<Scoring::Walked> Scoring::walk(const Target& target, const FilesOf
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {
-      walked.missing.push_back(at.number);
-      if (is_first) left_out_.push_back({target.in_words(at.number), error.what()});
+      leave_out(error.what());
+    } catch (const std::bad_alloc&) {
+      leave_out("memory ran out" + memory_limit());
     }
   }
   if (walked.frames.empty()) return {};

@@ -42,6 +42,8 @@ struct ScoringOptions {
   std::filesystem::path folder;  ///< of images/; empty: no pictures
   ReadOptions frames;            ///< how frames are read
   ReadOptions images;            ///< how images are read
+  /// Throws Error for a file that takes more memory than it may, given what is held besides. Empty: all may be read.
+  std::function<void(const std::string& file, unsigned long long bytes)> afford = {};
 };
 
 /// Gives the files of a frame's image. Throws Error where there are none that can be scored.
@@ -72,6 +74,7 @@ class Scoring {
   std::optional<Walked> walk(const Target& target, const FilesOf& files_of, const Transform& transform, bool is_first);
   bench::Image plain_image(const Target& target, const LoadedFrame& loaded, const std::vector<SubmittedFile>& files,
                            std::optional<double>& rmse_at_own_size);
+  void afford(const std::string& file, unsigned long long bytes) const;
   void note_radius(const Target& target, const LoadedFrame& loaded);
   void add_to_fit(const Target& target, const TargetFrame& at, const LoadedFrame& loaded, const bench::Image& image);
 

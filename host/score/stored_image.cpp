@@ -46,7 +46,8 @@ void fit_components(Plane& plane, const ImageRequest& request, double most) {
 }
 
 StoredImage read_png_image(const ImageRequest& request) {
-  PngValues values = read_png_values(request.file);
+  PngValues values =
+      read_png_values(request.file, [&](const PngSize& size) { request.check(size.width, size.height, size.bytes); });
   if (request.views.size() > 1)
     throw Error("{}: is one image, and the frame has the views {}; name one file for each, such as NAME_{}.png",
                 request.file.string(), enumerate(request.views), request.views.front());
@@ -85,6 +86,7 @@ StoredImage read_exr_image(const ImageRequest& request) {
   options.as_stored = true;
   const std::string plane = choose_plane(request, options);
   FrameFile file(request.file, options);
+  request.check(file.window().width(), file.window().height(), file.bytes_to_read({plane}));
   Frame frame = file.read({plane});
   StoredImage stored;
   stored.width = frame.width();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct ImageRequest {
   std::string effect;
   std::vector<std::string> views;
   ReadOptions reading;  ///< channels: --plane
+  /// Called before pixels are decoded, with the image's size and the bytes that reading it takes. Throws Error for one that is not read.
+  std::function<void(int width, int height, unsigned long long bytes)> check;
 };
 
 /// Reads an EXR or a PNG of 8 or 16 bits. An EXR gives the effect's plane, else red, green and blue, Y, or its only channel; for an effect

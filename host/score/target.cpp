@@ -19,6 +19,14 @@ double white_of(const LoadedFrame& loaded) {
   return bench::white_of(loaded.truth.image.at(view.name), view.planes.at("depth").channels[0]);
 }
 
+std::vector<std::string> planes_to_load(const FrameFile& file) {
+  std::vector<std::string> planes;
+  for (const char* plane : {"depth", "normal", "motion"}) {
+    if (contains(file.common_planes(), plane)) planes.emplace_back(plane);
+  }
+  return planes;
+}
+
 }  // namespace
 
 std::string Target::in_words(std::optional<int> frame) const {
@@ -34,19 +42,39 @@ std::vector<std::string> LoadedFrame::views() const {
   return names;
 }
 
+unsigned long long LoadedFrame::bytes() const {
+  unsigned long long bytes = 0;
+  const auto add = [&](const Plane& plane) {
+    for (const Channel& channel : plane.channels) bytes += channel.layout().bytes();
+  };
+  for (const View& view : frame.views) {
+    for (const auto& [name, plane] : view.planes) add(plane);
+  }
+  for (const auto& [view, plane] : truth.image) add(plane);
+  return bytes;
+}
+
+unsigned long long bytes_to_load(const TargetFrame& at, const std::string& effect, const ReadOptions& reading) {
+  if (at.check) at.check();
+  const FrameFile file(at.frame, reading);
+  unsigned long long bytes = file.bytes_to_read(planes_to_load(file));
+  ReadOptions as_stored;
+  as_stored.as_stored = true;
+  for (const std::string& path : at.truths) {
+    const FrameFile truth(path, as_stored);
+    if (contains(truth.common_planes(), effect)) bytes += truth.bytes_to_read({effect});
+  }
+  return bytes;
+}
+
 LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOptions& reading,
                  std::vector<std::string>& notes) {
   if (at.check) at.check();
   LoadedFrame loaded;
   FrameFile file(at.frame, reading);
-  const std::vector<std::string> there = file.common_planes();
-  if (!contains(there, "depth"))
+  if (!contains(file.common_planes(), "depth"))
     throw Error("{}: has no depth to tell the background by; {}", at.frame.string(), holdings(file));
-  std::vector<std::string> planes = {"depth"};
-  for (const char* plane : {"normal", "motion"}) {
-    if (contains(there, plane)) planes.push_back(plane);
-  }
-  loaded.frame = file.read(planes);
+  loaded.frame = file.read(planes_to_load(file));
   loaded.truth = bench::read_truth(at.truths, effect, loaded.frame, notes);
   for (auto& [view, plane] : loaded.truth.image) plane = without_confidence(std::move(plane));
   loaded.foreground = bench::foreground(loaded.frame);

@@ -41,7 +41,12 @@ struct LoadedFrame {
   bench::Foreground foreground;
   double exposure = 0;  ///< of a reflection, by its truth
   std::vector<std::string> views() const;
+  /// Of its planes and its truth.
+  unsigned long long bytes() const;
 };
+
+/// Bytes that `load` takes, by the headers of the files. Throws as that.
+unsigned long long bytes_to_load(const TargetFrame& at, const std::string& effect, const ReadOptions& reading);
 
 /// Throws Error: a file is not the set's, cannot be read, or has neither depth nor truth.
 LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOptions& reading,

@@ -399,5 +399,66 @@ TEST_F(Score, CommandLinesAreChecked) {
   }
 }
 
+TEST_F(Score, MeasuringLeavesWhatWasSubmitted) {
+  write_image(items[0], 1, "ao", same, "theirs");
+  const Arguments own = {"--frame", frame("room"), "--truth", truth("room", "ao")};
+  const auto with_own = [&](Arguments words) {
+    words.insert(words.end(), own.begin(), own.end());
+    return words;
+  };
+  ok(with_own({"score", path("images/theirs.exr"), "--json", path("entry.json"), "-o", path("out")}));
+  for (int run = 0; run < 2; ++run) {
+    const Result measured =
+        gloam(with_own({"bench", "-o", path("out"), "--techniques", "ssao", "--presets", "low", "--rounds", "1"}));
+    ASSERT_EQ(measured.status, 0) << measured.err;
+    EXPECT_FALSE(row("room").is_null());
+    EXPECT_FALSE(row("room", "ssao").is_null());
+    EXPECT_EQ(lines_beginning(measured.err, "note: " + path("out/bench.json").string() + ": had "), run);
+  }
+  const Result other = gloam(with_own(
+      {"bench", "-o", path("out"), "--techniques", "ssao", "--presets", "low", "--rounds", "1", "--radius", "2"}));
+  EXPECT_NE(other.status, 0);
+  EXPECT_FALSE(row("room").is_null());
+}
+
+TEST_F(Score, FourAtOnceLoseNothing) {
+  write_all(same);
+  std::vector<pid_t> running;
+  for (int i = 1; i <= 4; ++i) {
+    const std::string name = "m" + std::to_string(i);
+    std::ofstream(path(name + ".json")) << Json{{"name", name}}.dump();
+    running.push_back(start({"score", path("images"), "--json", path(name + ".json"), "--set", path("set"), "-o",
+                             path("out"), "--no-images"}));
+  }
+  for (const pid_t child : running) EXPECT_EQ(finish(child).status, 0) << slurp(path("stderr"));
+  for (int i = 1; i <= 4; ++i) {
+    for (const ScoreItem& item : items)
+      EXPECT_FALSE(row(item.name, "m" + std::to_string(i)).is_null()) << item.name << i;
+  }
+}
+
+/// A picture whose header states far more pixels than its frame has, in a file of a few bytes.
+TEST_F(Score, APictureOfAnotherSizeIsLeftOutBeforeItIsDecoded) {
+  write_all(same);
+  fs::remove(path("images/room_ao.exr"));
+  write_png(path("images/room_ao.png"), cv::Mat(8000, 8000, CV_8UC1, cv::Scalar(9)));
+  const Result result =
+      finish(start({"score", path("images"), "--json", path("entry.json"), "--set", path("set"), "-o", path("out")}, {},
+                   {.address_space = 1 << 29, .seconds = 200}));
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_NE(result.err.find("room_ao.png: is 8000x8000, and 96x54 is needed"), std::string::npos) << result.err;
+  EXPECT_TRUE(row("room").is_null());
+  EXPECT_FALSE(row("walk").is_null());
+  EXPECT_FALSE(row("pair").is_null());
+}
+
+TEST_F(Score, AnImageThatTakesTooMuchMemoryIsLeftOut) {
+  write_all(same);
+  const Result result = score_images({"--limit-memory", "48M"});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_NE(result.err.find("--limit-memory 48M allows 48 MiB"), std::string::npos) << result.err;
+  EXPECT_EQ(score_images({"--limit-memory", "1G"}).status, 0);
+}
+
 }  // namespace
 }  // namespace gloam::test
