@@ -25,6 +25,18 @@ struct HeldFrame {
 };
 using SharedFrame = std::shared_ptr<HeldFrame>;
 
+/// A text of a file, whose names need not be UTF-8, as `os.fsdecode` makes such names.
+inline py::str text_of(const std::string& text) {
+  PyObject* const made = PyUnicode_DecodeUTF8(text.data(), py::ssize_t(text.size()), "surrogateescape");
+  if (!made) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(made);
+}
+inline py::list texts_of(const std::vector<std::string>& texts) {
+  py::list list;
+  for (const std::string& text : texts) list.append(text_of(text));
+  return list;
+}
+
 void add_errors(py::module_& module);
 void add_camera(py::module_& module);
 void add_devices(py::module_& module);

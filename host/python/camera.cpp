@@ -71,7 +71,9 @@ void check_clipping(const Camera& camera) {
 double number(const char* name, const py::object& value) {
   const double number = py::isinstance<py::bool_>(value) ? -1 : PyFloat_AsDouble(value.ptr());
   if (!py::isinstance<py::bool_>(value) && !PyErr_Occurred()) return number;
+  const bool is_too_large = !py::isinstance<py::bool_>(value) && PyErr_ExceptionMatches(PyExc_OverflowError);
   PyErr_Clear();
+  if (is_too_large) throw UsageError("camera: {} is beyond 1.8e308; a number below is allowed", name);
   throw UsageError("camera: {} is of type {}; a number is allowed", name,
                    py::cast<std::string>(py::type::of(value).attr("__name__")));
 }
@@ -134,7 +136,7 @@ void add_camera(py::module_& module) {
       .def_readonly("near", &Camera::near)
       .def_readonly("far", &Camera::far)
       .def_property_readonly("camera_to_world", &camera_to_world)
-      .def_readonly("source", &Camera::source)
+      .def_property_readonly("source", [](const Camera& self) { return text_of(self.source); })
       .def("__repr__", &in_words);
 }
 

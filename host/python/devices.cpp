@@ -8,6 +8,7 @@
 #include "python/bindings.h"
 #include "python/doc_strings.h"
 #include "python/interrupts.h"
+#include "run/kept_folders.h"
 
 namespace gloam::python {
 namespace {
@@ -79,6 +80,7 @@ void add_devices(py::module_& module) {
       [](const std::string& text) { return without_lock([&](Interrupts&) { return shared_device(text); }); },
       py::arg("text"));
   module.def("give_pocl_a_folder", &give_pocl_a_folder);
+  module.def("foreign_folders_note", &foreign_folders_note);
 }
 
 }  // namespace gloam::python

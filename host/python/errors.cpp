@@ -1,6 +1,7 @@
 // gloam.Error and what it is divided into. A message is the sentence that the command prints.
 #include <exception>
 
+#include "base/json_text.h"
 #include "gloam/plan.h"
 #include "python/bindings.h"
 
@@ -33,6 +34,8 @@ void translate(std::exception_ptr thrown) {
     PyErr_SetString(usage_error_type, error.what());
   } catch (const Error& error) {
     PyErr_SetString(error_type, error.what());
+  } catch (const nlohmann::json::exception& error) {
+    PyErr_SetString(error_type, ("a value of JSON is of another type than expected: " + reason_of(error)).c_str());
   } catch (const std::bad_alloc&) {
     PyErr_SetString(error_type, "out of memory; use a smaller frame, or ask for fewer planes");
   }

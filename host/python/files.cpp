@@ -3,6 +3,7 @@
 
 #include "base/files.h"
 #include "base/lists.h"
+#include "base/words.h"
 #include "exr/holdings.h"
 #include "gloam/planes.h"
 #include "python/frames.h"
@@ -99,7 +100,7 @@ SharedFrame read_frame(FrameFiles& files, const std::vector<std::string>& planes
     held->frame.numbers["gloamExposure"] = *exposure;
   for (const char* name : {"gloamScene", "gloamTechnique", "gloamParameters", "gloamRun"}) {
     if (const std::string text = first.text_attribute(name); !text.empty())
-      held->frame.attributes[name] = printable(text);
+      held->frame.attributes[name] = on_one_line(text);
   }
   add_new(held->frame.assumed, notes);
   return held;

@@ -128,8 +128,8 @@ SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& plan
 const Plane& plane_of(const HeldFrame& held, const View& view, const std::string& name) {
   if (const Plane* plane = view.find(name)) return *plane;
   const std::vector<std::string> planes = common_planes(held.frame);
-  throw py::key_error(fmt::format("no plane '{}'{}; {}", name, suggestion(name, planes),
-                                  planes.empty() ? "there is none" : "there are " + enumerate(planes)));
+  throw py::key_error(printable(fmt::format("no plane '{}'{}; {}", name, suggestion(name, planes),
+                                            planes.empty() ? "there is none" : "there are " + enumerate(planes))));
 }
 
 py::object plane_as_array(const SharedFrame& held, const std::string& name) {
@@ -138,9 +138,11 @@ py::object plane_as_array(const SharedFrame& held, const std::string& name) {
 }
 
 std::string in_words(const HeldFrame& held) {
-  std::string words = fmt::format("<gloam.Frame {}{} x {} pixels: {}", held.name.empty() ? "" : "'" + held.name + "', ",
-                                  held.frame.width(), held.frame.height(), fmt::join(common_planes(held.frame), ", "));
-  if (held.frame.views.size() > 1) words += fmt::format("; views {}", fmt::join(view_names(held.frame), ", "));
+  std::string words =
+      fmt::format("<gloam.Frame {}{} x {} pixels: {}", held.name.empty() ? "" : "'" + printable(held.name) + "', ",
+                  held.frame.width(), held.frame.height(), fmt::join(common_planes(held.frame), ", "));
+  if (held.frame.views.size() > 1)
+    words += fmt::format("; views {}", printable(fmt::format("{}", fmt::join(view_names(held.frame), ", "))));
   return words + ">";
 }
 
@@ -166,13 +168,13 @@ void add_frames(py::module_& module) {
   py::class_<HeldFrame, SharedFrame>(module, "Frame", frame_help)
       .def_property_readonly("width", [](const HeldFrame& self) { return self.frame.width(); })
       .def_property_readonly("height", [](const HeldFrame& self) { return self.frame.height(); })
-      .def_property_readonly("name", [](const HeldFrame& self) { return self.name; })
-      .def_property_readonly("views", [](const HeldFrame& self) { return view_names(self.frame); })
+      .def_property_readonly("name", [](const HeldFrame& self) { return text_of(self.name); })
+      .def_property_readonly("views", [](const HeldFrame& self) { return texts_of(view_names(self.frame)); })
       .def_property_readonly("planes", [](const HeldFrame& self) { return common_planes(self.frame); })
       .def_property_readonly(
           "camera",
           [](const HeldFrame& self) { return of_views(self.frame, [](const View& view) { return view.camera; }); })
-      .def_property_readonly("notes", [](const HeldFrame& self) { return self.frame.assumed; })
+      .def_property_readonly("notes", [](const HeldFrame& self) { return texts_of(self.frame.assumed); })
       .def_property_readonly("attributes", [](const HeldFrame& self) { return self.frame.attributes; })
       .def_property_readonly("numbers", [](const HeldFrame& self) { return self.frame.numbers; })
       .def("keys", [](const HeldFrame& self) { return common_planes(self.frame); })

@@ -1,6 +1,7 @@
 #include "python/outcome.h"
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "gloam/provenance.h"
 #include "gloam/strips.h"
 #include "python/frames.h"
@@ -86,6 +87,7 @@ Outcome compute_outcome(const PlanRequest& request, SharedFrame held, bool is_ow
   outcome.skipped_share = result.skipped_share;
   outcome.device_bytes = result.device_bytes;
   outcome.attributes = provenance({{&plan}}, options);
+  for (auto& [name, text] : outcome.attributes) text = on_one_line(text);
   outcome.radius = computation.radius;
   take_planes(std::move(result.frame), written, outcome);
   outcome.source = carried(std::move(held), is_own);

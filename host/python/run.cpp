@@ -20,7 +20,7 @@ py::list arrays_of(const Outcome& outcome) {
 
 py::list passes_of(const Outcome& outcome) {
   py::list passes;
-  for (const PassTime& pass : outcome.passes) passes.append(py::make_tuple(pass.view, pass.name, pass.ms));
+  for (const PassTime& pass : outcome.passes) passes.append(py::make_tuple(text_of(pass.view), pass.name, pass.ms));
   return passes;
 }
 
@@ -48,7 +48,7 @@ void add_run(py::module_& module) {
                              [](const Outcome& self) {
                                std::vector<std::string> names;
                                for (const ViewValues& view : self.views) names.push_back(view.view);
-                               return names;
+                               return texts_of(names);
                              })
       .def_readonly("technique", &Outcome::technique)
       .def_readonly("device", &Outcome::device)
@@ -56,7 +56,7 @@ void add_run(py::module_& module) {
       .def_property_readonly("passes", &passes_of)
       .def_readonly("total_ms", &Outcome::total_ms)
       .def_property_readonly("radius", &radius_of)
-      .def_readonly("notes", &Outcome::notes)
+      .def_property_readonly("notes", [](const Outcome& self) { return texts_of(self.notes); })
       .def_readonly("attributes", &Outcome::attributes)
       .def_readonly("skipped_share", &Outcome::skipped_share)
       .def_readonly("device_bytes", &Outcome::device_bytes)
@@ -67,6 +67,7 @@ void add_run(py::module_& module) {
   module.def("suggestion",
              [](const std::string& name, const std::vector<std::string>& names) { return suggestion(name, names); });
   module.def("enumerate", &enumerate);
+  module.def("printable", [](const std::string& text) { return printable(text); });
 }
 
 }  // namespace gloam::python

@@ -213,16 +213,16 @@ py::dict facts_of(const SceneRecipe& recipe) {
 void add_scenes(py::module_& module) {
   py::class_<HeldScene, SharedScene>(module, "HeldScene")
       .def(py::init(&load))
-      .def_property_readonly("name", [](const HeldScene& self) { return self.scene().name; })
+      .def_property_readonly("name", [](const HeldScene& self) { return text_of(self.scene().name); })
       .def_property_readonly("faces", [](const HeldScene& self) { return self.scene().faces(); })
       .def_property_readonly("cameras",
                              [](const HeldScene& self) {
                                std::vector<std::string> names;
                                for (const SceneCamera& camera : self.scene().cameras) names.push_back(camera.name);
-                               return names;
+                               return texts_of(names);
                              })
       .def_property_readonly("ao_radius", [](const HeldScene& self) { return self.scene().ao_radius; })
-      .def_property_readonly("notes", [](const HeldScene& self) { return self.scene().notes; });
+      .def_property_readonly("notes", [](const HeldScene& self) { return texts_of(self.scene().notes); });
   module.def("scenes", [] {
     py::list list;
     for (const SceneRecipe& recipe : builtin_scenes()) list.append(facts_of(recipe));

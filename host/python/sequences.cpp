@@ -164,11 +164,11 @@ std::unique_ptr<SequenceRun> run_over(const SharedSequence& sequence, const py::
 void add_sequences(py::module_& module) {
   py::class_<HeldSequence, SharedSequence>(module, "HeldSequence")
       .def_property_readonly("numbers", [](const HeldSequence& self) { return self.files.numbers(); })
-      .def_property_readonly("name", [](const HeldSequence& self) { return self.files.name(); })
-      .def_readonly("notes", &HeldSequence::notes)
+      .def_property_readonly("name", [](const HeldSequence& self) { return text_of(self.files.name()); })
+      .def_property_readonly("notes", [](const HeldSequence& self) { return texts_of(self.notes); })
       .def("read", &read_number)
       .def("__repr__", [](const HeldSequence& self) {
-        return fmt::format("<gloam.Sequence '{}', frames {}>", self.files.name(),
+        return fmt::format("<gloam.Sequence '{}', frames {}>", printable(self.files.name()),
                            frames_in_words(self.files.numbers()));
       });
   py::class_<SequenceRun>(module, "SequenceRun").def("next", &SequenceRun::next).def("__len__", &SequenceRun::frames);

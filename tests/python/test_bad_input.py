@@ -290,3 +290,47 @@ print(process.exitcode, call()["ao"].shape)
 """)
     lines = done.stdout.splitlines()
     assert lines[0].startswith("this process was forked from one in which gloam had worked") and lines[1] == "0 (8, 16)", done.stdout + done.stderr
+
+
+MILLION = "x" * 1_000_000
+
+
+@pytest.mark.parametrize("call, sentence", [
+    (lambda z: gloam.run(MILLION, depth=z, fov=60), "no technique"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, **{MILLION: 1}), "bytes left out"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, preset=MILLION), "bytes left out"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, views=["a\nb", "a\nb"]), "are 2 names, and there are 1 views"),
+    (lambda z: gloam.run("gtao\ud800", depth=z, fov=60), "gtao\\ud800"),
+    (lambda z: gloam.run("gtao", depth=z, fov=10**400), "fov of type int is not allowed"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, radius=10**5000), "radius of type int is not allowed"),
+    (lambda z: gloam.run("gtao", depth=z, fov=60, seed=10**5000), "seed of type int is not allowed"),
+    (lambda z: gloam.Camera(fx=10**400, fy=1, cx=0, cy=0), "camera: fx is beyond 1.8e308"),
+    (lambda z: gloam.write("none.exr", {"depth": z}, compression=None), "compression is of type NoneType; a text is allowed"),
+    (lambda z: gloam.write("none.exr", {3: z}), "name of a plane is of type int"),
+    (lambda z: gloam.read("frame.exr\0.exr"), "is not a path: it has a zero byte"),
+    (lambda z: gloam.read("half\ud800.exr"), "is not a path: it has half of a character"),
+    (lambda z: gloam.Sequence("none.####.exr", frames=range(10**9)), "names more than 1000000 frames"),
+    (lambda z: gloam.Sequence("none.####.exr", frames=range(0, 10**30, 10**29)), "a whole number of 32 bits is"),
+    (lambda z: gloam.Sequence("none.####.exr", frames=range(3, 3)), "has no number"),
+])
+def test_what_is_beyond_all_bounds(call, sentence, depth):
+    with pytest.raises(gloam.UsageError) as raised:
+        call(depth)
+    text = str(raised.value)
+    assert sentence in text and "\n" not in text and len(text) < 4100, text[:300]
+
+
+def test_names_that_are_not_utf8(depth, camera, tmp_path):
+    folder = os.path.join(os.fsencode(tmp_path), b"caf\xe9")
+    os.mkdir(folder)
+    name = os.fsdecode(os.path.join(folder, b"caf\xe9.exr"))
+    gloam.write(name, {"depth": depth}, camera=camera)
+    frame = gloam.read(name)
+    assert numpy.array_equal(frame["depth"], depth) and frame.name == name and "caf\\xe9" in repr(frame)
+    assert gloam.run("hbao+", name, radius=0.5)["ao"].shape == depth.shape
+    shot = os.fsdecode(os.path.join(folder, b"s\xe9.####.exr"))
+    gloam.write(shot.replace("####", "0001"), {"depth": depth}, camera=camera)
+    sequence = gloam.Sequence(shot)
+    assert sequence.numbers == [1] and sequence[1].views == frame.views and "\\xe9" in repr(sequence)
+    with pytest.raises(gloam.Error, match=r"caf\\xe9"):
+        gloam.read(os.fsdecode(os.path.join(folder, b"none\xe9.exr")))

@@ -33,7 +33,7 @@ def _side(which, value, other, plane):
     if isinstance(value, dict) and value:
         image = _files._image(value)
         return image, image
-    raise UsageError(f"{which} is of type {type(value).__name__}; an array, a result of gloam.run, a gloam.Frame or a path are allowed")
+    raise _words.refusal(f"{which} is of type {type(value).__name__}; an array, a result of gloam.run, a gloam.Frame or a path are allowed")
 
 
 def _opened(value):
@@ -57,7 +57,7 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
     """
     test, reference = _opened(test), _opened(reference)
     if isinstance(test, numpy.ndarray) and isinstance(reference, numpy.ndarray) and test.shape != reference.shape:
-        raise UsageError(f"the test has the shape {test.shape}, and the reference {reference.shape}; "
+        raise _words.refusal(f"the test has the shape {test.shape}, and the reference {reference.shape}; "
                          "only images of one shape can be compared")
     plane = _words.text("plane", plane)
     images, teller = _side("test", test, reference, plane)
@@ -66,7 +66,7 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
     if frame is not None:
         given = _opened(frame)
         if not isinstance(given, Frame) or "depth" not in given:
-            raise UsageError("frame: has no depth to tell the background by; a gloam.Frame or a path with depth is allowed")
+            raise _words.refusal("frame: has no depth to tell the background by; a gloam.Frame or a path with depth is allowed")
         tellers.insert(0, given)
     figures = _gloam.compare(images, truths, plane or "", mask, tellers, _words.number("exposure", exposure))
     unknown = "no depth on either side: every pixel counts; frame=... or mask=... tells the background"

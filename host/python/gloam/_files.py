@@ -25,7 +25,7 @@ def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, backgr
                            channels=channels, as_stored=as_stored)
     paths = _run._files(file)
     if paths is None:
-        raise UsageError(f"file is of type {type(file).__name__}; a path is allowed, or a list of two paths, one for each eye")
+        raise _words.refusal(f"file is of type {type(file).__name__}; a path is allowed, or a list of two paths, one for each eye")
     frame = _gloam.read(paths, words, _words.names("planes", planes) or [])
     _words.note(frame.notes, stacklevel=2)
     return frame
@@ -58,7 +58,7 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
     Raises gloam.Error, naming the path, if it cannot be written.
     """
     target = _words.path("path", path)
-    compression = _words.text("compression", compression)
+    compression = _words.word("compression", compression)
     if isinstance(what, Frame):
         _gloam.write(target, what, None, [], {}, {}, compression, bool(half))
     elif isinstance(what, _run.Result):
@@ -66,7 +66,7 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
         _gloam.write(target, what.frame, image_of_result(what), carried, what.attributes, {}, compression, bool(half))
     elif isinstance(what, dict):
         if not what:
-            raise UsageError("write: the dict has no array; give one of arrays by the names of their planes")
+            raise _words.refusal("write: the dict has no array; give one of arrays by the names of their planes")
         image = _image(what)
         cameras = None
         if camera is not None or fov is not None:
@@ -74,7 +74,7 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
             cameras = _run._cameras(camera, fov, of_views, several)
         _gloam.write_image(target, image, cameras, compression, bool(half))
     else:
-        raise UsageError(f"write: {type(what).__name__} cannot be written; a gloam.Frame, a result of gloam.run, or a dict of arrays can")
+        raise _words.refusal(f"write: {type(what).__name__} cannot be written; a gloam.Frame, a result of gloam.run, or a dict of arrays can")
 
 
 class Sequence:
@@ -93,9 +93,11 @@ class Sequence:
                  normal_space=None, views=None, channels=None):
         paths = _run._files(pattern)
         if paths is None:
-            raise UsageError(f"pattern is of type {type(pattern).__name__}; a path such as 'shot.####.exr' is allowed, or a list of two")
-        if isinstance(frames, (range, list, tuple)) or isinstance(frames, (int, numpy.integer)):
-            numbers = [frames] if isinstance(frames, (int, numpy.integer)) else list(frames)
+            raise _words.refusal(f"pattern is of type {type(pattern).__name__}; a path such as 'shot.####.exr' is allowed, or a list of two")
+        if isinstance(frames, range):
+            frames = _words.frames_of_range(frames)
+        elif isinstance(frames, (list, tuple)) or isinstance(frames, (int, numpy.integer)):
+            numbers = [frames] if isinstance(frames, (int, numpy.integer)) else frames
             frames = ",".join(str(_words.integer("frames", number)) for number in numbers)
         self._words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, normal_space=normal_space,
                                      views=views, channels=channels)
@@ -130,12 +132,12 @@ class Sequence:
         """
         options = {name: keywords.pop(name) for name in _run._OPTIONS if name in keywords}
         if options.get("repeat") not in (None, 1):
-            raise UsageError(f"repeat {options['repeat']}: times one frame; leave it out, or run one frame alone")
+            raise _words.refusal(f"repeat {options['repeat']}: times one frame; leave it out, or run one frame alone")
         if options.get("strips") is not None:
-            raise UsageError("strips: are for gloam.run and one frame; leave them out")
+            raise _words.refusal("strips: are for gloam.run and one frame; leave them out")
         planes, parameters = _run.divided(keywords)
         if planes:
-            raise UsageError(f"{_gloam.enumerate(list(planes))}: planes come with the frames; leave them out")
+            raise _words.refusal(f"{_gloam.enumerate(list(planes))}: planes come with the frames; leave them out")
         _run.check_names(parameters, tuple(name for name in _run._OPTIONS if name not in ("repeat", "strips")) + ("temporal", "device", "settings"))
         words, run_words = _run.request_words(technique, parameters, settings, options)
         return Run(self, _gloam.run_over(self._held, self._words, words, bool(temporal), _words.device(device), run_words))

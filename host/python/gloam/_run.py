@@ -88,10 +88,11 @@ def divided(keywords):
     planes = {}
     parameters = {}
     for name, value in keywords.items():
+        name = _words.text("keyword", name)
         if name in known and not isinstance(value, (str, bool, int, float, numpy.generic, os.PathLike)):
             planes[name] = value
         elif _is_planes(value):
-            raise UsageError(f"no plane '{name}'{_gloam.suggestion(name, known)}; there are {_gloam.enumerate(known)}")
+            raise _words.refusal(f"no plane '{name}'{_gloam.suggestion(name, known)}; there are {_gloam.enumerate(known)}")
         else:
             parameters[name] = value
     return planes, parameters
@@ -109,20 +110,21 @@ def check_names(parameters, keywords):
             continue
         said = _gloam.suggestion(name, [*keywords, *known])
         if said and said in [_gloam.suggestion(name, [keyword]) for keyword in keywords]:
-            raise UsageError(f"no keyword '{name}'{said}; there are {_gloam.enumerate(list(keywords))}, planes, and the technique's parameters")
+            raise _words.refusal(f"no keyword '{name}'{said}; there are {_gloam.enumerate(list(keywords))}, planes, and the technique's parameters")
 
 
 def _of_each_view(planes):
     """Planes by name as dicts by view, and whether they were given as lists."""
+    planes = {_words.text("name of a plane", name): value for name, value in planes.items()}
     counts = {name: len(value) for name, value in planes.items() if isinstance(value, (list, tuple)) and _is_planes(value)}
     if not counts:
         return [planes], False
     for name, value in planes.items():
         if name not in counts:
-            raise UsageError(f"plane '{name}' is one array, and others are lists of views; give a list of {max(counts.values())}")
+            raise _words.refusal(f"plane '{name}' is one array, and others are lists of views; give a list of {max(counts.values())}")
     if len(set(counts.values())) > 1:
         listed = ", ".join(f"{name} {count}" for name, count in counts.items())
-        raise UsageError(f"the planes have different numbers of views ({listed}); give one array of each plane for each view")
+        raise _words.refusal(f"the planes have different numbers of views ({listed}); give one array of each plane for each view")
     return [{name: value[i] for name, value in planes.items()} for i in range(next(iter(counts.values())))], True
 
 
@@ -131,7 +133,7 @@ def _names_of_views(given, count):
     if named is None:
         return [""] if count == 1 else ["left", "right"] if count == 2 else [f"view{i}" for i in range(count)]
     if len(named) != count or len(set(named)) != count:
-        raise UsageError(f"views {named} are {len(named)} names, and there are {count} views; give each a name of its own")
+        raise _words.refusal(f"views {named} are {len(named)} names, and there are {count} views; give each a name of its own")
     return named
 
 
@@ -145,9 +147,9 @@ def _size(planes):
 def _cameras(camera, fov, of_views, several):
     count = len(of_views)
     if camera is not None and fov is not None:
-        raise UsageError("camera and fov are both given; give one of them")
+        raise _words.refusal("camera and fov are both given; give one of them")
     if camera is None and fov is None:
-        raise UsageError("camera: none is given; give camera=gloam.Camera(fx=..., fy=..., cx=..., cy=...), or fov=DEGREES")
+        raise _words.refusal("camera: none is given; give camera=gloam.Camera(fx=..., fy=..., cx=..., cy=...), or fov=DEGREES")
     if fov is not None:
         size = _size(of_views[0])
         if size is None:
@@ -156,16 +158,16 @@ def _cameras(camera, fov, of_views, several):
     cameras = list(camera) if isinstance(camera, (list, tuple)) else [camera]
     for item in cameras:
         if not isinstance(item, Camera):
-            raise UsageError(f"camera is of type {type(item).__name__}; a gloam.Camera is allowed{', or a list of them' if several else ''}")
+            raise _words.refusal(f"camera is of type {type(item).__name__}; a gloam.Camera is allowed{', or a list of them' if several else ''}")
     if len(cameras) != count:
-        raise UsageError(f"there are {len(cameras)} cameras and {count} views; give one for each view")
+        raise _words.refusal(f"there are {len(cameras)} cameras and {count} views; give one for each view")
     return cameras
 
 
 def frame_of(planes, camera, fov, views):
     """A frame of arrays, and whether its views were given as lists."""
     if not planes:
-        raise UsageError("there is neither a frame nor an array; give depth=... and camera=..., or a gloam.Frame")
+        raise _words.refusal("there is neither a frame nor an array; give depth=... and camera=..., or a gloam.Frame")
     of_views, several = _of_each_view(planes)
     names = _names_of_views(views, len(of_views))
     return _gloam.frame_of_arrays(of_views, _cameras(camera, fov, of_views, several), names), several
@@ -175,7 +177,7 @@ def request_words(technique, parameters, settings, options):
     """What the compiled part takes as a request, and as options of the run."""
     words = {"technique": _words.text("technique", technique), "settings": _words.settings(parameters, settings)}
     if words["technique"] is None:
-        raise UsageError("technique: none is named; gloam.techniques() has them")
+        raise _words.refusal("technique: none is named; gloam.techniques() has them")
     for name in ("outputs", "extras"):
         words[name] = _words.names(name, options.get(name))
     for name in ("preset", "filter", "resolution", "adaptive", "only", "elsewhere"):
@@ -190,10 +192,10 @@ def _strips(value):
     if value == "auto":
         return 0
     if isinstance(value, str):
-        raise UsageError(f"strips {value} is not allowed; 'auto' is, or a number from 1 to 65536")
+        raise _words.refusal(f"strips {value} is not allowed; 'auto' is, or a number from 1 to 65536")
     count = _words.integer("strips", value)
     if count is not None and not 1 <= count <= 65536:
-        raise UsageError(f"strips {count} is not allowed; 'auto' is, or a number from 1 to 65536")
+        raise _words.refusal(f"strips {count} is not allowed; 'auto' is, or a number from 1 to 65536")
     return count
 
 
@@ -214,19 +216,19 @@ def _frame_for(frame, planes, camera, fov, views, words):
     paths = _files(frame)
     if paths is not None:
         if planes:
-            raise UsageError(f"{_gloam.enumerate(list(planes))}: arrays do not go with a path; give gloam.read(path) and the arrays")
+            raise _words.refusal(f"{_gloam.enumerate(list(planes))}: arrays do not go with a path; give gloam.read(path) and the arrays")
         read = _gloam.read_for(paths, _words.reading(camera, fov=fov, views=views), words)
         return read, True, len(read.views) > 1
     if not isinstance(frame, Frame):
-        raise UsageError(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed")
+        raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed")
     for name, value in (("camera", camera), ("fov", fov), ("views", views)):
         if value is not None:
-            raise UsageError(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
+            raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
     if not planes:
         return frame, False, len(frame.views) > 1
     of_views, several = _of_each_view(planes)
     if len(of_views) != len(frame.views):
-        raise UsageError(f"the frame has {len(frame.views)} views, and {len(of_views)} are given of {_gloam.enumerate(list(planes))}")
+        raise _words.refusal(f"the frame has {len(frame.views)} views, and {len(of_views)} are given of {_gloam.enumerate(list(planes))}")
     return _gloam.with_planes(frame, of_views), True, len(frame.views) > 1
 
 

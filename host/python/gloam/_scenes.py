@@ -42,7 +42,7 @@ class Scene:
 def _scene(scene, settings):
     if isinstance(scene, Scene):
         if settings:
-            raise UsageError(f"{_gloam.enumerate(list(settings))}: a gloam.Scene is made already; give them to gloam.Scene")
+            raise _words.refusal(f"{_gloam.enumerate(list(settings))}: a gloam.Scene is made already; give them to gloam.Scene")
         return scene._held
     return Scene(scene, **settings)._held
 
@@ -105,7 +105,7 @@ def reference(frame, scene=None, *, samples=None, radius=None, what="ao", fallof
     if _words.is_path(frame):
         frame = _gloam.read([_words.path("frame", frame)], _words.reading(), [])
     if not isinstance(frame, Frame):
-        raise UsageError(f"frame is of type {type(frame).__name__}; a gloam.Frame or a path is allowed")
+        raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame or a path is allowed")
     words = {"what": _words.text("what", what) or "ao", "falloff": _words.text("falloff", falloff) or "none", "samples": _words.integer("samples", samples),
              "radius": _words.number("radius", radius), "seed": _words.integer("seed", seed) or 0,
              "bounces": _words.integer("bounces", bounces), "length": _words.number("length", length),

@@ -19,22 +19,42 @@ def note(texts, stacklevel):
         warnings.warn(text, Note, stacklevel=stacklevel + 1)
 
 
+def refusal(sentence):
+    """What is wrong with a call, as an error of one line that is no longer than others, whatever names and values are in it."""
+    return UsageError(_gloam.printable(_as_utf8(sentence)))
+
+
 def _refuse(name, value, allowed):
-    raise UsageError(f"{name} is of type {type(value).__name__}; {allowed} is allowed")
+    raise refusal(f"{name} is of type {type(value).__name__}; {allowed} is allowed")
 
 
 def _shown(value):
     """A value in a sentence: its type where it is longer than a line."""
-    shown = repr(value)
+    try:
+        shown = repr(value)
+    except ValueError:  # of whole numbers of thousands of digits
+        shown = "\n"
     return shown if len(shown) <= 80 and "\n" not in shown else f"of type {type(value).__name__}"
+
+
+def _as_utf8(value):
+    """A text that the compiled part takes: what is no character, such as half of one, becomes an escape."""
+    return value.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def text(name, value):
     if value is None:
         return None
     if isinstance(value, str):
-        return value
+        return _as_utf8(value)
     _refuse(name, value, "a text")
+
+
+def word(name, value):
+    """A text that has to be given."""
+    if value is None:
+        _refuse(name, value, "a text")
+    return text(name, value)
 
 
 def integer(name, value):
@@ -43,15 +63,26 @@ def integer(name, value):
     if isinstance(value, (int, numpy.integer)) and not isinstance(value, bool):
         if -(2**31) <= value < 2**31:
             return int(value)
-        raise UsageError(f"{name} {value} is not allowed; a whole number of 32 bits is")
+        raise refusal(f"{name} {_shown(value)} is not allowed; a whole number of 32 bits is")
     _refuse(name, value, "a whole number")
+
+
+def frames_of_range(frames):
+    """A range as a text such as "1-99x2", however long it is."""
+    if not frames:
+        raise refusal(f"frames {_shown(frames)} has no number; name one and more")
+    first, last = (integer("frames", number) for number in sorted((frames[0], frames[-1])))
+    return str(first) if first == last else f"{first}-{last}x{integer('frames', abs(frames.step))}"
 
 
 def number(name, value):
     if value is None:
         return None
     if isinstance(value, (int, float, numpy.integer, numpy.floating)) and not isinstance(value, bool):
-        return float(value)
+        try:
+            return float(value)
+        except OverflowError:
+            raise refusal(f"{name} {_shown(value)} is not allowed; a number up to 1.8e308 is") from None
     _refuse(name, value, "a number")
 
 
@@ -61,7 +92,7 @@ def point(name, value):
     is_list = isinstance(value, (tuple, list)) or isinstance(value, numpy.ndarray) and value.ndim == 1
     values = [number(name, item) for item in value] if is_list else None
     if values is None or len(values) != 3:
-        raise UsageError(f"{name} {_shown(value)} is not a point; three numbers are allowed, such as (1, 2, 3)")
+        raise refusal(f"{name} {_shown(value)} is not a point; three numbers are allowed, such as (1, 2, 3)")
     return values
 
 
@@ -72,18 +103,30 @@ def names(name, value):
     if isinstance(value, str):
         value = value.split(",")
     if isinstance(value, (list, tuple)) and value and all(isinstance(item, str) and item for item in value):
-        return list(value)
-    raise UsageError(f"{name} {_shown(value)} is not allowed; a list of names is, such as ['ao', 'ao_raw']")
+        return [_as_utf8(item) for item in value]
+    raise refusal(f"{name} {_shown(value)} is not allowed; a list of names is, such as ['ao', 'ao_raw']")
 
 
 def path(name, value):
-    if isinstance(value, (str, os.PathLike)):
-        return os.fsdecode(value)
-    _refuse(name, value, "a path")
+    """The bytes of a path: a file's name need not be UTF-8."""
+    if not isinstance(value, (str, os.PathLike)):
+        _refuse(name, value, "a path")
+    try:
+        encoded = os.fsencode(value)
+    except UnicodeEncodeError:
+        raise refusal(f"{name} {_shown(value)} is not a path: it has half of a character") from None
+    if b"\0" in encoded:
+        raise refusal(f"{name} {_shown(value)} is not a path: it has a zero byte")
+    return encoded
 
 
 def is_path(value):
     return isinstance(value, (str, os.PathLike))
+
+
+def _is_file_name(value):
+    """Whether a text has bytes that are not UTF-8, as `os.fsdecode` keeps them."""
+    return any("\udc80" <= letter <= "\udcff" for letter in value)
 
 
 def _setting(name, value):
@@ -91,9 +134,14 @@ def _setting(name, value):
         return "on" if value else "off"
     if isinstance(value, (int, float, numpy.integer, numpy.floating)):
         # Through float32 nothing is gained: the shortest decimal form is what a user would have written.
-        return repr(value.item() if isinstance(value, numpy.generic) else value)
-    if isinstance(value, (str, os.PathLike)):
-        return os.fsdecode(value)
+        plain = value.item() if isinstance(value, numpy.generic) else value
+        if isinstance(plain, int) and abs(plain) >= 2**64:
+            raise refusal(f"{name} {_shown(plain)} is not allowed; a number of 64 bits is")
+        return repr(plain)
+    if isinstance(value, os.PathLike) or isinstance(value, str) and _is_file_name(value):
+        return path(name, value)
+    if isinstance(value, str):
+        return _as_utf8(value)
     _refuse(name, value, "a number, True or False, or a word")
 
 
@@ -103,7 +151,7 @@ def settings(*groups):
     for group in groups:
         if group is not None and not isinstance(group, dict):
             _refuse("settings", group, "a dict of parameters by name")
-        pairs += [(name, _setting(name, value)) for name, value in (group or {}).items()]
+        pairs += [(text("settings", name), _setting(name, value)) for name, value in (group or {}).items()]
     return pairs
 
 
@@ -113,7 +161,20 @@ def device(value):
         return value
     if _no_folder is not None:
         raise _no_folder
-    return _gloam.shared_device(text("device", value) or "")
+    opened = _gloam.shared_device(text("device", value) or "")
+    _note_foreign_folders()
+    return opened
+
+
+def _note_foreign_folders():
+    """Says, once, which folders are not used for compiled kernels."""
+    global _has_noted_folders
+    if _has_noted_folders:
+        return
+    _has_noted_folders = True
+    sentence = _gloam.foreign_folders_note()
+    if sentence:
+        note([sentence], stacklevel=4)
 
 
 def reading(camera=None, **words):
@@ -125,8 +186,8 @@ def reading(camera=None, **words):
     if "channels" in words and words["channels"] is not None:
         channels = words["channels"]
         if not isinstance(channels, dict) or not all(isinstance(item, str) for pair in channels.items() for item in pair):
-            raise UsageError(f"channels {_shown(channels)} is not allowed; a dict is, such as {{'depth': 'Layer.Z'}}")
-        read["channels"] = channels
+            raise refusal(f"channels {_shown(channels)} is not allowed; a dict is, such as {{'depth': 'Layer.Z'}}")
+        read["channels"] = {_as_utf8(plane): _as_utf8(channel) for plane, channel in channels.items()}
     as_stored = words.get("as_stored")
     if as_stored is not None and not isinstance(as_stored, (bool, numpy.bool_)):
         _refuse("as_stored", as_stored, "True or False")
@@ -137,6 +198,7 @@ def reading(camera=None, **words):
 
 # PoCL finds no device without a folder for its kernels. The environment is set here, since later there may be threads.
 _no_folder = None
+_has_noted_folders = False
 try:
     _gloam.give_pocl_a_folder()
 except Error as error:
