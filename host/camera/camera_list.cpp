@@ -1,9 +1,11 @@
 #include "camera/camera_list.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 
@@ -60,10 +62,38 @@ std::optional<CameraList> CameraList::of_file(const fs::path& file, const std::v
   return cameras;
 }
 
-std::optional<std::string> camera_text_of_frame(const fs::path& file, int frame) {
-  const json document = read_list(file);
-  if (!document.is_object() || !document.contains("frames") || !document["frames"].is_object()) return {};
-  return CameraList::of_file(file, {frame})->text_of(frame);
+std::optional<std::string> camera_text_of_image(const fs::path& file, const ImageNumbers& numbers,
+                                                std::vector<std::string>& notes) {
+  json document = read_list(file);
+  if (!document.is_object() || !document.contains("frames") || !document["frames"].is_structured()) return {};
+  const json list = std::move(document["frames"]);
+  document.erase("frames");
+  const auto text_of = [&](const std::optional<int>& number) -> std::optional<std::string> {
+    if (!number || !list.is_object() || !list.contains(std::to_string(*number))) return {};
+    return camera_text(document, list[std::to_string(*number)], file, *number);
+  };
+  const std::string name = file.filename().string();
+  const std::optional<std::string> by_name = text_of(numbers.by_name), by_header = text_of(numbers.by_header);
+  if (by_name && by_header && *by_name != *by_header)
+    add_new(notes, fmt::format("camera: that of frame {} in {}, as the file's name says; its header says frame {}",
+                               *numbers.by_name, name, *numbers.by_header));
+  if (by_name) return by_name;
+  if (by_header) {
+    add_new(notes, fmt::format("camera: that of frame {} in {}, as the header says", *numbers.by_header, name));
+    return by_header;
+  }
+  if (list.is_object() && numbers.by_name)
+    throw Error("{}: has no camera for frame {}", file.string(), *numbers.by_name);
+  const bool is_one =
+      !list.empty() && std::all_of(list.begin(), list.end(), [&](const json& own) { return own == list.front(); });
+  if (!is_one)
+    throw Error(
+        "{}: holds a camera for each frame of a sequence, and neither the name nor the header of {} says which frame "
+        "it "
+        "is; end its name in the number, as in still.0001.exr, or give the frames as a pattern, such as shot.####.exr",
+        file.string(), numbers.image);
+  add_new(notes, fmt::format("camera: the one of {}, which is the same for all of its frames", name));
+  return camera_text(document, list.front(), file, 0);
 }
 
 }  // namespace gloam

@@ -29,8 +29,18 @@ class CameraList {
   std::map<int, std::string> texts_;
 };
 
-/// The text of the camera of one frame, from a JSON with a camera for each frame by number; none if the file is another JSON. Throws
-/// Error naming the file if it cannot be read, or has no camera for the frame.
-std::optional<std::string> camera_text_of_frame(const std::filesystem::path& file, int frame);
+/// What tells the number of an image that is no frame of a shot's pattern.
+struct ImageNumbers {
+  std::string image;           ///< file name, for messages
+  std::optional<int> by_name;  ///< the last digits of the file's name
+  std::optional<int> by_header;
+};
+
+/// The text of the camera of one image, from a JSON with a camera for each frame: that of the frame by the image's name, else by its
+/// header; of a list with the same camera for all frames that of any, where nothing tells another frame. None if the file is another
+/// JSON. Adds a note where the name did not tell, and where name and header tell different cameras. Throws Error naming the file if it
+/// cannot be read, or if none of its cameras is known to be the image's.
+std::optional<std::string> camera_text_of_image(const std::filesystem::path& file, const ImageNumbers& numbers,
+                                                std::vector<std::string>& notes);
 
 }  // namespace gloam

@@ -69,8 +69,9 @@ class Search {
     passing_over(options_.only_looks || (options_.fov_degrees && !has_camera_flag()), [&] {
       if (!json_) {
         json_.emplace();  // stays without cameras if the JSON cannot be read
-        *json_ = read_json_cameras({file_.path, options_.camera_file, options_.camera_text, file_.display, eye_},
-                                   found_.notes);
+        *json_ = read_json_cameras(
+            {file_.path, options_.camera_file, options_.camera_text, file_.display, eye_, file_.headers.text("Frame")},
+            found_.notes);
       }
       camera = of_json(view);
     });

@@ -34,14 +34,13 @@ std::map<std::string, Camera> cameras_of_display(const fs::path& json, const Win
   return {of_modules.begin(), of_modules.end()};
 }
 
-/// The number of a frame of a shot: the last digits of its file's name. None without digits, or with more than a number has.
-std::optional<int> frame_number(const fs::path& frame) {
-  const std::string stem = frame.stem().string();
-  const size_t last = stem.find_last_of("0123456789");
+/// The number of a frame: the last digits of a text. None without digits, or with more than a number has.
+std::optional<int> last_number(const std::string& text) {
+  const size_t last = text.find_last_of("0123456789");
   if (last == std::string::npos) return {};
-  const size_t first = stem.find_last_not_of("0123456789", last) + 1;
+  const size_t first = text.find_last_not_of("0123456789", last) + 1;
   if (last - first >= 9) return {};
-  return std::stoi(stem.substr(first, last + 1 - first));
+  return std::stoi(text.substr(first, last + 1 - first));
 }
 
 }  // namespace
@@ -58,8 +57,11 @@ JsonCameras read_json_cameras(const JsonRequest& request, std::vector<std::strin
   const std::optional<fs::path> json = is_asked_for ? request.json : find_camera_file(request.frame, &notes);
   if (!json) return {};
   std::string text = request.text;
-  if (const auto number = frame_number(request.frame); text.empty() && number)
-    text = camera_text_of_frame(*json, *number).value_or("");
+  if (text.empty()) {
+    const ImageNumbers numbers{request.frame.filename().string(), last_number(request.frame.stem().string()),
+                               last_number(request.frame_in_header)};
+    text = camera_text_of_image(*json, numbers, notes).value_or("");
+  }
   if (!text.empty()) {
     const std::string name = json->filename().string();
     return {name, cameras_of(json_of_text(text, json->string()), *json, request.display, notes),

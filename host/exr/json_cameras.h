@@ -25,6 +25,8 @@ struct JsonRequest {
   std::string text;             ///< of the JSON if it is at hand; else empty
   Window display;               ///< cameras are in pixels of it
   std::optional<EyeOfPair> eye;
+  std::string
+      frame_in_header;  ///< the number of the frame by the EXR file's header, as Blender writes it ("Frame"); may be empty
 };
 
 struct JsonCameras {

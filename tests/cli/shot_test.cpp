@@ -248,6 +248,35 @@ TEST_F(Shot, ListOfCamerasIsFoundBesideTheFrames) {
   expect_refused({"run", "hbao+", file("shot.0003.exr"), "-o", file("one.exr")}, 1, {"has no camera for frame 3"});
 }
 
+TEST_F(Shot, AStillTakesItsCameraFromAList) {
+  Frame frame = frame_of(2);
+  frame.views[0].camera.reset();
+  frame.attributes["Frame"] = "0002";  // as Blender writes it
+  write_frame(path("still.exr"), frame);
+  write_frame(path("hero_v7.exr"), frame);
+  write_frame(path("hero.0003.exr"), frame);
+  frame.attributes.clear();
+  write_frame(path("nameless.exr"), frame);
+  const auto write_list = [&](int second) {
+    std::ofstream(path("list.json")) << fmt::format(R"({{"frames": {{"1": {}, "2": {}, "3": {}}}}})", camera_json(51),
+                                                    camera_json(second), camera_json(second == 51 ? 51 : 53));
+  };
+  const auto focal_length = [&](const std::string& name, const std::string& note) {
+    const Result result = gloam({"run", "hbao+", file(name), "-o", file("one.exr"), "--camera", file("list.json")});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.err.find(note), std::string::npos) << result.err;
+    return result.status == 0 ? FrameFile(path("one.exr"), {}).camera("")->fx : 0;
+  };
+  write_list(52);
+  EXPECT_NEAR(focal_length("still.exr", "that of frame 2 in list.json, as the header says"), 52, 1e-3);
+  EXPECT_NEAR(focal_length("hero_v7.exr", "that of frame 2 in list.json, as the header says"), 52, 1e-3);
+  EXPECT_NEAR(focal_length("hero.0003.exr", "as the file's name says; its header says frame 2"), 53, 1e-3);
+  expect_refused({"run", "hbao+", file("nameless.exr"), "-o", file("one.exr"), "--camera", file("list.json")}, 1,
+                 {"neither the name nor the header of nameless.exr says which frame it is"});
+  write_list(51);
+  EXPECT_NEAR(focal_length("nameless.exr", "the same for all of its frames"), 51, 1e-3);
+}
+
 TEST_F(Shot, TwoEyesInTwoFiles) {
   for (const int number : {1, 2}) {
     for (const char* stem : {"L", "R"}) {
