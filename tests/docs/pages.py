@@ -88,7 +88,7 @@ PAGES = {
         prepare="""export BLENDER_USER_CONFIG=$PWD/config BLENDER_USER_SCRIPTS=$PWD/scripts
             blender -b --factory-startup --python-exit-code 1 -P tests/blender/addon/make.py -- animation $PWD/shot.blend $PWD/shot.obj 50""",
         needs=("blender",),
-        check="""for file in gloam/Scene_ao.0001.exr gloam/Scene_ao_rgb.0003.exr shot_ao.blend ao.exr colour_x_ao.000{1,3}.png; do
+        check="""for file in gloam/shot_Scene_ao.0001.exr gloam/shot_Scene_ao_rgb.0003.exr shot_ao.blend ao.exr colour_x_ao.000{1,3}.png; do
             [ -s $file ]; done"""),
     "docs/cpp.md": Page(
         prepare="""cmake --install build --prefix $HOME/opt > install.log

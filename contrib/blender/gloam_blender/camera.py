@@ -101,21 +101,24 @@ def eye(data, is_left):
     return moved(-distance * sign), shift
 
 
-def view_of(camera, label, render, name=None, is_left=None):
-    """One view of the camera JSON. camera: evaluated object; label: what the user calls it; is_left: of two eyes, which; None: no
-    eye. Throws Problem."""
+def view_of(camera, label, render, shown, name=None, is_left=None):
+    """One view of the camera JSON. camera: evaluated object; label: what the user calls it; shown: the part of the rendered image that
+    its pixels are counted in (first column and row, and those after the last); is_left: of two eyes, which; None: no eye. Throws
+    Problem."""
     data = camera.data
     pose, shift_x = rigid(camera, label), data.shift_x
     if is_left is not None:
         offset, shift_x = eye(data, is_left)
         pose = product(pose, offset)
     values = intrinsics(data, render, shift_x)
+    values["cx"] -= shown[0]
+    values["cy"] -= shown[1]
     view = {"view": name} if name else {}
     view["camera_type"] = data.type
     if data.type == "ORTHO":
         view["pixels_per_unit"] = values["fx"]
         if values["fx"] != values["fy"]:
-            view["projection_gl"] = orthographic(values, size(render), data.clip_start, data.clip_end)
+            view["projection_gl"] = orthographic(values, (shown[2] - shown[0], shown[3] - shown[1]), data.clip_start, data.clip_end)
     else:
         view.update(fx=values["fx"], fy=values["fy"])
     view.update(cx=values["cx"], cy=values["cy"], near=data.clip_start, far=data.clip_end, camera_to_world=pose)

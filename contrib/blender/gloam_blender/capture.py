@@ -2,14 +2,15 @@
 
 The user's scene is not changed: settings are changed in a copy that shares the objects, and of cameras copies are rendered too.
 """
+import dataclasses
 import os
 
 import bpy
 import numpy
 
 from . import camera as cameras
+from . import exr_planes, roughness
 from .errors import Problem
-from .roughness import RoughnessOutputs
 
 EEVEE = ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT")
 
@@ -54,7 +55,7 @@ class Capture:
     """A copy of a scene that renders G-buffers. Use it in a `with` statement: it removes the copy again.
 
     scene: the user's; layer: name of the view layer; engine: see engine_for; overscan: share of the image's size to add on
-    each side. `padding` is that in pixels. Throws Problem.
+    each side. `padding` is that in pixels; `shown` is where in the rendered image the user's render lies. Throws Problem.
     """
 
     def __init__(self, scene, layer, engine, overscan=0.0):
@@ -66,6 +67,8 @@ class Capture:
         self.roughness = None
         width, height = cameras.size(scene.render)
         self.padding = round(width * overscan), round(height * overscan)  # pixels on each side
+        x0, y0, x1, y1 = region(scene.render)
+        self.shown = x0 + self.padding[0], y0 + self.padding[1], x1 + self.padding[0], y1 + self.padding[1]
 
     def __enter__(self):
         try:
@@ -122,6 +125,7 @@ class Capture:
         image.color_depth = "32"
         image.exr_codec = "ZIP"  # DWA damages normals
         image.views_format = "MULTIVIEW"
+        set_where_there(image, use_exr_interleave=True)  # Blender 5 writes a part for each pass otherwise
         set_where_there(render, use_file_extension=True, use_overwrite=True, use_placeholder=False, use_persistent_data=False)
 
     def change_passes(self):
@@ -140,14 +144,14 @@ class Capture:
             for pass_name in [p.identifier for p in group.bl_rna.properties] if group else []:
                 if pass_name.startswith("use_pass_") or pass_name == "denoising_store_passes":
                     setattr(group, pass_name, False)
-        self.roughness = RoughnessOutputs(layer)
+        self.roughness = roughness.RoughnessOutputs(layer)
 
     def change_engine(self):
         """One sample through each pixel's centre: depth between two surfaces belongs to neither."""
         cycles, eevee = getattr(self.scene, "cycles", None), getattr(self.scene, "eevee", None)
         if cycles:
             set_where_there(cycles, samples=1, use_adaptive_sampling=False, use_denoising=False, time_limit=0.0,
-                            pixel_filter_type="BOX", filter_width=0.01, max_bounces=0, film_exposure=1.0, use_layer_samples="IGNORE")
+                            pixel_filter_type="BLACKMAN_HARRIS", filter_width=0.01, max_bounces=0, film_exposure=1.0, use_layer_samples="IGNORE")
         if eevee:
             set_where_there(eevee, taa_render_samples=1, use_motion_blur=False, use_overscan=False)
 
@@ -244,7 +248,7 @@ class Capture:
             bpy.ops.render.render(write_still=True, scene=self.scene.name, layer=self.layer)
             if isinstance(self.rendered, Problem):
                 raise self.rendered
-            os.replace(part, path)
+            exr_planes.write(path, self.finished(exr_planes.read(part)))
         except RuntimeError as error:
             raise Problem(f"Blender did not render '{self.user_scene.name}': {first_line(error)}") from error
         except OSError as error:
@@ -254,6 +258,14 @@ class Capture:
             if os.path.exists(part):
                 os.remove(part)
         return self.rendered
+
+    def finished(self, image):
+        """A rendered image whose display window is the user's render. Colour is left out: it has one sample of direct light."""
+        x0, y0, x1, y1 = self.shown
+        width, height = image.window[2], image.window[3]
+        channels = {name: plane for name, plane in image.channels.items() if not roughness.is_output(name, "Combined")}
+        return dataclasses.replace(image, channels=roughness.with_default(channels), window=(-x0, -y0, width - x0, height - y0),
+                                   display=(0, 0, x1 - x0, y1 - y0))
 
     def record(self, scene, depsgraph):
         """Called when the renderer has evaluated a frame: what it sees then is the camera, key frames and drivers included."""
@@ -266,7 +278,6 @@ class Capture:
             self.rendered = problem
 
     def camera(self, depsgraph):
-        width, height = cameras.size(self.scene.render)
         views = []
         for name, item, is_left in self.views:
             evaluated = item.evaluated_get(depsgraph)
@@ -275,8 +286,9 @@ class Capture:
                 raise Problem(f"the depth of field of '{self.source.name}' is switched by key frames or a driver, and depth would be "
                               "blurred; remove them")
             self.check_overscan(item, evaluated)
-            views.append(cameras.view_of(evaluated, self.source.name, self.scene.render, name, is_left))
-        return {"width": width, "height": height, **cameras.document(views)}
+            views.append(cameras.view_of(evaluated, self.source.name, self.scene.render, self.shown, name, is_left))
+        x0, y0, x1, y1 = self.shown
+        return {"width": x1 - x0, "height": y1 - y0, **cameras.document(views)}
 
 
 def first_line(error):

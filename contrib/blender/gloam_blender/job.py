@@ -42,9 +42,7 @@ class Outcome:
     technique: str = ""  # as gloam names it; of `ao` the one that is the default
     folder: str = ""  # absolute
     radius: float = 0.0
-    region: tuple = ()  # of the image that the user's render keeps
     is_zooming: bool = False  # the lens differs between frames
-    padding: tuple = (0, 0)  # pixels of overscan on each side
     suffixes: dict = dataclasses.field(default_factory=dict)  # of files, by view
     files: list = dataclasses.field(default_factory=list)
     notes: list = dataclasses.field(default_factory=list)  # what a person should know
@@ -52,11 +50,39 @@ class Outcome:
 
 
 class Files:
-    """Names in the output folder."""
+    """Names in the output folder: of the .blend and the scene, since several may write into one folder.
+
+    The camera JSON says whose the files are: other characters become `_`, so two names may lead to one.
+    """
 
     def __init__(self, folder, scene):
-        self.stem = os.path.join(folder, re.sub(r"[^\w\-]", "_", scene.name))
+        blend = bpy.data.filepath
+        name = "_".join(filter(None, [os.path.splitext(os.path.basename(blend))[0], scene.name]))
+        self.stem = os.path.join(folder, re.sub(r"[^\w\-]", "_", name))
         self.camera = f"{self.stem}.camera.json"
+        # As seen from the folder, so that both can move together.
+        self.owner = {"blend": relative(blend, folder), "scene": scene.name}
+
+    def check_owner(self, frames, suffixes):
+        """Throws Problem if a file that would be written is there and is of another .blend or scene, or of nobody known."""
+        owner = self.read_cameras()
+        if {key: owner.get(key) for key in self.owner} == self.owner:
+            return
+        names = [self.camera] + [name for number in map(four_digits, frames) for name in
+                                 [self.frame(number), self.result(number), *(self.image(number, end) for end in suffixes)]]
+        taken = next(filter(os.path.exists, names), None)
+        if taken:
+            whose = f"the scene '{owner['scene']}' of '{owner['blend'] or 'a .blend that is not saved'}'" if "blend" in owner else "something else"
+            raise Problem(f"'{taken}' is there and belongs to {whose}: it would be lost; name another folder (--output, or Output in the panel)")
+
+    def read_cameras(self):
+        """The camera JSON; empty where there is none of ours."""
+        try:
+            with open(self.camera, encoding="utf-8") as file:
+                document = json.load(file)
+            return document if isinstance(document.get("frames"), dict) else {}
+        except (OSError, ValueError, AttributeError):
+            return {}
 
     def frame(self, number):
         return f"{self.stem}.{number}.exr"
@@ -72,6 +98,14 @@ def four_digits(frame):
     return f"{frame:04d}"
 
 
+def relative(path, folder):
+    """A path as seen from a folder; empty for none."""
+    try:
+        return os.path.relpath(path, folder) if path else ""
+    except ValueError:  # another drive of Windows
+        return path
+
+
 def check_folder(folder):
     """Makes the folder. Throws Problem if nothing can be written there."""
     try:
@@ -84,9 +118,10 @@ def check_folder(folder):
 
 
 def absolute_folder(text):
-    """An absolute folder. text: as a user writes it, `//` is beside the .blend; beside no .blend it is in the temporary folder."""
+    """An absolute folder. text: as a user writes it, `//` is beside the .blend. Where there is no .blend, it is in the temporary folder,
+    with the number of the process at its end: another Blender may have a scene of the same name."""
     if text.startswith("//") and not bpy.data.filepath:
-        return os.path.join(bpy.context.preferences.filepaths.temporary_directory or tempfile.gettempdir(), text[2:])
+        return os.path.join(bpy.context.preferences.filepaths.temporary_directory or tempfile.gettempdir(), f"{text[2:]}-{os.getpid()}")
     return os.path.abspath(bpy.path.abspath(text))
 
 
@@ -108,7 +143,6 @@ def steps(scene, settings, outcome):
     capture.check_simulations(scene, outcome.notes)
     engine = capture.engine_for(scene, settings.engine, outcome.notes)
     files = Files(outcome.folder, scene)
-    outcome.region = capture.region(scene.render)
     yield from captured(scene, settings, files, engine, tool, outcome)
     yield from computed(settings, files, tool, outcome)
     load(scene, settings, files, outcome)
@@ -119,7 +153,8 @@ def captured(scene, settings, files, engine, tool, outcome):
     """Renders the frames and writes the cameras; after the first frame, asks gloam whether it can go on."""
     count = len(settings.frames)
     with capture.Capture(scene, settings.layer, engine, settings.overscan) as copy:
-        outcome.suffixes, outcome.padding = copy.suffixes(), copy.padding
+        outcome.suffixes = copy.suffixes()
+        files.check_owner(settings.frames, outcome.suffixes.values() or [""])
         frames = {}
         for index, number in enumerate(settings.frames):
             yield Progress(f"gloam: rendering passes of frame {number}", 0.8 * index / count)
@@ -128,9 +163,9 @@ def captured(scene, settings, files, engine, tool, outcome):
             frames[str(number)] = copy.render(path)
             outcome.files.append(path)
             if index == 0:
-                write_cameras(files.camera, frames)
+                write_cameras(files, frames)
                 first_look(settings, path, tool, outcome)
-    write_cameras(files.camera, frames)
+    write_cameras(files, frames)
     outcome.files.append(files.camera)
     outcome.is_zooming = len({focal_lengths(camera) for camera in frames.values()}) > 1
     if outcome.is_zooming and settings.temporal:
@@ -142,23 +177,18 @@ def focal_lengths(camera):
     return tuple(view.get("fx", view.get("pixels_per_unit")) for view in camera.get("views", [camera]))
 
 
-def write_cameras(path, frames):
+def write_cameras(files, frames):
     """Adds the cameras of these frames to the JSON, one line for each; frames rendered by earlier runs keep theirs."""
-    entries = {}
-    try:
-        with open(path, encoding="utf-8") as file:
-            entries = dict(json.load(file)["frames"])
-    except (OSError, ValueError, KeyError, TypeError):
-        pass  # none yet, or none of ours: written anew
-    entries.update(frames)
+    entries = {**files.read_cameras().get("frames", {}), **frames}
     lines = [f"  {json.dumps(number)}: {json.dumps(camera)}" for number, camera in sorted(entries.items(), key=lambda entry: int(entry[0]))]
-    temporary = path + ".part"
+    owner = "".join(f"{json.dumps(key)}: {json.dumps(value)}, " for key, value in files.owner.items())
+    temporary = files.camera + ".part"
     try:
         with open(temporary, "w", encoding="utf-8") as file:
-            file.write('{"frames": {\n' + ",\n".join(lines) + "\n}}\n")
-        os.replace(temporary, path)
+            file.write("{" + owner + '"frames": {\n' + ",\n".join(lines) + "\n}}\n")
+        os.replace(temporary, files.camera)
     except OSError as error:
-        raise Problem(f"'{path}' cannot be written: {error.strerror}") from error
+        raise Problem(f"'{files.camera}' cannot be written: {error.strerror}") from error
 
 
 def first_look(settings, path, tool, outcome):
@@ -224,13 +254,14 @@ def notes_in(text):
 
 
 def images_of(files, number, outcome):
-    """Writes what Blender loads of a frame: one grey image for each view, of the size of the user's render."""
-    planes = exr_planes.read_channels(files.result(number))
-    written = []
+    """Cuts what gloam wrote to the user's render, and writes what Blender loads of a frame: one grey image for each view."""
+    result = exr_planes.read(files.result(number))
+    if result.window != result.display:
+        result = exr_planes.cropped(result, result.display)
+        exr_planes.write(files.result(number), result)
+    planes, written = result.channels, []
     for view, suffix in outcome.suffixes.items() or [("", "")]:
         plane = planes[f"{view}.AO" if f"{view}.AO" in planes else "AO"]  # the first view's channels are without its name
-        (pad_x, pad_y), (x0, y0, x1, y1) = outcome.padding, outcome.region
-        plane = plane[pad_y:plane.shape[0] - pad_y, pad_x:plane.shape[1] - pad_x][y0:y1, x0:x1]
         written.append(files.image(number, suffix))
         exr_planes.write_grey(written[-1], plane)
     return written

@@ -1,7 +1,13 @@
-"""An output of roughness in every material: no engine has a pass for it."""
+"""An output of roughness in every material: no engine has a pass for it.
+
+Engines fill an output with 0 where a surface has no material, or one without nodes: a mirror. So a second output tells which pixels a
+material has filled, and `with_default` makes the others rough.
+"""
 import bpy
+import numpy
 
 NAME = "Roughness"
+FILLED = "gloamFilled"
 
 # Shaders with one roughness, and its input. What has none counts as rough: no mirror image is expected of it.
 SHADERS = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_GLASS", "BSDF_REFRACTION"}
@@ -13,9 +19,8 @@ def materials():
     return [m for m in bpy.data.materials if m.use_nodes and m.node_tree and not m.is_grease_pencil]
 
 
-def outputs_in(tree):
-    """The tree's own outputs of roughness."""
-    return [node for node in tree.nodes if node.type == "OUTPUT_AOV" and aov_name(node) == NAME]
+def outputs_in(tree, name):
+    return [node for node in tree.nodes if node.type == "OUTPUT_AOV" and aov_name(node) == name]
 
 
 def surface_shader(tree):
@@ -31,30 +36,35 @@ def surface_shader(tree):
 
 
 class RoughnessOutputs:
-    """Adds an AOV to a view layer, and a node that fills it to each material; `remove` takes the nodes away again.
+    """Adds AOVs to a view layer, and nodes that fill them to each material; `remove` takes the nodes away again.
 
-    A material that fills an AOV of this name itself stays as it is. layer: of a copy of the user's scene.
+    A material that fills an AOV of the name `Roughness` itself keeps it. layer: of a copy of the user's scene.
     """
 
     def __init__(self, layer):
-        self.changed = []
+        self.added = []  # materials, each with the name of an output
         for aov in list(layer.aovs):
-            if aov.name != NAME:
-                layer.aovs.remove(aov)
-        if not len(layer.aovs):
-            layer.aovs.add().name = NAME
-        layer.aovs[0].type = "VALUE"
+            layer.aovs.remove(aov)
+        for name in (NAME, FILLED):
+            aov = layer.aovs.add()
+            aov.name, aov.type = name, "VALUE"
         for material in materials():
-            if not outputs_in(material.node_tree):
-                self.add(material)
+            tree = material.node_tree
+            active = tree.nodes.active
+            if not outputs_in(tree, NAME):
+                self.fill_roughness(tree, self.add(material, NAME))
+            self.add(material, FILLED).default_value = 1
+            tree.nodes.active = active
 
-    def add(self, material):
-        tree = material.node_tree
-        active = tree.nodes.active
-        node = tree.nodes.new("ShaderNodeOutputAOV")
-        self.changed.append(material)
-        set_aov_name(node, NAME)
-        value = node.inputs["Value"]
+    def add(self, material, name):
+        """The input of a new output."""
+        node = material.node_tree.nodes.new("ShaderNodeOutputAOV")
+        set_aov_name(node, name)
+        self.added.append((material, name))
+        return node.inputs["Value"]
+
+    @staticmethod
+    def fill_roughness(tree, value):
         value.default_value = ROUGH
         shader = surface_shader(tree)
         source = shader.inputs.get("Roughness") if shader and shader.type in SHADERS else None
@@ -62,13 +72,31 @@ class RoughnessOutputs:
             tree.links.new(source.links[0].from_socket, value)
         elif source:
             value.default_value = source.default_value
-        tree.nodes.active = active
 
     def remove(self):
-        for material in self.changed:
-            for node in outputs_in(material.node_tree):
+        for material, name in self.added:
+            for node in outputs_in(material.node_tree, name):
                 material.node_tree.nodes.remove(node)
-        self.changed = []
+        self.added = []
+
+
+def with_default(channels):
+    """Channels of a rendered file without those that tell which pixels are filled: where none is, roughness is 1."""
+    of = {name: filled_name(name) for name in channels if is_output(name, NAME)}
+    kept = {name: plane for name, plane in channels.items() if not is_output(name, FILLED)}
+    for name, filled in of.items():
+        if filled in channels:
+            kept[name] = numpy.where(channels[filled] > 0.5, channels[name], channels[name].dtype.type(ROUGH))
+    return kept
+
+
+def is_output(channel, name):
+    """Whether a channel, such as `ViewLayer.Roughness.left.X`, is of an output of this name."""
+    return f".{name}." in channel
+
+
+def filled_name(channel):
+    return channel.replace(f".{NAME}.", f".{FILLED}.")
 
 
 def aov_name(node):

@@ -51,12 +51,27 @@ scene.use_nodes = True
 for _ in range(2):  # the second run brings image and group up to date
     said = press()
     check("button", said == "", said)
+from gloam_blender import exr_planes  # noqa: E402
+
+render = (0, 0, scenes.WIDTH, scenes.HEIGHT)
+written = exr_planes.read(os.path.join(folder, "Scene_ao.0001.exr"))
+check("size with overscan", (written.window, written.display) == (render, render) and written.channels["AO"].shape == render[:1:-1], written.window)
 groups = [node for node in scene.node_tree.nodes if node.bl_idname == "CompositorNodeGroup"]
 image = bpy.data.images.get("gloam AO Scene")
 check("image", image and tuple(image.size) == (scenes.WIDTH, scenes.HEIGHT), image and image.size[:])
 check("group", len(groups) == 1 and groups[0].inputs["Strength"].default_value == 1 and len(bpy.data.node_groups) == 1, groups)
 links = {(link.from_node.bl_idname, link.to_node.bl_idname) for link in scene.node_tree.links}
 check("links", {("CompositorNodeRLayers", "CompositorNodeGroup"), ("CompositorNodeGroup", "CompositorNodeComposite")} <= links, links)
+# Two .blend files beside each other: neither loses what the other wrote.
+scene.gloam.output = "//gloam"
+kept = {}
+for blend in ("one", "two"):
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(folder, f"{blend}.blend"))
+    scene.camera.location.x += 0.3
+    said = press()
+    check(blend, said == "", said)
+    kept.setdefault(blend, open(os.path.join(folder, "gloam", f"{blend}_Scene_ao.0001.exr"), "rb").read())
+check("two files", kept["one"] != kept["two"] and kept["one"] == open(os.path.join(folder, "gloam", "one_Scene_ao.0001.exr"), "rb").read())
 scene.camera = None
 said = press()
 check("no camera", "The scene has no camera; add one" in said, said)

@@ -12,7 +12,7 @@ sys.path.insert(0, addon)
 import scene as scenes  # noqa: E402
 import state  # noqa: E402
 from gloam_blender.capture import Capture, region  # noqa: E402
-from gloam_blender.exr_planes import read_channels  # noqa: E402
+from gloam_blender.exr_planes import read, read_channels  # noqa: E402
 
 FAULTS = []
 
@@ -27,7 +27,7 @@ def planes_of(channels, pass_name, axes, suffix):
 
 
 def projected(view, place, size):
-    """Pixels from the top left corner, and depth, of positions in the world. size: height and width."""
+    """Pixels from the top left corner, and depth, of positions in the world. size: height and width of what is shown."""
     pose = numpy.array(view["camera_to_world"])
     place = (place - pose[:3, 3]) @ pose[:3, :3]
     scale = numpy.array([view[key] for key in (("pixels_per_unit",) * 2 if view["camera_type"] == "ORTHO" else ("fx", "fy"))])
@@ -38,17 +38,18 @@ def projected(view, place, size):
     return scale[0] * across[..., 0] + view["cx"], view["cy"] - scale[1] * across[..., 1], away
 
 
-def centres(size):
-    y, x = numpy.mgrid[:size[0], :size[1]] + 0.5
+def centres(window):
+    y, x = numpy.mgrid[window[1]:window[3], window[0]:window[2]] + 0.5
     return x, y
 
 
-def check_view(name, view, channels, suffix):
+def check_view(name, view, image, suffix):
     """Each position lands on the centre of its pixel, at the depth that is written."""
+    channels, size = image.channels, (image.display[3], image.display[2])
     depth = planes_of(channels, "Depth", "Z", suffix)[..., 0]
     normal = planes_of(channels, "Normal", "XYZ", suffix)
-    found_x, found_y, away = projected(view, planes_of(channels, "Position", "XYZ", suffix), depth.shape)
-    x, y = centres(depth.shape)
+    found_x, found_y, away = projected(view, planes_of(channels, "Position", "XYZ", suffix), size)
+    x, y = centres(image.window)
     seen = depth < 1e9
     off = max(numpy.abs(found_x - x)[seen].max(), numpy.abs(found_y - y)[seen].max())
     wrong = numpy.abs(depth / away - 1)[seen].max()
@@ -59,7 +60,8 @@ def check_view(name, view, channels, suffix):
     return depth
 
 
-def capture(name, change=None, overscan=0.0, frame=1, size=None):
+def capture(name, change=None, overscan=0.0, frame=1, size=None, border=None):
+    """size: height and width of what is shown; border: pixels rendered around it, left, top, right and bottom."""
     scene, camera = scenes.build()
     scene.view_layers[0].use_pass_position = True
     if change:
@@ -72,10 +74,14 @@ def capture(name, change=None, overscan=0.0, frame=1, size=None):
         written = copy.render(path)
     changed = state.difference(before, state.lines())
     check(name, not changed, f"changed {changed}")
-    channels, views = read_channels(path), written.get("views", [written])
-    depths = [check_view(name, view, channels, f".{view['view']}" if len(views) > 1 else "") for view in views]
-    check(name, not size or depths[0].shape == size, depths[0].shape)
-    return channels, depths, written
+    image, views = read(path), written.get("views", [written])
+    depths = [check_view(name, view, image, f".{view['view']}" if len(views) > 1 else "") for view in views]
+    left, top, width, height = *image.window[:2], *image.display[2:]
+    found = (height, width), (-left, -top, image.window[2] - width, image.window[3] - height)
+    check(name, found == (size or found[0], border or (0, 0, 0, 0)) or overscan and not border, found)
+    check(name, (written["height"], written["width"]) == (height, width), written)
+    check(name, not any(".Combined." in channel or "gloam" in channel for channel in image.channels), list(image.channels))
+    return {channel: plane.astype(numpy.float32) for channel, plane in image.channels.items()}, depths, written
 
 
 def camera_with(resolution=None, aspect=None, **values):
@@ -150,6 +156,22 @@ def zooming(scene, camera):
     scene.frame_set(1)
 
 
+def without_materials(scene, _):
+    """What no material with nodes covers: a ball without a material, a floor with an empty place for one, blocks whose material has no
+    nodes, and a mirror."""
+    bpy.data.objects["Sphere"].data.materials.clear()
+    bpy.data.objects["Plane"].data.materials[0] = None
+    bpy.data.objects["Plane.001"].data.materials[0] = scenes.material_of(0)
+    bpy.data.materials["rough 0.75"].use_nodes = False
+
+
+def own_output(scene, _):
+    """A material that fills an output of roughness itself."""
+    tree = bpy.data.materials["rough 0.75"].node_tree
+    node = tree.nodes.new("ShaderNodeOutputAOV")
+    node.name, node.inputs["Value"].default_value = "Roughness", 0.5
+
+
 def hidden_ball(scene, _):
     """The ball is in a collection that the view layer leaves out; the compositor, which writes files, is on."""
     collection = bpy.data.collections.new("left out")
@@ -169,6 +191,12 @@ channels, depths, _ = capture("plain", size=(scenes.HEIGHT, scenes.WIDTH))
 roughness = numpy.unique(channels["ViewLayer.Roughness.X"])
 check("roughness", numpy.array_equal(roughness, [0.25, 0.75]), roughness)
 check("albedo", abs(channels["ViewLayer.DiffCol.R"].max() - 0.8) < 1e-3, channels["ViewLayer.DiffCol.R"].max())
+channels, _, _ = capture("without_materials", without_materials)
+roughness = numpy.unique(channels["ViewLayer.Roughness.X"], return_counts=True)
+check("without materials", numpy.array_equal(roughness[0], [0, 1]) and roughness[1][1] > 1000, roughness)
+channels, _, _ = capture("own_output", own_output)
+roughness = numpy.unique(channels["ViewLayer.Roughness.X"])
+check("own output", numpy.array_equal(roughness, [0.25, 0.5]), roughness)
 capture("shift", camera_with(shift_x=0.13, shift_y=-0.21))
 capture("vertical", camera_with(sensor_fit="VERTICAL", sensor_width=30, sensor_height=20, shift_x=0.1, shift_y=0.05))
 capture("tall", camera_with((120, 160), sensor_width=30, sensor_height=20, shift_x=-0.1, shift_y=0.1))
@@ -179,7 +207,8 @@ capture("orthographic", camera_with(type="ORTHO", ortho_scale=7, shift_x=0.1, sh
 capture("orthographic_wide_pixels", camera_with(aspect=(1.5, 1), type="ORTHO", ortho_scale=7, shift_x=0.1, shift_y=-0.08))
 capture("percentage", part_of_the_size, size=(92, 123))
 capture("scaled", scaled)
-capture("overscan", camera_with(shift_x=0.1, shift_y=0.07), overscan=0.1, size=(144, 192))
+capture("overscan", camera_with(shift_x=0.1, shift_y=0.07), overscan=0.1, size=(scenes.HEIGHT, scenes.WIDTH),
+        border=(16, 12, 16, 12))
 capture("overscan_tall", camera_with((121, 120), (1, 1.02), shift_x=0.1), overscan=0.07)
 capture("overscan_orthographic", camera_with(type="ORTHO", ortho_scale=7, shift_x=0.1), overscan=0.1)
 for mode in ("OFFAXIS", "PARALLEL", "TOE"):
@@ -194,7 +223,8 @@ capture("zooming", zooming, frame=2)
 channels, (depth,), _ = capture("carried", carried, frame=2)
 _, _, earlier = capture("carried_before", carried, frame=1)
 # Vector: where the surface was in the frame before, y up.
-(before_x, before_y, _), (x, y) = projected(earlier, planes_of(channels, "Position", "XYZ", ""), depth.shape), centres(depth.shape)
+(before_x, before_y, _) = projected(earlier, planes_of(channels, "Position", "XYZ", ""), depth.shape)
+x, y = centres((0, 0, depth.shape[1], depth.shape[0]))
 motion = planes_of(channels, "Vector", "XY", "")
 off = max(numpy.abs(before_x - x - motion[..., 0]).max(), numpy.abs(y - before_y - motion[..., 1]).max())
 print(f"motion up to {numpy.abs(motion).max():.1f} pixels, {off:.4f} off")
@@ -210,7 +240,8 @@ scene.render.image_settings.file_format, scene.render.filepath = "OPEN_EXR", os.
 bpy.ops.render.render(write_still=True)
 own = read_channels(scene.render.filepath)["R"].shape
 check("region", region(scene.render) == (32, 48, 112, 108) and own == (60, 80), (region(scene.render), own))
-capture("cropped", cropped, size=(scenes.HEIGHT, scenes.WIDTH))
+capture("cropped", cropped, size=own, border=(32, 48, 48, 12))
+capture("cropped_overscan", cropped, overscan=0.1, size=own, border=(48, 60, 64, 24))
 left = [name for name in os.listdir(folder) if "part" in name]
 check("files", not left, left)
 for fault in FAULTS:

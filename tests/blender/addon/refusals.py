@@ -5,6 +5,7 @@ import contextlib
 import io
 import os
 import sys
+import tempfile
 
 import bpy
 from mathutils import Matrix
@@ -86,6 +87,14 @@ def animated_shift(scene, camera):
     camera.data.keyframe_insert("shift_x", frame=1)
 
 
+def folder_with(name, text):
+    """A folder in which a file of the scene's name lies already."""
+    path = tempfile.mkdtemp(dir=folder)
+    with open(os.path.join(path, name), "w") as taken:
+        taken.write(text)
+    return path
+
+
 file = os.path.join(folder, "file")
 open(file, "w").close()
 expect("no camera", "has no camera; add one", change=remove_camera)
@@ -106,6 +115,10 @@ expect("second eye", "needs a second view", "--technique", "stereo-gtao")
 expect("preset", "has no preset 'best'", "--preset", "best")
 expect("parameter", "no parameter 'colour'", "--set", "colour=red")
 expect("folder", "cannot be written", "--output", os.path.join(file, "out"))
+expect("files of another .blend", "belongs to the scene 'Scene' of '../other.blend': it would be lost", "--output",
+       folder_with("Scene.camera.json", '{"blend": "../other.blend", "scene": "Scene", "frames": {"1": {}}}'))
+expect("a camera of nobody", "belongs to something else", "--output", folder_with("Scene.camera.json", '{"fx": 100}'))
+expect("a picture of nobody", "Scene_ao_rgb.0001.exr' is there and belongs to something else", "--output", folder_with("Scene_ao_rgb.0001.exr", ""))
 expect("scene", "has no scene 'other'", "--scene", "other")
 expect("layer", "has no view layer 'other'", "--layer", "other")
 expect("save", "is not there", "--save", "/nowhere/out.blend")

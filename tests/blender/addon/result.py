@@ -47,7 +47,7 @@ used = [node for node in scene.node_tree.nodes if getattr(node, "node_tree", Non
 check("compositor", scene.use_nodes and len(used) == 1, list(scene.node_tree.nodes))
 scene.world.color = (0.5, 0.7, 0.9)
 for frame in map(int, frames):
-    planes = read_channels(os.path.join(folder, "gloam", f"Scene_ao.{frame:04d}.exr"))
+    planes = read_channels(os.path.join(folder, "gloam", f"scene_Scene_ao.{frame:04d}.exr"))
     views = [planes["AO"]] + [plane for name, plane in planes.items() if name.endswith(".AO")]
     plain, multiplied = rendered(scene, "plain", frame, False), rendered(scene, "multiplied", frame, True)
     check("views", len(views) == len(plain), (list(planes), len(plain)))
