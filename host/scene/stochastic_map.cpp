@@ -21,11 +21,12 @@ void StochasticMap::row(int y, const RowDepths& row) const {
 
 // Front to back, so that a sample keeps the first depth that it is offered.
 void StochasticMap::pixel(int x, int y, const float* begin, const float* end) const {
-  uint32_t empty = (1u << samples_.size()) - 1;
+  const auto samples = static_cast<unsigned int>(samples_.size());
+  uint32_t empty = (1u << samples) - 1;
   for (const float* depth = begin; depth < end && empty != 0; ++depth) {
     const uint32_t hash =
         surface_hash(uint32_t(x), uint32_t(y), seed_, std::bit_cast<uint32_t>(*depth), std::bit_cast<uint32_t>(*begin));
-    const uint32_t subset = stratified_subset(hash, alpha_) & empty;
+    const uint32_t subset = stratified_subset(hash, alpha_, samples) & empty;
     for (uint32_t left = subset; left != 0; left &= left - 1)
       samples_[size_t(std::countr_zero(left))]->at(x, y) = *depth;
     empty &= ~subset;

@@ -15,7 +15,7 @@ static inline natural subset_of(natural hash, uint alpha) {
   for (int j = 0; j < SAMPLES; ++j) subset |= hashed_bit(hash, (natural)((uint)j), (natural)(alpha)) << j;
   return subset;
 #else
-  return stratified_subset(hash, (natural)(alpha));
+  return stratified_subset(hash, (natural)(alpha), SAMPLES);
 #endif
 }
 

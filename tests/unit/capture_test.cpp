@@ -408,14 +408,17 @@ TEST(StochasticCapture, TheFirstSamplesAreAMapOfTheirOwn) {
         EXPECT_GE(count, std::floor(alpha * first - 1e-6));
         EXPECT_LE(count, std::ceil(alpha * first + 1e-6)) << pixels << " pixels";
       }
-      // The same bits as a map of that many.
-      const Frame own = captured_fence(first, alpha);
-      for (int j = 0; j < first; ++j) {
-        int differing = 0;
-        for_pixels([&](int x, int y) {
-          differing += value(own, layer_name("stochastic", j), x, y) != value(frame, layer_name("stochastic", j), x, y);
-        });
-        EXPECT_EQ(differing, 0) << "sample " << j << " of " << first;
+      // The same bits as in a map of that many, and as in one of more.
+      for (const int samples : {first, std::min(first + 1, 16), std::min(2 * first - 1, 16)}) {
+        const Frame other = captured_fence(samples, alpha);
+        for (int j = 0; j < first; ++j) {
+          int differing = 0;
+          for_pixels([&](int x, int y) {
+            differing +=
+                value(other, layer_name("stochastic", j), x, y) != value(frame, layer_name("stochastic", j), x, y);
+          });
+          EXPECT_EQ(differing, 0) << "sample " << j << " of " << samples;
+        }
       }
     }
   }
@@ -526,12 +529,69 @@ void expect_same_map(Frame& frame, int samples, double alpha, int seed) {
 TEST(StochasticCapture, TheSameBitsAsTheTechniqueMakes) {
   for (const bool orthographic : {false, true}) {
     for (const auto& [samples, alpha, seed] :
-         {std::tuple(1, 0.2, 0), std::tuple(4, 0.2, 7), std::tuple(16, 0.37, 2147483647), std::tuple(5, 1.0, 3)}) {
+         {std::tuple(1, 0.2, 0), std::tuple(4, 0.2, 7), std::tuple(16, 0.37, 2147483647), std::tuple(5, 1.0, 3),
+          std::tuple(3, 0.4, 1), std::tuple(5, 0.2, 2), std::tuple(7, 0.3, 4), std::tuple(12, 0.15, 5)}) {
       SCOPED_TRACE(fmt::format("{} samples, alpha {}, seed {}, orthographic {}", samples, alpha, seed, orthographic));
       Frame frame = captured_fence(samples, alpha, seed, orthographic);
       expect_same_map(frame, samples, alpha, seed);
     }
   }
+}
+
+/// How far counts are from those expected, in all: the sum of squares over the expected ones.
+double chi_square(const std::vector<double>& found, const std::vector<double>& expected) {
+  double sum = 0;
+  for (size_t i = 0; i < found.size(); ++i) {
+    if (expected[i] > 0) sum += (found[i] - expected[i]) * (found[i] - expected[i]) / expected[i];
+  }
+  return sum;
+}
+
+/// Equation 1 for every number of samples: floor(alpha S + xi) of them hold the nearest surface, xi even between 0 and 1. Of 1000
+/// such figures 999 stay below 10.8 (one degree of freedom), of 64 together below 106.
+TEST(StochasticDepthOfLayers, EquationOneHoldsForEveryNumberOfSamples) {
+  constexpr int width = 160, height = 120;
+  constexpr double pixels = double(width) * height;
+  Frame frame = test::shoot(test::perspective(width, height), test::tilted_plane(4, 0, 0));
+  for (int i = 0; i < 2; ++i) {
+    Channel& channel = test::plane_of(frame, layer_name("peel", i)).channels[0];
+    for (int y = 0; y < height; ++y) std::fill_n(channel.row(y), width, 4 + float(i));
+  }
+  double all = 0;
+  for (int samples = 1; samples <= 16; ++samples) {
+    for (const double alpha : {0.2, 0.3, 0.37, 0.5}) {
+      const Frame map = derived(frame, samples, alpha, 1);
+      std::vector<double> counts(size_t(samples) + 1, 0), in_sample(size_t(samples), 0);
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          size_t count = 0;
+          for (int j = 0; j < samples; ++j) {
+            const bool holds = value(map, layer_name("stochastic", j), x, y) == 4;
+            count += holds;
+            in_sample[size_t(j)] += holds;
+          }
+          ++counts[count];
+        }
+      }
+      const double mean = alpha * samples, least = std::floor(mean + 1e-6), share = std::max(mean - least, 0.0);
+      std::vector<double> expected(counts.size(), 0);
+      expected[size_t(least)] = (1 - share) * pixels;
+      if (share > 0) expected[size_t(least) + 1] = share * pixels;
+      const std::string what = fmt::format("{} samples, alpha {}", samples, alpha);
+      for (size_t i = 0; i < counts.size(); ++i) {
+        if (expected[i] == 0) {
+          EXPECT_EQ(counts[i], 0) << what << ": pixels whose nearest surface is held " << i << " times";
+        }
+      }
+      const double chi = chi_square(counts, expected);
+      EXPECT_LT(chi, 14) << what;
+      all += chi;
+      for (const double held : in_sample)
+        EXPECT_LT(std::abs(held - alpha * pixels), 4.5 * std::sqrt(alpha * (1 - alpha) * pixels)) << what;
+    }
+  }
+  std::printf("chi-square of all %.1f, 64 figures at most\n", all);
+  EXPECT_LT(all, 106);
 }
 
 /// Every one of 64 layers is held as often as alpha predicts, down to less than once per image.

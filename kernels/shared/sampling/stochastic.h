@@ -2,8 +2,10 @@
 // Kernels and the host, which captures scenes, share this text: the same bits.
 //
 // Of S samples R = floor(alpha S + xi) are offered a surface, and each keeps the nearest that it was offered. The paper looks the
-// subset up in a table. Here R is halved over halves of the samples, an odd one going to either half at random, down to single
-// samples. A half gets floor(alpha S/2 + xi') again, so the first 1, 2, 4 and 8 of 16 samples each are a stratified map.
+// subset up in a table. Here R of 16 is halved over halves of the samples, an odd one going to either half at random, down to
+// single samples. A half gets floor(alpha S/2 + xi') again, so the first 1, 2, 4 and 8 of 16 samples each are a stratified map.
+// Where S is no power of two, the samples after the largest power of two below S are decided one after another, each by how many
+// before it were offered the surface: the first n are floor(alpha n + xi') for every n.
 #ifndef GLOAM_STOCHASTIC_H
 #define GLOAM_STOCHASTIC_H
 
@@ -11,7 +13,14 @@
 
 #include "shared/lanes/hash.h"
 
-#ifndef __OPENCL_C_VERSION__
+#ifdef __OPENCL_C_VERSION__
+#define UPPER_PRODUCT(a, b) mul_hi(a, b)
+#define COUNT_OF_BITS(bits) popcount(bits)
+#else
+#include <bit>
+// a b / 2^32, rounded down.
+#define UPPER_PRODUCT(a, b) natural(std::uint64_t(a) * (b) >> 32)
+#define COUNT_OF_BITS(bits) natural(std::popcount(bits))
 namespace gloam {
 #endif
 
@@ -26,7 +35,7 @@ SHARED_FUNCTION natural surface_hash(natural x, natural y, natural seed, natural
 #define STOCHASTIC_ONE 0x1000000u
 
 // Bit j: sample j of 16 is offered the surface. `alpha`: 0 to 2^24.
-SHARED_FUNCTION natural stratified_subset(natural hash, natural alpha) {
+SHARED_FUNCTION natural halved_subset(natural hash, natural alpha) {
   // floor(16 alpha + xi), xi with 24 bits.
   const natural count = (alpha * 16u + (hash >> 8)) >> 24;
   natural coins = hash_of(hash + 0x9e3779b9u);
@@ -50,6 +59,33 @@ SHARED_FUNCTION natural stratified_subset(natural hash, natural alpha) {
   fields = (fields | fields >> 2) & 0x0f0f0f0fu;
   fields = (fields | fields >> 4) & 0x00ff00ffu;
   return (fields | fields >> 8) & 0xffffu;
+}
+
+// 1 where sample n, counted from 0, is offered the surface, as `count` of the n samples before it were: floor(alpha n + xi) for a
+// random xi. Then `count` with this sample is floor(alpha (n + 1) + xi').
+SHARED_FUNCTION natural next_bit(natural hash, natural alpha, unsigned int n, natural count) {
+  const natural one = STOCHASTIC_ONE, part = (alpha * n) & (one - 1u), left = one - part;
+  // 1 where `count` is alpha n rounded up, which has the probability `part` (in 2^-24); rounded down it has `left`.
+  const natural is_up = count - ((alpha * n) >> 24), of_count = left + is_up * (part - left);
+  // The probability of such a count with this sample offered the surface: alpha in all, for counts rounded down as far as there is
+  // room, for those rounded up the rest.
+  const natural if_down = alpha < left ? alpha : left, if_up = alpha - if_down,
+                of_both = if_down + is_up * (if_up - if_down);
+  // A random number below of_both / of_count: the difference borrows from bit 31.
+  return (UPPER_PRODUCT(hash_of(hash + n * 0x9e3779b9u), of_count) - of_both) >> 31;
+}
+
+// Bit j: sample j of `samples` is offered the surface.
+SHARED_FUNCTION natural stratified_subset(natural hash, natural alpha, unsigned int samples) {
+  unsigned int halved = 1u;
+  while (2u * halved <= samples) halved *= 2u;
+  natural subset = halved_subset(hash, alpha) & ((1u << halved) - 1u), count = COUNT_OF_BITS(subset);
+  for (unsigned int n = halved; n < samples; ++n) {
+    const natural bit = next_bit(hash, alpha, n, count);
+    subset |= bit << n;
+    count += bit;
+  }
+  return subset;
 }
 
 // 1 where sample `sample` is offered the surface, each sample by a random number of its own.
