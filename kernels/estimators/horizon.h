@@ -69,6 +69,15 @@ static inline Rise greater_rise(Rise a, Rise b) {
   return a;
 }
 
+// A rise by all layers with what the hidden ones add to the rise `by_first` multiplied by a factor. What is not taken does not
+// raise the horizon: it rises by the same share of what the hidden layers add, up to all of it.
+static inline Rise compensated_rise(Horizon horizon, Rise all, Rise by_first, scalar factor) {
+  const real from = larger(by_first.height, horizon.height), to = larger(all.height, horizon.height);
+  all.height = from + min(factor, (scalar)1) * (to - from);
+  all.taken = by_first.taken + factor * (all.taken - by_first.taken);
+  return all;
+}
+
 static inline void raise_by(Horizon* horizon, Rise rise) {
   horizon->height = larger(rise.height, horizon->height);
   horizon->taken += rise.taken;

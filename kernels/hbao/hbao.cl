@@ -31,7 +31,9 @@ static inline __attribute__((always_inline)) void rise_near(Frame frame, Params 
   const real x = to_real(dx), y = to_real(dy), depth = gather(layers.first + r.here, place);
   const real3 v = towards_depth(frame, r, x, y, depth);
   Rise rise = rise_to(*horizon, v, r.normal, r.reach.inverse_square, counts);
-  const real by_first = rise.taken;
+#if COMPENSATED
+  const Rise by_first = rise;
+#endif
   // Bound: a height is at most its sine.
   const mask rises = fused_dot3(r.normal, v) > horizon->height * least_distance(r, x, y);
   const mask asked = counts & asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
@@ -39,7 +41,9 @@ static inline __attribute__((always_inline)) void rise_near(Frame frame, Params 
     const real3 w = towards_depth(frame, r, x, y, behind.next);
     rise = greater_rise(rise, rise_to(*horizon, w, r.normal, r.reach.inverse_square, behind.counts));
   }
-  rise.taken = COMPENSATE(params, rise.taken, by_first);
+#if COMPENSATED
+  rise = compensated_rise(*horizon, rise, by_first, params.compensation);
+#endif
   raise_by(horizon, rise);
 }
 

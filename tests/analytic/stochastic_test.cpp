@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 
 #include "gloam/planes.h"
@@ -103,6 +104,144 @@ TEST(StochasticDepth, EmptySamplesChangeNothing) {
     const Channel without = unfiltered(frame, technique, {}, 0.5),
                   with = unfiltered(with_map, std::string("sd-") + technique, {}, 0.5);
     EXPECT_EQ(rmse(frame, without, with), 0) << technique;
+  }
+}
+
+// --- What is read behind the depth, and how it counts
+
+/// A technique with an estimate over stochastic depth, and settings with which a depth behind an occluder within reach counts.
+struct Estimator {
+  std::string name;
+  Settings settings;
+  /// Heights above the wall, scene units, of an occluder within reach, and of one out of reach.
+  double near, far;
+};
+
+/// The radius is .5. The cap on the reach leaves an occluder at the height `near` within the radius of every point that samples it. The
+/// balls of ssao weigh by depth alone: in full up to `range`, .1, not at all from .2 on.
+const std::vector<Estimator> estimators = {{"ssao", {{"range", "0.2"}}, 0.17, 0.45},
+                                           {"hbao", {{"max_reach", "0.02"}}, 0.45, 0.9},
+                                           {"hbao+", {{"max_reach", "0.02"}}, 0.45, 0.9},
+                                           {"gtao", {{"max_reach", "0.02"}, {"fade", "1"}}, 0.45, 0.9},
+                                           {"bitmask", {{"max_reach", "0.02"}, {"thickness", "0.1"}}, 0.45, 0.9}};
+
+/// The settings without what caps the reach.
+Settings range_of(const Estimator& e) { return e.name == "ssao" ? e.settings : Settings{}; }
+
+constexpr double wall = 4, hidden_height = 0.15;
+
+/// A wall that faces the eye, with blocks before it at a height, and in a stochastic depth map a surface behind each block.
+Frame blocks_before_a_wall(double height) {
+  Frame frame = shoot(perspective(96, 64), tilted_plane(wall, 0, 0));
+  Channel& depth = frame.views[0].planes.at("depth").channels[0];
+  Channel& hidden = plane_of(frame, layer_name("stochastic", 0)).channels[0];
+  for (int i = 1; i < 4; ++i) plane_of(frame, layer_name("stochastic", i));
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const bool is_block = x % 8 < 2 && y % 8 < 2;
+      depth.at(x, y) = float(is_block ? wall - height : wall);
+      hidden.at(x, y) = is_block ? float(wall - hidden_height) : INFINITY;
+    }
+  }
+  return frame;
+}
+
+double largest_difference(const Channel& a, const Channel& b) {
+  double most = 0;
+  for (int y = 0; y < a.layout().height; ++y) {
+    for (int x = 0; x < a.layout().width; ++x) most = std::max(most, std::abs(double(a.at(x, y)) - b.at(x, y)));
+  }
+  return most;
+}
+
+double mean_taken(const Channel& ao) {
+  double sum = 0;
+  for (int y = 0; y < ao.layout().height; ++y) {
+    for (int x = 0; x < ao.layout().width; ++x) sum += 1 - double(ao.at(x, y));
+  }
+  return sum / (double(ao.layout().width) * ao.layout().height);
+}
+
+/// Depths that have nothing to do with one another, seen or hidden, around points of a surface whose normal has an angle with this
+/// cosine to the line to the eye.
+Frame strewn(double cosine) {
+  Frame frame = shoot(perspective(96, 64), tilted_plane(wall, 0, 0));
+  const Shot shot = perspective(96, 64);
+  View& view = frame.views[0];
+  for (int i = 0; i < 4; ++i) plane_of(frame, layer_name("stochastic", i));
+  uint32_t state = 1;
+  const auto random = [&] { return (state = state * 1664525u + 1013904223u) / 4294967296.0; };
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const double first = wall - 0.4 + 0.8 * random();
+      view.planes.at("depth").channels[0].at(x, y) = float(first);
+      for (int i = 0; i < 4; ++i)
+        plane_of(frame, layer_name("stochastic", i)).channels[0].at(x, y) = float(first + 0.4 * random());
+      const glm::dvec3 to_eye = -glm::normalize(point_at(ray_through(shot, x + 0.5, y + 0.5), 1) - glm::dvec3(0));
+      const double turn = 6.283 * random();
+      const glm::dvec3 across = glm::normalize(glm::cross(to_eye, glm::dvec3(std::cos(turn), std::sin(turn), 0.1)));
+      const glm::dvec3 normal = cosine * to_eye + std::sqrt(1 - cosine * cosine) * across;
+      for (int c = 0; c < 3; ++c) view.planes.at("normal").channels[size_t(c)].at(x, y) = float(normal[c]);
+    }
+  }
+  return frame;
+}
+
+// --- Compensation
+
+TEST(StochasticDepth, CompensationOfZeroIsThePlainTechnique) {
+  const Frame frame = strewn(0.7);
+  for (const Estimator& e : estimators) {
+    for (const char* early_out : {"off", "below", "on"}) {
+      const Channel none = unfiltered(frame, "sd-" + e.name,
+                                      joined(range_of(e), {{"compensation", "0"}, {"early_out", early_out}}), 0.5);
+      EXPECT_EQ(largest_difference(none, unfiltered(frame, e.name, range_of(e), 0.5)), 0)
+          << e.name << ", " << early_out;
+    }
+  }
+}
+
+/// The factor is on what the hidden depths add, pixel by pixel where nothing is cut off at 0. Where hbao takes a part of a rise, the
+/// horizon is lower for the samples that follow, so that below 1 there is no proportion.
+TEST(StochasticDepth, CompensationMultipliesWhatHiddenDepthsAdd) {
+  for (const Estimator& e : estimators) {
+    SCOPED_TRACE(e.name);
+    const Frame frame = blocks_before_a_wall(e.far);
+    std::map<std::string, Channel> ao;
+    for (const char* factor : {"0", "0.5", "1", "2", "3"})
+      ao.emplace(factor, unfiltered(frame, "sd-" + e.name, joined(e.settings, {{"compensation", factor}}), 0.5));
+    double off_below_1 = 0, off_above_1 = 0;
+    int pixels = 0;
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        const auto at = [&](const char* factor) { return double(ao.at(factor).at(x, y)); };
+        if (at("3") < 0.01 || at("0") - at("1") < 0.01) continue;
+        ++pixels;
+        off_below_1 = std::max(off_below_1, std::abs(at("0") + at("1") - 2 * at("0.5")));
+        off_above_1 = std::max(off_above_1, std::abs(at("1") + at("3") - 2 * at("2")));
+        EXPECT_GT(at("1") - at("2"), 0.005) << x << ", " << y;
+      }
+    }
+    EXPECT_GT(pixels, 100);
+    EXPECT_LT(off_above_1, 1e-5);
+    if (e.name != "hbao") {
+      EXPECT_LT(off_below_1, 1e-5);
+    }
+  }
+}
+
+/// The hidden depths stand before the highest visible ones along each direction: a horizon that they raised by more than they take
+/// would leave nothing for what is seen behind them.
+TEST(StochasticDepth, LessCompensationIsNeverBrighterThanNone) {
+  const Frame frame = strewn(0.7);
+  for (const Estimator& e : estimators) {
+    double before = mean_taken(unfiltered(frame, e.name, range_of(e), 0.5));
+    for (const char* factor : {"0.1", "0.25", "0.5", "0.75", "1", "1.5"}) {
+      const double taken =
+          mean_taken(unfiltered(frame, "sd-" + e.name, joined(range_of(e), {{"compensation", factor}}), 0.5));
+      EXPECT_GT(taken, before) << e.name << ", " << factor;
+      before = taken;
+    }
   }
 }
 
