@@ -123,7 +123,7 @@ static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params
   SlicePoint p;
   point_in_slice(frame, side->sample, side->slope, side->above_e, e, &p);
   take_point(closed, side, params, search, p.along, p.above, p.square, counts, source);
-  return counts & asks_further(p.above > side->sample.least, e < 0, p.square >= search.radius_square);
+  return counts & asks_behind(search.receiver, p.above > side->sample.least, e < 0, p.square >= search.radius_square);
 }
 
 // Takes every layer at an index from `here`. `is_shared`: where both eyes see the point (STEREO).

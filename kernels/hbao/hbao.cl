@@ -36,7 +36,7 @@ static inline __attribute__((always_inline)) void rise_near(Frame frame, Params 
 #endif
   // Bound: a height is at most its sine.
   const mask rises = fused_dot3(r.normal, v) > horizon->height * least_distance(r, x, y);
-  const mask asked = counts & asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
+  const mask asked = counts & asks_behind(r, rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
   FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, place, asked, r.farthest) {
     const real3 w = towards_depth(frame, r, x, y, behind.next);
     rise = greater_rise(rise, rise_to(*horizon, w, r.normal, r.reach.inverse_square, behind.counts));

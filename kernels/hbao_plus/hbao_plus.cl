@@ -38,7 +38,7 @@ static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Par
   const real3 v = towards_depth(frame, r, dx, dy, depth);
   const real by_first = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
   const mask rises = fused_dot3(r.normal, v) > params.bias * least_distance(r, dx, dy);
-  const mask asked = asks_further(rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
+  const mask asked = asks_behind(r, rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
   real largest = by_first;
   FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {
     const real3 w = towards_depth(frame, r, dx, dy, behind.next);

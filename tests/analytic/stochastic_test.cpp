@@ -162,6 +162,27 @@ double mean_taken(const Channel& ao) {
   return sum / (double(ao.layout().width) * ao.layout().height);
 }
 
+/// `early_out=on` is the paper's section 3.3: what is within the radius is not looked behind, what rises before it is. `below` looks
+/// behind both.
+TEST(StochasticDepth, EarlyOutOnLooksBehindOnlyWhatIsOutOfReach) {
+  for (const Estimator& e : estimators) {
+    SCOPED_TRACE(e.name);
+    const auto image = [&](const Frame& frame, const char* early_out) {
+      return unfiltered(frame, "sd-" + e.name, joined(e.settings, {{"early_out", early_out}}), 0.5);
+    };
+    const Frame within = blocks_before_a_wall(e.near);
+    const Channel one_layer = unfiltered(within, e.name, e.settings, 0.5), on = image(within, "on"),
+                  below = image(within, "below"), off = image(within, "off");
+    EXPECT_EQ(largest_difference(on, one_layer), 0) << "what is behind an occluder within the radius is not read";
+    EXPECT_EQ(largest_difference(below, off), 0);
+    EXPECT_GT(mean_taken(below), mean_taken(one_layer) + 1e-3) << "what is behind it would count";
+    const Frame beyond = blocks_before_a_wall(e.far);
+    EXPECT_EQ(largest_difference(image(beyond, "on"), image(beyond, "off")), 0);
+    EXPECT_GT(mean_taken(image(beyond, "on")), mean_taken(unfiltered(beyond, e.name, e.settings, 0.5)) + 1e-3)
+        << "what is behind one out of reach is read";
+  }
+}
+
 /// Depths that have nothing to do with one another, seen or hidden, around points of a surface whose normal has an angle with this
 /// cosine to the line to the eye.
 Frame strewn(double cosine) {
@@ -185,6 +206,26 @@ Frame strewn(double cosine) {
     }
   }
   return frame;
+}
+
+/// `early_out=below` leaves out only what cannot count, however steep the surface is seen.
+TEST(StochasticDepth, EarlyOutBelowLosesNothing) {
+  for (const double cosine : {1.0, 0.5, 0.1, 0.01, -0.2}) {
+    const Frame frame = strewn(cosine);
+    for (const Estimator& e : estimators) {
+      const Settings range = range_of(e);
+      const auto image = [&](const char* early_out) {
+        return unfiltered(frame, "sd-" + e.name, joined(range, {{"early_out", early_out}}), 0.5);
+      };
+      const Channel off = image("off");
+      EXPECT_EQ(largest_difference(image("below"), off), 0) << e.name << ", cosine " << cosine;
+      // Where the normal is turned away, all is closed.
+      if (cosine > 0) {
+        EXPECT_GT(mean_taken(off), mean_taken(unfiltered(frame, e.name, range, 0.5)) + 1e-3)
+            << e.name << ", " << cosine;
+      }
+    }
+  }
 }
 
 // --- Compensation

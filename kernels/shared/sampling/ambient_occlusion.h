@@ -37,6 +37,7 @@ typedef struct {
   Reach reach;
   real farthest;          // depth beyond which nothing is within the radius; 0 on background
   real clear_x, clear_y;  // least_distance
+  mask climbs;            // asks_behind
   Noise noise;
 } Receiver;
 
@@ -48,6 +49,24 @@ static inline void expect_behind(Receiver* r, Frame f, scalar radius) {
   const scalar least = (scalar)0.7 / sqrt(1 + x * x + y * y);
   r->clear_x = r->point.across_x * least;
   r->clear_y = r->point.across_y * least;
+  // The most height over the tangent plane that the ray through a pixel within reach gains per unit of depth. `stretch` bounds how much
+  // longer than the reach slices are on the screen.
+  const Anchor a = r->point;
+  const real3 n = r->normal;
+  const real stretch = (scalar)f.perspective * (1 + fabs(a.ray_x) + fabs(a.ray_y));
+  const real spread =
+      fabs(n.x) * a.across_x * (r->reach.pixels_x + 1) + fabs(n.y) * a.across_y * (r->reach.pixels_y + 1);
+  r->climbs = n.x * a.ray_x + n.y * a.ray_y - n.z + stretch * spread > 0;
+}
+
+// Where layers behind the first are read, as asks_further. A depth behind one below the surface lies lower still, but for surfaces
+// so nearly edge-on that rays through pixels within the reach climb away from them: there all are read.
+static inline mask asks_behind(Receiver r, mask rises, mask nearer, mask out_of_reach) {
+#if EARLY_OUT == 1
+  return r.climbs | asks_further(rises, nearer, out_of_reach);
+#else
+  return asks_further(rises, nearer, out_of_reach);
+#endif
 }
 
 // Lower bound on the distance from the pixel's point to the ray through a pixel dx to the right and dy below, in units of the

@@ -60,8 +60,9 @@ static inline real depth_seen(real stored_depth, mask* by_both) {
 }
 
 // Where layers behind the first are read (section 3.3). EARLY_OUT 0: everywhere. 1: where the first `rises` over the tangent
-// plane so far that a depth behind it may still count; depths behind a surface that faces the eye lie lower, so the result stays
-// the same. 2: where moreover the first is nearer to the eye than the pixel's point, and out of reach.
+// plane so far that a depth behind it may still count; where the ray through its pixel does not climb away from that plane, depths
+// behind it lie lower, so the result stays the same (asks_behind, ambient_occlusion.h, sees to the others). 2: where moreover the
+// first is nearer to the eye than the pixel's point, and out of reach.
 #ifndef EARLY_OUT
 #define EARLY_OUT 0
 #endif
