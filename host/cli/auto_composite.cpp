@@ -105,7 +105,7 @@ unsigned long long bytes_of(const std::optional<CompositeSource>& source) {
   return source ? bytes_to_read(source->layer.files, source->layer.planes) : 0;
 }
 
-void read_colour(CompositeSource& source) { source.colour = source.layer.files.read(source.layer.planes); }
+void read_colour(CompositeSource& source) { source.colour = read_layer(source.layer, source.notes); }
 
 Composite make_composite(CompositeSource& source, const Frame& computed) {
   Composite composite;

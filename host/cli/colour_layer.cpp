@@ -1,6 +1,7 @@
 #include "cli/colour_layer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/options.h"
 #include "gloam/error.h"
@@ -33,7 +34,33 @@ int part_of_colour(const FrameFile& file) {
   return 0;
 }
 
+/// Whether a pixel of the colour is infinite or NaN.
+bool is_no_light(const Plane& color, int x, int y) {
+  return std::any_of(color.channels.begin(), color.channels.end(),
+                     [&](const Channel& channel) { return !std::isfinite(channel.at(x, y)); });
+}
+
+long long count_no_light(const Frame& frame) {
+  long long count = 0;
+  for (const View& view : frame.views) {
+    const Plane& color = view.planes.at("color");
+#pragma omp parallel for reduction(+ : count)
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) count += is_no_light(color, x, y);
+    }
+  }
+  return count;
+}
+
 }  // namespace
+
+Frame read_layer(ColourLayer& layer, std::vector<std::string>& notes) {
+  Frame colour = layer.files.read(layer.planes);
+  if (const long long count = count_no_light(colour); count > 0)
+    notes.push_back(fmt::format("color: {} pixel{} {} infinite or NaN, and the composite keeps {}", count,
+                                count == 1 ? "" : "s", count == 1 ? "is" : "are", count == 1 ? "it" : "them"));
+  return colour;
+}
 
 ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions& options) {
   ReadOptions as_stored = options;

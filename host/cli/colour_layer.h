@@ -19,4 +19,7 @@ struct ColourLayer {
 /// Opens the frame's files once more, for values without any change. Throws Error if there is no colour.
 ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions& options);
 
+/// Decodes the layer's planes. Appends a sentence on values that are no light, which a composite keeps.
+Frame read_layer(ColourLayer& layer, std::vector<std::string>& notes);
+
 }  // namespace gloam::cli

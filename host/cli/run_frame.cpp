@@ -221,6 +221,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   OutputSources sources = read_sources(planned);
   watch.lap("decode");
   note(frame.assumed);
+  note(sources.notes);
   const std::optional<Radius> settled = settle(planned, frame);
   const Plan& plan = planned.plan;
   const std::optional<RadiusReport> radius = report_on(settled, frame, plan);

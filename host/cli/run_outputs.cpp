@@ -106,7 +106,7 @@ OutputSources read_sources(PlannedFrame& planned) {
   OutputSources sources;
   sources.file = planned.files.files().front().path().string();
   if (!planned.colour) return sources;
-  sources.colour = planned.colour->files.read(planned.colour->planes);
+  sources.colour = read_layer(*planned.colour, sources.notes);
   sources.half_planes = planned.colour->half_planes;
   sources.part = planned.colour->part;
   sources.holds = planned.colour->files.files().front().text_attribute(color_holds_attribute);

@@ -47,7 +47,8 @@ struct OutputSources {
   Frame colour;
   std::vector<std::string> half_planes;
   int part = 0;
-  std::string holds;  ///< what colour holds, as the file states it; empty: it does not
+  std::string holds;               ///< what colour holds, as the file states it; empty: it does not
+  std::vector<std::string> notes;  ///< on values that are no light
 };
 
 /// Reads the colour, if a composite is asked for.

@@ -1,5 +1,7 @@
 #include "cli/shot_steps.h"
 
+#include <cctype>
+
 #include "base/elapsed.h"
 #include "base/memory.h"
 #include "cli/notes.h"
@@ -11,6 +13,13 @@ namespace {
 void replace_all(std::string& text, const std::string& what, const std::string& with) {
   for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
     text.replace(at, what.size(), with);
+}
+
+std::string without_numbers(const std::string& text) {
+  std::string words;
+  for (const char c : text)
+    if (!std::isdigit(static_cast<unsigned char>(c))) words += c;
+  return words;
 }
 
 }  // namespace
@@ -25,11 +34,12 @@ bool ShotSteps::run(size_t i, double& ms, const std::function<bool()>& step, boo
   return report_.attempt(files_.frames()[i].number, timed, stop_, is_told);
 }
 
-void ShotSteps::add_notes(size_t i, const std::vector<std::string>& notes) const {
+void ShotSteps::add_notes(size_t i, const std::vector<std::string>& notes) {
   for (std::string text : notes) {
     for (const FramePattern& pattern : files_.inputs())
       replace_all(text, pattern.path_of(files_.frames()[i].source).filename().string(), pattern.name());
-    note({text});
+    const std::lock_guard lock(mutex_);
+    if (told_.insert(without_numbers(text)).second) note({text});
   }
 }
 

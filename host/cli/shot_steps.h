@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,13 +22,15 @@ class ShotSteps {
   /// Runs a step of a frame, by its place in the list. False if it failed, or returned false. `ms`: set to the time it took. `is_told`:
   /// a failure is told; it is not of a frame that is only computed for those that follow.
   bool run(size_t i, double& ms, const std::function<bool()>& step, bool is_told = true);
-  /// Adds notes; of many frames each once, whichever file they name.
-  void add_notes(size_t i, const std::vector<std::string>& notes) const;
+  /// Adds notes; of many frames each once, whichever file and numbers it names.
+  void add_notes(size_t i, const std::vector<std::string>& notes);
 
  private:
   const ShotFiles& files_;
   ShotReport& report_;
   std::function<void()> stop_;
+  std::mutex mutex_;
+  std::set<std::string> told_;  ///< notes without their numbers
 };
 
 /// Throws Error for a frame whose image has another size than the first one's.

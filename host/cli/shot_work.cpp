@@ -87,6 +87,7 @@ bool ShotWork::decode(size_t i) {
     flight.frame = planned.files.read(planned.planes);
     flight.sources = read_sources(planned);
     steps_.add_notes(turns_[i].frame, flight.frame.assumed);
+    steps_.add_notes(turns_[i].frame, flight.sources.notes);
     const std::optional<Radius> radius = settle(planned, flight.frame);
     if (i == 0) add_warnings(radius, planned.plan, flight.frame);
     flight.plan = std::move(planned.plan);

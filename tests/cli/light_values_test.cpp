@@ -1,5 +1,6 @@
 // Colour and albedo that are no light, and lights inside surfaces: what is told, and what is not.
 #include <cmath>
+#include <limits>
 
 #include "cli/gloam_process.h"
 #include "support/stress.h"
@@ -139,6 +140,22 @@ TEST_F(CliLight, LightsInsideSurfacesAreTold) {
   EXPECT_EQ(notes_for(depth - 0.1).find("behind the surface"), std::string::npos);
   // Behind the back of a surface .4 lengths thick: hidden, but not inside.
   EXPECT_EQ(notes_for(depth + 0.3).find("behind the surface"), std::string::npos);
+}
+
+/// Those that a composite keeps are told by its note, where the technique reads no colour.
+TEST_F(CliLight, ACompositeTellsOfColourThatIsNoLight) {
+  int pixel = 0;
+  const std::string frame = frame_of([&](float v) {
+    const int i = pixel++ % 900;
+    return i == 7 ? std::numeric_limits<float>::infinity() : i == 9 ? std::nanf("") : v;
+  });
+  const Result run =
+      gloam({"run", "gtao", frame, "-o", path("ao.exr"), "--composite", path("lit.exr"), "--radius", "0.5"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("infinite or NaN, and the composite keeps them"), std::string::npos) << run.err;
+  const Result automatic = gloam({"auto", frame, "-o", path("all.exr"), "--composite", path("whole.exr")});
+  ASSERT_EQ(automatic.status, 0) << automatic.err;
+  EXPECT_NE(automatic.err.find("infinite or NaN, and the composite keeps them"), std::string::npos) << automatic.err;
 }
 
 }  // namespace
