@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/file_ledger.h"
 #include "base/lists.h"
 #include "bench/effects.h"
 #include "gloam/error.h"
@@ -17,6 +18,12 @@ namespace gloam::bench {
 namespace {
 
 constexpr const char* recipe_attribute = "gloamBench";  ///< header attribute of the kept files: their inputs
+
+/// Writes a file that stays for other runs. It may have been read before, made by another recipe, but is no file that a flag names.
+void write_kept(const std::filesystem::path& path, const Frame& frame) {
+  writes_file("-o", path, OutputUse::grows);
+  write_frame(path, frame);
+}
 
 /// Identifies a scene by geometry, first camera and reach.
 std::string digest_of(const Scene& scene) {
@@ -79,6 +86,7 @@ void Truths::tell(const std::string& what, double share) const {
 
 /// Notes whether a file is reused. A file that cannot be read is made again.
 bool Truths::is_there(const std::string& file, const std::string& recipe) {
+  const LooksAtFiles looks;
   bool same = false;
   try {
     std::error_code unknown;
@@ -114,7 +122,7 @@ std::filesystem::path Truths::frame_file() {
   CaptureResult result = capture(tracer(), capturing);
   result.frame.attributes[recipe_attribute] = recipe;
   result.frame.numbers["aoRadius"] = scene_.ao_radius;
-  write_frame(path, result.frame);
+  write_kept(path, result.frame);
   return path;
 }
 
@@ -139,7 +147,7 @@ const Truth& Truths::traced(const Frame& frame, const std::string& file, const s
   if (!is_there(file, recipe)) {
     Reference reference = trace();
     reference.frame.attributes[recipe_attribute] = recipe;
-    write_frame(options_.folder / file, reference.frame);
+    write_kept(options_.folder / file, reference.frame);
   }
   std::vector<std::string> none;
   return truths_.emplace(file, read_truth({(options_.folder / file).string()}, plane, frame, none)).first->second;

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/file_identity.h"
+#include "base/file_ledger.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -202,17 +204,11 @@ extern "C" void remove_and_leave(int signal) {
   ::_exit(128 + signal);
 }
 
-/// The file that a path leads to through symbolic links, which stay, even if the last one leads to nothing.
+/// The file that is written for a path: links stay.
 fs::path resolved(const fs::path& path) {
-  constexpr int most_links = 40;  // Linux follows as many
-  fs::path target = path;
+  const fs::path target = follow_links(path);
   std::error_code code;
-  for (int i = 0; fs::is_symlink(target, code); ++i) {
-    if (i == most_links) throw Error("{}: cannot write: {}", path.string(), std::strerror(ELOOP));
-    const fs::path next = fs::read_symlink(target, code);
-    if (code) break;
-    target = next.is_absolute() ? next : target.parent_path() / next;
-  }
+  if (fs::is_symlink(target, code)) throw Error("{}: cannot write: {}", path.string(), std::strerror(ELOOP));
   return target;
 }
 
@@ -275,6 +271,7 @@ void write_atomically(const fs::path& path, const std::function<void(NewFile&)>&
   if (path.empty()) throw Error("an empty path cannot be written");
   const fs::path target = resolved(path);
   check_target(path, target);
+  if (file_for == FileFor::user) check_before_writing(path);
   const auto [mode, replaces] = permissions_for(target);
   try {
     Temporary temporary(target, mode);
@@ -291,6 +288,7 @@ void write_atomically(const fs::path& path, const std::function<void(NewFile&)>&
     if (cause.starts_with(printable(path.string()))) throw Error("{}", cause);
     throw Error("{}: cannot write: {}", path.string(), cause);
   }
+  if (file_for == FileFor::user) has_written(path);
 }
 
 void remove_temporaries_on_signal() {
@@ -360,6 +358,7 @@ std::string read_text(const fs::path& path) {
   const int failure = errno;
   if (!file.is_open() || !file.is_regular()) check_regular(path);
   if (!file.is_open()) throw Error("{}: cannot read: {}", path.string(), std::strerror(failure));
+  opens_file(path);
   std::string text;
   std::array<char, 1 << 16> bytes;
   ssize_t got = 0;

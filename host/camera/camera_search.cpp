@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/file_ledger.h"
 #include "camera/camera_json.h"
 #include "gloam/error.h"
 
@@ -28,6 +29,7 @@ bool has_camera_name(const fs::path& file) {
 /// Whether a JSON whose name is not a camera's holds one. Frames lie beside other JSON files too, such as gloam's own reports, so
 /// any file that is clearly not a camera is ignored; `why_not` is filled if it may have been meant as one.
 bool looks_like_camera(const fs::path& file, std::string& why_not) {
+  const LooksAtFiles looks;
   try {
     const json document = parse_camera_json(file);
     if (!document.is_object()) return false;
@@ -61,6 +63,13 @@ std::optional<fs::path> only_one(const std::vector<fs::path>& candidates, const 
 }
 
 }  // namespace
+
+bool may_be_camera_file(const fs::path& file) {
+  std::error_code unknown;
+  std::string why_not;
+  return file.extension() == ".json" && fs::is_regular_file(file, unknown) &&
+         (has_camera_name(file) || looks_like_camera(file, why_not));
+}
 
 std::optional<fs::path> find_camera_file(const fs::path& frame, std::vector<std::string>* notes) {
   const std::string frame_name = frame.filename().string();

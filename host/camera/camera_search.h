@@ -15,4 +15,7 @@ namespace gloam {
 std::optional<std::filesystem::path> find_camera_file(const std::filesystem::path& frame,
                                                       std::vector<std::string>* notes = nullptr);
 
+/// Whether the search may find this file for a frame beside it.
+bool may_be_camera_file(const std::filesystem::path& file);
+
 }  // namespace gloam

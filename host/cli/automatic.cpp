@@ -31,6 +31,7 @@ void run_on_one_frame(const AutoCommand& flags) {
                        {"--json", flags.json.file()}});
   const bool explains = !flags.explain.empty();
   FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
+  check_pictures({"--explain", flags.explain}, files.views());
   std::vector<std::string> notes_on_light;
   const AutoPurpose purpose{explains, flags.goal || !flags.composite.path.empty(),
                             compose_options(flags.composite.light, files, notes_on_light)};

@@ -117,10 +117,11 @@ void bench_command(const BenchCommand& given) {
   std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
   if (before) inputs.emplace_back(earlier, before->file.string());
-  check_paths(inputs, {{"-o", (folder / "bench.json").string()},
-                       {"-o", (options.scene.folder / "scene.exr").string()},
-                       {"--google-benchmark", flags.google_benchmark},
-                       {"--json", flags.json.file()}});
+  check_paths(inputs,
+              {{"-o", (options.scene.folder / "scene.exr").string()},
+               {"--google-benchmark", flags.google_benchmark},
+               {"--json", flags.json.file()}},
+              {{"-o", (folder / "bench.json").string()}});
   const BenchFile written(flags.folder);
   std::vector<std::pair<std::string, RadiusReport>> radii;
   unsigned long long memory = 0;

@@ -65,7 +65,7 @@ class SetBench {
     });
     make_output_folder(flags_.folder);
     file_.emplace(flags_.folder, set_.id);
-    check_paths({}, {{"-o", file_->path().string()}, {"--json", flags_.json.file()}});
+    check_paths({}, {{"--json", flags_.json.file()}}, {{"-o", file_->path().string()}});
   }
 
   void run() {

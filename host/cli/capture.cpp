@@ -106,6 +106,9 @@ void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& sh
   for (const CaptureShot& shot : shots) {
     outputs.emplace_back("-o", shot.file);
     outputs.emplace_back("--picture", shot.picture);
+    std::vector<std::string> views;
+    for (const CaptureView& view : shot.views) views.push_back(view.name);
+    check_pictures({"--picture", shot.picture}, views);
   }
   check_paths({{"the scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
                {"--camera", flags.camera.camera},

@@ -86,6 +86,7 @@ void compare_command(const CompareFlags& flags) {
   Side test{FrameFile(flags.test, options), {}};
   Side reference{FrameFile(flags.reference, options_beside(options, flags.reference)), {}};
   const auto pairs = pair_views(test.file, reference.file, !options.views.empty());
+  check_pictures({"-o", flags.picture}, test.file.views());
   const unsigned long long memory =
       planned_memory(flags.frame_flags, flags.test + " against " + flags.reference,
                      bytes_of_comparison(flags, options, test.file, reference.file),

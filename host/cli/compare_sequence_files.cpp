@@ -104,11 +104,8 @@ ReadOptions ComparedShot::options_of(const SequenceFrame& frame) const {
 
 void ComparedShot::check_outputs(const std::string& movie) const {
   const std::vector<NamedPath> others = {{"-o", flags_.picture}, {"--json", flags_.json.file()}};
-  std::vector<NamedPath> inputs;
-  for (const SequenceFrame& frame : frames()) {
-    const CompareFlags one = flags_of(frame);
-    inputs.insert(inputs.end(), {{"the test", one.test}, {"the reference", one.reference}, {"--frame", one.frame}});
-  }
+  std::vector<NamedPath> inputs;  // the others are frames, of which the shot has told
+  for (const std::string& file : files_of_all_frames()) inputs.emplace_back("a file that is compared", file);
   check_paths(inputs, others);
   if (movie.empty()) return;
   if (!FramePattern::is_pattern(movie))

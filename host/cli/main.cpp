@@ -7,6 +7,7 @@
 #include <new>
 #include <set>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "cli/completion.h"
@@ -260,6 +261,7 @@ static int status_of_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   gloam::cli::restart_with_same_mathematics(argc, argv);
+  gloam::begin_file_ledger();
   gloam::remove_temporaries_on_signal();
   gloam::give_pocl_a_folder();
   const int status = status_of_command(argc, argv);

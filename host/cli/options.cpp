@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
+#include "base/file_identity.h"
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/lists.h"
 #include "base/statistics.h"
+#include "camera/camera_search.h"
 #include "cli/noted.h"
 #include "gloam/error.h"
 #include "run/plan_files.h"
@@ -15,12 +19,6 @@
 
 namespace gloam::cli {
 namespace {
-
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code unknown;
-  if (std::filesystem::equivalent(a, b, unknown)) return true;
-  return std::filesystem::weakly_canonical(a, unknown) == std::filesystem::weakly_canonical(b, unknown);
-}
 
 void check_writable(const NamedPath& output) {
   const std::filesystem::path parent = std::filesystem::path(output.second).parent_path();
@@ -35,6 +33,24 @@ void check_writable(const NamedPath& output) {
     throw Error("{} {}: cannot be written, {}", output.first, output.second, why);
 }
 
+/// Tells the ledger of an output that is the camera file beside a frame: it is the frame's even where this time the header or a flag
+/// gives the camera, and the file is not read.
+void tell_of_camera(const std::vector<NamedPath>& inputs, const std::filesystem::path& output) {
+  if (!may_be_camera_file(output)) return;
+  for (const auto& [what, path] : inputs) {
+    const std::filesystem::path frame = path;
+    if (frame.extension() != ".exr") continue;
+    try {
+      const auto found = find_camera_file(frame);
+      if (found && are_same_file(*found, output))
+        reads_file(output, fmt::format("the camera file of {}", frame.filename().string()));
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error&) {  // two files could be its camera
+    }
+  }
+}
+
 /// Writes to a file, or to standard output for "-".
 void write_document(const std::string& path, const std::string& text) {
   if (path != "-") return write_text(path, text);
@@ -44,17 +60,20 @@ void write_document(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i].second.empty()) continue;
-    std::vector<NamedPath> others = inputs;
-    others.insert(others.end(), outputs.begin(), outputs.begin() + long(i));
-    for (const auto& [what, path] : others) {
-      if (path.empty() || !same_file(path, outputs[i].second)) continue;
-      throw UsageError("{} {}: is also {}; name another file", outputs[i].first, outputs[i].second, what);
-    }
-    check_writable(outputs[i]);
-  }
+void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs,
+                 const std::vector<NamedPath>& growing) {
+  for (const auto& [what, path] : inputs) reads_file(path, what);
+  std::set<NamedPath> told;  // of two alike the ledger would take the second for the first, said again
+  const auto check = [&](const NamedPath& output, OutputUse use) {
+    if (output.second.empty()) return;
+    if (!told.insert(output).second)
+      throw UsageError("{} {}: is also {}; name another file", output.first, output.second, output.first);
+    tell_of_camera(inputs, follow_links(output.second));
+    writes_file(output.first, output.second, use);
+    check_writable(output);
+  };
+  for (const NamedPath& output : outputs) check(output, OutputUse::result);
+  for (const NamedPath& output : growing) check(output, OutputUse::grows);
 }
 
 Settings parse_settings(const std::vector<std::string>& items, const std::string& flag) {
@@ -186,6 +205,11 @@ std::filesystem::path picture_path(const std::string& path, const std::string& v
   if (!several) return path;
   std::filesystem::path with_view = path;
   return with_view.replace_extension(as_file_name(view) + std::filesystem::path(path).extension().string());
+}
+
+void check_pictures(const NamedPath& picture, const std::vector<std::string>& views) {
+  if (picture.second.empty() || views.size() < 2) return;
+  for (const std::string& view : views) writes_file(picture.first, picture_path(picture.second, view, true));
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number) {

@@ -37,9 +37,12 @@ struct JsonFlag {
   void write(const Json& document, const std::vector<std::string>& complete = {}) const;
 };
 
-/// Call it before computing anything: throws if an output is also an input or another output, if its folder cannot be written to,
-/// or if it is a folder or a device itself. Empty paths are ignored.
-void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
+/// Call it before computing anything, with all files that flags name: tells the ledger of files (base/file_ledger.h), which throws if an
+/// output is also an input or another output; inputs that the command finds itself it hears of where they are opened. Throws too if
+/// an output's folder cannot be written to, or if it is a folder or a device itself. Empty paths are ignored. `growing`: outputs that
+/// the command goes on from and writes again, such as bench.json.
+void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs,
+                 const std::vector<NamedPath>& growing = {});
 
 /// "1 file", "3 files"
 std::string counted(size_t count, const char* what);
@@ -65,6 +68,8 @@ void check_frame_name(const std::string& path, const std::string& flag);
 void check_picture_name(const std::string& path, const std::string& flag);
 /// picture.png, or picture.left.png for one of several views.
 std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several);
+/// Tells the ledger of files of the pictures of all views, once these are known: `check_paths` has the name on the command line alone.
+void check_pictures(const NamedPath& picture, const std::vector<std::string>& views);
 
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are aligned right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);

@@ -68,18 +68,19 @@ void check_flags(const ReferenceCommand& flags) {
 void reference_on_frame(const ReferenceCommand& flags, const ReferenceJob& job) {
   const WriteOptions write{flags.half, flags.compression};
   const std::string checkpoint = flags.out + ".partial";
-  check_paths(
-      {{"the frame", flags.frame},
-       {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
-       {"--camera", flags.frame_flags.camera},
-       {"--environment", flags.request.environment}},
-      {{"-o", flags.out}, {"the unfinished", checkpoint}, {"--picture", flags.picture}, {"--json", flags.json.file()}});
+  check_paths({{"the frame", flags.frame},
+               {"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+               {"--camera", flags.frame_flags.camera},
+               {"--environment", flags.request.environment}},
+              {{"-o", flags.out}, {"--picture", flags.picture}, {"--json", flags.json.file()}},
+              {{"the unfinished", checkpoint}});
   const auto bar = progress_bar();
   ReferenceOptions options;
   options.seed = uint32_t(flags.seed);
   options.checkpoint = checkpoint;
   if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
   FrameFiles files({flags.frame}, flags.frame_flags.read_options());
+  check_pictures({"--picture", flags.picture}, files.views());
   SceneOfFrame scene(flags.scene);
   const TracedFrame traced = trace_frame(flags, job, files, scene, options);
   const Reference& result = traced.truth;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/elapsed.h"
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "cli/radius.h"
 #include "cli/shot.h"
@@ -16,6 +17,11 @@
 
 namespace gloam::cli {
 namespace {
+
+/// Where the unfinished truth of a frame is kept.
+std::filesystem::path checkpoint_of(const FramePattern& output, int frame) {
+  return output.path_of(frame).string() + ".partial";
+}
 
 /// The frames of a shot, one after another.
 class TruthsOfShot {
@@ -84,7 +90,7 @@ class TruthsOfShot {
     const std::filesystem::path out = output_.path_of(frame.number);
     if (flags_.resume && report_.leaves_alone(frame.number, out, why_again(out, making))) return false;
     times.decode = lap();
-    const std::string checkpoint = out.string() + ".partial";
+    const std::filesystem::path checkpoint = checkpoint_of(output_, frame.number);
     ReferenceOptions options;
     options.seed = seed_of(frame.number);
     options.checkpoint = checkpoint;
@@ -158,7 +164,11 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
   const FramePattern output(flags.out, "-o");
   const ShotFiles shot({.frame = flags.frame}, flags.frame_flags, flags.choice);
   const NamedPatterns outputs = {{"-o", output}};
-  check_outputs(outputs, shot, {{"--json", flags.json.file()}});
+  NamedPatterns all = outputs;
+  if (!flags.picture.empty()) all.emplace_back("--picture", FramePattern(flags.picture, "--picture"));
+  for (const SequenceFrame& frame : shot.frames())
+    writes_file("the unfinished", checkpoint_of(output, frame.number), OutputUse::grows);
+  check_outputs(all, shot, {{"--json", flags.json.file()}});
   check_paths({{"--scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
                {"--environment", flags.request.environment}},
               {{"--json", flags.json.file()}});

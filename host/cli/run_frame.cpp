@@ -196,6 +196,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   check_paths(inputs, files_written);
   const bool carries_depth = !flags.bare && !flags.out.empty();
   FrameFiles opened = flags.frame.open(flags.frame_flags.read_options());
+  check_pictures({"--picture", flags.picture}, opened.views());
   const PlanRequest over_time = going_on(request, opened, flags.technique_flags.temporal);
   PlannedFrame planned = planned_frame(std::move(opened), over_time, carries_depth);
   if (flags.out.empty()) keep_first_output(planned, carries_depth);

@@ -1,5 +1,6 @@
 #include "cli/run_outputs.h"
 
+#include "base/file_identity.h"
 #include "gloam/color_holds.h"
 #include "gloam/error.h"
 #include "gloam/exr_copy.h"
@@ -76,7 +77,7 @@ std::vector<std::string> FrameOutputs::paths() const {
 
 FrameOutputs outputs_of(const RunCommand& flags) {
   const std::string& composite = flags.composite.path;
-  const bool in_copy = !composite.empty() && composite == flags.into;
+  const bool in_copy = !composite.empty() && !flags.into.empty() && are_same_file(composite, flags.into);
   return {flags.out, flags.into, in_copy ? "" : composite, in_copy};
 }
 

@@ -81,8 +81,9 @@ class ScoreRun {
       : flags_(flags), entry_(score::read_entry(flags.entry())), reading_(flags.frame_flags.read_options()) {
     find_targets();
     make_output_folder(flags.folder);
+    check_paths({{"--json", flags.entry()}, {"--camera", flags.frame_flags.camera}}, {},
+                {{"-o", (fs::path(flags.folder) / "bench.json").string()}});
     result_.emplace(flags.folder, set_);
-    check_paths({{"--json", flags.entry()}}, {{"-o", result_->path().string()}});
     score::ScoringOptions options;
     if (!flags.no_images) options.folder = flags.folder;
     options.frames = reading_;

@@ -1,6 +1,7 @@
 // gloam set list|make|verify: frozen sets of frames and truths
 #include <cmath>
 
+#include "base/file_ledger.h"
 #include "bench/commit.h"
 #include "cli/options.h"
 #include "gloam/error.h"
@@ -135,17 +136,24 @@ void print_result(const SetCommand& flags, const MakeResult& result) {
                printable(one.cause));
 }
 
-void check_make_flags(const SetCommand& flags) {
-  if (flags.name.empty()) throw UsageError("set make: needs the name of a set; gloam set list shows them");
-  check_paths({}, {{"--json", flags.json.file()}});
+/// The files of a set; those that are whole stay when it is made again.
+void tell_ledger(const Recipe& recipe, const fs::path& folder) {
+  writes_file("-o", folder / "manifest.json", OutputUse::grows);
+  for (const ItemRecipe& item : recipe.items) {
+    std::vector<std::string> files = frame_files(item);
+    for (const TruthRecipe& truth : item.truths) add_new(files, truth_files(item, truth.effect));
+    for (const std::string& file : files) writes_file("-o", folder / file, OutputUse::grows);
+  }
 }
 
 void make(const SetCommand& flags) {
-  check_make_flags(flags);
+  if (flags.name.empty()) throw UsageError("set make: needs the name of a set; gloam set list shows them");
   Recipe recipe = find_recipe(flags.name);
   if (flags.seed) recipe = seeded_recipe(recipe, uint64_t(*flags.seed));
   MakeOptions options;
   options.folder = folder_of(flags);
+  tell_ledger(recipe, options.folder);
+  check_paths({}, {{"--json", flags.json.file()}});
   if (!flags.only.empty()) options.only = split_list(flags.only, "--only");
   if (flags.seed) options.seed = uint64_t(*flags.seed);
   options.gloam = GLOAM_VERSION, options.commit = bench::commit;

@@ -30,7 +30,7 @@ void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& ou
 /// Names of outputs with their flags.
 using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
 
-/// Throws UsageError if a frame's output is also an input of a frame or another output, and Error if it cannot be written.
+/// As `check_paths`, with the outputs of all frames; what the shot reads it has told itself.
 void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
 
 }  // namespace gloam::cli

@@ -182,13 +182,11 @@ stress::Json read_document(const std::string& path) {
 void join_files(const StressCommand& flags) {
   if (!flags.technique.empty())
     throw UsageError("stress: --from joins earlier results and examines nothing; leave out '{}'", flags.technique);
-  std::vector<StressFile> files;
   std::vector<NamedPath> inputs;
-  for (const std::string& path : flags.from) {
-    inputs.emplace_back("--from", path);
-    files.push_back({path, read_document(path)});
-  }
+  for (const std::string& path : flags.from) inputs.emplace_back("--from", path);
   check_paths(inputs, {{"--markdown", flags.markdown}, {"--json", flags.json.file()}});
+  std::vector<StressFile> files;
+  for (const std::string& path : flags.from) files.push_back({path, read_document(path)});
   const std::vector<stress::Json> documents = joined(files);
   if (!flags.json.path.empty() && documents.size() > 1)
     throw UsageError(
@@ -224,7 +222,7 @@ void stress_command(const StressCommand& flags) {
   if (flags.technique.empty()) throw UsageError("stress: which technique? name one, or all (gloam list techniques)");
   const StressRequest request = request_of(flags);
   if (flags.chunks > 0) return print_stress_chunks(flags, request);
-  check_paths({}, {{"--json", flags.json.file()}, {"--markdown", flags.markdown}});
+  check_paths({}, {{"--markdown", flags.markdown}}, {{"--json", flags.json.file()}});
   if (!flags.out.empty()) make_folder(flags.out);
   StressRun run{.extent = request.extent, .seed = request.seed, .frames = request.frames};
   examine_all(flags, request, run);

@@ -1,5 +1,6 @@
 #include "exr/json_cameras.h"
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "camera/camera_json.h"
@@ -56,6 +57,7 @@ JsonCameras read_json_cameras(const JsonRequest& request, std::vector<std::strin
   const bool is_asked_for = !request.json.empty();
   const std::optional<fs::path> json = is_asked_for ? request.json : find_camera_file(request.frame, &notes);
   if (!json) return {};
+  if (!is_asked_for) reads_file(*json, "the camera file of " + request.frame.filename().string());
   std::string text = request.text;
   if (text.empty()) {
     const ImageNumbers numbers{request.frame.filename().string(), last_number(request.frame.stem().string()),

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "base/file_ledger.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
 
@@ -37,6 +38,7 @@ ExrInput::ExrInput(const std::filesystem::path& path) : Imf::IStream(path.c_str(
   ::fstat(descriptor_, &about);
   if (S_ISREG(about.st_mode)) {
     size_ = uint64_t(about.st_size);
+    opens_file(path);
     return;
   }
   ::close(descriptor_);

@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/memory.h"
 #include "gloam/error.h"
@@ -169,6 +170,7 @@ cv::Mat read_png(const std::filesystem::path& path) {
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_file(&png, path.c_str()))
     throw Error("{}: cannot be read as PNG: {}", path.string(), png.message);
+  opens_file(path);
   const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&png, png_image_free);
   if ((long long)png.width * png.height > max_pixels)
     throw Error("{}: has {}x{} pixels; {} are read at most", path.string(), png.width, png.height, max_pixels);

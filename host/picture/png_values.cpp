@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -85,6 +86,7 @@ PngValues read_png_values(const std::filesystem::path& path, const std::function
   const auto refuse = [&]() { return Error("{}: cannot be read as PNG: {}", path.string(), d.why); };
   d.file = std::fopen(path.c_str(), "rb");
   if (!d.file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
+  opens_file(path);
   d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &d, keep_reason, ignore_warning);
   d.info = d.png ? png_create_info_struct(d.png) : nullptr;
   if (d.png) png_set_chunk_malloc_max(d.png, largest_chunk);  // texts and profiles, which a file may have compressed

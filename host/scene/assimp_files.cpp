@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/words.h"
 #include "gloam/error.h"
@@ -72,10 +73,21 @@ bool AssimpFiles::Exists(const char* file) const {
 Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
   const fs::path path = fs::exists(file) ? std::string(file) : percent_decoded(file);
   if (!fs::is_directory(path)) check_regular(path);
+  if (!is_allowed(path)) return nullptr;
   const std::string ending = ending_of(path);
   if (ending == ".mtl") return open_mtl(path);
   Assimp::IOStream* stream = ending == ".obj" ? open_obj(path) : DefaultIOSystem::Open(path.c_str(), mode);
   return stream ? new EndingStream(stream) : nullptr;
+}
+
+bool AssimpFiles::is_allowed(const fs::path& path) {
+  try {
+    if (fs::exists(path)) opens_file(path);
+    return true;
+  } catch (const UsageError&) {
+    refused = std::current_exception();
+    return false;
+  }
 }
 
 Assimp::IOStream* AssimpFiles::open_obj(const fs::path& path) {

@@ -4,6 +4,7 @@
 #include <assimp/DefaultIOSystem.h>
 
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,8 +22,10 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string> found, missing, left_out;  ///< .mtl files; statements of them
   std::optional<size_t> faces;                        ///< faces of an OBJ file
   std::string why_not;                                ///< why an OBJ file cannot be read
+  std::exception_ptr refused;                         ///< what the ledger of files threw, which assimp would not pass on
 
  private:
+  bool is_allowed(const std::filesystem::path& path);
   Assimp::IOStream* open_obj(const std::filesystem::path& path);
   Assimp::IOStream* open_mtl(const std::filesystem::path& path);
 };

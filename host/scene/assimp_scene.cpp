@@ -63,6 +63,7 @@ std::string reason_on_one_line(std::string text) {
 const aiScene& read_assimp_scene(Assimp::Importer& importer, const fs::path& path, bool is_gltf,
                                  const AssimpFiles& files) {
   const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (files.refused) std::rethrow_exception(files.refused);
   if (!files.why_not.empty()) throw Error("{}", files.why_not);
   if (!scene || !scene->mRootNode) refuse(path, reason_on_one_line(importer.GetErrorString()));
   check_faces(*scene, path);

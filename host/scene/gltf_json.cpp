@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/words.h"
@@ -39,6 +40,7 @@ uint32_t word(const std::array<char, 20>& header, size_t index) {
 /// The first chunk of a GLB: magic, version, length of the file; then length, "JSON" and text of the chunk.
 std::string json_of_glb(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
+  opens_file(path);
   const uint64_t size = fs::file_size(path);
   std::array<char, 20> header{};
   if (!file.read(header.data(), header.size()))

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <memory>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "gloam/error.h"
 
@@ -47,6 +48,7 @@ Texture read_image(const std::filesystem::path& path) {
   const auto size = std::filesystem::file_size(path, failed);
   std::ifstream file(path, std::ios::binary);
   if (failed || !file) throw Error("the file cannot be opened");
+  opens_file(path);
   if (size > size_t(INT_MAX)) throw Error("the file has over 2 GB");
   std::vector<uint8_t> bytes(size);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size))) throw Error("the file cannot be read");

@@ -169,6 +169,8 @@ int Importer::loaded(const std::string& name) {
     if (name.starts_with("*") && !embedded) throw Error("there is none of this number");
     scene_.textures.push_back(embedded ? embedded_texture(*embedded, shown) : read_image(find_file(folder_, name)));
     entry->second = int(scene_.textures.size()) - 1;
+  } catch (const UsageError&) {  // an output is this file
+    throw;
   } catch (const std::exception& e) {
     scene_.notes.push_back(fmt::format("texture '{}' cannot be read ({}) and was left out", shown, e.what()));
   }

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "base/elapsed.h"
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/lists.h"
 #include "base/low_discrepancy.h"
@@ -51,6 +52,7 @@ void check_checkpoint(const std::filesystem::path& path) {
   std::error_code code;
   if (path.empty() || !std::filesystem::exists(std::filesystem::symlink_status(path, code))) return;
   bool ours = false;
+  const LooksAtFiles looks;
   try {
     ours = std::filesystem::is_regular_file(path, code) && !FrameFile(path, {}).text_attribute(key_name).empty();
   } catch (const Error&) {
@@ -65,6 +67,7 @@ void check_checkpoint(const std::filesystem::path& path) {
 void resume(Reference& reference, const std::string& key, const RowsOptions& options) {
   Frame& result = reference.frame;
   if (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) return;
+  const LooksAtFiles looks;
   try {
     ReadOptions as_stored;
     as_stored.as_stored = true;

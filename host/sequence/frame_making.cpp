@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/file_ledger.h"
 #include "base/hash.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -79,6 +80,7 @@ std::map<std::string, std::string> attributes_of(const FrameMaking& making) {
 std::string why_again(const fs::path& path, const FrameMaking& making, const std::string& added) {
   std::error_code unknown;
   if (!fs::exists(path, unknown)) return "it is not there";
+  const LooksAtFiles looks;
   try {
     FrameFile file(path, {.only_looks = true, .as_stored = true});
     const std::map<std::string, std::string> wanted = attributes_of(making);

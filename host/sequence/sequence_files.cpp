@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include "base/file_ledger.h"
 #include "gloam/error.h"
+#include "sequence/pattern_reads.h"
 
 namespace gloam {
 namespace {
@@ -22,11 +24,27 @@ SequenceFiles::SequenceFiles(std::vector<FramePattern> inputs, const ReadOptions
                              std::vector<std::string>& notes)
     : inputs_(std::move(inputs)), frames_(list_frames(inputs_, choice, notes)), options_(options) {
   const std::string camera = options.camera_file.string();
-  if (camera.empty()) return;
   if (FramePattern::is_pattern(camera))
     cameras_.emplace(camera, "--camera");
-  else
+  else if (!camera.empty())
     camera_list_ = CameraList::of_file(camera, sources_of(frames_));
+  tell_ledger();
+}
+
+void SequenceFiles::tell_ledger() const {
+  if (!has_file_ledger()) return;
+  for (const SequenceFrame& frame : frames_) {
+    for (const std::string& path : paths_of(frame))
+      reads_file(path, fmt::format("what frame {} is read from", frame.number));
+  }
+  for (const FramePattern& pattern : inputs_) {
+    reads_pattern(pattern);
+    if (options_.camera_file.empty()) reads_cameras_beside(pattern);
+  }
+  if (cameras_)
+    reads_pattern(*cameras_);
+  else
+    reads_file(options_.camera_file, "--camera");
 }
 
 std::vector<int> SequenceFiles::numbers() const {

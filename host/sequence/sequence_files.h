@@ -36,6 +36,9 @@ class SequenceFiles {
   FrameFiles open(const SequenceFrame& frame) const { return FrameFiles(paths_of(frame), options_for(frame)); }
 
  private:
+  /// Of all files that may be read, so that no output is one of them.
+  void tell_ledger() const;
+
   std::vector<FramePattern> inputs_;
   std::vector<SequenceFrame> frames_;
   ReadOptions options_;

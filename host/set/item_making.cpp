@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/file_ledger.h"
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -40,6 +41,7 @@ void ItemMaker::tell(const std::string& what, double share) const {
 
 /// The hash of a file that stays; empty if it must be made.
 std::string ItemMaker::kept_hash(const std::string& file, const std::string& identity) {
+  const LooksAtFiles looks;
   try {
     std::error_code unknown;
     const std::filesystem::path path = folder_ / file;

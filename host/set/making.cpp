@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "base/elapsed.h"
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/lists.h"
 #include "gloam/error.h"
@@ -26,6 +27,7 @@ void make_folder(const std::filesystem::path& folder) {
 Manifest earlier(const Recipe& recipe, const MakeOptions& options) {
   std::error_code unknown;
   if (!std::filesystem::exists(options.folder / "manifest.json", unknown)) return {};
+  const LooksAtFiles looks;
   Manifest manifest = read_manifest(options.folder);
   const bool is_same = manifest.set == recipe.name && manifest.seed == options.seed;
   if (!is_same)

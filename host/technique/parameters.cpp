@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/file_ledger.h"
 #include "gloam/error.h"
 
 namespace gloam {
@@ -56,6 +57,7 @@ FileNames& file_names() {
 
 int value_of_file(const std::string& name) {
   if (name == "none") return 0;
+  reads_file(name, fmt::format("the file '{}' of a parameter", name));
   FileNames& files = file_names();
   const std::lock_guard lock(files.mutex);
   const auto found = std::find(files.names.begin(), files.names.end(), name);
