@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/command_line.h"
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "bench/pictures.h"
 #include "cli/memory.h"
@@ -14,6 +15,7 @@
 #include "score/entry.h"
 #include "score/result_file.h"
 #include "score/scoring.h"
+#include "sequence/pattern_reads.h"
 
 namespace gloam::cli {
 namespace {
@@ -97,6 +99,7 @@ class ScoreRun {
       command_.emplace(flags.command, fs::path(flags.folder) / "submitted" / bench::file_name(entry_.name));
     else
       find_files();
+    tell_ledger();
   }
 
   void run() {
@@ -119,6 +122,18 @@ class ScoreRun {
   }
 
  private:
+  /// Of the pictures and, with a command, of the images and cameras.
+  void tell_ledger() const {
+    for (const score::Target& target : targets_) {
+      if (command_ && target.effect != entry_.effect) continue;
+      if (!flags_.no_images) {
+        for (const std::string& name : {std::string("truth"), score::submitted_picture(entry_.name)})
+          writes_file("-o", fs::path(flags_.folder) / score::picture_file(target, name));
+      }
+      if (command_) command_->tell_ledger(target);
+    }
+  }
+
   void find_targets() {
     if (!flags_.set.empty()) {
       ScoredSet found = read_set(flags_.set);
@@ -135,6 +150,8 @@ class ScoreRun {
 
   /// Finds the images, and leaves out the effects of which there are none.
   void find_files() {
+    for (const std::string& image : flags_.images)
+      if (FramePattern::is_pattern(image)) reads_pattern(FramePattern(image, "IMAGES"));
     const bool are_free =
         set_ == std::nullopt && files_given(flags_.images, targets_.front(), targets_.front().frames.front().number);
     std::vector<std::string> effects = {entry_.effect};

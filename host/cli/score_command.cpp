@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/lists.h"
 #include "bench/effects.h"
 #include "cli/camera_file.h"
 #include "cli/foreign_process.h"
+#include "cli/making_folder.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/radius.h"
@@ -20,7 +22,7 @@ using score::Target;
 using score::TargetFrame;
 
 constexpr const char* flag = "--command";
-constexpr const char* own_image = ".gloam_own.exr";
+constexpr const char* own_image = "gloam_own.exr";
 
 /// The technique that gloam takes for an effect; empty if there is none.
 std::string own_technique(const std::string& effect) {
@@ -31,15 +33,6 @@ std::string own_technique(const std::string& effect) {
   return "";
 }
 
-/// "frames/walk.####.exr" for "frames/walk.0007.exr" of frame 7.
-std::string pattern_of(const fs::path& file, int frame) {
-  const std::string name = file.filename().string(), number = fmt::format("{:04}", frame);
-  const size_t at = name.rfind(number);
-  if (at == std::string::npos) return file.string();
-  return (file.parent_path() / (name.substr(0, at) + std::string(number.size(), '#') + name.substr(at + number.size())))
-      .string();
-}
-
 }  // namespace
 
 MethodCommand::MethodCommand(const ScoreCommandFlags& flags, const fs::path& folder)
@@ -48,7 +41,7 @@ MethodCommand::MethodCommand(const ScoreCommandFlags& flags, const fs::path& fol
   Target target;
   target.name = "ITEM";
   const TargetFrame at;
-  for (const std::string& word : words_) with_values(word, values_for(target, at, "", "image.exr"), flag);
+  for (const std::string& word : words_) with_values(word, values_for(target, at, "", "image.exr", "images.exr"), flag);
   const bool by_frame = has("{frame}") && has("{image}"), by_sequence = has("{frames}") && has("{images}");
   if (by_frame == by_sequence)
     throw UsageError(
@@ -66,9 +59,9 @@ bool MethodCommand::has(const char* placeholder) const {
                      [&](const std::string& word) { return word.find(placeholder) != std::string::npos; });
 }
 
-fs::path MethodCommand::image_of(const Target& target, const std::string& frame, const std::string& view) const {
-  return folder_ / fmt::format("{}{}{}_{}.{}", target.name, target.is_sequence ? "." + frame : "",
-                               view.empty() ? "" : "_" + view, target.effect, flags_.image_type);
+std::string MethodCommand::image_of(const Target& target, const std::string& frame, const std::string& view) const {
+  return fmt::format("{}{}{}_{}.{}", target.name, target.is_sequence ? "." + frame : "", view.empty() ? "" : "_" + view,
+                     target.effect, flags_.image_type);
 }
 
 fs::path MethodCommand::camera_of(const Target& target, const TargetFrame& at) const {
@@ -77,7 +70,8 @@ fs::path MethodCommand::camera_of(const Target& target, const TargetFrame& at) c
 }
 
 std::map<std::string, std::string> MethodCommand::values_for(const Target& target, const TargetFrame& at,
-                                                             const std::string& view, const fs::path& image) const {
+                                                             const std::string& view, const fs::path& image,
+                                                             const fs::path& images) const {
   std::map<std::string, std::string> values = {{"frame", at.frame.string()},
                                                {"image", image.string()},
                                                {"radius", target.radius ? fmt::format("{}", *target.radius) : ""},
@@ -87,15 +81,15 @@ std::map<std::string, std::string> MethodCommand::values_for(const Target& targe
                                                {"view", view},
                                                {"camera", camera_of(target, at).string()},
                                                {"frames", at.frame.string()},
-                                               {"images", image.string()}};
-  if (target.is_sequence && !target.frames.empty()) {
-    values["frames"] = pattern_of(target.frames.front().frame, target.frames.front().number);
-    values["images"] = image_of(target, "####", "").string();
-  }
+                                               {"images", images.string()}};
+  if (target.is_sequence) values["frames"] = target.pattern;
   return values;
 }
 
-std::vector<MethodCommand::Job> MethodCommand::jobs_for(const Target& target, const TargetFrame& at) const {
+bool MethodCommand::is_whole(const Target& target) const { return target.is_sequence && has("{frames}"); }
+
+std::vector<MethodCommand::Job> MethodCommand::jobs_for(const Target& target, const TargetFrame& at,
+                                                        const fs::path& folder) const {
   std::vector<std::string> views = {""};
   if (has("{view}") && target.views.size() > 1) views = target.views;
   std::vector<Job> jobs;
@@ -103,29 +97,54 @@ std::vector<MethodCommand::Job> MethodCommand::jobs_for(const Target& target, co
     Job job;
     job.view = view;
     job.image = image_of(target, fmt::format("{:04}", at.number), view);
+    const fs::path images = folder / (target.is_sequence ? image_of(target, "####", "") : job.image);
     for (const std::string& word : words_)
-      job.words.push_back(with_values(word, values_for(target, at, view, job.image), flag));
+      job.words.push_back(with_values(word, values_for(target, at, view, folder / job.image, images), flag));
     jobs.push_back(std::move(job));
   }
   return jobs;
 }
 
+void MethodCommand::tell_ledger(const Target& target) const {
+  for (const TargetFrame& at : target.frames) {
+    for (const Job& job : jobs_for(target, at, folder_))
+      writes_file("the image", folder_ / job.image, OutputUse::grows);
+    if (has("{camera}")) writes_file("{camera}", camera_of(target, at), OutputUse::grows);
+  }
+}
+
+std::vector<std::string> MethodCommand::names_of(const Target& target, const Job& job) const {
+  if (!is_whole(target)) return {job.image};
+  std::vector<std::string> names;
+  for (const TargetFrame& at : target.frames) names.push_back(image_of(target, fmt::format("{:04}", at.number), ""));
+  return names;
+}
+
 MethodCommand::Made MethodCommand::make(const Target& target, const TargetFrame& at) {
+  if (is_whole(target) && target.pattern.empty())
+    return {{},
+            fmt::format("{}: the names of its frames follow no pattern; {{frame}} and {{image}} run the command for "
+                        "each of them",
+                        target.in_words())};
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) return {{}, fmt::format("{}: cannot be made ({})", folder_.string(), error.message())};
   Made made;
   try {
     if (has("{camera}")) write_camera_file(camera_of(target, at), at.frame);
-    for (const Job& job : jobs_for(target, at)) {
-      fs::remove(job.image, error);  // of an earlier run
+    const MakingFolder making(folder_);
+    for (const Job& job : jobs_for(target, at, making.path())) {
       const ForeignEnd end = run_foreign(job.words, flags_.timeout);
       if (!end.why.empty()) return {{}, fmt::format("'{}' ended: {}", job.words.front(), in_words(end))};
-      if (!fs::exists(job.image, error))
-        return {{},
-                fmt::format("'{}' left no {}{}", job.words.front(), job.image.string(),
-                            end.said.empty() ? "" : "; it said: " + end.said)};
-      made.files.push_back({job.image, job.view});
+      for (const std::string& name : names_of(target, job)) {
+        // An image of an earlier run stays where there is no new one.
+        if (making.hand_over(name, folder_ / name))
+          made.files.push_back({folder_ / name, job.view});
+        else if (!is_whole(target) || name == job.image)
+          return {{},
+                  fmt::format("'{}' left no {}{}", job.words.front(), (folder_ / name).string(),
+                              end.said.empty() ? "" : "; it said: " + end.said)};
+      }
     }
   } catch (const UsageError&) {
     throw;
@@ -136,24 +155,25 @@ MethodCommand::Made MethodCommand::make(const Target& target, const TargetFrame&
 }
 
 std::vector<score::SubmittedFile> MethodCommand::files_of(const Target& target, const TargetFrame& at) {
-  const bool is_whole = target.is_sequence && has("{frames}");
-  const std::string key = fmt::format("{} {} {}", target.name, target.effect, is_whole ? 0 : at.number);
+  const std::string key = fmt::format("{} {} {}", target.name, target.effect, is_whole(target) ? 0 : at.number);
   if (!made_.count(key)) {
     // one run makes all images of a sequence: that of the first frame is looked for
-    made_[key] = make(target, is_whole ? target.frames.front() : at);
+    made_[key] = make(target, is_whole(target) ? target.frames.front() : at);
   }
   const Made& made = made_.at(key);
   if (!made.failure.empty()) throw Error("{}", made.failure);
-  if (!is_whole) return made.files;
-  const fs::path image = image_of(target, fmt::format("{:04}", at.number), "");
-  std::error_code unknown;
-  if (!fs::exists(image, unknown)) throw Error("'{}' left no {}", words_.front(), image.string());
+  if (!is_whole(target)) return made.files;
+  const fs::path image = folder_ / image_of(target, fmt::format("{:04}", at.number), "");
+  const auto is_it = [&](const score::SubmittedFile& file) { return file.path == image; };
+  if (std::none_of(made.files.begin(), made.files.end(), is_it))
+    throw Error("'{}' left no {}", words_.front(), image.string());
   return {{image, ""}};
 }
 
 double MethodCommand::milliseconds_of(const Target& target, const TargetFrame& at) const {
   double ms = 0;
-  for (const Job& job : jobs_for(target, at)) {
+  const MakingFolder making(folder_);
+  for (const Job& job : jobs_for(target, at, making.path())) {
     const ForeignEnd end = run_foreign(job.words, flags_.timeout);
     if (!end.why.empty()) throw Error("'{}' ended: {}", job.words.front(), in_words(end));
     ms += end.ms;
@@ -161,16 +181,12 @@ double MethodCommand::milliseconds_of(const Target& target, const TargetFrame& a
   return ms;
 }
 
-std::vector<std::string> MethodCommand::own_words(const Target& target, const TargetFrame& at) const {
-  const bool is_whole = target.is_sequence && has("{frames}");
-  const std::string image = (folder_ / (is_whole ? ".gloam_own.####.exr" : own_image)).string();
-  std::vector<std::string> words = {"gloam",
-                                    "run",
-                                    own_technique(target.effect),
-                                    is_whole ? values_for(target, at, "", "").at("frames") : at.frame.string(),
-                                    "-o",
-                                    image,
-                                    "--quiet"};
+std::vector<std::string> MethodCommand::own_words(const Target& target, const TargetFrame& at,
+                                                  const fs::path& folder) const {
+  const std::string image = (folder / (is_whole(target) ? "gloam_own.####.exr" : own_image)).string();
+  std::vector<std::string> words = {
+      "gloam", "run",    own_technique(target.effect), is_whole(target) ? target.pattern : at.frame.string(), "-o",
+      image,   "--quiet"};
   const std::string radius = radius_parameter(find_technique(technique_for(own_technique(target.effect))).parameters);
   if (target.radius && !radius.empty())
     words.insert(words.end(), {"--set", fmt::format("{}={}", radius, *target.radius)});
@@ -181,14 +197,14 @@ std::vector<std::string> MethodCommand::own_words(const Target& target, const Ta
 std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::vector<std::string>& notes) try {
   score::WholeTimes times;
   times.command = command_without_folders(flags_.command);
-  const bool has_own = !own_technique(target.effect).empty(), is_whole = target.is_sequence && has("{frames}");
-  const size_t frames = is_whole ? 1 : target.frames.size();
-  const double per = is_whole ? double(target.frames.size()) : 1;  // of a frame
-  if (has_own) {
-    times.gloam_command = command_without_folders(shell_line(own_words(target, target.frames.front())));
-  }
+  const bool has_own = !own_technique(target.effect).empty();
+  const size_t frames = is_whole(target) ? 1 : target.frames.size();
+  const double per = is_whole(target) ? double(target.frames.size()) : 1;  // of a frame
+  const MakingFolder making(folder_);
+  if (has_own)
+    times.gloam_command = command_without_folders(shell_line(own_words(target, target.frames.front(), folder_)));
   const auto run_own = [&](const TargetFrame& at) {
-    std::vector<std::string> words = own_words(target, at);
+    std::vector<std::string> words = own_words(target, at, making.path());
     words.front() = fs::read_symlink("/proc/self/exe").string();
     const ForeignEnd end = run_foreign(words, flags_.timeout);
     if (!end.why.empty()) throw Error("'gloam run' ended: {}", in_words(end));
@@ -201,10 +217,6 @@ std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::
     times.ms.push_back(milliseconds_of(target, at) / per);
     if (has_own) times.gloam_ms.push_back(run_own(at) / per);
   }
-  std::error_code unknown;
-  fs::remove(folder_ / own_image, unknown);
-  for (const TargetFrame& at : target.frames)
-    fs::remove(folder_ / fmt::format(".gloam_own.{:04}.exr", at.number), unknown);
   return times;
 } catch (const UsageError&) {
   throw;

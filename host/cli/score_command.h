@@ -19,11 +19,15 @@ struct ScoreCommandFlags {
   int rounds = 3;
 };
 
-/// Runs the command for frames when their images are asked for, once each; the images stay in a folder.
+/// Runs the command for frames when their images are asked for, once each; the images stay in a folder. They are made in another one
+/// beside it, so that an earlier image stays until there is a new one.
 class MethodCommand {
  public:
   /// `folder`: of the images, made when the first one is. Throws UsageError for a command that cannot be run so.
   MethodCommand(const ScoreCommandFlags& flags, const std::filesystem::path& folder);
+
+  /// Of the images of a target and, where the command asks for them, its cameras: none of them may be a file that is read.
+  void tell_ledger(const score::Target& target) const;
 
   /// The images of a frame. Throws Error where the command fails, hangs, or leaves no image.
   std::vector<score::SubmittedFile> files_of(const score::Target& target, const score::TargetFrame& at);
@@ -40,18 +44,26 @@ class MethodCommand {
   /// What a command makes in one run.
   struct Job {
     std::vector<std::string> words;
-    std::filesystem::path image;
+    std::string image;  ///< its name
     std::string view;
   };
   bool has(const char* placeholder) const;
-  std::vector<Job> jobs_for(const score::Target& target, const score::TargetFrame& at) const;
+  /// Whether one run makes the images of all frames.
+  bool is_whole(const score::Target& target) const;
+  /// `folder`: that the images are made in.
+  std::vector<Job> jobs_for(const score::Target& target, const score::TargetFrame& at,
+                            const std::filesystem::path& folder) const;
+  /// The names of the images that a job makes.
+  std::vector<std::string> names_of(const score::Target& target, const Job& job) const;
   std::map<std::string, std::string> values_for(const score::Target& target, const score::TargetFrame& at,
-                                                const std::string& view, const std::filesystem::path& image) const;
-  std::filesystem::path image_of(const score::Target& target, const std::string& frame, const std::string& view) const;
+                                                const std::string& view, const std::filesystem::path& image,
+                                                const std::filesystem::path& images) const;
+  std::string image_of(const score::Target& target, const std::string& frame, const std::string& view) const;
   std::filesystem::path camera_of(const score::Target& target, const score::TargetFrame& at) const;
   Made make(const score::Target& target, const score::TargetFrame& at);
   double milliseconds_of(const score::Target& target, const score::TargetFrame& at) const;
-  std::vector<std::string> own_words(const score::Target& target, const score::TargetFrame& at) const;
+  std::vector<std::string> own_words(const score::Target& target, const score::TargetFrame& at,
+                                     const std::filesystem::path& folder) const;
 
   const ScoreCommandFlags flags_;
   const std::vector<std::string> words_;

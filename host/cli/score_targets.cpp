@@ -4,12 +4,14 @@
 #include <map>
 #include <memory>
 
+#include "base/file_ledger.h"
 #include "base/lists.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"
 #include "score/entry.h"
+#include "sequence/pattern_reads.h"
 #include "set/content_hash.h"
 #include "set/recipe.h"
 
@@ -78,6 +80,23 @@ TargetFrame target_frame(const fs::path& folder, const sets::SetItem& item, cons
   return at;
 }
 
+/// The pattern whose names the frames have. Their numbers are looked for in the first one's name, at its end first.
+std::string pattern_of(const std::vector<TargetFrame>& frames) {
+  const fs::path& first = frames.front().frame;
+  const std::string name = first.filename().string(), number = std::to_string(frames.front().number);
+  for (size_t at = name.rfind(number); at != std::string::npos; at = at == 0 ? at : name.rfind(number, at - 1)) {
+    size_t begin = at;
+    while (begin > 0 && name[begin - 1] == '0') --begin;
+    const std::string place(at + number.size() - begin, '#');
+    const FramePattern pattern(
+        (first.parent_path() / (name.substr(0, begin) + place + name.substr(at + number.size()))).string(), "frames");
+    const auto fits = [&](const TargetFrame& each) { return pattern.path_of(each.number) == each.frame; };
+    if (std::all_of(frames.begin(), frames.end(), fits)) return pattern.text();
+    if (at == 0) break;
+  }
+  return "";
+}
+
 Target target_of(const fs::path& folder, const sets::SetItem& item, const sets::SetTruth& truth,
                  const std::map<std::string, std::string>& frozen) {
   Target target;
@@ -90,6 +109,7 @@ Target target_of(const fs::path& folder, const sets::SetItem& item, const sets::
   target.is_sequence = item.kind == "sequence";
   const size_t frames = target.is_sequence ? item.frames.size() : 1;
   for (size_t i = 0; i < frames; ++i) target.frames.push_back(target_frame(folder, item, truth, i, frozen));
+  if (target.is_sequence) target.pattern = pattern_of(target.frames);
   return target;
 }
 
@@ -112,6 +132,9 @@ std::vector<TargetFrame> frames_of(const OwnFrames& own) {
           own.frame);
     truths.emplace_back(truth, "--truth");
   }
+  reads_pattern(frames);
+  reads_cameras_beside(frames);
+  for (const FramePattern& truth : truths) reads_pattern(truth);
   std::vector<TargetFrame> found;
   for (const int number : frames.frames_there()) {
     TargetFrame at;
@@ -169,6 +192,12 @@ ScoredSet read_set(const std::string& folder) {
     for (const sets::SetTruth& truth : item.truths) found.targets.push_back(target_of(folder, item, truth, frozen));
   }
   if (found.targets.empty()) throw Error("{}: the set has no item with a truth", folder);
+  for (const Target& target : found.targets) {
+    for (const TargetFrame& at : target.frames) {
+      reads_file(at.frame, "a frame of the set");
+      for (const std::string& truth : at.truths) reads_file(truth, "a truth of the set");
+    }
+  }
   return found;
 }
 
@@ -189,6 +218,8 @@ std::vector<Target> own_targets(const OwnFrames& own, const std::string& effect)
   if (target.is_sequence) {
     target.name = name_of_pattern(FramePattern(own.frame, "--frame"));
     target.frames = frames_of(own);
+    const FramePattern frames(own.frame, "--frame");
+    target.pattern = (fs::path(own.frame).parent_path() / frames.normal_name()).string();
   } else {
     for (const std::string& truth : own.truths) {
       if (FramePattern::is_pattern(truth))
@@ -198,6 +229,8 @@ std::vector<Target> own_targets(const OwnFrames& own, const std::string& effect)
     TargetFrame& at = target.frames.emplace_back();
     at.frame = own.frame;
     at.truths = own.truths;
+    reads_file(own.frame, "--frame");
+    for (const std::string& truth : own.truths) reads_file(truth, "--truth");
   }
   target.views = FrameFile(target.frames.front().frame, own.reading).views();
   std::vector<std::string> effects = {effect};
@@ -234,6 +267,7 @@ std::optional<std::vector<score::SubmittedFile>> files_given(const std::vector<s
       view = *named;
     }
     if (!fs::exists(path, unknown)) throw Error("{}: is not there", path.string());
+    reads_file(path, "an image to score");
     files.push_back({path, view});
   }
   return files;

@@ -195,7 +195,7 @@ std::optional<Scoring::Walked> Scoring::walk(const Target& target, const FilesOf
       note_radius(target, loaded);
       walked.scene = facts_of(target, loaded, options_.folder);
       if (!options_.folder.empty())
-        walked.picture = write_picture(options_.folder, target, entry_.name + "_submitted", loaded, shown);
+        walked.picture = write_picture(options_.folder, target, submitted_picture(entry_.name), loaded, shown);
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {

@@ -83,10 +83,15 @@ LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOpt
   return loaded;
 }
 
+std::string picture_file(const Target& target, const std::string& name) {
+  return fmt::format("{}/{}.png", bench::picture_folder(target.name, target.effect), bench::file_name(name));
+}
+
+std::string submitted_picture(const std::string& method) { return method + "_submitted"; }
+
 std::string write_picture(const std::filesystem::path& folder, const Target& target, const std::string& name,
                           const LoadedFrame& loaded, const bench::Image& image) {
-  const std::string path =
-      fmt::format("{}/{}.png", bench::picture_folder(target.name, target.effect), bench::file_name(name));
+  const std::string path = picture_file(target, name);
   bench::make_folder_of(folder, path);
   const View& view = bench::pictured_view(loaded.frame, {&loaded.truth.image});
   const auto shown = image.find(view.name);

@@ -28,6 +28,7 @@ struct Target {
   std::optional<double> radius;    ///< as the set states it
   std::vector<std::string> views;  ///< names; empty: one without a name, or not known before the frame is opened
   bool is_sequence = false;
+  std::string pattern;  ///< of a sequence's frames, "frames/walk.####.exr"; empty: their names have none in common
   std::vector<TargetFrame> frames;
 
   /// "courtyard", "walk frame 7"; with the effect where it is not ambient occlusion.
@@ -54,6 +55,11 @@ LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOpt
 
 /// What a report says of the scene, with a picture of its truth below `folder` (empty: without).
 bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder);
+
+/// Where `write_picture` puts a picture, below the folder: "images/courtyard/truth.png".
+std::string picture_file(const Target& target, const std::string& name);
+/// The name of the pictures of a method's images.
+std::string submitted_picture(const std::string& method);
 
 /// Writes a picture of one view as PNG below `folder`; returns its path there. Throws Error.
 std::string write_picture(const std::filesystem::path& folder, const Target& target, const std::string& name,

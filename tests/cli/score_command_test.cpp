@@ -178,6 +178,94 @@ TEST_F(ScoreCommand, InterruptedItEndsItsChildrenAndKeepsWhatWasScored) {
   EXPECT_FALSE(is_running(std::stoi(slurp(path("pid")))));
 }
 
+/// An image of an earlier run stays where the command makes no new one.
+TEST_F(ScoreCommand, AnEarlierImageStaysUntilThereIsANewOne) {
+  ASSERT_EQ(run("", {"--items", "room"}).status, 0);
+  const fs::path image = path("out/submitted/other/room_ao.exr");
+  const std::string before = slurp(image);
+  ASSERT_FALSE(before.empty());
+  for (const char* fails : {"exit 3", "[ -e $image ] && exit 0; echo half > $image; exit 4", "exit 0"}) {
+    EXPECT_EQ(run(fails, {"--items", "room"}).status, 1) << fails;
+    EXPECT_TRUE(slurp(image) == before) << fails;
+  }
+  for (const auto& entry : fs::directory_iterator(image.parent_path()))
+    EXPECT_EQ(entry.path().filename().string().rfind(".gloam", 0), std::string::npos) << entry.path();
+}
+
+/// A whole sequence too: the images that one run leaves out are told, whatever an earlier run had left.
+TEST_F(ScoreCommand, OfAWholeSequenceNoEarlierImageStandsIn) {
+  const auto engine = [&](const std::string& numbers) {
+    std::ofstream(path("engine.sh")) << "for n in " << numbers << "; do cp " << path("set/truths").string()
+                                     << "/walk_ao.000$n.exr $(echo $1 | sed s/####/000$n/); done\n";
+    return score(
+        {"--command", "sh " + path("engine.sh").string() + " {images} {frames}", "--rounds", "1", "--items", "walk"});
+  };
+  ASSERT_EQ(engine("1 2 3").status, 0);
+  const std::string second = slurp(path("out/submitted/other/walk.0002_ao.exr"));
+  const Result result = engine("1 3");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("walk frame 2: left out: 'sh' left no "), std::string::npos) << result.err;
+  EXPECT_TRUE(slurp(path("out/submitted/other/walk.0002_ao.exr")) == second);
+}
+
+/// What is scored, and what it is scored against, is no file that gloam or the command writes.
+TEST_F(ScoreCommand, WritesOverNothingThatItReads) {
+  const auto expect_kept = [&](const fs::path& file, const Arguments& arguments) {
+    const std::string before = slurp(file);
+    ASSERT_FALSE(before.empty()) << file;
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_NE(result.err.find("is also"), std::string::npos) << result.err;
+    EXPECT_TRUE(slurp(file) == before) << file;
+  };
+  const auto with = [&](const Arguments& more) {
+    Arguments all = {"score", "--json", path("entry.json"), "-o", path("out"), "--rounds", "1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const fs::path images = path("out/submitted/other"), pictures = path("out/images/room");
+  fs::create_directories(images);
+  fs::create_directories(pictures);
+  fs::copy_file(frame("room"), images / "room.exr");
+  fs::copy_file(truth("room", "ao"), images / "room_ao.exr");
+  std::ofstream(images / "room.camera.json")
+      << R"({"width": 96, "height": 54, "fx": 70, "fy": 70, "cx": 48, "cy": 27})";
+  const std::string engine = "false {frame} {image}";
+  expect_kept(images / "room_ao.exr",
+              with({"--command", engine, "--frame", images / "room.exr", "--truth", images / "room_ao.exr"}));
+  expect_kept(images / "room.camera.json",
+              with({"--command", engine + " {camera}", "--frame", images / "room.exr", "--truth", truth("room", "ao"),
+                    "--camera", images / "room.camera.json"}));
+  const auto scored = [&](const fs::path& image) {
+    return Arguments{"score",     image,     "--json",      path("entry.json"), "-o",
+                     path("out"), "--frame", frame("room"), "--truth",          truth("room", "ao")};
+  };
+  ASSERT_EQ(gloam({"info", frame("room"), "--picture", pictures / "truth.png"}).status, 0);
+  expect_kept(pictures / "truth.png", scored(pictures / "truth.png"));
+  fs::copy_file(pictures / "truth.png", pictures / "other_submitted.png");
+  expect_kept(pictures / "other_submitted.png", scored(pictures / "other_submitted.png"));
+  fs::create_symlink(path("entry.json"), path("out/bench.json"));
+  expect_kept(path("entry.json"), scored(truth("room", "ao")));
+}
+
+/// Numbers of any digits: {frames} and {images} are patterns.
+TEST_F(ScoreCommand, FramesOfAnyDigitsAreAPattern) {
+  const auto expect_words = [&](const std::string& frames, const std::string& truths, const std::string& told) {
+    const Result result =
+        gloam({"score", "--json", path("entry.json"), "-o", path("out"), "--frame", path(frames), "--truth",
+               path(truths), "--command", "sh -c 'echo says ${{1##*/}} ${{2##*/}} >&2; exit 1' x {frames} {images}"});
+    EXPECT_NE(result.err.find("says " + told), std::string::npos) << result.err;
+  };
+  for (const int number : {9, 10}) {
+    for (const std::string& form : {fmt::format("{}", number), fmt::format("{:02}", number)}) {
+      fs::copy_file(frame("walk.0001"), path("one." + form + ".exr"), fs::copy_options::overwrite_existing);
+      fs::copy_file(truth("walk", "ao", ".0001"), path("truth." + form + ".exr"), fs::copy_options::overwrite_existing);
+    }
+  }
+  expect_words("one.%d.exr", "truth.%d.exr", "one.#.exr one.####_ao.exr");
+  expect_words("one.##.exr", "truth.##.exr", "one.##.exr one.####_ao.exr");
+}
+
 class ScoreInBrowser : public BrowserTest {};
 
 /// A submitted row is drawn with its error alone, marked, in chart, table and box.
