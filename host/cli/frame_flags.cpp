@@ -7,6 +7,7 @@
 #include "exr/read_words.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
+#include "normalise/normal_form.h"
 
 namespace gloam::cli {
 void FrameArguments::add_to(CLI::App& app) {
@@ -52,7 +53,13 @@ void FrameFlags::add_to(CLI::App& app) {
   add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background")
       ->type_name("VALUE")
       ->group("Reading the frame");
-  add_choice(app, "--normal-space", normal_space, normal_space_words, "space of the normals")
+  add_choice(app, "--normal-space", normals.space, normal_space_words, "space of the normals")
+      ->group("Reading the frame");
+  add_choice(app, "--normal-range", normals.range, normal_range_words, "normals from -1 to 1, or from 0 to 1")
+      ->group("Reading the frame");
+  add_parsed(app, "--normal-axes", normals.axes, parse_normal_axes,
+             "the axis that each component of the normals lies along: x,-y,z has y down; auto")
+      ->type_name("X,Y,Z")
       ->group("Reading the frame");
   app.add_option("--plane", planes,
                  "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
@@ -81,7 +88,7 @@ ReadOptions FrameFlags::read_options() const {
   options.far = far;
   if (background) options.background = float(*background);
   options.depth = depth;
-  options.normal_space = normal_space;
+  options.normals = normals;
   if (!view.empty()) options.views = {view};
   if (!views.empty()) options.views = split_list(views, "--views");
   for (const std::string& plane : planes) {

@@ -21,7 +21,7 @@ struct FrameFlags {
   std::vector<std::string> planes;
   std::optional<double> fov, near, far, background;
   DepthConvention depth = DepthConvention::automatic;
-  NormalSpace normal_space = NormalSpace::automatic;
+  NormalConvention normals;
   void add_to(CLI::App& app);
   /// Throws UsageError for malformed planes and views.
   ReadOptions read_options() const;

@@ -36,6 +36,7 @@ void Conventions::take(const std::optional<NormalForm>& form) {
 void Conventions::take(const Conventions& found) {
   take(found.depth);
   if (!found.normal_space.empty()) normal_space = found.normal_space;
+  normals = found.normals;
 }
 
 std::vector<std::string> planes_to_decode(const std::vector<std::string>& asked) {
@@ -63,7 +64,7 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
     assume_missing_camera(file, cameras, view, frame);
     has_background |= has_named_background(file, view);
     conventions.take(convert_depth(file, cameras, view, frame));
-    conventions.take(convert_normals(file, view, frame));
+    conventions.take(convert_normals(file, view, frame, conventions.normals));
     check_reflectance(file, view, frame);
     light.add(view);
     if (!file.options.as_stored) drop_positions_without_pose(cameras, view, frame);

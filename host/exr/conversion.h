@@ -15,6 +15,7 @@ namespace gloam {
 struct Conventions {
   std::string depth;         ///< as returned by `to_view_depth`; empty before
   std::string normal_space;  ///< "view" or "world"; empty before, and without usable normals
+  FoundNormals normals;      ///< of the first view that has any
 
   void take(const std::string& depth_convention);
   void take(const std::optional<NormalForm>& form);

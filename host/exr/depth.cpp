@@ -9,6 +9,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "normalise/depth.h"
+#include "normalise/stored_depth.h"
 
 namespace gloam {
 namespace {
@@ -137,6 +138,13 @@ std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View&
     return to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, file.window, *view.camera, options, notes);
   });
   scale_to_positions(source, relation.scale, depth, notes);
+  const bool is_half = std::all_of(source.channels.begin(), source.channels.end(),
+                                   [](const ChannelSource& channel) { return channel.type == "half"; });
+  if (!is_window_depth(options.depth)) {
+    const std::string steps =
+        note_on_steps([&](int x, int y) { return depth.at(x, y); }, depth.layout(), *view.camera, is_half);
+    if (!steps.empty()) notes.push_back(steps);
+  }
   if (all_background(depth))
     notes.push_back(fmt::format("depth: no pixel{} has a usable depth; all of it is background",
                                 view.name.empty() ? "" : " of view '" + view.name + "'"));

@@ -185,6 +185,8 @@ std::string FrameFile::depth_convention() const {
 
 std::string FrameFile::normal_space() const { return impl_->conventions.normal_space; }
 
+const FoundNormals& FrameFile::found_normals() const { return impl_->conventions.normals; }
+
 long long FrameFile::nonfinite(const std::string& plane, const std::string& view) const {
   const auto found = impl_->nonfinite.find({plane, view});
   return found == impl_->nonfinite.end() ? 0 : found->second;

@@ -7,28 +7,71 @@
 namespace gloam {
 namespace {
 
-/// The space that flags, the header and channel names declare.
-NormalSpace declared_space(const ExrFile& file, const PlaneSource& normal) {
-  if (file.options.normal_space != NormalSpace::automatic) return file.options.normal_space;
-  const std::string written = file.headers.text_for_part(normal.channels.front().part, "gloamNormalSpace");
-  if (written == "view") return NormalSpace::view;
-  if (written == "world") return NormalSpace::world;
-  if (normal.said == DeclaredConvention::view_space) return NormalSpace::view;
-  if (normal.said == DeclaredConvention::world_space) return NormalSpace::world;
+/// The space that the header or the channels' names state, and what states it.
+NormalSpace named_space(const ExrFile& file, const PlaneSource& normal, std::string& by) {
+  const ChannelSource& first = normal.channels.front();
+  const bool is_named = normal.said == DeclaredConvention::view_space || normal.said == DeclaredConvention::world_space;
+  if (is_named) {
+    by = fmt::format("the name '{}'", first.name);
+    return normal.said == DeclaredConvention::view_space ? NormalSpace::view : NormalSpace::world;
+  }
+  by = "the header of Blender (BlenderMultiChannel)";
   return file.headers.text("BlenderMultiChannel").empty() ? NormalSpace::automatic : NormalSpace::world;
 }
 
-/// The form found from the normals themselves, for normals of undeclared space.
-NormalForm detected_form(const ExrFile& file, const View& view, const NormalSamples& samples, Frame& frame) {
-  const Plane* depth = view.find("depth");
-  if (!depth) {
-    add_new(frame.assumed, "normal: taken as view space, since there is no depth to compare with (--normal-space)");
-    return {NormalSpace::view};
+/// What the file states: all of the convention by gloam's own attribute, the space by a name.
+StatedNormals stated_by_file(const ExrFile& file, const PlaneSource& normal) {
+  const std::string written = file.headers.text_for_part(normal.channels.front().part, "gloamNormalSpace");
+  if (written == "view" || written == "world")
+    return {{written == "view" ? NormalSpace::view : NormalSpace::world, NormalRange::signed_values, plain_axes},
+            "gloamNormalSpace in the header"};
+  StatedNormals stated;
+  stated.convention.space = named_space(file, normal, stated.by);
+  return stated;
+}
+
+/// What flags state, then the file, then the shot that its frame belongs to.
+StatedNormals stated_normals(const ExrFile& file, const PlaneSource& normal, bool& is_of_shot,
+                             std::vector<std::string>& notes) {
+  const NormalConvention& flags = file.options.normals;
+  StatedNormals stated = stated_by_file(file, normal);
+  std::vector<std::string> by;
+  if (flags.space != NormalSpace::automatic) by.emplace_back("--normal-space");
+  if (flags.range != NormalRange::automatic) by.emplace_back("--normal-range");
+  if (flags.axes) by.emplace_back("--normal-axes");
+  if (flags.space == NormalSpace::automatic && stated.convention.space != NormalSpace::automatic)
+    by.push_back(stated.by);
+  stated.by = enumerate(by);
+  stated.convention = with_unstated(flags, stated.convention);
+  if (file.options.shot_normals && !is_whole(stated.convention)) {
+    const FoundNormals shot = file.options.shot_normals();
+    is_of_shot = is_whole(shot.convention);
+    stated.convention = with_unstated(stated.convention, shot.convention);
+    add_new(notes, shot.notes);
   }
-  std::vector<std::string> notes;
-  const NormalForm form =
-      named(file.path, [&] { return samples.form(depth->channels.front(), frame.window, *view.camera, notes); });
+  return stated;
+}
+
+/// The form that is stated of the normals, or that they show.
+NormalForm form_of(const ExrFile& file, const View& view, const NormalSamples& samples, Frame& frame,
+                   FoundNormals& found) {
+  const Plane* depth = view.find("depth");
+  std::vector<std::string> notes, of_frame;
+  bool is_of_shot = false;
+  const StatedNormals stated = stated_normals(file, *file.source("normal", view.name), is_of_shot, notes);
+  if (!depth && stated.convention.space == NormalSpace::automatic)
+    notes.emplace_back("normal: taken as view space, since there is no depth to compare with (--normal-space)");
+  std::vector<NormalPair> pairs;
+  if (depth)
+    pairs = named(file.path, [&] { return samples.pairs(depth->channels.front(), frame.window, *view.camera); });
+  const NormalForm form = find_form(pairs, view.camera->pose, stated, of_frame);
+  if (is_of_shot && !of_frame.empty())
+    of_frame = {
+        "normals: not all frames of the shot agree best with the convention that was found for it "
+        "(--normal-space, --normal-range and --normal-axes state one)"};
+  if (depth) add_new(notes, of_frame);
   add_new(frame.assumed, notes);
+  if (!pairs.empty() && !is_whole(found.convention)) found = {convention_of(form), notes};
   return form;
 }
 
@@ -43,9 +86,8 @@ void note_missing(long long missing, Frame& frame) {
 
 std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view, const NormalSamples& samples,
                                            const std::function<long long(const NormalForm&)>& count_missing,
-                                           Frame& frame) {
-  NormalForm form{declared_space(file, *file.source("normal", view.name))};
-  if (form.space == NormalSpace::automatic) form = detected_form(file, view, samples, frame);
+                                           Frame& frame, FoundNormals& found) {
+  const NormalForm form = form_of(file, view, samples, frame, found);
   if (form.space == NormalSpace::world && !view.camera->pose) {
     add_new(frame.assumed, "normals: not used, since the camera's pose is unknown (--camera gives it)");
     return {};
@@ -54,10 +96,10 @@ std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view
   return form;
 }
 
-std::optional<NormalForm> convert_normals(const ExrFile& file, View& view, Frame& frame) {
-  const auto found = view.planes.find("normal");
-  if (found == view.planes.end()) return {};
-  Plane& normal = found->second;
+std::optional<NormalForm> convert_normals(const ExrFile& file, View& view, Frame& frame, FoundNormals& found) {
+  const auto plane = view.planes.find("normal");
+  if (plane == view.planes.end()) return {};
+  Plane& normal = plane->second;
   NormalSamples samples(normal.channels.front().layout());
   samples.take(normal, 0);
   bool is_converted = false;
@@ -69,11 +111,11 @@ std::optional<NormalForm> convert_normals(const ExrFile& file, View& view, Frame
     convert(form);
     return count_missing_normals(normal, view.find("depth")->channels.front());
   };
-  const std::optional<NormalForm> form = find_normal_form(file, view, samples, count_missing, frame);
+  const std::optional<NormalForm> form = find_normal_form(file, view, samples, count_missing, frame, found);
   if (form)
     convert(*form);
   else
-    view.planes.erase(found);
+    view.planes.erase(plane);
   return form;
 }
 

@@ -13,5 +13,8 @@ inline const Choices<DepthConvention> depth_words = {{"auto", DepthConvention::a
                                                      {"reversed", DepthConvention::reversed}};
 inline const Choices<NormalSpace> normal_space_words = {
     {"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}};
+inline const Choices<NormalRange> normal_range_words = {{"auto", NormalRange::automatic},
+                                                        {"signed", NormalRange::signed_values},
+                                                        {"unsigned", NormalRange::unsigned_values}};
 
 }  // namespace gloam

@@ -27,7 +27,7 @@ struct ViewSums {
 
 Plane decoded(const Plane& normal, const Camera& camera) {
   Plane out = normal.clone();
-  bring_to_view_space(out, {NormalSpace::view, true}, camera);
+  bring_to_view_space(out, {.is_encoded = true}, camera);
   return out;
 }
 
@@ -90,7 +90,7 @@ void settle_normals(const ExrFile& file, const View& view, const ViewSums& sums,
   const auto count_missing = [&](const NormalForm& form) {
     return form.is_encoded ? sums.missing_where_encoded : sums.missing;
   };
-  const auto form = find_normal_form(file, view, sums.samples, count_missing, survey.frame);
+  const auto form = find_normal_form(file, view, sums.samples, count_missing, survey.frame, survey.conventions.normals);
   survey.normal_forms[view.name] = form;
   survey.conventions.take(form);
 }

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <utility>
 
+#include "base/lists.h"
 #include "camera/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "normalise/each_row.h"
 #include "normalise/normalise.h"
+#include "normalise/normals.h"
 #include "normalise/radiance.h"
+#include "normalise/surfaces.h"
 
 namespace gloam {
 namespace {
@@ -64,8 +68,20 @@ void fill_row(Plane& plane, std::span<const float> values, int y) {
   }
 }
 
+/// What the depth of a view, if it has one, and its normals are found to be.
+StoredSurfaces stored_surfaces(const Arrays& arrays) {
+  const auto depth = arrays.planes.find("depth"), normal = arrays.planes.find("normal");
+  if (depth == arrays.planes.end()) return {.normals = plain_form(arrays.normals)};
+  const float* const values = depth->second.data();
+  const DepthRows rows{[&](int y) { return values + size_t(y) * size_t(arrays.width); }, arrays.width, arrays.height};
+  std::optional<NormalSamples> samples;
+  if (normal != arrays.planes.end()) samples.emplace(Layout(arrays.width, arrays.height)).take(normal->second.data());
+  return look_at_surfaces(rows, samples ? &*samples : nullptr, {0, 0, arrays.width, arrays.height}, arrays.camera,
+                          arrays.normals);
+}
+
 /// Values are copied and cleaned row by row: each is then taken from memory once.
-View view_from(const Arrays& arrays, LightCounts& light) {
+View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string>& notes) {
   View view;
   view.camera = arrays.camera;
   if (view.camera->source.empty()) view.camera->source = "memory";
@@ -75,8 +91,17 @@ View view_from(const Arrays& arrays, LightCounts& light) {
     check_array(name, values, arrays.width, arrays.height, plane_kind(name).components.size());
     sources.emplace_back(&view.planes.emplace(name, empty_plane(name, layout)).first->second, values);
   }
+  const StoredSurfaces stored = stored_surfaces(arrays);
+  notes = stored.notes;
+  const auto fill = [&](Plane& plane, std::span<const float> values, int y) {
+    fill_row(plane, values, y);
+    std::vector<Channel>& to = plane.channels;
+    if (plane.name == "depth") clean_depth_row(to[0].row(y), layout.width, stored.depth.sign, stored.depth.background);
+    if (plane.name == "normal" && stored.normals != NormalForm())
+      bring_to_view_space(to[0].row(y), to[1].row(y), to[2].row(y), layout.width, stored.normals, *view.camera);
+  };
   normalise_while_filling(view, layout, [&](int y) {
-    for (const auto& [plane, values] : sources) fill_row(*plane, values, y);
+    for (const auto& [plane, values] : sources) fill(*plane, values, y);
     light.add_row(view, y);
   });
   return view;
@@ -96,8 +121,8 @@ Frame frame_from(const Arrays& arrays) {
   frame.display = frame.window = {0, 0, arrays.width, arrays.height};
   try {
     LightCounts light;
-    frame.views.push_back(view_from(arrays, light));
-    frame.assumed = light.notes();
+    frame.views.push_back(view_from(arrays, light, frame.assumed));
+    add_new(frame.assumed, light.notes());
   } catch (const std::bad_alloc&) {
     throw Error("out of memory for {} planes of {} x {} pixels; use a smaller image", arrays.planes.size(),
                 arrays.width, arrays.height);

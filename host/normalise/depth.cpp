@@ -1,55 +1,19 @@
 #include "normalise/depth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "gloam/error.h"
 #include "normalise/background.h"
 #include "normalise/each_row.h"
+#include "normalise/stored_depth.h"
 
 namespace gloam {
 
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// Signs of the surfaces in a plane; the search stops once they are decided.
-struct Signs {
-  bool positive = false, negative = false, over_one = false;
-};
-
-Signs signs_of(const Channel& depth, const Background& background) {
-  Signs signs;
-  const int width = depth.layout().width, height = depth.layout().height;
-  for (int y = 0; y < height && !signs.over_one; ++y) {
-    const float* row = depth.row(y);
-    int positive = 0, negative = 0, over_one = 0;
-    for (int x = 0; x < width; ++x) {
-      const bool surface = is_surface(row[x], background);
-      positive |= surface;
-      over_one |= surface & (row[x] > 1);
-      negative |= is_surface(-row[x], background) & (row[x] != background.value);
-    }
-    signs.positive |= positive != 0;
-    signs.negative |= negative != 0;
-    signs.over_one |= over_one != 0;
-  }
-  return signs;
-}
-
-/// How many pixels would be surfaces if they were not negative.
-long long count_negative(const Channel& depth, const Background& background) {
-  const int width = depth.layout().width, height = depth.layout().height;
-  long long total = 0;
-#pragma omp parallel for reduction(+ : total) if (size_t(width) * size_t(height) > 65536)
-  for (int y = 0; y < height; ++y) {
-    const float* row = depth.row(y);
-    int count = 0;
-    for (int x = 0; x < width; ++x) count += is_surface(-row[x], background) & (row[x] != background.value);
-    total += count;
-  }
-  return total;
-}
 
 void ray_row(float* row, const double* squares_x, int width, double square_y) {
   for (int x = 0; x < width; ++x) {
@@ -97,6 +61,15 @@ void orthographic_row(float* row, int width, const WindowDepth& map) {
   }
 }
 
+/// Whether any pixel is without cover.
+bool marks_background(const Channel& alpha) {
+  for (int y = 0; y < alpha.layout().height; ++y) {
+    const float* row = alpha.row(y);
+    if (std::find(row, row + alpha.layout().width, 0.0f) != row + alpha.layout().width) return true;
+  }
+  return false;
+}
+
 /// In NDC 0 is the near plane, so only alpha tells a pixel that was never drawn.
 void mark_missing(Channel& depth, const Channel& alpha) {
   const int width = depth.layout().width;
@@ -105,6 +78,21 @@ void mark_missing(Channel& depth, const Channel& alpha) {
     const float* cover = alpha.row(y);
     for (int x = 0; x < width; ++x) row[x] = ((row[x] == 0) & (cover[x] == 0)) ? infinity : row[x];
   });
+}
+
+/// Nothing lies on the near plane itself: a share of pixels there was never drawn, as with a sky that is left at the value of the near plane.
+void mark_near_plane(Channel& depth, float near, std::vector<std::string>& assumed) {
+  const int width = depth.layout().width;
+  long long count = 0;
+#pragma omp parallel for reduction(+ : count)
+  for (int y = 0; y < depth.layout().height; ++y) count += std::count(depth.row(y), depth.row(y) + width, near);
+  const long long pixels = (long long)width * depth.layout().height;
+  if (!is_a_mark(count, pixels)) return;
+  for_each_row(depth.layout(), [&](int y) { std::replace(depth.row(y), depth.row(y) + width, near, infinity); });
+  assumed.push_back(
+      fmt::format("depth: {:.1f} % of the pixels are {:g}, exactly on the near plane, and taken as background; "
+                  "--background says otherwise",
+                  100 * double(count) / double(pixels), near));
 }
 
 /// The map from window depth, checked: near and far are needed; flags override the camera.
@@ -140,7 +128,10 @@ std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& 
                             std::vector<std::string>& assumed) {
   const bool reversed = options.depth == DepthConvention::reversed;
   const WindowDepth map = window_depth(camera, options, assumed);
-  if (alpha && !reversed) mark_missing(depth, *alpha);
+  if (alpha && !reversed && marks_background(*alpha))
+    mark_missing(depth, *alpha);
+  else if (!options.background)
+    mark_near_plane(depth, reversed ? 1.0f : 0.0f, assumed);
   for_each_row(depth.layout(), [&](int y) {
     const auto convert = camera.orthographic ? orthographic_row : perspective_row;
     convert(depth.row(y), depth.layout().width, map);
@@ -158,22 +149,19 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
   if (options.depth == DepthConvention::ndc || options.depth == DepthConvention::reversed)
     return window_to_depth(depth, alpha, camera, options, assumed);
 
-  const Background background = background_of(options.background, options.far ? options.far : camera.far);
-  const Signs signs = signs_of(depth, background);
-  const bool negative = signs.negative && !signs.positive;
-  if (const long long count = negative ? 0 : count_negative(depth, background); count > 0)
-    assumed.push_back(fmt::format("depth: {} negative value{} among positive ones taken as background", count,
-                                  count == 1 ? "" : "s"));
-  clean_depth(depth, negative ? -1.0f : 1.0f, background);
-  if (negative) assumed.push_back("depth: all of it is negative, taken as the z of a camera that looks along -z");
+  const StoredDepth stored =
+      look_at_depth(rows_of(depth), background_of(options.background, options.far ? options.far : camera.far),
+                    options.background.has_value());
+  assumed.insert(assumed.end(), stored.notes.begin(), stored.notes.end());
+  clean_depth(depth, stored.sign, stored.background);
   if (options.depth == DepthConvention::ray) {
     if (!camera.orthographic) ray_to_depth(depth, window, camera);
     return "ray";
   }
-  if (negative) return "negative z";
+  if (stored.sign < 0) return "negative z";
   if (options.depth == DepthConvention::automatic)
     assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis{}; --depth says otherwise",
-                                  signs.positive && !signs.over_one ? ", though all of it lies in 0..1" : ""));
+                                  stored.is_in_unit_interval ? ", though all of it lies in 0..1" : ""));
   return "z";
 }
 

@@ -12,6 +12,7 @@
 #include "normalise/background.h"
 #include "normalise/each_row.h"
 #include "normalise/radiance.h"
+#include "normalise/surfaces.h"
 
 namespace gloam {
 
@@ -154,6 +155,7 @@ void normalise(Frame& frame, std::optional<float> background) {
     light.add(view);
     clean_rows(cleaners_of(view, background_in(view, background), false, true), layout_of(view));
     fill_paddings(view);
+    add_new(frame.assumed, notes_on_agreement(view, frame.window));
   }
   add_new(frame.assumed, light.notes());
 }

@@ -8,9 +8,11 @@
 #include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "gloam/technique.h"
+#include "normalise/surfaces.h"
 #include "python/doc_strings.h"
 #include "python/interrupts.h"
 #include "python/planes.h"
+#include "python/requests.h"
 
 namespace gloam::python {
 namespace {
@@ -57,22 +59,26 @@ void check_sizes(const std::vector<InputArrays>& views) {
   }
 }
 
-Frame frame_of_view(const InputArrays& inputs, const Camera& camera) {
-  Arrays arrays{.width = inputs.front().second.width, .height = inputs.front().second.height, .camera = camera};
+Frame frame_of_view(const InputArrays& inputs, const Camera& camera, const NormalConvention& normals) {
+  Arrays arrays{.width = inputs.front().second.width,
+                .height = inputs.front().second.height,
+                .camera = camera,
+                .normals = normals};
   for (const auto& [name, input] : inputs) arrays.planes[name] = input.values();
   return frame_from(arrays);
 }
 
 /// A frame of one view or of several. `planes`: for each view, arrays by name.
 SharedFrame frame_of_arrays(const std::vector<py::dict>& planes, const std::vector<Camera>& cameras,
-                            const std::vector<std::string>& names) {
+                            const std::vector<std::string>& names, const py::dict& words) {
   std::vector<InputArrays> views;
   for (size_t i = 0; i < planes.size(); ++i) views.push_back(arrays_of_view(planes[i], names[i]));
   check_sizes(views);
+  const NormalConvention normals = normal_convention(words);
   return without_lock([&](Interrupts&) {
     auto held = std::make_shared<HeldFrame>();
     for (size_t i = 0; i < views.size(); ++i) {
-      Frame one = frame_of_view(views[i], cameras[i]);
+      Frame one = frame_of_view(views[i], cameras[i], normals);
       one.views.front().name = names[i];
       held->frame.display = one.display;
       held->frame.window = one.window;
@@ -109,7 +115,8 @@ bool takes_place_of(const View& view, const std::string& name) {
 }
 
 /// A copy of a frame in which these planes join its own, or take their place. `planes`: for each view, arrays by name.
-SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& planes) {
+SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& planes, const py::dict& words) {
+  const NormalConvention normals = normal_convention(words);
   const SharedFrame more = image_of_arrays(planes, view_names(held.frame));
   const Frame& image = more->frame;
   if (image.width() != held.frame.width() || image.height() != held.frame.height())
@@ -119,7 +126,9 @@ SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& plan
     std::vector<std::string> kept = common_planes(held.frame);
     std::erase_if(kept, [&](const std::string& name) { return takes_place_of(image.views.front(), name); });
     auto joined = std::make_shared<HeldFrame>(HeldFrame{copy_of(held.frame, kept), held.name});
+    const bool has_depth = image.views.front().find("depth"), has_normals = image.views.front().find("normal");
     for (size_t i = 0; i < image.views.size(); ++i) joined->frame.views[i].planes.merge(more->frame.views[i].planes);
+    if (has_depth || has_normals) settle_surfaces(joined->frame, has_normals, normals);
     normalise(joined->frame);
     return joined;
   });

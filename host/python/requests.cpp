@@ -4,6 +4,7 @@
 
 #include "base/lists.h"
 #include "exr/read_words.h"
+#include "normalise/normal_form.h"
 #include "run/run_words.h"
 #include "technique/default_technique.h"
 
@@ -94,7 +95,7 @@ ReadOptions read_options(const py::dict& words) {
   }
   if (has(words, "fov")) options.fov_degrees = taken<double>(words, "fov");
   take_choice(words, "depth", depth_words, options.depth);
-  take_choice(words, "normal_space", normal_space_words, options.normal_space);
+  options.normals = normal_convention(words);
   if (has(words, "near")) options.near = taken<double>(words, "near");
   if (has(words, "far")) options.far = taken<double>(words, "far");
   if (has(words, "background")) options.background = taken<float>(words, "background");
@@ -102,6 +103,14 @@ ReadOptions read_options(const py::dict& words) {
   if (has(words, "channels")) options.channels = taken<std::map<std::string, std::string>>(words, "channels");
   if (has(words, "as_stored")) options.as_stored = taken<bool>(words, "as_stored");
   return options;
+}
+
+NormalConvention normal_convention(const py::dict& words) {
+  NormalConvention normals;
+  take_choice(words, "normal_space", normal_space_words, normals.space);
+  take_choice(words, "normal_range", normal_range_words, normals.range);
+  if (has(words, "normal_axes")) normals.axes = parse_normal_axes(text(words, "normal_axes"), "normal_axes");
+  return normals;
 }
 
 std::optional<Camera> given_camera(const py::dict& words) {

@@ -1,5 +1,8 @@
 #include "sequence/sequence_files.h"
 
+#include <algorithm>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 #include "base/file_ledger.h"
@@ -18,6 +21,58 @@ std::vector<int> sources_of(const std::vector<SequenceFrame>& frames) {
   return sources;
 }
 
+/// Frames that are looked at for the convention of all: the first ones may be empty.
+constexpr size_t most_looked_at = 5;
+
+bool has_surface(const Frame& frame) {
+  const Plane* depth = frame.views.front().find("depth");
+  const Channel* values = depth ? &depth->channels.front() : nullptr;
+  for (int y = 0; values && y < frame.height(); ++y) {
+    const float* row = values->row(y);
+    if (!std::all_of(row, row + frame.width(), is_background)) return true;
+  }
+  return false;
+}
+
+/// What the normals of a sequence tell: the first of its frames that can be read and shows a surface stands for all. `frames`: those to look
+/// at. A frame that cannot be read is told when its turn comes.
+FoundNormals normals_of(const SequenceFiles& sequence, const std::vector<SequenceFrame>& frames) {
+  for (size_t i = 0; i < std::min(frames.size(), most_looked_at); ++i) {
+    try {
+      FrameFiles files = sequence.open(frames[i]);
+      if (!has_surface(files.read({"depth", "normal"}))) continue;
+      FoundNormals found = files.files().front().found_normals();
+      for (std::string& note : found.notes)
+        note += fmt::format(" (decided on frame {} for the whole sequence)", frames[i].number);
+      return found;
+    } catch (const Error&) {
+    }
+  }
+  return {};
+}
+
+/// The frames that are there, whichever are asked for: so a frame has the same bits in every part of its shot. Cameras in the order of the
+/// frames asked for belong to these alone.
+std::vector<SequenceFrame> frames_to_look_at(const SequenceFiles& sequence) {
+  if (sequence.cameras_are_in_order()) return sequence.frames();
+  FrameChoice all;
+  all.missing = MissingFrames::skip;
+  std::vector<std::string> unused;
+  return list_frames(sequence.inputs(), all, unused);
+}
+
+/// `normals_of`, worked out once, when the first thread asks.
+std::function<FoundNormals()> normals_when_asked(std::shared_ptr<const SequenceFiles> sequence) {
+  struct Kept {
+    std::once_flag once;
+    FoundNormals found;
+  };
+  return [kept = std::make_shared<Kept>(), sequence = std::move(sequence)] {
+    std::call_once(kept->once, [&] { kept->found = normals_of(*sequence, frames_to_look_at(*sequence)); });
+    return kept->found;
+  };
+}
+
 }  // namespace
 
 SequenceFiles::SequenceFiles(std::vector<FramePattern> inputs, const ReadOptions& options, const FrameChoice& choice,
@@ -29,6 +84,7 @@ SequenceFiles::SequenceFiles(std::vector<FramePattern> inputs, const ReadOptions
   else if (!camera.empty())
     camera_list_ = CameraList::of_file(camera, sources_of(frames_));
   tell_ledger();
+  options_.shot_normals = normals_when_asked(std::make_shared<const SequenceFiles>(*this));
 }
 
 void SequenceFiles::tell_ledger() const {

@@ -121,7 +121,10 @@ ReadOptions other_options(Random& random) {
   ReadOptions options = plain_options();
   options.depth = random.pick({DepthConvention::automatic, DepthConvention::z, DepthConvention::ray,
                                DepthConvention::ndc, DepthConvention::reversed});
-  options.normal_space = random.pick({NormalSpace::automatic, NormalSpace::view, NormalSpace::world});
+  options.normals.space = random.pick({NormalSpace::automatic, NormalSpace::view, NormalSpace::world});
+  options.normals.range =
+      random.pick({NormalRange::automatic, NormalRange::signed_values, NormalRange::unsigned_values});
+  if (random.one_in(4)) options.normals.axes = random.pick({plain_axes, NormalAxes{1, -2, 3}, NormalAxes{-3, 1, 2}});
   options.count_nonfinite = random.one_in(2);
   options.as_stored = random.one_in(4);
   if (random.one_in(4)) options.fov_degrees = random.between(1, 179);

@@ -15,6 +15,7 @@
 #include "gloam/exr.h"
 #include "gloam/normalise.h"
 #include "normalise/depth.h"
+#include "normalise/normal_samples.h"
 #include "normalise/normals.h"
 #include "unit/read_channel.h"
 
@@ -302,6 +303,16 @@ TEST(Depth, ErrorOfEachEncodingIsStated) {
 
 // --- Normal space
 
+/// Finds the space of normals; decodes encoded ones in place.
+NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Window& window, const Camera& camera,
+                                std::vector<std::string>& assumed) {
+  NormalSamples samples(normal.channels.front().layout());
+  samples.take(normal, 0);
+  const NormalForm form = find_form(samples.pairs(depth, window, camera), camera.pose, {}, assumed);
+  bring_to_view_space(normal, {.is_encoded = form.is_encoded}, camera);
+  return form.space;
+}
+
 /// A sphere of radius 3 at depth 10 before a wall that leans away, seen by a turned camera; one corner is background.
 struct Scene {
   Window window{0, 0, 320, 200};
@@ -371,7 +382,7 @@ TEST(Normals, WorldSpaceIsRecognisedAndRotatedBack) {
   EXPECT_EQ(scene.detect(sentence), NormalSpace::world);
   EXPECT_GT(agreement_in(sentence), 0.98) << sentence;
   EXPECT_NE(sentence.find("--normal-space"), std::string::npos) << sentence;
-  to_view_space(scene.normal, *scene.camera.pose);
+  bring_to_view_space(scene.normal, {NormalSpace::world}, scene.camera);
   for (int y = 0; y < 200; y += 7)
     for (int x = 0; x < 320; x += 7)
       EXPECT_LT(glm::length(scene.get(x, y) - original.get(x, y)), 1e-6) << x << ", " << y;
@@ -621,7 +632,7 @@ class CapturedNormals : public testing::Test {
     EXPECT_EQ(detect_normal_space(normal, depth, window, camera, assumed), NormalSpace::world);
     std::printf("%s\n  %s\n", frame.c_str(), assumed.back().c_str());
     EXPECT_GT(agreement_in(assumed.back()), 0.9);
-    to_view_space(normal, *camera.pose);
+    bring_to_view_space(normal, {NormalSpace::world}, camera);
     EXPECT_EQ(detect_normal_space(normal, depth, window, camera, assumed), NormalSpace::view);
   }
   const std::string folder = GLOAM_CAPTURES;

@@ -267,7 +267,7 @@ TEST(ReadExr, AsStoredMeasuresWhatTheFileHolds) {
              {"N.Z", Imf::FLOAT, [](int, int) { return 2.f; }},
              {"Z", Imf::FLOAT, [](int x, int) { return x == 3 ? 1e11f : 2.f; }}});
   ReadOptions options;
-  options.normal_space = NormalSpace::view;
+  options.normals.space = NormalSpace::view;
   const std::vector<std::string> planes = {"depth", "ao", "color", "normal"};
   const Frame repaired = FrameFile(folder / "f.exr", options).read(planes);
   options.as_stored = true;
@@ -831,7 +831,7 @@ TEST(WriteExr, EveryPlaneIsReadBackByItsName) {
   Folder folder;
   ReadOptions options;
   options.as_stored = true;
-  options.normal_space = NormalSpace::view;
+  options.normals.space = NormalSpace::view;
   for (const std::vector<std::string>& views : {std::vector<std::string>{""}, {"left", "right"}, {"main", "view2"}}) {
     const Frame frame = frame_of(all_plane_names(), views);
     write_frame(folder / "f.exr", frame);

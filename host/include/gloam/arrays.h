@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gloam/frame.h"
+#include "gloam/normal_convention.h"
 
 namespace gloam {
 
@@ -18,10 +19,12 @@ struct Arrays {
   /// pixel side by side: width * height * components values.
   ///
   /// depth: distance along the viewing axis, scene units. Background is +inf, NaN, 0 or less, 1e10 or more, or the camera's
-  ///   far plane.
+  ///   far plane. The sign of depths that are all negative is changed, with a note.
   /// normal: view space (x to the right, y up, z towards the eye), of any length; (0, 0, 0) where unknown. Techniques that
-  ///   need normals make them from depth where a frame has none.
+  ///   need normals make them from depth where a frame has none. Normals that agree with the depth in another convention alone
+  ///   are taken in that one, with a note in `Frame::assumed`, where `normals` does not state theirs.
   std::map<std::string, std::span<const float>> planes = {};
+  NormalConvention normals = {};  ///< of the plane "normal", where it is known
 };
 
 /// A camera with square pixels and its principal point in the middle of the image; `degrees`: horizontal field of view, 1 to 179.

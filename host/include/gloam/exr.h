@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "gloam/frame.h"
+#include "gloam/normal_convention.h"
 
 namespace gloam {
 
@@ -16,7 +18,6 @@ namespace gloam {
 inline constexpr long long max_pixels = 1LL << 28;
 
 enum class DepthConvention { automatic, z, ray, ndc, reversed };
-enum class NormalSpace { automatic, view, world };
 
 /// What the user states about a file; it overrides what would be found or assumed. Every field may stay empty.
 struct ReadOptions {
@@ -29,7 +30,10 @@ struct ReadOptions {
   DepthConvention depth = DepthConvention::automatic;
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: depth that means background, instead of 1e10 and more
-  NormalSpace normal_space = NormalSpace::automatic;
+  NormalConvention normals;         ///< --normal-space, --normal-range, --normal-axes
+  /// Of a frame of a shot: what was found of the normals for all of its frames (normal_convention.h). Called where normals are read and
+  /// something of their convention is not stated; null: the frame's own decide.
+  std::function<FoundNormals()> shot_normals;
   std::vector<std::string> views;  ///< --view, --views: views to read, in this order; empty: all
   bool count_nonfinite = false;    ///< `read` counts NaN and infinite values of the file
   /// Keeps values as in the file: only depth and the space of normals are converted; nothing is clamped, replaced or made unit. For
@@ -162,6 +166,8 @@ class FrameFile {
   std::string depth_convention() const;
   /// "view" or "world"; empty without normals, and before `read`.
   std::string normal_space() const;
+  /// The convention of the normals of the first view that has any, and what was assumed; empty before `read`.
+  const FoundNormals& found_normals() const;
 
  private:
   friend class FrameFiles;

@@ -124,7 +124,8 @@ class Sequence:
     def __init__(self, pattern: Union[Path, _Sequence[Path]], *, frames: Union[str, int, _Sequence[int], None] = None,
                  missing: Optional[str] = None, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
                  depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
-                 background: Optional[float] = None, normal_space: Optional[str] = None, views: Union[str, List[str], None] = None,
+                 background: Optional[float] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
+                 normal_axes: Optional[str] = None, views: Union[str, List[str], None] = None,
                  channels: Optional[Dict[str, str]] = None) -> None: ...
     @property
     def numbers(self) -> List[int]: ...
@@ -175,10 +176,12 @@ class Technique:
 
 def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None, *, camera: Union[Camera, List[Camera], Path, None] = None,
         fov: Optional[float] = None, views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
-        settings: Optional[Dict[str, Setting]] = None, **keywords: Any) -> Result: ...
+        settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
+        normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
 def read(file: Union[Path, _Sequence[Path]], *, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
          depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None, background: Optional[float] = None,
-         normal_space: Optional[str] = None, views: Union[str, List[str], None] = None, channels: Optional[Dict[str, str]] = None,
+         normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
+         views: Union[str, List[str], None] = None, channels: Optional[Dict[str, str]] = None,
          planes: Union[str, List[str], None] = None, as_stored: bool = False) -> Frame: ...
 def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane]], *, camera: Union[Camera, List[Camera], None] = None,
           fov: Optional[float] = None, compression: str = "zip", half: bool = False) -> None: ...

@@ -6,23 +6,25 @@ from . import _gloam, _run, _words
 from ._gloam import Frame, UsageError
 
 
-def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, background=None, normal_space=None, views=None, channels=None,
-         planes=None, as_stored=False):
+def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, background=None, normal_space=None, normal_range=None,
+         normal_axes=None, views=None, channels=None, planes=None, as_stored=False):
     """Reads a frame from an EXR file, and returns a gloam.Frame. What is not stated and has to be assumed is in its `notes`.
 
     file: a path, or a list of two paths, one for each eye.
     camera: a gloam.Camera, or the path of a camera JSON; default: the header's, else the JSON beside the file.
     fov: horizontal field of view, degrees, over every other camera.
     depth: what depth values mean: "auto", "z" (along the viewing axis), "ray", "ndc" or "reversed"; near, far: the clipping planes of the last two,
-        scene units.  background: the depth value that means background.  normal_space: "auto", "view" or "world".
+        scene units.  background: the depth value that means background.
+    normal_space: "auto", "view" or "world".  normal_range: "auto", "signed" (-1 to 1) or "unsigned" (0 to 1).  normal_axes: "auto", or the axis
+        that each component lies along: "x,-y,z" has y down. What is not stated is found by the depth.
     views: names of the views to read.  channels: {"depth": "Layer.Z"}: channels or layers that planes are taken from, or "none".
     planes: names of the planes to read; default: all that every view has.
     as_stored: values as they are in the file, not clamped, replaced or made unit: for measuring.
 
     Raises gloam.Error for a file that cannot be read, naming it.
     """
-    words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, normal_space=normal_space, views=views,
-                           channels=channels, as_stored=as_stored)
+    words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, views=views, channels=channels,
+                           as_stored=as_stored, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
     paths = _run._files(file)
     if paths is None:
         raise _words.refusal(f"file is of type {type(file).__name__}; a path is allowed, or a list of two paths, one for each eye")
@@ -90,7 +92,7 @@ class Sequence:
     """
 
     def __init__(self, pattern, *, frames=None, missing=None, camera=None, fov=None, depth=None, near=None, far=None, background=None,
-                 normal_space=None, views=None, channels=None):
+                 normal_space=None, normal_range=None, normal_axes=None, views=None, channels=None):
         paths = _run._files(pattern)
         if paths is None:
             raise _words.refusal(f"pattern is of type {type(pattern).__name__}; a path such as 'shot.####.exr' is allowed, or a list of two")
@@ -99,8 +101,8 @@ class Sequence:
         elif isinstance(frames, (list, tuple)) or isinstance(frames, (int, numpy.integer)):
             numbers = [frames] if isinstance(frames, (int, numpy.integer)) else frames
             frames = ",".join(str(_words.integer("frames", number)) for number in numbers)
-        self._words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, normal_space=normal_space,
-                                     views=views, channels=channels)
+        self._words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, views=views,
+                                     channels=channels, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
         self._held = _gloam.open_sequence(paths, _words.text("frames", frames), _words.text("missing", missing), self._words)
         self.notes = self._held.notes
         _words.note(self.notes, stacklevel=2)

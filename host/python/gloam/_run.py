@@ -17,7 +17,7 @@ _OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "
             "repeat", "strips")
 
 #: Those that are named in its signature.
-_NAMED = ("camera", "fov", "views", "device", "settings")
+_NAMED = ("camera", "fov", "views", "device", "settings") + _words.NORMALS
 
 
 class Result(dict):
@@ -164,13 +164,13 @@ def _cameras(camera, fov, of_views, several):
     return cameras
 
 
-def frame_of(planes, camera, fov, views):
+def frame_of(planes, camera, fov, views, normals):
     """A frame of arrays, and whether its views were given as lists."""
     if not planes:
         raise _words.refusal("there is neither a frame nor an array; give depth=... and camera=..., or a gloam.Frame")
     of_views, several = _of_each_view(planes)
     names = _names_of_views(views, len(of_views))
-    return _gloam.frame_of_arrays(of_views, _cameras(camera, fov, of_views, several), names), several
+    return _gloam.frame_of_arrays(of_views, _cameras(camera, fov, of_views, several), names, normals), several
 
 
 def request_words(technique, parameters, settings, options):
@@ -208,31 +208,36 @@ def _files(frame):
     return None
 
 
-def _frame_for(frame, planes, camera, fov, views, words):
+def _frame_for(frame, planes, camera, fov, views, words, normals):
     """The frame to compute on, whether it is the call's own, and whether its views are a list."""
     if frame is None:
-        made, several = frame_of(planes, camera, fov, views)
+        made, several = frame_of(planes, camera, fov, views, normals)
         return made, True, several
     paths = _files(frame)
     if paths is not None:
         if planes:
             raise _words.refusal(f"{_gloam.enumerate(list(planes))}: arrays do not go with a path; give gloam.read(path) and the arrays")
-        read = _gloam.read_for(paths, _words.reading(camera, fov=fov, views=views), words)
+        read = _gloam.read_for(paths, _words.reading(camera, fov=fov, views=views, **normals), words)
         return read, True, len(read.views) > 1
     if not isinstance(frame, Frame):
         raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed")
     for name, value in (("camera", camera), ("fov", fov), ("views", views)):
         if value is not None:
             raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
+    if "normal" not in planes:
+        for name, value in normals.items():
+            if value is not None:
+                raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
     if not planes:
         return frame, False, len(frame.views) > 1
     of_views, several = _of_each_view(planes)
     if len(of_views) != len(frame.views):
         raise _words.refusal(f"the frame has {len(frame.views)} views, and {len(of_views)} are given of {_gloam.enumerate(list(planes))}")
-    return _gloam.with_planes(frame, of_views), True, len(frame.views) > 1
+    return _gloam.with_planes(frame, of_views, normals), True, len(frame.views) > 1
 
 
-def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, **keywords):
+def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, normal_space=None, normal_range=None,
+        normal_axes=None, **keywords):
     """Runs a technique on arrays, on a gloam.Frame or on an EXR file, and returns a gloam.Result: arrays by the names of planes.
 
     technique: a name of gloam.techniques(); "ao" stands for the default of ambient occlusion.
@@ -245,6 +250,8 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     camera: a gloam.Camera, or a list with one for each view; fov instead: the horizontal field of view, degrees. Of a path: a camera
         JSON too.
     views: names of the views; of a path those to read.
+    normal_space, normal_range, normal_axes: the convention of the normals, as for gloam.read. Where they are not given, normals that agree with
+        the depth in another convention alone are taken in that one, and a note says so.
     Parameters of the technique by keyword: radius (scene units), samples, ...; settings: the same as a dict, for names with a dot
         ({"bilateral.radius": 2}). Without a radius one is made from the frame, and the result says so.
     preset: "low", "medium", "high" or "ultra".  outputs: planes to make, of the usual ones.  extras: planes to make beside them.
@@ -259,13 +266,14 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     that the technique lacks. The interpreter is free for other threads meanwhile, and Ctrl-C ends the call between two passes.
     """
     options = {name: keywords.pop(name) for name in _OPTIONS if name in keywords}
+    normals = _words.normals({"normal_space": normal_space, "normal_range": normal_range, "normal_axes": normal_axes})
     mask = options.get("only")
     if isinstance(mask, numpy.ndarray) or _is_planes(mask):
         keywords["mask"], options["only"] = mask, "mask"
     planes, parameters = divided(keywords)
     check_names(parameters, _OPTIONS + _NAMED)
     words, run_words = request_words(technique, parameters, settings, options)
-    made, is_own, several = _frame_for(frame, planes, camera, fov, views, words)
+    made, is_own, several = _frame_for(frame, planes, camera, fov, views, words, normals)
     outcome = _gloam.run(words, made, is_own, _words.device(device), run_words, _strips(options.get("strips")))
     result = Result(outcome, several)
     assumed = set() if is_own else set(made.notes)

@@ -177,11 +177,20 @@ def _note_foreign_folders():
         note([sentence], stacklevel=4)
 
 
+#: The keywords that state the convention of normals.
+NORMALS = ("normal_space", "normal_range", "normal_axes")
+
+
+def normals(given):
+    """The words of the convention of normals, of keywords that may be among them."""
+    return {name: text(name, given.get(name)) for name in NORMALS}
+
+
 def reading(camera=None, **words):
     """The words of how a file is read."""
     if camera is not None and not isinstance(camera, _gloam.Camera):
         camera = path("camera", camera)
-    checks = {"fov": number, "near": number, "far": number, "background": number, "depth": text, "normal_space": text, "views": names}
+    checks = {"fov": number, "near": number, "far": number, "background": number, "depth": text, "views": names, **{name: text for name in NORMALS}}
     read = {name: checks[name](name, value) for name, value in words.items() if name in checks}
     if "channels" in words and words["channels"] is not None:
         channels = words["channels"]

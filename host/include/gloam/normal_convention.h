@@ -1,0 +1,34 @@
+// What the components of a normal stand for where a file or an array holds it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gloam {
+
+enum class NormalSpace { automatic, view, world };
+
+/// `signed_values`: components from -1 to 1. `unsigned_values`: 0.5 + 0.5 n, from 0 to 1.
+enum class NormalRange { automatic, signed_values, unsigned_values };
+
+/// For each component in storage the axis that it lies along, 1 to 3 for x, y and z, negative where it points the other way: {1, -2, 3} are
+/// normals with y down. The axes are those of the camera (x right, y up, z towards the eye), or those of its world.
+using NormalAxes = std::array<int, 3>;
+inline constexpr NormalAxes plain_axes = {1, 2, 3};
+
+/// What is stated of normals. What is not stated is found: the convention that agrees best with the depth.
+struct NormalConvention {
+  NormalSpace space = NormalSpace::automatic;
+  NormalRange range = NormalRange::automatic;
+  std::optional<NormalAxes> axes;
+};
+
+/// A convention that normals showed. Of one frame of a shot it holds for all of them.
+struct FoundNormals {
+  NormalConvention convention;     ///< whole; empty where no pixel has both a depth and a normal
+  std::vector<std::string> notes;  ///< what was assumed, a sentence each
+};
+
+}  // namespace gloam

@@ -1,0 +1,50 @@
+// In which convention normals are stored: what is stated of it, and what the depth shows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gloam/normal_convention.h"
+#include "normalise/normal_samples.h"
+
+namespace gloam {
+
+/// The convention of normals, settled.
+struct NormalForm {
+  NormalSpace space = NormalSpace::view;
+  bool is_encoded = false;  ///< stored as 0.5 + 0.5 n
+  NormalAxes axes = plain_axes;
+  bool operator==(const NormalForm&) const = default;
+};
+
+/// What is stated, and by what, for notes: "--normal-space", "'WorldNormal'".
+struct StatedNormals {
+  NormalConvention convention;
+  std::string by;
+  /// Of normals in memory: world space has to fit clearly better than view space, and only what departs from it is worth a note.
+  bool expects_view = false;
+};
+
+/// Whether every part of a convention is stated.
+bool is_whole(const NormalConvention& convention);
+/// A convention with what it leaves open taken from another.
+NormalConvention with_unstated(NormalConvention convention, const NormalConvention& more);
+NormalConvention convention_of(const NormalForm& form);
+/// What is stated, and plain view space where nothing is.
+NormalForm plain_form(const NormalConvention& stated);
+
+/// The convention in which the pairs agree: of those that nothing stated rules out, the plainest that no other one clearly beats. Appends
+/// to `notes` a sentence on what is taken, and on a convention that agrees much better than any that is not ruled out. Without a pose,
+/// normals are `view` if they agree as view-space normals do (0.9; a world turned little reaches 0.86), else `world`.
+NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose, const StatedNormals& stated,
+                     std::vector<std::string>& notes);
+
+/// A stored normal brought to view space, unit; zero where it is none.
+glm::dvec3 view_normal(const glm::dvec3& stored, const NormalForm& form, const std::optional<Pose>& pose);
+
+/// "x,-y,z"
+std::string in_words(const NormalAxes& axes);
+/// Axes by their words; throws UsageError, naming the flag, for others.
+std::optional<NormalAxes> parse_normal_axes(const std::string& text, const std::string& flag);
+
+}  // namespace gloam
