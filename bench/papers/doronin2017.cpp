@@ -240,8 +240,8 @@ std::vector<std::string> notes_of(const PaperOptions& options) {
       fmt::format("Truths are traced with {} rays per pixel, over the whole scene within the radius, without falloff.",
                   options.rays),
       "In the whole ball a plane is half closed, and of several radii the one that takes most counts: so the paper's "
-      "AO is darker than what rays find. Each pixel turns the same points its own way, so an uneven set is wrong alike "
-      "everywhere, and no filter takes that away.",
+      "AO is darker than what rays find. Each pixel turns the points of the spiral its own way; of the other sets each "
+      "pixel has points of its own.",
       "Section 5 has `lightfield-ssao` and `lightfield-hbao+` as they are when nothing is set. Key views are computed "
       "in full; the others take over what these show."};
 }

@@ -9,7 +9,7 @@
 // in : depth     planar distance, scene units, +inf = background
 //      normal    unit, view space
 //      position  scene units, the world's axes
-//      points    points of the balls: x, y, share of the axis, share of the volume; SAMPLES for each of RADII
+//      points    points of the balls, SAMPLES for each of RADII (points.h)
 // out: ao_raw    1 = open .. 0 = closed, unfiltered; 1 on background
 // ..._list: for the pixels of a list (shared/lanes/pixel_list.h)
 //
@@ -22,7 +22,7 @@
 // out: ao_raw    mean over the key views that show the point, weighted by `share` (projection.h). Where none does: 1, and the pixel
 //                joins `newly_visible`
 // -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, FROM_BOTH, MASKED (wanted.h), OUTSIDE_OPEN, JITTER,
-//    SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE; DIRECTIONS, STEPS, NO_FALLOFF
+//    SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE, OWN_POINTS, SINGLE_POINTS; DIRECTIONS, STEPS, NO_FALLOFF
 #include "lightfield/params.h"
 #include "lightfield/spot.h"
 #if ESTIMATE > 1

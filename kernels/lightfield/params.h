@@ -14,7 +14,8 @@
   P(int, samples, 8, 1, 256, "", "points looked at per pixel and radius")                                            \
   P(int, radii, 5, 1, 8, "", "balls, each `ratio` times as large as the one before; the lowest AO counts")           \
   P(float, ratio, 0.5f, 0.1f, 0.95f, "", "ratio of a radius to the one before")                                      \
-  P(choice, points, spiral, (spiral, random, jittered, latin_square, poisson_disk), "how the points are spread")     \
+  P(choice, points, spiral, (spiral, random, jittered, latin_square, poisson_disk),                                  \
+    "how the points are spread; all but the spiral are other points for each pixel and seed")                        \
   P(bool, hemisphere, on, "points in the half ball above the surface; off: in the whole ball, as in the paper")      \
   P(float, inner, 0, 0, 0.99f, "radii", "least distance of the points: a shell instead of a ball; 0.8 in the paper") \
   P(float, bias, 0.02f, 0, 0.99f, "",                                                                                \

@@ -2,15 +2,14 @@
 #ifndef GLOAM_LIGHTFIELD_SSAO_H
 #define GLOAM_LIGHTFIELD_SSAO_H
 
+#include "lightfield/points.h"
 #include "lightfield/spot.h"
-#include "shared/sampling/ball.h"
-
-#define TABLE constant float*
 
 typedef struct {
   Surface surface;
   real3 axis;
   Ball ball;
+  natural choice;  // of the pixel's points (points.h)
 } Directions;
 
 // One ball in the image.
@@ -117,17 +116,15 @@ static inline __attribute__((always_inline)) real occlusion_at(PROJECTIONS p, Su
 }
 
 static inline __attribute__((always_inline)) real occluded_points(Frame f, PROJECTIONS p, Params params, TABLE points,
-                                                                  Surfaces planes, const Spot* s, const Directions* d,
-                                                                  const Sphere* b, int straight, int within) {
+                                                                  int first, Surfaces planes, const Spot* s,
+                                                                  const Directions* d, const Sphere* b, int straight,
+                                                                  int within) {
   const scalar bias = HEMISPHERE ? params.bias : 0;
   real sum = 0;
 #pragma unroll 1
   for (int k = 0; k < SAMPLES; ++k) {
     BallPoint point;
-    point.x = points[4 * k];
-    point.y = points[4 * k + 1];
-    point.axis = points[4 * k + 2];
-    point.distance = distance_at(&d->ball, points[4 * k + 3]);
+    set_point(points, first + k, &d->ball, d->choice, &point);
     integer dx, dy, place;
     project_point(p, s, b, point, straight, &dx, &dy);
     const mask counts = place_sample(f, s, within, &dx, &dy, &place);
@@ -144,6 +141,7 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, TABLE point
   const real3 n = normal_towards_eye(d.surface, s.normal);
   d.axis = scale3(n, (scalar)1 / sqrt(dot3(n, n)));
   d.ball = ball_of(d.axis, params.inner, s.noise);
+  d.choice = choice_of(to_natural(s.x), to_natural(s.y), f.seed);
   // Normals along the axes of the plane `position`, for positions read from it.
   s.normal = d.axis;
   s.stored_normal = transposed_times3(p->to_view, d.axis);
@@ -157,7 +155,7 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, TABLE point
       set_skewed_axes(&b, p, &s, d.ball.axes);
     real occluded;
     LOOK_THROUGH(occluded, f, p, s, b.reach,
-                 occluded_points(f, p, params, points + 4 * SAMPLES * k, planes, &s, &d, &b, straight, within))
+                 occluded_points(f, p, params, points, SAMPLES * k, planes, &s, &d, &b, straight, within))
     most = larger(occluded, most);
     radius *= params.ratio;
   }

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -32,17 +33,19 @@ std::vector<glm::dvec3> points_of(const LightfieldSsaoParams& p, int radius) {
   return points;
 }
 
-/// Algorithms 3 and 4: points by their height on the axis, angle about the axis and share of the volume.
+/// What the kernel turns into a point (lightfield/points.h). The spiral of the whole ball begins at its top, as in `ssao`.
+std::array<double, 4> entry_of(const LightfieldSsaoParams& p, const glm::dvec3& point) {
+  if (p.points != Points::spiral) return {point.x, point.y, 0, point.z};
+  const double axis = p.hemisphere ? point.x : 1 - 2 * point.x, sine = std::sqrt(1 - axis * axis);
+  const double angle = 2 * std::numbers::pi * point.y;
+  return {sine * std::cos(angle), sine * std::sin(angle), axis, point.z};
+}
+
 std::vector<float> table_of(const LightfieldSsaoParams& p) {
   std::vector<float> table;
   for (int radius = 0; radius < p.radii; ++radius) {
     for (const glm::dvec3& point : points_of(p, radius)) {
-      // The spiral of the whole ball begins at its top, as in `ssao`.
-      const double whole = p.points == Points::spiral ? 1 - 2 * point.x : 2 * point.x - 1;
-      const double axis = p.hemisphere ? point.x : whole, sine = std::sqrt(1 - axis * axis);
-      const double angle = 2 * std::numbers::pi * point.y;
-      for (const double value : {sine * std::cos(angle), sine * std::sin(angle), axis, point.z})
-        table.push_back(float(value));
+      for (const double value : entry_of(p, point)) table.push_back(float(value));
     }
   }
   return table;
@@ -90,9 +93,13 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
 }
 
 std::vector<Pass> ssao_passes(const LightfieldSsaoParams& p) {
-  Pass estimate = ambient_occlusion_estimate(
-      p, "lightfield_ssao_estimate",
-      {{"ESTIMATE", 1}, {"SAMPLES", p.samples}, {"RADII", p.radii}, {"HEMISPHERE", p.hemisphere}});
+  Pass estimate = ambient_occlusion_estimate(p, "lightfield_ssao_estimate",
+                                             {{"ESTIMATE", 1},
+                                              {"SAMPLES", p.samples},
+                                              {"RADII", p.radii},
+                                              {"HEMISPHERE", p.hemisphere},
+                                              {"OWN_POINTS", p.points != Points::spiral},
+                                              {"SINGLE_POINTS", p.points == Points::random}});
   estimate.tables = {{"points", table_of(p)}};
   return with_reuse(std::move(estimate), p);
 }

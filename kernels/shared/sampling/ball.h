@@ -1,7 +1,7 @@
 // Points in the ball of the radius around a pixel's point, or in the half of it above the surface, evenly spread over its
 // volume: directions on a spherical Fibonacci spiral about the normal (Marques et al. 2013), distances by a second sequence.
 // Turned and shifted by the pixel's noise. With `inner` above 0, a shell between two spheres.
-// -D SAMPLES, HEMISPHERE
+// -D SAMPLES, HEMISPHERE, OWN_POINTS
 #ifndef GLOAM_BALL_H
 #define GLOAM_BALL_H
 
@@ -24,9 +24,16 @@ typedef struct {
   scalar cosine, sine;  // of the next point, about the axis
 } Ball;
 
+// What a pixel's turn and shift do not change in a point: the same for all pixels, or with OWN_POINTS each pixel's own.
+#if OWN_POINTS
+typedef real Share;
+#else
+typedef scalar Share;
+#endif
+
 // A point of the ball: its unit direction as shares of the axes, and its distance in radii.
 typedef struct {
-  scalar x, y, axis;
+  Share x, y, axis;
   real distance;
 } BallPoint;
 
@@ -50,7 +57,7 @@ static inline Ball ball_of(real3 axis, scalar inner, Noise noise) {
 }
 
 // Distance of the point at this share of the volume, in radii, shifted by the pixel's noise.
-static inline real distance_at(const Ball* ball, scalar share) {
+static inline real distance_at(const Ball* ball, Share share) {
   const real sum = ball->shift + share;
   const real fraction = choose(sum >= 1, sum - 1, sum);
   return rough_cube_root(ball->inner_cubed + (1 - ball->inner_cubed) * fraction);
@@ -60,7 +67,7 @@ static inline real distance_at(const Ball* ball, scalar share) {
 static inline BallPoint next_point(Ball* ball, int k) {
   BallPoint p;
   p.axis = HEMISPHERE ? (k + (scalar)0.5) * ((scalar)1 / SAMPLES) : 1 - (2 * k + 1) * ((scalar)1 / SAMPLES);
-  const scalar sine = sqrt(1 - p.axis * p.axis);
+  const Share sine = sqrt(1 - p.axis * p.axis);
   p.x = sine * ball->cosine;
   p.y = sine * ball->sine;
   p.distance = distance_at(ball, (scalar)(((uint)k * DISTANCE_STEP) >> 8) * (scalar)0x1p-24f);
