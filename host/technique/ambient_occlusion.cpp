@@ -117,4 +117,16 @@ Technique over_stochastic_depth(Technique technique, ParameterList parameters,
   return technique;
 }
 
+Technique with_points(Technique technique) {
+  const auto rename = [](Settings& settings) {
+    for (auto& [name, value] : settings) {
+      if (name == "samples") name = "points";
+    }
+  };
+  for (Preset& preset : technique.presets) rename(preset.settings);
+  rename(technique.converged);
+  technique.samples = [](const ParameterValues& values) { return int(values.number("points")); };
+  return technique;
+}
+
 }  // namespace gloam

@@ -70,4 +70,8 @@ Pass at_lower_resolution(Pass sort, int scale);
 Technique over_stochastic_depth(Technique technique, ParameterList parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes);
 
+/// A technique over stochastic depth, whose `samples` are stochastic depths, where the technique without has `samples` per pixel:
+/// these are the parameter `points`.
+Technique with_points(Technique technique);
+
 }  // namespace gloam

@@ -9,11 +9,15 @@
 //      occluders     further depth layers (layers.h); without them, depth is the only layer
 //      depth_levels  levels 1 to LEVELS, made by sao_level (LEVELS > 0, without occluders)
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
-// -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED; LEVEL (sao_level)
+// -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED;
+//    LEVEL (sao_level)
 #include "alchemy/params.h"
 #include "estimators/alchemy.h"
 #ifndef LEVEL
 #include "shared/sampling/spiral.h"
+#if STOCHASTIC
+#include "shared/sampling/hidden_depths.h"
+#endif
 #endif
 
 #if SCALABLE
@@ -124,11 +128,16 @@ static inline real obscurance_near(Frame frame, Params params, DepthLayers layer
   FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) sum += behind.next;
   return sum;
 #else
-  real largest = obscurance(towards_depth(frame, r, x, y, depth), r.normal, params, falloff);
-  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, EVERY_LANE, r.farthest) {
-    largest = larger(obscurance(towards_depth(frame, r, x, y, behind.next), r.normal, params, falloff), largest);
+  const real3 v = towards_depth(frame, r, x, y, depth);
+  const real by_first = obscurance(v, r.normal, params, falloff);
+  const mask rises = fused_dot3(r.normal, v) > params.bias;
+  const mask asked = asks_behind(r, rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);
+  real largest = by_first;
+  FOR_DEPTHS_BEHIND(behind, layers, frame, r.here, index, asked, r.farthest) {
+    const real found = obscurance(towards_depth(frame, r, x, y, behind.next), r.normal, params, falloff);
+    largest = choose(behind.counts, larger(found, largest), largest);
   }
-  return largest;
+  return COMPENSATE(params, largest, by_first);
 #endif
 }
 

@@ -14,8 +14,6 @@ Pass estimate_of(const Params& p, int points) {
 std::vector<Pass> passes(const SsaoParams& p) { return {estimate_of(p, p.samples)}; }
 std::vector<Pass> sd_passes(const SdSsaoParams& p) { return behind_depth(estimate_of(p, p.points), p); }
 
-int value_of_points(const ParameterValues& values) { return int(values.number("points")); }
-
 Technique over_depth() {
   Technique t =
       ambient_occlusion("ssao", "ambient occlusion: share of the points in a half ball with nothing before them",
@@ -29,12 +27,10 @@ Technique over_depth() {
   return t;
 }
 
-/// `samples` is the number of stochastic depths, as in all techniques over these; the points of the ball are `points`.
+/// Not the SSAO of the paper, which is that of `sd-alchemy` and `sd-sao`.
 Technique over_stochastic() {
-  Technique t = over_stochastic_depth(over_depth(), SdSsaoParams::table(), passes_of(sd_passes));
-  for (Preset& preset : t.presets) preset.settings.front().first = "points";
-  t.converged = {{"points", "1024"}};
-  t.samples = value_of_points;
+  Technique t = with_points(over_stochastic_depth(over_depth(), SdSsaoParams::table(), passes_of(sd_passes)));
+  t.summary = "ssao (points in a half ball, Mittring 2007) with stochastic depths behind what is seen";
   return t;
 }
 

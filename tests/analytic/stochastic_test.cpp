@@ -123,6 +123,8 @@ const std::vector<Estimator> estimators = {{"ssao", {{"range", "0.2"}}, 0.17, 0.
                                            {"hbao", {{"max_reach", "0.02"}}, 0.45, 0.9},
                                            {"hbao+", {{"max_reach", "0.02"}}, 0.45, 0.9},
                                            {"gtao", {{"max_reach", "0.02"}, {"fade", "1"}}, 0.45, 0.9},
+                                           {"alchemy", {{"max_reach", "0.02"}}, 0.45, 0.9},
+                                           {"sao", {{"max_reach", "0.02"}}, 0.45, 0.9},
                                            {"bitmask", {{"max_reach", "0.02"}, {"thickness", "0.1"}}, 0.45, 0.9}};
 
 /// The settings without what caps the reach.
