@@ -101,6 +101,15 @@ std::optional<CompositeSource> open_composite(const AutoCompositeFlags& flags, c
   return source;
 }
 
+void leave_out(std::optional<CompositeSource>& source, const std::vector<Unfit>& unfit) {
+  if (!source) return;
+  for (const Unfit& each : unfit) {
+    if (each.plane == "color")
+      throw Error("--composite: color is unfit: {}; --plane color=CHANNELS has it taken", each.why);
+  }
+  source->layer.planes = fit_planes(source->layer.planes, unfit);
+}
+
 unsigned long long bytes_of(const std::optional<CompositeSource>& source) {
   return source ? bytes_to_read(source->layer.files, source->layer.planes) : 0;
 }

@@ -9,6 +9,7 @@
 
 #include "cli/colour_layer.h"
 #include "cli/options.h"
+#include "frame/unfit.h"
 #include "gloam/composition.h"
 
 namespace gloam::cli {
@@ -43,6 +44,9 @@ ComposeOptions compose_options(const LightFlags& flags, const FrameFiles& files,
 /// away; UsageError for --ambient and a frame without albedo.
 std::optional<CompositeSource> open_composite(const AutoCompositeFlags& flags, const std::vector<std::string>& paths,
                                               const ReadOptions& options);
+
+/// Composes without the planes that are unfit. Throws Error where colour is one.
+void leave_out(std::optional<CompositeSource>& source, const std::vector<Unfit>& unfit);
 
 /// Memory for a composite; 0 for none.
 unsigned long long bytes_of(const std::optional<CompositeSource>& source);

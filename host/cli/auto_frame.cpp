@@ -111,12 +111,13 @@ bool has_needed_setting(const Technique& technique, const PlanRequest& asked) {
 }
 
 /// Why an effect has no place in the picture of a frame; empty if it has one, or if the frame has no picture and the effect needs none.
-std::string hindrance_in_picture(const Technique& technique, const FrameFiles& files, const ComposeOptions& composing) {
+std::string hindrance_in_picture(const Technique& technique, const std::vector<std::string>& available,
+                                 const ComposeOptions& composing) {
   const Effect& effect = technique.effect;
-  if (!contains(files.common_planes(), "color"))
+  if (!contains(available, "color"))
     return effect.least_change > 0 ? "the frame has no 'color', which it would change" : "";
   std::vector<std::string> computed = {effect.changes};
-  for (const ComposedPart& part : composition_of(files.common_planes(), computed, composing).parts)
+  for (const ComposedPart& part : composition_of(available, computed, composing).parts)
     if (part.plane == effect.changes && !part.is_used) return part.how;
   return "";
 }
@@ -140,11 +141,51 @@ void refuse_if_it_falls_away(const std::pair<std::string, std::string>& setting,
                    taker->decision.effect.technique->effect.name, taker->decision.effect.why);
 }
 
+/// What an effect is planned for: the planes at hand, in words, and how a picture is composed of them.
+struct Ground {
+  std::vector<std::string> available;
+  std::string holds;
+  const ComposeOptions& composing;
+};
+
+/// The request for an effect if the frame has what it reads and a place for it; else why not, and in `missing` the planes that it lacks.
+std::optional<PlanRequest> asked_if_possible(const Technique& technique, const PlanRequest& asked, const Ground& ground,
+                                             std::string& why, std::optional<MissingPlanes>& missing) {
+  why = hindrance_in_picture(technique, ground.available, ground.composing);
+  if (!why.empty()) return {};
+  try {
+    return asked_of_effect(technique, asked, ground.available, ground.holds);
+  } catch (const MissingPlanes& error) {
+    if (!missing) missing = error;
+    why = fmt::format("the frame has no '{}'", error.planes.front());
+    return {};
+  }
+}
+
+/// The unfit planes without any one of which an effect is not possible, though it would be with all.
+std::vector<std::string> needed_of(const std::vector<Unfit>& unfit, const Technique& technique,
+                                   const PlanRequest& asked, const Ground& all) {
+  const auto is_possible = [&](const std::vector<Unfit>& without) {
+    std::string why;
+    std::optional<MissingPlanes> missing;
+    const Ground ground{fit_planes(all.available, without), all.holds, all.composing};
+    return asked_if_possible(technique, asked, ground, why, missing).has_value();
+  };
+  std::vector<std::string> needed;
+  if (!is_possible({})) return needed;
+  for (const Unfit& each : unfit)
+    if (!is_possible({each})) needed.push_back(each.plane);
+  return needed;
+}
+
 /// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
-Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const ComposeOptions& composing) {
+Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const ComposeOptions& composing,
+                          const std::vector<Unfit>& unfit) {
   Candidates found;
   std::optional<MissingPlanes> missing;
   const bool of_display = is_of_display(files);
+  const Ground all{files.common_planes(), holdings(files), composing};
+  const Ground fit{fit_planes(all.available, unfit), all.holds, composing};
   for (const Technique* technique : techniques_with_effects()) {
     if (technique->effect.for_displays && !of_display) continue;
     if (of_display && !technique->any_projection) {
@@ -159,18 +200,17 @@ Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const Comp
       found.impossible.push_back(impossible(*technique, fmt::format("none is given (--set {}=FILE)", needs)));
       continue;
     }
-    if (const std::string why = hindrance_in_picture(*technique, files, composing); !why.empty()) {
+    std::string why;
+    const std::optional<PlanRequest> request = asked_if_possible(*technique, asked, fit, why, missing);
+    if (!request) {
+      const std::vector<std::string> needed = needed_of(unfit, *technique, asked, all);
+      if (!needed.empty()) why = fmt::format("needs '{}', which is unfit", fmt::join(needed, "' and '"));
       found.impossible.push_back(impossible(*technique, why));
       continue;
     }
-    try {
-      found.possible.push_back({technique, asked_of_effect(*technique, asked, files.common_planes(), holdings(files))});
-      // One plane of a name: the first effect that has the extras makes them.
-      if (!found.possible.back().asked.with.empty()) asked.with.clear();
-    } catch (const MissingPlanes& error) {
-      if (!missing) missing = error;
-      found.impossible.push_back(impossible(*technique, fmt::format("the frame has no '{}'", error.planes.front())));
-    }
+    found.possible.push_back({technique, *request});
+    // One plane of a name: the first effect that has the extras makes them.
+    if (!found.possible.back().asked.with.empty()) asked.with.clear();
   }
   if (found.possible.empty() && missing) throw *missing;
   // Colour holds all effects: nothing is to be computed.
@@ -187,6 +227,22 @@ Candidates candidates_for(PlanRequest asked, const FrameFiles& files, const Comp
     if (!is_known) found.possible.front().asked.settings.push_back(setting);  // its plan reports the error
   }
   return found;
+}
+
+/// What may run on the frame without its unfit planes, and what to decode for it.
+void plan_effects(AutoFrame& planned, const PlanRequest& asked, const AutoPurpose& purpose) {
+  const FrameFiles& files = planned.files;
+  const std::vector<std::string> available = fit_planes(files.common_planes(), planned.unfit);
+  planned.candidates = candidates_for(asked, files, purpose.composing, planned.unfit);
+  planned.plans.clear();
+  planned.planes = {"depth"};
+  for (const Candidate& candidate : planned.candidates.possible) {
+    planned.plans.push_back(plans_of_effect(*candidate.technique, candidate.asked, available, holdings(files)));
+    for (const Plan& plan : planned.plans.back()) add_new(planned.planes, plan.inputs);
+  }
+  if (purpose.explains || purpose.looks_at_picture || looks_at_changes(planned.candidates))
+    for (const std::string& plane : planes_to_compose())
+      if (contains(available, plane)) add_new(planned.planes, plane);
 }
 
 std::vector<std::string> planes_of_every_view(const Frame& frame, const std::vector<std::string>& planes) {
@@ -221,19 +277,23 @@ bool is_of_display(const FrameFiles& files) {
   return false;
 }
 
-AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose) {
-  AutoFrame planned{std::move(files), {}, {"depth"}, {}};
-  const FrameFiles& opened = planned.files;
-  planned.candidates = candidates_for(asked, opened, purpose.composing);
-  for (const Candidate& candidate : planned.candidates.possible) {
-    planned.plans.push_back(
-        plans_of_effect(*candidate.technique, candidate.asked, opened.common_planes(), holdings(opened)));
-    for (const Plan& plan : planned.plans.back()) add_new(planned.planes, plan.inputs);
-  }
-  if (purpose.explains || purpose.looks_at_picture || looks_at_changes(planned.candidates))
-    for (const std::string& plane : planes_to_compose())
-      if (contains(opened.common_planes(), plane)) add_new(planned.planes, plane);
+AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose,
+                       const std::vector<Unfit>& unfit) {
+  AutoFrame planned{std::move(files), {}, {}, {}, unfit};
+  plan_effects(planned, asked, purpose);
   return planned;
+}
+
+Frame read_and_judge(AutoFrame& planned, const PlanRequest& asked, const AutoPurpose& purpose) {
+  Frame frame = planned.files.read(planned.planes);
+  planned.unfit = unfit_planes(frame.assumed);
+  if (planned.unfit.empty()) return frame;
+  plan_effects(planned, asked, purpose);
+  for (View& view : frame.views) {
+    for (const Unfit& each : planned.unfit)
+      if (each.plane != "color") view.planes.erase(each.plane);
+  }
+  return frame;
 }
 
 void set_radius(AutoFrame& planned, std::optional<double> radius) {

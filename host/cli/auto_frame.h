@@ -9,6 +9,7 @@
 
 #include "cli/options.h"
 #include "cli/radius.h"
+#include "frame/unfit.h"
 #include "gloam/composition.h"
 #include "plan/automatic.h"
 #include "plan/budget.h"
@@ -51,6 +52,7 @@ struct AutoFrame {
   Candidates candidates;
   std::vector<std::string> planes;       ///< to decode
   std::vector<std::vector<Plan>> plans;  ///< that may run, by effect
+  std::vector<Unfit> unfit;              ///< planes of the files that nothing is computed from
 };
 
 /// What is to be made of a frame beside its effects.
@@ -60,8 +62,14 @@ struct AutoPurpose {
   ComposeOptions composing;
 };
 
-/// Throws an error with all reasons if no effect is possible, and for a setting that no effect has.
-AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose);
+/// `unfit`: planes that no effect is computed from: what needs one is not possible, and for others a plane is made in its place. Throws an
+/// error with all reasons if no effect is possible, and for a setting that no effect has.
+AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose,
+                       const std::vector<Unfit>& unfit = {});
+
+/// Decodes the planes, and plans again without those that turned out to be unfit, which are left out of the frame (but for colour,
+/// which pictures show).
+Frame read_and_judge(AutoFrame& planned, const PlanRequest& asked, const AutoPurpose& purpose);
 
 /// Whether the frame is of a light-field display.
 bool is_of_display(const FrameFiles& files);

@@ -38,6 +38,13 @@ void check_goal(const BudgetGoal& goal, const AutoFrame& planned) {
   if (is_of_display(planned.files))
     throw UsageError(
         "{}: weighs effects by the picture of one camera, and a light-field display has many; leave it out", flag);
+  for (const Unfit& each : planned.unfit) {
+    if (each.plane == "color")
+      throw Error(
+          "{}: needs the frame's colour to tell what effects change in it, and color is unfit: {}; --plane "
+          "color=CHANNELS has it taken",
+          flag, each.why);
+  }
   if (!contains(planned.files.common_planes(), "color"))
     throw UsageError(
         "{}: needs the frame's colour to tell what effects change in it, and {} has none; name it with "

@@ -31,6 +31,13 @@ void check_flags(const AutoCommand& flags) {
                      flags.frame.frame);
 }
 
+/// Of results made without planes of the frames, by which `--resume` tells them from others: " without color".
+std::string left_out_in_words(const std::vector<Unfit>& unfit) {
+  std::vector<std::string> planes;
+  for (const Unfit& each : unfit) planes.push_back(each.plane);
+  return planes.empty() ? "" : " without " + enumerate(planes);
+}
+
 FramePattern composite_pattern(const AutoCommand& flags) {
   if (!FramePattern::is_pattern(flags.composite.path))
     throw UsageError("--composite {}: is one file, and {} a shot; write both as patterns, such as picture.####.exr",
@@ -49,6 +56,7 @@ struct AutoShotSettings {
   AutoCompositeFlags composite;
   std::optional<FramePattern> composite_output = {};  ///< none: no composite
   bool keeps_depth = false, resumes = false;
+  std::vector<Unfit> unfit;       ///< of the first frame, left out of all: nothing comes and goes by a share of pixels
   std::string version, contents;  ///< as in FrameMaking
   Window display;
   unsigned long long frame_bytes = 0;
@@ -222,10 +230,12 @@ class AutoShotWork {
       if (report_.leaves_alone(frame.number, path, why)) return false;
     }
     check_size_in_shot(files, settings_.display);
-    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, computing_.purpose));
+    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, computing_.purpose, settings_.unfit));
     set_radius(*flight.planned, settings_.radius);
-    if (auto source = open_composite(settings_.composite, files_.paths_of(frame), files_.options_for(frame)))
+    if (auto source = open_composite(settings_.composite, files_.paths_of(frame), files_.options_for(frame))) {
+      leave_out(source, settings_.unfit);
       flight.source.emplace(std::move(*source));
+    }
     check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned, flight.source), settings_.frame_bytes);
     return true;
   }
@@ -275,11 +285,13 @@ FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked, const Au
     const AutoPurpose purpose{false, flags.goal || !flags.composite.path.empty(),
                               compose_options(flags.composite.light, files, notes)};
     AutoFrame planned = planned_auto(std::move(files), asked, purpose);
+    const Frame read = read_and_judge(planned, asked, purpose);
     check_goal(flags.goal, planned);
-    const Radius radius = default_radius(planned.files.read({"depth"}), stated_radius(planned.files));
+    const Radius radius = default_radius(read, stated_radius(planned.files));
     if (flags.goal && flags.composite.path.empty()) note(notes);
-    first.emplace(FirstFrame{std::move(planned), radius,
-                             open_composite(flags.composite, shot.paths_of(frame), shot.options_for(frame)), purpose});
+    auto source = open_composite(flags.composite, shot.paths_of(frame), shot.options_for(frame));
+    leave_out(source, planned.unfit);
+    first.emplace(FirstFrame{std::move(planned), radius, std::move(source), purpose});
   });
   return std::move(*first);
 }
@@ -308,8 +320,10 @@ void run_auto_on_shot(const AutoCommand& flags) {
                             .composite = flags.composite,
                             .keeps_depth = flags.shot.keep_depth,
                             .resumes = flags.shot.resume,
+                            .unfit = first.planned.unfit,
                             .version = version_with_kernels(GLOAM_VERSION),
-                            .contents = fmt::format("auto{} radius {}", flags.given, first.radius.value),
+                            .contents = fmt::format("auto{} radius {}{}", flags.given, first.radius.value,
+                                                    left_out_in_words(first.planned.unfit)),
                             .display = first.planned.files.files().front().display()};
   if (outputs.size() > 1) settings.composite_output = outputs.back().second;
   const ShotMemory memory =

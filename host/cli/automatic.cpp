@@ -35,7 +35,8 @@ void run_on_one_frame(const AutoCommand& flags) {
   std::vector<std::string> notes_on_light;
   const AutoPurpose purpose{explains, flags.goal || !flags.composite.path.empty(),
                             compose_options(flags.composite.light, files, notes_on_light)};
-  AutoFrame planned = planned_auto(std::move(files), flags.technique_flags.request({}), purpose);
+  const PlanRequest asked = flags.technique_flags.request({});
+  AutoFrame planned = planned_auto(std::move(files), asked, purpose);
   check_goal(flags.goal, planned);
   std::optional<CompositeSource> source =
       open_composite(flags.composite, flags.frame.files(), flags.frame_flags.read_options());
@@ -44,8 +45,10 @@ void run_on_one_frame(const AutoCommand& flags) {
       [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory) + bytes_of(source); },
       "crop or shrink the frame, ask for --resolution half, or for one view (--view)");
   Device device = flags.run_flags.open();
-  Frame frame = planned.files.read(planned.planes);
+  Frame frame = read_and_judge(planned, asked, purpose);
   note(frame.assumed);
+  check_goal(flags.goal, planned);
+  leave_out(source, planned.unfit);
   if (flags.goal && !source) note(notes_on_light);
   const Radius made = default_radius(frame, stated_radius(planned.files));
   set_radius(planned, made.value);

@@ -3,8 +3,8 @@
 #include "base/lists.h"
 #include "exr/assumed_camera.h"
 #include "exr/depth.h"
+#include "exr/fills.h"
 #include "exr/radiance.h"
-#include "exr/reflectance.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
 #include "normalise/normalise.h"
@@ -65,7 +65,7 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
     has_background |= has_named_background(file, view);
     conventions.take(convert_depth(file, cameras, view, frame));
     conventions.take(convert_normals(file, view, frame, conventions.normals));
-    check_reflectance(file, view, frame);
+    note_fills(file, view, frame);
     light.add(view);
     if (!file.options.as_stored) drop_positions_without_pose(cameras, view, frame);
   }

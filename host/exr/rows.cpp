@@ -6,23 +6,22 @@
 #include "exr/assumed_camera.h"
 #include "exr/decode_planes.h"
 #include "exr/depth.h"
+#include "exr/fills.h"
 #include "exr/memory.h"
 #include "exr/radiance.h"
-#include "exr/reflectance.h"
 #include "gloam/error.h"
 #include "normalise/normalise.h"
 #include "normalise/normals.h"
-#include "normalise/reflectance.h"
 
 namespace gloam {
 namespace {
 
 /// Sums over a view's rows.
 struct ViewSums {
-  explicit ViewSums(const Layout& image) : samples(image) {}
+  ViewSums(const Layout& image, Fills to_count) : samples(image), fills(std::move(to_count)) {}
   NormalSamples samples;
   long long missing = 0, missing_where_encoded = 0;  ///< missing normals, taken as stored and taken as encoded
-  WhitePixels white;
+  Fills fills;
 };
 
 Plane decoded(const Plane& normal, const Camera& camera) {
@@ -41,8 +40,7 @@ void add_rows(ViewSums& sums, const View& rows, const View& whole, int first_row
       sums.missing_where_encoded += count_missing_normals(decoded(*normal, *whole.camera), z, first_row);
     }
   }
-  if (const Plane* reflectance = rows.find("reflectance"))
-    sums.white.add(*reflectance, depth->channels.front(), first_row);
+  if (depth) sums.fills.add(rows, depth->channels.front(), first_row);
 }
 
 /// Planes that can be used only after a survey.
@@ -50,9 +48,11 @@ std::vector<std::string> planes_to_survey(const ExrFile& file, const Frame& fram
                                           const std::vector<std::string>& asked) {
   std::vector<std::string> planes;
   if (contains(asked, "normal")) planes.push_back("normal");
-  const auto may_be_white = [&](const View& view) { return may_be_white_by_default(file, view); };
-  if (contains(asked, "reflectance") && std::any_of(frame.views.begin(), frame.views.end(), may_be_white))
-    planes.push_back("reflectance");
+  for (const View& view : frame.views) {
+    if (!view.find("depth")) continue;
+    for (const std::string& plane : Fills(file, view.name).planes())
+      if (contains(asked, plane)) add_new(planes, plane);
+  }
   for (const char* plane : {"color", "albedo"})
     if (contains(asked, plane)) planes.emplace_back(plane);
   return planes;
@@ -62,7 +62,8 @@ std::vector<std::string> planes_to_survey(const ExrFile& file, const Frame& fram
 std::vector<ViewSums> sums_of(const ExrFile& file, const FileCameras& cameras, const Frame& frame,
                               const std::vector<std::string>& planes, LightCounts& light) {
   const Layout image(file.window.width(), file.window.height());
-  std::vector<ViewSums> sums(frame.views.size(), ViewSums(image));
+  std::vector<ViewSums> sums;
+  for (const View& view : frame.views) sums.emplace_back(image, Fills(file, view.name));
   const int step = rows_at_once(file, planes);
   for (int first = 0; !planes.empty() && first < image.height; first += step) {
     const Frame rows = decode_rows(file, cameras, planes, first, std::min(first + step, image.height));
@@ -130,8 +131,7 @@ Survey survey_planes(const ExrFile& file, const FileCameras& cameras, const std:
   for (size_t i = 0; i < sums.size(); ++i) {
     const View& view = survey.frame.views[i];
     if (contains(planes, "normal") && file.source("normal", view.name)) settle_normals(file, view, sums[i], survey);
-    if (contains(planes, "reflectance") && may_be_white_by_default(file, view))
-      note_white_reflectance(sums[i].white.share(), survey.frame);
+    sums[i].fills.note(survey.frame);
   }
   if (!has_background) note_missing_background(file, survey.frame);
   note_light(file, light, survey.frame);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.h"
+#include "frame/unfit.h"
 #include "gloam/error.h"
 #include "normalise/each_row.h"
 
@@ -19,6 +21,10 @@ constexpr long long least_tried = 256;
 constexpr size_t least_levels = 16;
 /// Share of the values that may lie between the steps.
 constexpr double most_between = 0.001;
+/// Share of the pixels with a component above 1 from which a plane is no albedo: filters overshoot on fewer.
+constexpr double most_above_one = 0.01;
+/// Share of the pixels without a finite value from which a plane is no colour.
+constexpr double most_without_light = 0.5;
 
 /// The sRGB curve (IEC 61966-2-1), of light from 0 to 1.
 double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
@@ -104,36 +110,48 @@ void merge(AlbedoCounts& sum, const AlbedoCounts& counts) {
   sum.negative += counts.negative;
 }
 
-std::vector<std::string> notes_on(const ColourCounts& counts) {
+/// A note, or the verdict that the plane is unfit.
+std::string note_or_verdict(const Unfit& found, bool is_judged) {
+  return is_judged ? note_on(found) : fmt::format("{}: {}", found.plane, found.why);
+}
+
+std::vector<std::string> notes_on(const ColourCounts& counts, bool is_judged) {
   std::vector<std::string> notes;
-  if (counts.nonfinite > 0)
-    notes.push_back(fmt::format("color: {} infinite or NaN and taken for black: their light is missing",
-                                pixels_are(counts.nonfinite, counts.pixels)));
+  if (counts.nonfinite > 0) {
+    const bool is_unfit = is_judged && double(counts.nonfinite) >= most_without_light * double(counts.pixels);
+    notes.push_back(
+        note_or_verdict({"color", fmt::format("{} infinite or NaN and taken for black: their light is missing",
+                                              pixels_are(counts.nonfinite, counts.pixels))},
+                        is_unfit));
+  }
   if (counts.negative > 0)
     notes.push_back(
         fmt::format("color: {} negative; as a source of light or in a reflection, a negative component is 0",
                     pixels_are(counts.negative, counts.pixels)));
   if (has_eight_bits(counts, counts.steps, counts.levels))
-    notes.push_back(
-        "color: holds the steps of an 8-bit picture from 0 to 1, as the sRGB curve of a display has them, and is taken "
-        "for "
-        "scene-linear light: what is computed from it will be too bright in the dark and too dark in the bright; give "
-        "the "
-        "renderer's linear colour (--plane color=CHANNELS names another)");
+    notes.push_back(note_or_verdict(
+        {"color",
+         "it holds the steps of an 8-bit picture from 0 to 1, as the sRGB curve of a display has them, and is taken "
+         "for "
+         "scene-linear light: what is computed from it will be too bright in the dark and too dark in the bright; give "
+         "the renderer's linear colour"},
+        is_judged));
   else if (has_eight_bits(counts, counts.steps_of_light, counts.levels_of_light))
     notes.push_back(
-        "color: holds the steps of an 8-bit sRGB picture made linear, and nothing above 1: light of lamps and of the "
-        "sky may "
-        "have been cut off; give the renderer's own colour (--plane color=CHANNELS names another)");
+        "color: it holds the steps of an 8-bit sRGB picture made linear, and nothing above 1: light of lamps and of "
+        "the sky may have been cut off; give the renderer's own colour (--plane color=CHANNELS names another)");
   return notes;
 }
 
-std::vector<std::string> notes_on(const AlbedoCounts& counts) {
+std::vector<std::string> notes_on(const AlbedoCounts& counts, bool is_judged) {
   std::vector<std::string> notes;
-  if (counts.above_one > 0)
-    notes.push_back(
-        fmt::format("albedo: {} above 1, which no surface reflects, and cut to 1; is it a colour with light in it?",
-                    pixels_are(counts.above_one, counts.pixels)));
+  if (counts.above_one > 0) {
+    const bool is_unfit = is_judged && double(counts.above_one) >= most_above_one * double(counts.pixels);
+    notes.push_back(note_or_verdict(
+        {"albedo", fmt::format("{} above 1, which no surface reflects, and cut to 1; is it a colour with light in it?",
+                               pixels_are(counts.above_one, counts.pixels))},
+        is_unfit));
+  }
   if (counts.negative > 0)
     notes.push_back(fmt::format("albedo: {} negative or NaN, and black", pixels_are(counts.negative, counts.pixels)));
   return notes;
@@ -163,9 +181,9 @@ void LightCounts::add(const View& view) {
   }
 }
 
-std::vector<std::string> LightCounts::notes() const {
-  std::vector<std::string> notes = notes_on(color);
-  for (std::string& note : notes_on(albedo)) notes.push_back(std::move(note));
+std::vector<std::string> LightCounts::notes(const std::vector<std::string>& judged) const {
+  std::vector<std::string> notes = notes_on(color, contains(judged, "color"));
+  for (std::string& note : notes_on(albedo, contains(judged, "albedo"))) notes.push_back(std::move(note));
   return notes;
 }
 

@@ -31,8 +31,9 @@ struct LightCounts {
   /// Adds a row of a view's planes, of those that it has. Threads may add rows at the same time.
   void add_row(const View& view, int y);
   void add(const View& view);
-  /// One sentence each for what is found and what becomes of it.
-  std::vector<std::string> notes() const;
+  /// One sentence each for what is found and what becomes of it. `judged`: the planes that nobody has chosen, which are called unfit
+  /// (frame/unfit.h) if what is found says so.
+  std::vector<std::string> notes(const std::vector<std::string>& judged = {}) const;
 };
 
 /// Whether values of a colour space, by its name in the list of the Color Interop Forum, are in proportion to light: "lin_rec709_scene".

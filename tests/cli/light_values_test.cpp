@@ -1,6 +1,8 @@
 // Colour and albedo that are no light, and lights inside surfaces: what is told, and what is not.
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "cli/gloam_process.h"
 #include "support/stress.h"
@@ -73,7 +75,8 @@ TEST_F(CliLight, PicturesOfADisplayAreTold) {
   const auto made_linear = [&](float v) { return float(decoded(double(picture(v)))); };
   for (const bool is_half : {false, true}) {
     std::string frame = frame_of(picture, is_half);
-    EXPECT_NE(notes_of_run(frame).find("color: holds the steps of an 8-bit picture"), std::string::npos) << is_half;
+    EXPECT_NE(notes_of_run(frame).find("color is unfit: it holds the steps of an 8-bit picture"), std::string::npos)
+        << is_half;
     EXPECT_EQ(notes_of_info(frame), notes_of_run(frame));
     frame = frame_of(made_linear, is_half);
     EXPECT_NE(notes_of_run(frame).find("an 8-bit sRGB picture made linear"), std::string::npos) << is_half;
@@ -118,6 +121,73 @@ TEST_F(CliLight, AlbedoAboveOneIsTold) {
   EXPECT_NE(result.err.find("albedo: 1 pixel of 5184 is above 1"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("albedo: 1 pixel of 5184 is negative or NaN"), std::string::npos) << result.err;
   EXPECT_NE(notes_of_info(path("bright.exr")).find("albedo: 1 pixel of 5184 is above 1"), std::string::npos);
+}
+
+TEST_F(CliLight, AutoDoesWithoutWhatANoteCallsUnfit) {
+  const std::string whole = path("whole.exr"), spoilt = path("spoilt.exr"), out = path("out.exr");
+  const std::vector<std::string> planes = {"depth",  "normal",   "color",     "ambient",
+                                           "albedo", "metallic", "roughness", "reflectance"};
+  ASSERT_EQ(gloam({"capture", "lounge", "-o", whole, "--size", "96x54", "--planes",
+                   "normal,color,ambient,albedo,metallic,roughness,reflectance"})
+                .status,
+            0);
+  const auto spoil = [&](const std::string& plane, const std::function<float(float)>& change) {
+    Frame frame = FrameFile(whole, {}).read(planes);
+    for (Channel& channel : frame.views[0].planes.at(plane).channels) {
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) channel.at(x, y) = change(channel.at(x, y));
+      }
+    }
+    write_frame(spoilt, frame);
+  };
+  /// Why each effect is wanted or not, by its name.
+  const auto reasons = [&](const Arguments& more) {
+    Arguments arguments = {"auto", spoilt, "-o", out, "--radius", "0.5", "--preset", "low", "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::map<std::string, std::string> found;
+    for (const nlohmann::json& effect : result.json()["effects"])
+      found[effect["name"]] = (effect["wanted"].get<bool>() ? "wanted: " : "") + effect["why"].get<std::string>();
+    return found;
+  };
+  const std::string light = "light of near surfaces", mirrors = "reflections";
+  struct Spoilt {
+    std::string plane;
+    std::function<float(float)> change;
+    std::vector<std::string> lost;
+  };
+  const std::vector<Spoilt> cases = {
+      {"color", [](float v) { return float(std::round(255 * encoded(std::min(v, 1.0f))) / 255); }, {light, mirrors}},
+      {"roughness", [](float) { return 0.0f; }, {mirrors}},
+      {"albedo", [](float v) { return 10 * v; }, {light}}};
+  for (const Spoilt& each : cases) {
+    spoil(each.plane, each.change);
+    std::map<std::string, std::string> found = reasons({});
+    EXPECT_NE(found["ambient occlusion"].find("wanted: "), std::string::npos) << found["ambient occlusion"];
+    for (const std::string& effect : {light, mirrors}) {
+      const bool is_lost = std::count(each.lost.begin(), each.lost.end(), effect) > 0;
+      EXPECT_EQ(found[effect] == "needs '" + each.plane + "', which is unfit", is_lost)
+          << each.plane << ", " << effect << ": " << found[effect];
+    }
+    const std::vector<std::string> written = FrameFile(out, {}).common_planes();
+    for (const std::string& effect : each.lost)
+      EXPECT_EQ(std::count(written.begin(), written.end(), effect == light ? "indirect" : "reflection"), 0) << effect;
+  }
+  // A user who names the channels means them.
+  const std::string chosen = reasons({"--plane", "albedo=albedo.R,albedo.G,albedo.B"})[light];
+  EXPECT_EQ(chosen.find("unfit"), std::string::npos) << chosen;
+  // A picture begins with colour, and a budget is weighed by it.
+  spoil("color", cases[0].change);
+  for (const Arguments& flags : {Arguments{"--composite", path("picture.exr")}, Arguments{"--budget", "100ms"}}) {
+    Arguments arguments = {"auto", spoilt, "-o", path("other.exr")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Result refused = gloam(arguments);
+    EXPECT_EQ(refused.status, 1) << refused.out;
+    EXPECT_NE(refused.err.find("color is unfit: it holds the steps of an 8-bit picture"), std::string::npos);
+    EXPECT_NE(refused.err.find("--plane color=CHANNELS has it taken"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(path("other.exr")));
+  }
 }
 
 TEST_F(CliLight, LightsInsideSurfacesAreTold) {
