@@ -1,10 +1,13 @@
 // What is measured first where the time is limited.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "base/elapsed.h"
 #include "bench/plans.h"
 
 namespace gloam::bench {
@@ -31,6 +34,26 @@ class TimeLimit {
  private:
   Clock clock_;
   double end_ = 0;
+};
+
+/// How long a thing takes that is done again and again: as long as the longest so far, and a quarter more.
+class Expected {
+ public:
+  explicit Expected(double seconds) : seconds_(seconds) {}
+  /// Does the work if it is expected to end in time; says whether it has.
+  template <typename Work>
+  bool done_within(const TimeLimit& limit, const Work& work) {
+    if (!limit.allows(1.25 * seconds_)) return false;
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    seconds_ = has_begun_ ? std::max(seconds_, seconds_since(start)) : seconds_since(start);
+    has_begun_ = true;
+    return true;
+  }
+
+ private:
+  double seconds_;
+  bool has_begun_ = false;
 };
 
 /// A setting after one run.

@@ -22,26 +22,6 @@ constexpr size_t batch = 4;             ///< settings that share one run of the 
 constexpr int floor_rounds = 5;
 constexpr double quick_ms = 60;  ///< runs that are shorter are repeated, since the first run finds cold caches
 
-/// How long a thing takes that is done again and again: as long as the longest so far, and a quarter more.
-class Expected {
- public:
-  explicit Expected(double seconds) : seconds_(seconds) {}
-  /// Does the work if it is expected to end in time; says whether it has.
-  template <typename Work>
-  bool done_within(const TimeLimit& limit, const Work& work) {
-    if (!limit.allows(1.25 * seconds_)) return false;
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    seconds_ = has_begun_ ? std::max(seconds_, seconds_since(start)) : seconds_since(start);
-    has_begun_ = true;
-    return true;
-  }
-
- private:
-  double seconds_;
-  bool has_begun_ = false;
-};
-
 double megapixels(const Frame& frame) { return 1e-6 * frame.width() * frame.height() * double(frame.views.size()); }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
 
+#include "base/elapsed.h"
 #include "base/temporary_folder.h"
 #include "bench/effects.h"
 #include "cli/pick_shot.h"
@@ -122,7 +124,7 @@ Json entry_of(const Choice& choice) {
                 {"resolution", choice.variation.resolution == 1 ? "full" : choice.variation.variant},
                 {"ms", choice.ms},
                 {"rmse", choice.rmse},
-                {"ssim", choice.ssim}};
+                {"ssim", choice.ssim ? Json(*choice.ssim) : Json(nullptr)}};
   if (choice.flip) entry["flip"] = *choice.flip;
   return entry;
 }
@@ -157,7 +159,7 @@ void print_left_out(const Picked& picked) {
   std::map<std::string, std::vector<std::string>> slow;
   size_t out_of_time = 0;
   for (const Skipped& s : picked.left_out) {
-    if (s.why == "the time was over")
+    if (s.why == time_was_over)
       ++out_of_time;
     else
       slow[s.why].push_back(s.preset);
@@ -175,7 +177,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
     const Choice& c = picked.finalists[i];
     rows.push_back({i == picked.best ? ">" : "", c.variation.technique->name, c.variation.name(),
                     c.variation.resolution == 1 ? "full" : c.variation.variant, fmt::format("{:.2f}", c.ms),
-                    fmt::format("{:.4f}", c.rmse), fmt::format("{:.4f}", c.ssim)});
+                    fmt::format("{:.4f}", c.rmse), c.ssim ? fmt::format("{:.4f}", *c.ssim) : "-"});
     if (has_flip) rows.back().push_back(fmt::format("{:.4f}", *c.flip));
   }
   print_table(rows, 4);
@@ -221,13 +223,15 @@ void pick_command(const PickCommand& flags) {
   std::vector<NamedPath> inputs = {{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
   for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
   check_paths(inputs, {{"--json", flags.json.file()}});
+  if (!flags.all) options.limit = TimeLimit(flags.time);
   const TemporaryFolder scratch("pick");
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
-  // Tracing a truth is done once, and does not count.
+  const auto start = std::chrono::steady_clock::now();
   const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, effect, options.techniques, scene);
+  // Tracing a truth is done once, and does not count.
+  if (flags.truths.empty() && subject.truth) options.limit.extend(seconds_since(start));
   const RadiusReport radius = report_of(subject, options.techniques);
-  if (!flags.all) options.limit = TimeLimit(flags.time);
   Picked picked = pick(subject, options, device);
   picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
   erase_status();
@@ -282,8 +286,8 @@ void add_pick(CLI::App& app) {
   add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9")
       ->type_name("N");
   CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
-                                 "how long settings may be tried, the likeliest first; timing the best few in turn and "
-                                 "tracing a truth come on top; default 1m")
+                                 "how long reading the frame, trying settings, the likeliest first, and timing the "
+                                 "best few in turn may take; tracing a truth comes on top; default 1m")
                           ->type_name("1m");
   command->add_flag("--all", flags->all, "try every setting, however long it takes; of a shot always")->excludes(time);
   flags->DeviceFlags::add_to(*command);

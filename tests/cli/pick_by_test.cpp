@@ -11,8 +11,8 @@ using Json = nlohmann::json;
 class PickBy : public Cli {
  protected:
   Json picked(const Arguments& more, const std::string& techniques = "hbao+,gtao,alchemy") const {
-    Arguments arguments = {"pick",     loggia,     "--truth", loggia_truth, "--techniques",
-                           techniques, "--rounds", "1",       "--json",     "-"};
+    Arguments arguments = {"pick",     loggia, "--truth", loggia_truth, "--techniques", techniques,
+                           "--rounds", "1",    "--time",  "1h",         "--json",       "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Result result = gloam(arguments);
     EXPECT_EQ(result.status, 0) << result.err;

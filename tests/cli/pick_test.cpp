@@ -10,7 +10,8 @@ namespace {
 using Json = nlohmann::json;
 
 Arguments pick(const Arguments& more) {
-  Arguments arguments = {"pick", loggia, "--truth", loggia_truth, "--rounds", "2", "--techniques", "gtao,hbao+"};
+  Arguments arguments = {"pick", loggia,         "--truth",    loggia_truth, "--rounds",
+                         "2",    "--techniques", "gtao,hbao+", "--time",     "1h"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
