@@ -27,7 +27,7 @@ class BrowserTest : public Cli {
         "addEventListener('securitypolicyviolation', (e) => problems.push('asked for ' + e.blockedURI));</script>\n";
     const std::string run =
         "<script>const wait = (ms) => new Promise((done) => setTimeout(done, ms));"
-        "const until = async (holds) => { for (let i = 0; i < 400 && !holds(); ++i) await wait(25);"
+        "const until = async (holds) => { for (let i = 0; i < 8000 && !holds(); ++i) await wait(25);"
         " if (!holds()) problems.push('never came: ' + holds); };"
         "const click = (e, more) => e.dispatchEvent(new MouseEvent('click', {bubbles: true, ...more}));"
         "(async () => { const result = {}; try { " +
@@ -46,7 +46,7 @@ class BrowserTest : public Cli {
                                              "' style='border:0;height:900px;width:" + std::to_string(opening.width) +
                                              "px'></iframe>";
     const std::string command =
-        "timeout 50 chromium --headless --no-sandbox --disable-gpu --window-size=1400,1000 "
+        "timeout 400 chromium --headless --no-sandbox --disable-gpu --window-size=1400,1000 "
         "--enable-logging=stderr --v=0 --dump-dom --user-data-dir='" +
         path("profile").string() + "' 'file://" + path("frame.html").string() + "' >'" + path("dom").string() +
         "' 2>'" + path("log").string() + "'";

@@ -30,7 +30,7 @@ TEST_F(OddFiles, PipesAreRefusedAtOnce) {
       {"display.json", {"capture", "plane", "-o", path("a.exr"), "--display", path("display.json")}},
       {"frame.exr", {"info", path("frame.exr")}}};
   for (const auto& [name, command] : commands) {
-    const Result result = gloam_within({RLIM_INFINITY, 20}, command);
+    const Result result = gloam_within({RLIM_INFINITY, 300}, command);
     expect_refused(result, 1, name + ": is a device or a pipe; name a regular file");
   }
 }
@@ -38,7 +38,7 @@ TEST_F(OddFiles, PipesAreRefusedAtOnce) {
 TEST_F(OddFiles, PipesThatASceneNamesAreRefusedAtOnce) {
   ASSERT_EQ(mkfifo(path("scene.mtl").c_str(), 0600), 0);
   std::ofstream(path("scene.obj")) << "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  expect_refused(gloam_within({RLIM_INFINITY, 20}, {"capture", path("scene.obj"), "-o", path("a.exr")}), 1,
+  expect_refused(gloam_within({RLIM_INFINITY, 300}, {"capture", path("scene.obj"), "-o", path("a.exr")}), 1,
                  "scene.mtl: is a device or a pipe");
 }
 

@@ -55,7 +55,7 @@ TEST_F(Cli, PickMeasuresOnTheFirstViewWhatMakesNoOther) {
       gloam({"capture", "colonnade", "-o", path("two.exr"), "--size", "48x27", "--stochastic", "4", "--view2", "30"})
           .status,
       0);
-  const Result result = gloam({"pick", path("two.exr"), "--budget", "100s", "--rays", "16", "--rounds", "1",
+  const Result result = gloam({"pick", path("two.exr"), "--budget", "100s", "--all", "--rays", "16", "--rounds", "1",
                                "--techniques", "multiview,hbao+", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json document = result.json();

@@ -22,7 +22,7 @@ class ScoreCommand : public ScoreTest {
       const std::string status = slurp("/proc/" + std::to_string(process) + "/status");
       return !status.empty() && status.find("State:\tZ") == std::string::npos;
     };
-    for (int i = 0; i < 100 && runs(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int i = 0; i < 2000 && runs(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return runs();
   }
 
@@ -141,12 +141,12 @@ TEST_F(ScoreCommand, OfASequenceTheOtherFramesAreScored) {
 }
 
 TEST_F(ScoreCommand, ProgramsThatHangAreEndedWithWhatTheyStarted) {
-  const auto start = std::chrono::steady_clock::now();
+  // Longer than the harness lets a command run.
   const Result result =
-      run("[ $item = room ] && { sleep 300 & echo $! > " + path("pid").string() + "; sleep 300; }", {"--timeout", "3"});
+      run("[ $item = room ] && { sleep 100000 & echo $! > " + path("pid").string() + "; sleep 100000; }",
+          {"--timeout", "10"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.err.rfind("gloam: room: left out: 'sh' ended: still running after 3 s", 0), 0u) << result.err;
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(120));
+  EXPECT_EQ(result.err.rfind("gloam: room: left out: 'sh' ended: still running after 10 s", 0), 0u) << result.err;
   EXPECT_EQ(document()["results"].size(), 2u);
   EXPECT_FALSE(is_running(std::stoi(slurp(path("pid"))))) << "its child is still there";
 }
@@ -161,11 +161,11 @@ TEST_F(ScoreCommand, ThatIsNotThereIsLeftOutOfAll) {
 
 TEST_F(ScoreCommand, InterruptedItEndsItsChildrenAndKeepsWhatWasScored) {
   std::ofstream(path("engine.sh")) << "case $3 in room) cp " << path("set/truths/room_ao.exr").string()
-                                   << " $2;; *) echo $$ > " << path("pid").string() << "; exec sleep 300;; esac\n";
+                                   << " $2;; *) echo $$ > " << path("pid").string() << "; exec sleep 100000;; esac\n";
   const pid_t child =
       start({"score", "--json", path("entry.json"), "--set", path("set"), "-o", path("out"), "--command",
              "sh " + path("engine.sh").string() + " {frame} {image} {item}", "--rounds", "1"});
-  for (int i = 0; i < 1200 && slurp(path("pid")).empty(); ++i)
+  for (int i = 0; i < 8000 && slurp(path("pid")).empty(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ASSERT_FALSE(slurp(path("pid")).empty());
   kill(child, SIGINT);

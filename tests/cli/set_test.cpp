@@ -113,7 +113,7 @@ TEST_F(Sets, AreTheSameWithOtherThreadsAndInstructions) {
 
 TEST_F(Sets, GoOnWhereTheyWereKilled) {
   const pid_t child = start({"set", "make", "small", "-o", in("set")});
-  for (int i = 0; i < 2000 && !fs::exists(path("set/frames/gallery.exr")); ++i)
+  for (int i = 0; i < 80000 && !fs::exists(path("set/frames/gallery.exr")); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(child, SIGKILL);
   finish(child);

@@ -297,7 +297,9 @@ class ViewOnTerminal : public ViewPage {
     close(terminal);
     EXPECT_EQ(status, 0);
     // The program that opens it lives on by itself.
-    for (int i = 0; i < 40 && !fs::exists(path("opened")); ++i) usleep(display && more.empty() ? 50'000 : 5'000);
+    const bool is_to_open = display && more.empty();
+    for (int i = 0; i < (is_to_open ? 8000 : 40) && slurp(path("opened")).empty(); ++i)
+      usleep(is_to_open ? 50'000 : 5'000);
     return slurp(path("opened"));
   }
 };

@@ -21,7 +21,7 @@ goes_on()
 
 
 def interrupted(text, seconds=0.7):
-    """Runs a program, sends SIGINT after its line "begins", and returns its output and how long it then took, seconds."""
+    """Runs a program, sends SIGINT after its line "begins", and returns its output."""
     process = subprocess.Popen([sys.executable, "-c", START + text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
     lines = []
     for line in process.stdout:
@@ -29,30 +29,29 @@ def interrupted(text, seconds=0.7):
         if line.startswith("begins"):
             break
     time.sleep(seconds)
-    begun = time.monotonic()
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=120)
+    out, err = process.communicate(timeout=500)
     assert process.returncode == 0, err
-    return "".join(lines) + out, time.monotonic() - begun
+    return "".join(lines) + out
 
 
 def test_reference_stops():
-    out, seconds = interrupted("""
-print("begins", flush=True)
+    # A row takes an hour: the program ends in time only if it stops within one.
+    out = interrupted("""
 try:
-    gloam.reference(frame, samples=1 << 20)
+    print("begins", flush=True)
+    gloam.reference(frame, samples=1 << 24)
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 goes_on()
 """)
     assert "interrupted\ngoes on" in out
-    assert seconds < 60, "a row takes minutes, and the whole of it hours"
 
 
 def test_capture_stops():
-    out, _ = interrupted("""
-print("begins", flush=True)
+    out = interrupted("""
 try:
+    print("begins", flush=True)
     while True:
         gloam.capture("hairball", 4000, 3000, peel=8)
 except KeyboardInterrupt:
@@ -63,9 +62,9 @@ goes_on()
 
 
 def test_run_stops_between_passes():
-    out, _ = interrupted("""
-print("begins", flush=True)
+    out = interrupted("""
 try:
+    print("begins", flush=True)
     gloam.run("evidence", frame, radius=0.5, preset="ultra", repeat=1000000)
 except KeyboardInterrupt:
     print("interrupted", flush=True)
@@ -75,12 +74,12 @@ goes_on()
 
 
 def test_a_sequence_stops(tmp_path):
-    out, _ = interrupted(f"""
+    out = interrupted(f"""
 for i in range(1, 4):
     gloam.write("{tmp_path}/shot.000%d.exr" % i, frame)
 sequence = gloam.Sequence("{tmp_path}/shot.####.exr")
-print("begins", flush=True)
 try:
+    print("begins", flush=True)
     while True:
         for result in sequence.run("evidence", radius=0.5, preset="ultra"):
             pass
@@ -93,14 +92,14 @@ goes_on()
 
 
 def test_a_handler_of_ones_own_may_raise_what_it_likes():
-    out, _ = interrupted("""
+    out = interrupted("""
 class Enough(Exception):
     pass
 def handler(number, frame):
     raise Enough("of it")
 signal.signal(signal.SIGINT, handler)
-print("begins", flush=True)
 try:
+    print("begins", flush=True)
     gloam.reference(frame, samples=1 << 20)
 except Enough as error:
     print("enough", error, flush=True)

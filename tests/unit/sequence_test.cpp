@@ -248,11 +248,14 @@ TEST(PipelineOf, FramesThatEndEarlyLetTheOthersGoOn) {
 
 TEST(PipelineOf, FramesStopsWhenAskedTo) {
   std::atomic<size_t> begun{0}, written{0};
+  std::atomic<bool> has_stopped{false};
   Pipeline* running = nullptr;
   Pipeline pipeline(1000, {4, 2, 2},
                     {[&](size_t) { return ++begun, true; }, [](size_t) { return true; },
                      [&](size_t i) {
-                       if (i == 10) running->stop();
+                       if (i == 10) running->stop(), has_stopped = true;
+                       while (i > 10 && !has_stopped)
+                         std::this_thread::yield();  // however long frame 10 waits for a core
                        return ++written, true;
                      }});
   running = &pipeline;
