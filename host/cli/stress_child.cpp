@@ -42,10 +42,7 @@ std::string why(const ChildEnd& end) {
   return said.empty() ? "it ended without a message" : said;
 }
 
-}  // namespace
-
-void examine_here(const StressCommand& flags) {
-  end_with_parent();
+void examine_technique(const StressCommand& flags) {
   setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // a second implementation for CPUs, if it is installed
   const StressRequest request = request_of(flags);
   Device device = flags.open();
@@ -69,18 +66,34 @@ void examine_here(const StressCommand& flags) {
   }
 }
 
+}  // namespace
+
+/// What is refused is told at once: a driver may crash, or write lines of its own, while the process ends.
+void examine_here(const StressCommand& flags) {
+  end_with_parent();
+  try {
+    examine_technique(flags);
+  } catch (const Error& error) {
+    say_to_parent({{"refused", error.what()}, {"status", error.exit_status()}});
+    throw;
+  }
+}
+
 Examination::Examination(const StressCommand& flags, const StressRequest& request, std::string technique)
     : flags_(flags), technique_(std::move(technique)), left_(request.cases), patience_(flags.patience) {}
 
 void Examination::run() {
   while (!left_.empty()) {
     case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
+    refused_ = nullptr;
     const ChildEnd end = run_child(arguments(), patience_, [&](const std::string& line) { take(line); });
     if (left_.empty()) return;  // all results have arrived, however the child ended
-    if (end.ended_by.empty() && trial_ == 0) {
-      if (end.status == UsageError("").exit_status()) throw UsageError("{}", why(end));
-      throw Error("{}", why(end));
+    if (trial_ == 0 && !refused_.is_null()) {
+      const std::string why = refused_.at("refused");
+      if (refused_.at("status") == UsageError("").exit_status()) throw UsageError("{}", why);
+      throw Error("{}", why);
     }
+    if (end.ended_by.empty() && trial_ == 0) throw Error("{}", why(end));
     stress::CaseResult broken{.technique = technique_, .number = case_, .trials = trial_, .broken_on = conditions_};
     broken.broken = fmt::format("trial {} ({}): {}", trial_, conditions_,
                                 end.ended_by.empty() ? why(end) : "ended by " + end.ended_by);
@@ -116,6 +129,8 @@ void Examination::take(const std::string& text) {
     results.push_back(stress::case_result_of(line.at("result")));
     std::erase(left_, results.back().number);
     if (!left_.empty()) case_ = left_.front(), trial_ = 0, conditions_ = "before its first trial";
+  } else if (line.contains("refused")) {
+    refused_ = line;
   } else if (line.contains("conditions")) {  // other lines are a driver's own output
     case_ = line.at("case"), trial_ = line.at("trial"), conditions_ = line.at("conditions");
   }

@@ -32,6 +32,7 @@ class Examination {
   double patience_;
   int case_ = 0, trial_ = 0;
   std::string conditions_;
+  stress::Json refused_;  ///< what the child says of what it refuses, with its exit status; null: nothing
 };
 
 }  // namespace gloam::cli

@@ -138,7 +138,7 @@ TEST_F(StressOfFaults, APageHasTheFiguresOfARun) {
 TEST_F(StressOfFaults, AnInterruptedRunKeepsWhatWasDone) {
   const pid_t child = start(
       {"stress", "all", "--case", "11", "--quick", "--against", "none", "--jobs", "1", "--json", path("run.json")});
-  for (int i = 0; i < 600 && !fs::exists(path("run.json")); ++i)
+  for (int i = 0; i < 4000 && !fs::exists(path("run.json")); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   kill(child, SIGINT);
   const Result result = finish(child);
@@ -213,6 +213,22 @@ TEST_F(Stress, RefusesWhatItCannotDo) {
   refused({"hidden-mask", "--case", "4", "--trial", "1"}, 2, {"--trial 1", "0 trials", "opted out"});
   std::ofstream(path("half.json")) << R"({"device": "a", "cases": []})";
   refused({"--from", path("half.json"), "--markdown", path("y.md")}, 1, {"half.json", "no results"});
+}
+
+/// A driver may crash, or write a last line, when its process ends: what the child has refused by then is told all the same.
+TEST_F(Stress, IsRefusedHoweverTheDriverEnds) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers have to be loaded first";
+#endif
+  const std::map<std::string, std::string> driver = {
+      {"LD_PRELOAD", (fs::path(GLOAM_WITH_FAULTS).parent_path() / "dies_at_exit.so").string()}};
+  for (const auto& [flag, status] : {std::pair("--against", 2), std::pair("--device", 1)}) {
+    const Result result = gloam({"stress", "hbao+", "--case", "3", flag, "nonesuch"}, driver);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find("nonesuch"), std::string::npos) << result.err;
+  }
 }
 
 TEST_F(Stress, AnOptOutOfAPartIsSaid) {
