@@ -24,7 +24,7 @@ std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& l
 
 // --- The legend
 
-constexpr int least_width = 320, margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
+constexpr int margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
 const TextStyle words{8, ink};
 
 /// An entry of the legend: a field of colours and its meaning.
@@ -46,22 +46,24 @@ std::vector<Key> keys_of(double magnify) {
           {"no surface", background}};
 }
 
+int width_of(const Key& key) { return key.swatch.cols + 6 + cvCeil(text_width(key.text, words)); }
+
 /// Positions of the entries: from left to right, in as many rows as needed.
 std::vector<cv::Point> places_of(const std::vector<Key>& keys, int width) {
   std::vector<cv::Point> places;
   cv::Point at(margin, margin);
   for (const Key& key : keys) {
-    const int needed = key.swatch.cols + 6 + int(text_width(key.text, words)) + 18;
-    if (at.x > margin && at.x + needed > width) at = {margin, at.y + row_height};
+    if (at.x > margin && at.x + width_of(key) + margin > width) at = {margin, at.y + row_height};
     places.push_back(at);
-    at.x += needed;
+    at.x += width_of(key) + 18;
   }
   return places;
 }
 
 cv::Mat with_legend(const cv::Mat& image, double magnify) {
   const std::vector<Key> keys = keys_of(magnify);
-  const int width = std::max(image.cols, least_width);
+  int width = image.cols;
+  for (const Key& key : keys) width = std::max(width, width_of(key) + 2 * margin);
   const std::vector<cv::Point> places = places_of(keys, width);
   cv::Mat sheet(image.rows + places.back().y + row_height, width, CV_8UC3, paper);
   image.copyTo(sheet(cv::Rect({}, image.size())));
@@ -69,8 +71,7 @@ cv::Mat with_legend(const cv::Mat& image, double magnify) {
     const cv::Rect field(places[i] + cv::Point(0, image.rows), keys[i].swatch.size());
     keys[i].swatch.copyTo(sheet(field));
     cv::rectangle(sheet, field, rule, 1);
-    const double room = width - field.br().x - 6;
-    put_text(sheet, shortened(keys[i].text, room, words), {field.br().x + 6, field.br().y - 2}, words);
+    put_text(sheet, keys[i].text, {field.br().x + 6, field.br().y - 2}, words);
   }
   return sheet;
 }

@@ -197,7 +197,7 @@ TEST_F(Cli, StereoPicturesHaveTheSizeOfTheImageAndALegend) {
     EXPECT_NE(result.out.find(path(name).string()), std::string::npos) << "said to be written";
   const Picture errors = read_png(path("errors.png")), anaglyph = read_png(path("anaglyph.png")),
                 beside = read_png(path("beside.png"));
-  EXPECT_EQ(errors.width, 320) << "the legend's";
+  EXPECT_GT(errors.width, 320) << "the legend's";
   EXPECT_GT(errors.height, height) << "the legend lies under the image";
   EXPECT_EQ(anaglyph.width, width);
   EXPECT_EQ(anaglyph.height, height);
