@@ -1,5 +1,6 @@
 #include "exr/file.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -48,6 +49,21 @@ void find_planes(ExrFile& file) {
       plane.said = DeclaredConvention::ray_distance;
 }
 
+/// A plane that the user chooses for one view and another view lacks: what all views have would be taken in its place, unsaid.
+void check_chosen_planes(ExrFile& file) {
+  for (const auto& [plane, channels] : file.options.channels) {
+    const std::string why = why_missing(file.names.planes, file.names.views, plane);
+    if (why.empty()) continue;
+    const auto has_it = [&, &plane = plane](const std::string& view) { return file.has(plane, view); };
+    const std::string own = *std::find_if(file.names.views.begin(), file.names.views.end(), has_it);
+    const std::string sentence = fmt::format(
+        "--plane {}={}: is of view '{}' alone, and {}; --view {} reads that view, or a choice for all views", plane,
+        channels, own, why, own);
+    if (!file.options.only_looks) throw Error("{}: {}", file.path.string(), sentence);
+    file.notes.push_back(sentence);
+  }
+}
+
 void find_pixel_aspect(ExrFile& file) {
   const float aspect = file.headers.of_part(0).pixelAspectRatio();
   if (aspect >= narrowest_pixel && aspect <= 1 / narrowest_pixel)
@@ -85,6 +101,7 @@ ExrFile open_exr(const fs::path& path, const ReadOptions& options) {
     if (file.headers.has_views_by_part_names())
       file.notes.push_back("views: left and right are taken from the names of the parts");
     find_planes(file);
+    check_chosen_planes(file);
     find_pixel_aspect(file);
     find_windows(file);
   });

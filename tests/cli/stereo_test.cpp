@@ -452,5 +452,30 @@ TEST_F(Cli, StereoAoNeedsTwoViewsAndPoses) {
   EXPECT_EQ(gloam({"run", "hbao+", path("two.exr"), "-o", path("ao.exr"), "--filter", "stereo-bilateral"}).status, 0);
 }
 
+/// A plane that only one eye has is in no comparison of both: another plane may not take its place unsaid.
+TEST_F(Cli, AChoiceOfChannelsThatFitsOneEyeIsRefused) {
+  Frame pair = small_frame(32, 24, {"depth", "ao", "ao_raw"});
+  pair.views[0].name = "left";
+  View right = View{"right", pair.views[0].camera, {}, {}, {}};
+  for (const auto& [name, plane] : pair.views[0].planes) right.planes[name] = plane.clone();
+  pair.views.push_back(std::move(right));
+  write_frame(path("pair.exr"), pair);
+  const std::string pair_file = path("pair.exr");
+  for (const Arguments& command : {Arguments{"compare", pair_file, pair_file, "--plane", "ao=right.AO_raw"},
+                                   {"compare", "--stereo", pair_file, "--plane", "ao=right.AO_raw"},
+                                   {"run", "normals", pair_file, "-o", path("n.exr"), "--plane", "depth=right.Z"},
+                                   {"auto", pair_file, "-o", path("n.exr"), "--plane", "depth=right.Z"}}) {
+    const Result result = gloam(command);
+    EXPECT_EQ(result.status, 1) << command[0] << result.out;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    for (const char* words : {"is of view 'right' alone", "view 'left' has no", "--view right"})
+      EXPECT_NE(result.err.find(words), std::string::npos) << command[0] << ": " << result.err;
+  }
+  const Result looked = gloam({"info", pair_file, "--plane", "ao=right.AO_raw"});
+  EXPECT_EQ(looked.status, 0) << looked.err;
+  EXPECT_NE((looked.out + looked.err).find("is of view 'right' alone"), std::string::npos) << looked.out;
+  EXPECT_EQ(gloam({"compare", pair_file, pair_file, "--plane", "ao=right.AO_raw", "--view", "right"}).status, 0);
+}
+
 }  // namespace
 }  // namespace gloam::test
