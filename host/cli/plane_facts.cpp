@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
 
 #include "base/lists.h"
+#include "exr/file.h"
 
 namespace gloam::cli {
 namespace {
@@ -82,12 +85,18 @@ std::vector<PlaneFacts> facts_by_rows(FrameFile& file, const Frame& frame) {
 }
 
 std::vector<std::string> unread_channels(const FrameFile& file) {
-  std::vector<std::string> read, unread;
+  std::set<std::pair<int, std::string>> read;
   for (const PlaneSource& source : file.planes()) {
-    for (const ChannelSource& channel : source.channels) read.push_back(channel.name);
+    for (const ChannelSource& channel : source.channels) read.emplace(channel.part, channel.name);
   }
-  for (const std::string& channel : file.all_channels()) {
-    if (!contains(read, channel)) unread.push_back(channel);
+  const std::vector<FileChannel> all = open_exr(file.path(), {}).headers.channels();
+  std::map<std::string, int> parts;  // that have a channel of this name
+  for (const FileChannel& channel : all) ++parts[channel.name];
+  std::vector<std::string> unread;
+  for (const FileChannel& channel : all) {
+    if (read.contains({channel.part, channel.name})) continue;
+    const std::string part = channel.part_name.empty() ? std::to_string(channel.part) : channel.part_name;
+    unread.push_back(parts.at(channel.name) > 1 ? part + ":" + channel.name : channel.name);
   }
   return unread;
 }

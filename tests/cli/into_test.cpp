@@ -343,6 +343,17 @@ TEST_F(Into, APlaneThatIsThereTwiceIsTold) {
   EXPECT_NE(named.out.find("half"), std::string::npos) << named.out;
 }
 
+TEST_F(Into, InfoListsThePartThatIsNotRead) {
+  write_stored(path("f.exr"), {{"", "", {"R", "G", "B", "Z", "AO"}}});
+  ASSERT_EQ(into().status, 0);
+  const Arguments info = {"info", file("copy.exr"), "--json", "-"};
+  EXPECT_EQ(gloam(info).json()["unread"], nlohmann::json({"gloam.ao:AO"}));
+  EXPECT_NE(gloam({"info", file("copy.exr")}).out.find("not read: gloam.ao:AO\n"), std::string::npos);
+  Arguments chosen = info;
+  chosen.insert(chosen.end(), {"--plane", "ao=gloam.ao:AO"});
+  EXPECT_EQ(gloam(chosen).json()["unread"], nlohmann::json({"rgba:AO"}));
+}
+
 TEST_F(Into, BesideAnOutputOfItsOwn) {
   write_stored(path("f.exr"), {{"", "", beauty_and_depth}});
   ASSERT_EQ(into({"-o", file("ao.exr")}).status, 0);
