@@ -101,5 +101,14 @@ TEST_F(Memory, PlanTellsIt) {
   EXPECT_GT(gloam({"plan", "ao", large, "--json", "-"}).json().at("memory_bytes").get<double>(), planes_bytes / 8);
 }
 
+/// Rows are worked on by the thread that reads them: a pool of threads that wait for the next ones would take the cores from those that
+/// decode them. A stack that no system grants ends the command where it starts a thread of OpenMP.
+TEST_F(Memory, RowsAreWorkedOnByOneThread) {
+  write_frame(path("rows.exr"), small_frame(1024, 512, {"color", "normal"}));
+  const Result result = gloam({"info", path("rows.exr"), "--normal-space", "view"},
+                              {{"OMP_NUM_THREADS", "4"}, {"OMP_STACKSIZE", "200000G"}});
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
 }  // namespace
 }  // namespace gloam::test
