@@ -18,6 +18,7 @@ struct FrameRow {
   std::string size, error;
   std::vector<std::string> views, planes;
   std::string camera;
+  std::string unused_camera;  ///< why a camera is not used that was given, or lies beside the frame; empty: none
 };
 
 /// "header"; of several views those that differ: "header, cam.json".
@@ -31,7 +32,7 @@ std::string camera_sources(const FrameFile& file) {
 }
 
 FrameRow row_of(int frame, const std::filesystem::path& path, const ReadOptions& options) {
-  FrameRow row{frame, path, {}, {}, {}, {}, {}};
+  FrameRow row{frame, path, {}, {}, {}, {}, {}, {}};
   try {
     FrameFile file(path, options);
     file.fit_cameras();
@@ -39,6 +40,9 @@ FrameRow row_of(int frame, const std::filesystem::path& path, const ReadOptions&
     if (file.views() != std::vector<std::string>{""}) row.views = file.views();
     for (const PlaneSource& plane : file.planes()) add_new(row.planes, plane.plane);
     row.camera = camera_sources(file);
+    for (const std::string& sentence : file.camera_notes())
+      if (sentence.starts_with("camera: ") && sentence.find("not used") != std::string::npos)
+        row.unused_camera = sentence;
   } catch (const UsageError&) {
     throw;
   } catch (const Error& error) {
@@ -130,6 +134,14 @@ void print_shot(const std::string& pattern, const std::vector<FrameRow>& rows,
   }
 }
 
+/// The frames whose camera is not used, by the sentence that says why.
+std::map<std::string, std::vector<int>> unused_cameras(const std::vector<FrameRow>& rows) {
+  std::map<std::string, std::vector<int>> frames;
+  for (const FrameRow& row : rows)
+    if (!row.unused_camera.empty()) frames[row.unused_camera].push_back(row.frame);
+  return frames;
+}
+
 }  // namespace
 
 void describe_shot(const std::string& pattern, const FrameChoice& choice, const FrameFlags& flags,
@@ -145,12 +157,20 @@ void describe_shot(const std::string& pattern, const FrameChoice& choice, const 
   const std::vector<Difference> differences = differences_of(rows);
   json.write(document_of(pattern, rows, differences, missing));
   if (!json.only_json()) print_shot(pattern, rows, differences, missing);
+  const auto unused = unused_cameras(rows);
+  for (const auto& [why, numbers] : unused)
+    note({fmt::format("{}: {}",
+                      numbers.size() == 1 ? fmt::format("frame {}", numbers[0]) : "frames " + frames_in_words(numbers),
+                      why)});
   std::vector<int> unread;
   for (const FrameRow& row : rows) {
     if (!row.error.empty()) unread.push_back(row.frame);
   }
   if (!unread.empty())
     throw Error("{} of {} frames cannot be read: {}", unread.size(), rows.size(), frames_in_words(unread));
+  if (unused.empty() || flags.camera.empty()) return;
+  print_notes();  // an error leaves them out
+  throw Error("--camera {}: is not used for every frame; the notes say why, and gloam run refuses it", flags.camera);
 }
 
 }  // namespace gloam::cli

@@ -333,5 +333,21 @@ TEST_F(Shot, InfoHasALineForEachFrame) {
   expect_refused({"info", file("shot.0001.exr"), "--frames", "1"}, 2, {"--frames", "is one frame"});
 }
 
+/// A camera that the user names and that is not used is told, as of one frame, and no success.
+TEST_F(Shot, InfoTellsACameraThatIsNotUsed) {
+  make_shot({1, 2, 3});
+  std::ofstream(path("bad.json")) << "{}";
+  for (const char* name : {"bad.json", "none.json"}) {
+    const Result result = gloam({"info", file("shot.####.exr"), "--camera", file(name)});
+    EXPECT_EQ(result.status, 1) << result.out;
+    EXPECT_NE(result.err.find("note: frames 1-3: camera: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("gloam: --camera " + file(name) + ": is not used"), std::string::npos) << result.err;
+    EXPECT_NE(result.out.find("none"), std::string::npos) << result.out;
+  }
+  const Result overruled = gloam({"info", file("shot.####.exr"), "--camera", file("bad.json"), "--fov", "60"});
+  EXPECT_EQ(overruled.status, 1) << "as gloam run refuses it";
+  EXPECT_EQ(gloam({"info", file("shot.####.exr")}).err, "");
+}
+
 }  // namespace
 }  // namespace gloam::test
