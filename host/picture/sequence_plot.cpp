@@ -115,6 +115,12 @@ void draw_chart(cv::Mat& canvas, const SequencePlot& plot, const SequenceChart& 
     draw_curve(canvas, area, plot.frames, chart.curves[i], curve_inks[i % curve_inks.size()]);
 }
 
+bool has_values(const SequenceChart& chart) {
+  return std::any_of(chart.curves.begin(), chart.curves.end(), [](const SequenceCurve& curve) {
+    return std::any_of(curve.values.begin(), curve.values.end(), [](const auto& value) { return value.has_value(); });
+  });
+}
+
 }  // namespace
 
 void write_sequence_plot(const std::filesystem::path& path, const SequencePlot& plot) {
@@ -126,12 +132,14 @@ void write_sequence_plot(const std::filesystem::path& path, const SequencePlot& 
                     plot.frames.size());
     }
   }
-  cv::Mat canvas(top_room + chart_step * int(plot.charts.size()) + bottom_room, sheet_width, CV_8UC3, paper);
+  std::vector<const SequenceChart*> charts;  // an empty one would look as if its values were 0
+  for (const SequenceChart& chart : plot.charts)
+    if (has_values(chart)) charts.push_back(&chart);
+  cv::Mat canvas(top_room + chart_step * int(charts.size()) + bottom_room, sheet_width, CV_8UC3, paper);
   constexpr int room = sheet_width - 2 * sheet_margin;
   put_text(canvas, shortened(plot.title, room, title_style), {sheet_margin, 36}, title_style);
   put_text(canvas, shortened(plot.facts, room, facts_style), {sheet_margin, 58}, facts_style);
-  for (size_t i = 0; i < plot.charts.size(); ++i)
-    draw_chart(canvas, plot, plot.charts[i], top_room + chart_step * int(i));
+  for (size_t i = 0; i < charts.size(); ++i) draw_chart(canvas, plot, *charts[i], top_room + chart_step * int(i));
   write_png(path, canvas);
 }
 

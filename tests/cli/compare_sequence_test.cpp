@@ -1,7 +1,9 @@
 // gloam compare on sequences.
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "cli/shot_fixture.h"
+#include "picture/picture.h"
 
 namespace gloam::test {
 namespace {
@@ -202,6 +204,19 @@ TEST_F(CompareSequence, RefusesInALine) {
   std::ofstream(path("truth.0002.exr")) << "damaged";
   expect_refused({"compare", test, truth, "-o", file("plot.png"), "--differences", file("d.####.png")}, 1,
                  {"frame 2", "truth.0002.exr"});
+}
+
+/// Without a pair there is no change from frame to frame: an empty chart would look as if it were 0.
+TEST_F(CompareSequence, APlotWithoutPairsHasNoPanelOfThem) {
+  make_ao("test", {{1, 0.5f}, {2, 0.6f}, {4, 0.7f}});
+  make_ao("truth", {{1, 0.5f}, {2, 0.5f}, {4, 0.5f}});
+  const auto height_of = [&](const char* frames) {
+    ok({"compare", file("test.####.exr"), file("truth.####.exr"), "--frames", frames, "-o", file("plot.png")});
+    return read_png(path("plot.png")).rows;
+  };
+  const int both = height_of("1,2"), errors_alone = height_of("2,4");
+  EXPECT_LT(errors_alone, 0.75 * both);
+  EXPECT_GT(errors_alone, 0.4 * both);
 }
 
 }  // namespace

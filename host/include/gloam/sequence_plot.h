@@ -20,7 +20,7 @@ struct SequenceChart {
   std::vector<SequenceCurve> curves;
 };
 
-/// Charts below one another, over one axis of frames.
+/// Charts below one another, over one axis of frames. A chart without any value is left out.
 struct SequencePlot {
   std::string title, facts;
   std::vector<int> frames;  ///< numbers, ascending
