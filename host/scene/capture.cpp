@@ -45,6 +45,13 @@ struct PartSeconds {
   double stochastic = 0, outlines = 0;
 };
 
+/// Whether two cameras project every point to the same place.
+bool is_same(const Camera& a, const Camera& b) {
+  return a.orthographic == b.orthographic && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && !a.slits &&
+         !b.slits && a.pose && b.pose && a.pose->position == b.pose->position &&
+         a.pose->world_to_view == b.pose->world_to_view;
+}
+
 /// Captures the rows of one view.
 class Capturer {
  public:
@@ -55,6 +62,7 @@ class Capturer {
         before_(options.previous_scene),
         stochastic_(options.stochastic, target.stochastic),
         outlines_(options.outlines, view.camera, target) {
+    stands_still_ = view.previous_camera && is_same(view.camera, *view.previous_camera);
     needs_all_ = target.back_depth || target.peel_count || stochastic_.is_wanted();
   }
 
@@ -101,12 +109,12 @@ class Capturer {
     if (target_.instance) target_.instance->at(x, y) = float(first.mesh + 1);
     const dvec3 world = first.position + tracer_.scene().origin;
     put(target_.position, x, y, world - view_.camera.pose->position);
-    moved(x, y, before_ ? earlier_position(tracer_.scene(), *before_, first) : world, 1);
+    moved(x, y, world, before_ ? earlier_position(tracer_.scene(), *before_, first) : world, 1);
   }
 
   void background(int x, int y, const TracerRay& ray) const {
     put(target_.color, x, y, sky_radiance(tracer_.scene(), ray.direction));
-    moved(x, y, ray.direction, 0);
+    moved(x, y, ray.direction, ray.direction, 0);
   }
 
   void material(int x, int y, const Surface& surface, uint32_t seed) const {
@@ -148,9 +156,11 @@ class Capturer {
     }
   }
 
-  /// `earlier`: where the frame before has what the pixel shows.
-  void moved(int x, int y, const dvec3& earlier, double w) const {
+  /// `now`: what the pixel shows; `earlier`: where the frame before has it.
+  void moved(int x, int y, const dvec3& now, const dvec3& earlier, double w) const {
     if (!target_.motion[0] || !view_.previous_camera) return;
+    if (stands_still_ && earlier == now)
+      return put(target_.motion, x, y, glm::dvec2(0));  // without the rounding of a projection
     const std::optional<glm::dvec2> before = pixel_of_world(*view_.previous_camera, earlier, w);
     if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
   }
@@ -161,7 +171,7 @@ class Capturer {
   const Scene* before_;
   StochasticMap stochastic_;
   OutlineCounter outlines_;
-  bool needs_all_;
+  bool needs_all_, stands_still_;
 };
 
 int thread_count() {

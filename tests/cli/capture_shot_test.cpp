@@ -94,6 +94,19 @@ TEST_F(CaptureShots, ModulesOfADisplayMove) {
   for (const char* name : {"s.0002.module00.exr", "s.0003.module03.exr"}) EXPECT_TRUE(fs::exists(path(name))) << name;
 }
 
+TEST_F(CaptureShots, NothingMovesInTheFirstFrame) {
+  for (const auto& [scene, shot] : {std::pair("gallery", "walk"), std::pair("clockwork", "gears")}) {
+    ASSERT_EQ(gloam({"capture", scene, "-o", file("s.####.exr"), "--size", "64x36", "--shot", shot, "--frames", "1",
+                     "--planes", "motion"})
+                  .status,
+              0);
+    const Frame frame = FrameFile(path("s.0001.exr"), {.as_stored = true}).read({"motion"});
+    for (const Channel& channel : frame.views[0].planes.at("motion").channels)
+      for (int y = 0; y < 36; ++y)
+        for (int x = 0; x < 64; ++x) ASSERT_EQ(channel.at(x, y), 0) << shot << " " << x << ", " << y;
+  }
+}
+
 TEST_F(CaptureShots, PicturesHaveNumbersToo) {
   ASSERT_EQ(gloam({"capture", "clockwork", "-o", file("c.####.exr"), "--size", "32x18", "--shot", "gears", "--frames",
                    "48", "--picture", file("p.####.png")})
