@@ -1,32 +1,9 @@
 #include "cli/auto_goal.h"
 
-#include <array>
-#include <utility>
-
 #include "base/lists.h"
-#include "cli/typed.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
-namespace {
-
-constexpr std::array<std::pair<const char*, double>, 3> units = {{{"us", 1e-3}, {"ms", 1}, {"s", 1e3}}};
-
-bool ends_in(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-}  // namespace
-
-double parse_budget(const std::string& text, const std::string& flag) {
-  for (const auto& [unit, ms] : units) {
-    if (!ends_in(text, unit)) continue;
-    const std::string number = text.substr(0, text.size() - std::string(unit).size());
-    return parse_number(number, flag, Range<double>{1e-6, 1e9}) * ms;
-  }
-  throw UsageError("{} {}: is not a time; write a number with its unit, such as 30ms, 0.03s or 500us", flag, text);
-}
-
 std::string in_words(const BudgetGoal& goal) {
   return goal.ms ? fmt::format("--budget {:g}ms", *goal.ms) : fmt::format("--error {:g}", *goal.error);
 }

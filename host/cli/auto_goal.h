@@ -7,9 +7,6 @@
 
 namespace gloam::cli {
 
-/// Milliseconds of "30ms", "0.03s" or "500us"; throws UsageError for another form, and for what is not above 0.
-double parse_budget(const std::string& text, const std::string& flag);
-
 /// The flag as it was given: "--budget 30ms".
 std::string in_words(const BudgetGoal& goal);
 

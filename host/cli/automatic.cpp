@@ -12,6 +12,7 @@
 #include "cli/given_flags.h"
 #include "cli/memory.h"
 #include "cli/shot.h"
+#include "cli/time_budget.h"
 #include "gloam/error.h"
 #include "gloam/visualise.h"
 

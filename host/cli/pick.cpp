@@ -16,6 +16,7 @@
 #include "cli/pick_shot.h"
 #include "cli/shot_flags.h"
 #include "cli/subjects.h"
+#include "cli/time_budget.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -39,23 +40,6 @@ struct PickCommand : DeviceFlags {
 
 const Choices<PickBy> figures = {
     {"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}, {"flicker", PickBy::flicker}};
-
-/// Milliseconds of "20ms", "0.02s" or "20".
-double parse_budget(const std::string& text, const std::string& flag) {
-  std::string number = text;
-  double per_unit = 1;
-  if (number.ends_with("ms")) {
-    number.resize(number.size() - 2);
-  } else if (number.ends_with("s")) {
-    number.resize(number.size() - 1);
-    per_unit = 1000;
-  }
-  try {
-    return per_unit * parse_number(number, flag, Range<double>{1e-6, 1e9});
-  } catch (const UsageError&) {
-    throw UsageError("{} {} is not allowed; a time above 0 such as 20ms or 0.02s is", flag, text);
-  }
-}
 
 /// The plane that is picked for: that of the truths, else of the techniques that are named.
 std::string effect_for(const PickCommand& flags) {

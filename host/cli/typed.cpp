@@ -1,6 +1,7 @@
 #include "cli/typed.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -65,28 +66,40 @@ Size parse_size(const std::string& text, const std::string& flag) {
   return {width, height};
 }
 
-double parse_time(const std::string& text, const std::string& flag) {
+namespace {
+
+struct TimeUnit {
+  const char* name;
+  double seconds;
+};
+
+/// The largest first, as the parts of a time follow one another. "m" and "s" stand behind the units that end in them.
+constexpr std::array<TimeUnit, 5> time_units = {{{"h", 3600}, {"m", 60}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}}};
+
+/// Seconds of "2m30s" or "0.5ms"; none for another form.
+std::optional<double> seconds_in(const std::string& text) {
   double seconds = 0;
-  std::string rest = text;
-  for (const auto& [unit, factor] : {std::pair{'h', 3600.0}, {'m', 60.0}, {'s', 1.0}}) {
-    const size_t end = rest.find(unit);
-    if (end == std::string::npos) continue;
-    try {
-      seconds += factor * parse_number(rest.substr(0, end), flag, Range<double>{0, 1e6});
-    } catch (const UsageError&) {
-      seconds = -1;
-      break;
-    }
-    rest.erase(0, end + 1);
+  size_t unit = 0;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find_first_not_of("0123456789.", at), text.size());
+    const size_t next = std::min(text.find_first_of("0123456789.", end), text.size());
+    const std::string name = text.substr(end, next - end);
+    while (unit < time_units.size() && time_units[unit].name != name) ++unit;
+    const std::optional<double> value = number_in<double>(text.substr(at, end - at));
+    if (!value || unit == time_units.size()) return {};
+    seconds += *value * time_units[unit++].seconds;
+    at = next;
   }
-  try {
-    if (seconds >= 0 && !rest.empty() && rest == text)
-      seconds = parse_number(rest, flag, Range<double>{0, 1e6}), rest.clear();
-  } catch (const UsageError&) {
-  }
-  if (seconds <= 0 || !rest.empty())
-    throw UsageError("{} {} is not allowed; a time above 0 such as 90s, 1m, 2m30s or 1h is", flag, text);
   return seconds;
+}
+
+}  // namespace
+
+double parse_time(const std::string& text, const std::string& flag) {
+  const std::optional<double> seconds = seconds_in(text);
+  if (seconds && is_within(*seconds, Range<double>{1e-9, 1e6})) return *seconds;
+  throw UsageError("{} {} is not allowed; write a number with its unit, such as 30ms, 500us, 90s, 2m30s or 1h, above 0",
+                   flag, text);
 }
 
 std::vector<std::string> split_list(const std::string& text, const std::string& flag) {

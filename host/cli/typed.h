@@ -49,7 +49,7 @@ using Size = std::pair<int, int>;
 /// "1920x1080": 1 to 65536 each way, and `max_pixels` at most.
 Size parse_size(const std::string& text, const std::string& flag);
 
-/// Seconds of "90s", "1m", "2m30s", "1h" or "90": above 0.
+/// Seconds of "90s", "1m", "2m30s", "1h", "20ms" or "500us": above 0, and always with a unit.
 double parse_time(const std::string& text, const std::string& flag);
 
 /// "a,b" -> a b; none of them empty.

@@ -215,7 +215,9 @@ TEST_F(EveryCommand, HasItsKindOfFlagsTold) {
        "gloam: --background x is not allowed; a number from -3.40282e+38 to 3.40282e+38, or inf or -inf, is\n"},
       {{"run", "--repeat", "1.5"}, "gloam: --repeat 1.5 is not allowed; a whole number from 1 to 10000 is\n"},
       {{"pick", "--rounds", "-1"}, "gloam: --rounds -1 is not allowed; a whole number from 1 to 10000 is\n"},
-      {{"pick", "--budget", "3h"}, "gloam: --budget 3h is not allowed; a time above 0 such as 20ms or 0.02s is\n"},
+      {{"pick", "--budget", "3d"},
+       "gloam: --budget 3d is not allowed; write a number with its unit, such as 30ms, 500us, 90s, 2m30s or 1h, above "
+       "0\n"},
       {{"reference", "--radius", "nan"},
        "gloam: --radius nan is not allowed; a number from 1e-30 to 1e+30, or inf, is\n"},
       {{"auto", "--mask", "measure"},
@@ -237,6 +239,28 @@ TEST_F(EveryCommand, TakesWholeNumbersWithZerosBefore) {
       gloam({"capture", "plane", "-o", path("frame.exr"), "--size", "8x8", "--peel", "010", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.json()["layers"]["stored"], 10);
+}
+
+/// Times have one grammar, whichever flag takes them: with a unit, since the same number would mean seconds here and milliseconds there.
+TEST_F(EveryCommand, TakesTheSameTimes) {
+  const std::vector<Arguments> commands = {{"auto", "x.exr", "-o", path("y.exr"), "--budget"},
+                                           {"pick", "x.exr", "--budget"},
+                                           {"bench", "-o", "y", "--frame", "x.exr", "--time"}};
+  for (const Arguments& command : commands) {
+    const auto said = [&](const std::string& time) {
+      Arguments all = command;
+      all.push_back(time);
+      return gloam(all);
+    };
+    for (const char* time : {"500us", "30ms", "0.03s", "90s", "2m30s", "1h"})
+      EXPECT_EQ(said(time).err.find(std::string(time) + " is not allowed"), std::string::npos)
+          << command[0] << " " << said(time).err;
+    for (const char* time : {"30", "0s", "-3ms", "ms", "30s2m", "1m1m", "1m30", "3 ms", ""}) {
+      const Result result = said(time);
+      EXPECT_EQ(result.status, 2) << command[0] << " " << time;
+      EXPECT_NE(result.err.find("write a number with its unit"), std::string::npos) << command[0] << " " << result.err;
+    }
+  }
 }
 
 }  // namespace
