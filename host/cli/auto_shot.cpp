@@ -26,7 +26,7 @@ void check_flags(const AutoCommand& flags) {
         "--mask measured: times one frame, and masks that come and go would flicker; a shot takes always or never");
   if (flags.run_flags.repeat > 1)
     throw UsageError("--repeat {}: times one frame; leave it out, or run one frame alone", flags.run_flags.repeat);
-  if (!FramePattern::is_pattern(flags.out))
+  if (!flags.out.empty() && !FramePattern::is_pattern(flags.out))
     throw UsageError("-o {}: is one file, and {} a shot; write both as patterns, such as out.####.exr", flags.out,
                      flags.frame.frame);
 }
@@ -52,7 +52,7 @@ struct AutoShotSettings {
   std::optional<double> radius;  ///< made from the first frame, for those effects that none is asked for
   RunOptions options;
   WriteOptions writing;
-  FramePattern output;
+  std::optional<FramePattern> output;  ///< none: a composite alone
   AutoCompositeFlags composite;
   std::optional<FramePattern> composite_output = {};  ///< none: no composite
   bool keeps_depth = false, resumes = false;
@@ -172,7 +172,7 @@ class AutoShotWork {
 
   bool write(size_t i) {
     const bool is_written = step(i, &StepTimes::write, [&](InFlight& flight) {
-      write_frame(output_of(i), flight.result, settings_.writing);
+      if (settings_.output) write_frame(output_of(i), flight.result, settings_.writing);
       if (flight.composite) write_composite(composite_of(i), *flight.composite, settings_.writing.compression);
       return true;
     });
@@ -194,7 +194,7 @@ class AutoShotWork {
     StepTimes times;
   };
 
-  std::filesystem::path output_of(size_t i) const { return settings_.output.path_of(files_.frames()[i].number); }
+  std::filesystem::path output_of(size_t i) const { return settings_.output->path_of(files_.frames()[i].number); }
 
   std::filesystem::path composite_of(size_t i) const {
     return settings_.composite_output->path_of(files_.frames()[i].number);
@@ -202,7 +202,8 @@ class AutoShotWork {
 
   /// The first of a frame's files that --resume makes again, and why; empty if none is.
   std::pair<std::filesystem::path, std::string> first_to_write_again(size_t i, const FrameMaking& making) const {
-    std::vector<std::filesystem::path> paths = {output_of(i)};
+    std::vector<std::filesystem::path> paths;
+    if (settings_.output) paths.push_back(output_of(i));
     if (settings_.composite_output) paths.push_back(composite_of(i));
     for (const std::filesystem::path& path : paths) {
       if (std::string why = why_again(path, making); !why.empty()) return {path, why};
@@ -300,8 +301,8 @@ FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked, const Au
 
 void run_auto_on_shot(const AutoCommand& flags) {
   check_flags(flags);
-  const FramePattern output(flags.out, "-o");
-  NamedPatterns outputs = {{"-o", output}};
+  NamedPatterns outputs;
+  if (!flags.out.empty()) outputs.emplace_back("-o", FramePattern(flags.out, "-o"));
   if (!flags.composite.path.empty()) outputs.emplace_back("--composite", composite_pattern(flags));
   const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(outputs, shot, {{"--json", flags.json.file()}});
@@ -316,7 +317,7 @@ void run_auto_on_shot(const AutoCommand& flags) {
                             .radius = first.radius.value,
                             .options = flags.run_flags.run_options(),
                             .writing = {!flags.shot.as_float, flags.compression},
-                            .output = output,
+                            .output = flags.out.empty() ? std::nullopt : std::optional(outputs.front().second),
                             .composite = flags.composite,
                             .keeps_depth = flags.shot.keep_depth,
                             .resumes = flags.shot.resume,
@@ -325,7 +326,7 @@ void run_auto_on_shot(const AutoCommand& flags) {
                             .contents = fmt::format("auto{} radius {}{}", flags.given, first.radius.value,
                                                     left_out_in_words(first.planned.unfit)),
                             .display = first.planned.files.files().front().display()};
-  if (outputs.size() > 1) settings.composite_output = outputs.back().second;
+  if (!flags.composite.path.empty()) settings.composite_output = outputs.back().second;
   const ShotMemory memory =
       shot_memory(first.planned.files.name(), bytes_in_flight(first.planned, first.source),
                   bytes_of_auto(first.planned, true), limit_of(flags.frame_flags, flags.shot.memory),
@@ -343,10 +344,10 @@ void run_auto_on_shot(const AutoCommand& flags) {
   running = &pipeline;
   pipeline.run();
   note(work.tally().in_words());
-  if (settings.composite_output)
-    report.finish(fmt::format("{}, {}", flags.out, flags.composite.path), "effects, composite");
-  else
-    report.finish(flags.out, "effects");
+  std::vector<std::string> files, what;
+  if (settings.output) files.push_back(flags.out), what.emplace_back("effects");
+  if (settings.composite_output) files.push_back(flags.composite.path), what.emplace_back("composite");
+  report.finish(fmt::format("{}", fmt::join(files, ", ")), fmt::format("{}", fmt::join(what, ", ")));
 }
 
 }  // namespace gloam::cli

@@ -61,7 +61,8 @@ void run_on_one_frame(const AutoCommand& flags) {
                               .goal = flags.goal,
                               .measuring = progress_bar()};
   AutoResult result = compute_effects(planned, settings, frame, device, options);
-  std::vector<std::string> written = {flags.out};
+  std::vector<std::string> written;
+  if (!flags.out.empty()) written.push_back(flags.out);
   if (explains) {
     for (const View& view : frame.views) {
       written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
@@ -78,8 +79,10 @@ void run_on_one_frame(const AutoCommand& flags) {
     write_composite(flags.composite.path, composite, flags.compression);
     written.push_back(flags.composite.path);
   }
-  for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
-  write_frame(flags.out, result.frame, writing);
+  if (!flags.out.empty()) {
+    for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
+    write_frame(flags.out, result.frame, writing);
+  }
   if (result.spent)
     if (const std::string missed = note_on_goal(*result.spent, flags.goal); !missed.empty()) note({missed});
   Json document = document_of(result, flags.goal, device.info());
@@ -94,9 +97,21 @@ void run_on_one_frame(const AutoCommand& flags) {
   for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }
 
+/// Throws UsageError where nothing would be written, and for a flag that has no effect on any of the files.
+void check_files_written(const AutoCommand& flags) {
+  if (flags.out.empty() && flags.composite.path.empty() && flags.explain.empty())
+    throw UsageError(
+        "auto: nothing is to be written; give --output OUT.exr, --composite PICTURE.exr or --explain WHY.png");
+  if (!flags.out.empty()) return check_frame_name(flags.out, "-o");
+  for (const auto& [flag, is_given] : {std::pair("--half", flags.half), std::pair("--float", flags.shot.as_float),
+                                       std::pair("--keep-depth", flags.shot.keep_depth)}) {
+    if (is_given) throw UsageError("{}: is of -o OUT.exr, and none is written; leave it out", flag);
+  }
+}
+
 void auto_command(const AutoCommand& given, const CLI::App& command) {
   AutoCommand flags = given;
-  check_frame_name(flags.out, "-o");
+  check_files_written(flags);
   check_picture_name(flags.explain, "--explain");
   if (!flags.composite.path.empty()) check_frame_name(flags.composite.path, "--composite");
   if (!flags.frame.history.empty())
@@ -116,7 +131,8 @@ void add_auto(CLI::App& app) {
   auto flags = std::make_shared<AutoCommand>();
   CLI::App* command = app.add_subcommand("auto", "look at a frame, and compute only the effects that it calls for");
   flags->frame.add_to(*command);
-  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("OUT.exr");
+  command->add_option("-o,--output", flags->out, "EXR file to write, with the planes of all effects")
+      ->type_name("OUT.exr");
   command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
       ->type_name("OUT.png");
   add_choice(*command, "--mask", flags->mask,
@@ -147,7 +163,7 @@ void add_auto(CLI::App& app) {
       "  gloam auto frame.exr -o out.exr\n"
       "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"
       "  gloam auto frame.exr -o out.exr --budget 30ms\n"
-      "  gloam auto frame.exr -o out.exr --composite picture.exr\n"
+      "  gloam auto frame.exr --composite picture.exr\n"
       "  gloam auto 'shot.####.exr' -o 'out.####.exr' --frames 1-48 --radius 0.5\n"
       "Parameters are set with --set NAME=VALUE (gloam list techniques).");
   command->callback([flags, command] { auto_command(*flags, *command); });

@@ -54,6 +54,20 @@ TEST_F(WholePicture, IsColourWithAllEffects) {
   EXPECT_EQ(made.all_channels(), (std::vector<std::string>{"B", "G", "R"}));
 }
 
+TEST_F(WholePicture, NeedsNoOtherOutput) {
+  make_frame("f.exr");
+  ASSERT_EQ(automatic({"--composite", file("c.exr")}).status, 0);
+  const Result alone = gloam({"auto", file("f.exr"), "--composite", file("alone.exr"), "--mask", "never"});
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  EXPECT_TRUE(same_bits(stored("alone.exr", {"color"}), stored("c.exr", {"color"})));
+  fs::copy_file(path("f.exr"), path(numbered("s", 1)));
+  ASSERT_EQ(gloam({"auto", file("s.####.exr"), "--composite", file("p.####.exr")}).status, 0);
+  EXPECT_TRUE(fs::exists(path(numbered("p", 1))));
+  EXPECT_EQ(files(), (std::vector<std::string>{"alone.exr", "c.exr", "f.exr", "out.exr", "p.0001.exr", "s.0001.exr"}));
+  expect_refused({"auto", file("f.exr")}, 2, {"nothing is to be written", "--output", "--composite"});
+  expect_refused({"auto", file("f.exr"), "--composite", file("x.exr"), "--half"}, 2, {"--half", "-o"});
+}
+
 TEST_F(WholePicture, WhatColourHoldsAddsNothing) {
   make_frame("f.exr");
   const Result result =
