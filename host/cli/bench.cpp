@@ -76,6 +76,20 @@ bool measures_all(const BenchCommand& flags) {
   return flags.all || !flags.rows.empty() || !flags.baseline.empty() || flags.processes > 1;
 }
 
+/// Measures rows of a set again; with --baseline says which are worse.
+void bench_rows_of_set(const BenchCommand& flags, Device& device, const std::vector<WantedRow>& rows,
+                       const report::Source& before) {
+  const std::filesystem::path file = std::filesystem::path(flags.folder) / "bench.json";
+  std::optional<ComparedWithBaseline> compared;
+  bench_set(flags, device, {rows, [&](Json& document) {
+                              if (flags.baseline.empty()) return;
+                              compared = compare_with_baseline(before, file);
+                              document["comparison"] =
+                                  report::document_of(compared->comparison, compared->before, compared->now);
+                            }});
+  if (compared) tell(*compared, flags.regression, flags.json.only_json());
+}
+
 /// Throws UsageError for flags about frames without frames.
 void check_flags(const BenchCommand& flags) {
   if (flags.sequence.empty() && flags.choice.frames) throw UsageError("--frames: is for a shot; --sequence names one");
@@ -107,6 +121,11 @@ void bench_command(const BenchCommand& given) {
     note({"OMP_WAIT_POLICY=passive could not be set: threads of the native loop may take time from the others"});
   Measurement result;
   Device device = flags.open();
+  if (!flags.set.empty() && before) {
+    check_paths({{earlier, before->file.string()}},
+                {{"-o", (std::filesystem::path(flags.folder) / "bench.json").string()}});
+    return bench_rows_of_set(flags, device, rows, *before);
+  }
   if (!flags.set.empty()) return bench_set(flags, device);
   BenchOptions options = options_of(flags, device.info(), result);
   options.rows = rows;

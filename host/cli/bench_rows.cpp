@@ -35,11 +35,11 @@ std::string command_of(const report::Source& source) {
 /// Throws Error for scenes that are none of the built-in ones, without a frame in their place.
 void check_scenes(const BenchCommand& flags, const report::Source& source, const std::vector<std::string>& scenes) {
   const report::SetFacts& set = source.measurements.set;
-  if (!set.name.empty())
-    throw Error(
-        "{}: is of the set {}, whose frames are files; measure with gloam bench --set DIR, then compare with "
-        "gloam report {} DIR/bench.json --compare",
-        source.name, set.name, source.name);
+  if (!set.name.empty() && flags.set.empty())
+    throw Error("{}: is of the set {}, whose frames are files; --set DIR says where they are", source.name, set.name);
+  if (set.name.empty() && !flags.set.empty())
+    throw Error("{}: is not of a set; leave --set {} out", source.name, flags.set);
+  if (!flags.set.empty()) return;
   if (!flags.frame.empty()) {
     if (scenes.size() == 1) return;
     throw Error("{}: is of {} scenes, and --frame {} is one; leave --frame out", source.name, scenes.size(),
@@ -93,7 +93,7 @@ int processes_of(const report::Source& source) {
 BenchCommand flags_for_rows(BenchCommand flags, const report::Source& source, std::vector<bench::WantedRow>& rows) {
   std::vector<std::string> techniques, scenes, effects;
   for (const report::Row& row : source.measurements.rows) {
-    if (!is_known(row.technique)) continue;
+    if (!is_known(row.technique) || row.preset == "submitted") continue;
     const report::Scene* scene = scene_of(source, row.scene);
     rows.push_back(
         {row.technique, row.preset, row.variant, flags.frame.empty() && scene ? scene->title : "", row.effect});
@@ -104,10 +104,13 @@ BenchCommand flags_for_rows(BenchCommand flags, const report::Source& source, st
   if (rows.empty()) throw Error("{}: has no row of a technique that this gloam has", source.name);
   check_scenes(flags, source, scenes);
   flags.techniques = comma_list(techniques);
-  if (flags.frame.empty()) flags.scenes = comma_list(scenes);
+  if (!flags.set.empty())
+    flags.items = comma_list(scenes);
+  else if (flags.frame.empty())
+    flags.scenes = comma_list(scenes);
   flags.effects = comma_list(effects);
   flags.variants = "none";
-  if (flags.frame.empty() && !flags.size) flags.size = size_of(source);
+  if (flags.frame.empty() && flags.set.empty() && !flags.size) flags.size = size_of(source);
   if (!flags.radius) flags.radius = given_radius(source);
   if (!flags.rays && source.measurements.rays) flags.rays = whole(*source.measurements.rays);
   if (flags.app->count("--rounds") == 0 && rounds_of(source) > 0) flags.rounds = rounds_of(source);
@@ -139,8 +142,9 @@ void add_rows_flags(CLI::App& app, BenchCommand& flags) {
              "default 1, with --rows and --baseline as many as then")
       ->type_name("N")
       ->group(group);
-  for (const char* chosen : {"--effects", "--techniques", "--presets", "--scenes", "--variants", "--sweep", "--ladder",
-                             "--no-growth", "--no-checks", "--no-images", "--sequence", "--chunks", "--time"}) {
+  for (const char* chosen :
+       {"--effects", "--techniques", "--presets", "--scenes", "--variants", "--sweep", "--ladder", "--no-growth",
+        "--no-checks", "--no-images", "--sequence", "--chunks", "--time", "--items"}) {
     rows->excludes(app.get_option(chosen));
     baseline->excludes(app.get_option(chosen));
   }

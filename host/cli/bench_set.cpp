@@ -55,10 +55,11 @@ void check_set_flags(const BenchCommand& flags) {
 
 class SetBench {
  public:
-  SetBench(const BenchCommand& given, Device& device)
-      : set_(read_set(given.set)), device_(device), flags_(with_defaults(given, set_.targets)) {
+  SetBench(const BenchCommand& given, Device& device, const RowsOfSet& again)
+      : set_(read_set(given.set)), device_(device), flags_(with_defaults(given, set_.targets)), again_(again) {
     if (!flags_.items.empty()) keep_items(set_.targets, split_list(flags_.items, "--items"));
     options_ = options_of(flags_, device.info(), result_);
+    options_.rows = again_.rows;
     // of eyes they are measured, and no frame is left out
     std::erase_if(result_.skipped, [](const Skipped& skipped) {
       return skipped.scene.empty() && !needs_naming(find_technique(skipped.technique)).empty();
@@ -87,8 +88,10 @@ class SetBench {
     if (result_.rows.empty() && sequence_rows_.empty())
       throw Error("nothing could be measured: {}",
                   left_out_.empty() ? "no technique makes the set's effects" : left_out_.front());
-    flags_.json.write(document());
-    if (!flags_.json.only_json()) print();
+    Json made = document();
+    if (again_.complete) again_.complete(made);
+    flags_.json.write(made);
+    if (!flags_.json.only_json() && !again_.complete) print();
     if (left_out_.empty()) return;
     std::fflush(stdout);
     print_notes();
@@ -165,8 +168,17 @@ class SetBench {
     std::vector<std::string> notes;
     const score::LoadedFrame first = score::load(target.frames.front(), target.effect, {}, notes);
     sequence_scenes_.push_back(score::facts_of(target, first, options_.folder));
+    std::erase_if(measured.rows.rows, [&](const SequenceRow& row) { return !is_asked_for(row.variation, target); });
     for (const SequenceRow& row : measured.rows.rows) sequence_rows_.push_back(row_of(row, target, first));
     sequences_.push_back(std::move(measured));
+  }
+
+  /// All rows, or those of an earlier result.
+  bool is_asked_for(const Variation& v, const Target& target) const {
+    return again_.rows.empty() || std::any_of(again_.rows.begin(), again_.rows.end(), [&](const WantedRow& row) {
+             return row.technique == v.technique->name && row.preset == v.name() && row.variant == v.variant &&
+                    row.scene == target.name && row.effect == target.effect;
+           });
   }
 
   /// A row of a sequence, as those of frames.
@@ -224,6 +236,7 @@ class SetBench {
   ScoredSet set_;
   Device& device_;
   const BenchCommand flags_;
+  const RowsOfSet& again_;
   BenchOptions options_;
   Measurement result_;
   std::optional<BenchFile> file_;
@@ -236,9 +249,9 @@ class SetBench {
 
 }  // namespace
 
-void bench_set(const BenchCommand& flags, Device& device) {
+void bench_set(const BenchCommand& flags, Device& device, const RowsOfSet& again) {
   check_set_flags(flags);
-  SetBench(flags, device).run();
+  SetBench(flags, device, again).run();
 }
 
 }  // namespace gloam::cli

@@ -140,7 +140,7 @@ TEST_F(BenchBaseline, SaysWhatToDoWithFilesThatCannotBeCompared) {
         "give --frame and --truth as then: gloam bench");
   document = earlier;
   document["set"] = {{"name", "gloam-1"}};
-  fails(document, "is of the set gloam-1", "gloam bench --set DIR");
+  fails(document, "is of the set gloam-1", "--set DIR says where they are");
   document = earlier;
   for (Json& row : document["results"]) row["technique"] = "gone";
   fails(document, "has no row of a technique that this gloam has", "before/bench.json");

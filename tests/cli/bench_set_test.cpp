@@ -94,5 +94,37 @@ TEST_F(BenchSet, RefusesFlagsThatSayWhatASetSays) {
   }
 }
 
+TEST_F(BenchSet, RowsOfAnEarlierResultAreMeasuredAgain) {
+  ASSERT_EQ(bench({"--techniques", "hbao+,gtao", "--items", "room,walk,pair"}).status, 0);
+  Json before = document();
+  for (Json& each : before["results"])
+    if (each["technique"] == "gtao" && each["scene"] == "room")
+      each["rmse_to_truth"] = 0.9 * double(each["rmse_to_truth"]);
+  const auto is_left_out = [](const Json& each) { return each["technique"] == "gtao" && each["scene"] == "pair"; };
+  Json& results = before["results"];
+  results.erase(std::remove_if(results.begin(), results.end(), is_left_out), results.end());
+  std::ofstream(path("before.json")) << before.dump();
+  const auto after = [&](const Arguments& more) {
+    Arguments arguments = {"bench", "-o", path("after"), "--baseline", path("before.json"), "--regression", "error"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return gloam(arguments);
+  };
+  const Result worse = after({"--set", path("set"), "--json", path("figures.json")});
+  EXPECT_EQ(worse.status, 1) << worse.out;
+  EXPECT_NE(worse.err.find("1 row farther (gtao low on room)"), std::string::npos) << worse.err;
+  const auto names = [](const Json& document) {
+    std::set<std::string> all;
+    for (const Json& each : document["results"])
+      all.insert(std::string(each["scene"]) + " " + std::string(each["technique"]) + " " + std::string(each["preset"]));
+    return all;
+  };
+  EXPECT_EQ(names(document("after")), names(before));
+  EXPECT_EQ(Json::parse(slurp(path("figures.json")))["comparison"]["rows"].size(), results.size());
+  const Result elsewhere = after({});
+  EXPECT_EQ(elsewhere.status, 1);
+  EXPECT_NE(elsewhere.err.find("is of the set test-1, whose frames are files; --set DIR says where"), std::string::npos)
+      << elsewhere.err;
+}
+
 }  // namespace
 }  // namespace gloam::test
