@@ -6,7 +6,7 @@
 
 #include "bench/effects.h"
 #include "bench/schedule.h"
-#include "compare/flip.h"
+#include "bench/similarity.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
 
@@ -16,29 +16,6 @@ namespace {
 /// The technique of ambient occlusion that is nearest to ray-traced truth on the built-in scenes, with a single layer
 /// (kernels/evidence/README.md).
 const std::string stand_in = "evidence";
-
-/// A plane of one or three components as displayed within the mask; black in both images elsewhere.
-cv::Mat picture_of(const Plane& plane, const Mask& mask) {
-  const Layout& layout = plane.channels[0].layout();
-  const auto component = [&](size_t i) -> const Channel& {
-    return plane.channels[std::min(i, plane.channels.size() - 1)];
-  };
-  cv::Mat picture(layout.height, layout.width, CV_64FC3, cv::Scalar(0, 0, 0));
-  for (int y = 0; y < layout.height; ++y) {
-    for (int x = 0; x < layout.width; ++x) {
-      if (mask[size_t(y) * size_t(layout.width) + size_t(x)]) {
-        for (int i = 0; i < 3; ++i) picture.at<cv::Vec3d>(y, x)[i] = component(size_t(i)).at(x, y);
-      }
-    }
-  }
-  return picture;
-}
-
-double mean_flip(const Plane& test, const Plane& truth, const Mask& mask) {
-  const cv::Mat map = flip_map(picture_of(test, mask), picture_of(truth, mask));
-  const cv::Mat counted(map.rows, map.cols, CV_8U, const_cast<unsigned char*>(mask.data()));
-  return cv::mean(map, counted)[0];
-}
 
 class Search {
  public:
@@ -163,8 +140,9 @@ class Search {
       const auto test = image.find(view), truth = truth_.find(view);
       if (test == image.end() || truth == truth_.end()) continue;
       if (std::all_of(mask.begin(), mask.end(), [](unsigned char m) { return m == 0; })) continue;
-      ssim += compare(test->second, truth->second, mask).ssim;
-      if (options_.by == PickBy::flip) flip += mean_flip(test->second, truth->second, mask);
+      const Metrics figures = metrics_of(test->second, truth->second, mask);
+      ssim += figures.ssim;
+      flip += figures.flip.value_or(0);
       ++views;
     }
     if (views == 0) return;

@@ -80,8 +80,8 @@ class TruthOfEyes : public Cli {
   }
   std::string file(const std::string& name) const { return path(name).string(); }
   Result pick(const Arguments& truths) const {
-    Arguments arguments = {"pick", file("pair.exr"), "--techniques", "stereo-gtao", "--rounds",
-                           "1",    "--budget",       "1000s",        "--json",      "-"};
+    Arguments arguments = {"pick",     file("pair.exr"), "--techniques", "stereo-gtao", "--rounds", "1",
+                           "--budget", "1000s",          "--json",       "-",           "--all"};
     for (const std::string& truth : truths) arguments.insert(arguments.end(), {"--truth", file(truth)});
     return gloam(arguments);
   }
@@ -218,6 +218,25 @@ TEST_F(PickShot, IsRefusedInOneLine) {
   };
   refused(with({"--by", "flicker"}), 2, "is of a shot");
   refused(with({"--frames", "1-2"}), 2, "--frames");
+}
+
+/// FLIP of a plane of one value is that of the rows of bench and score: of a grey picture.
+TEST_F(PickBy, FlipIsThatOfABenchedRow) {
+  const Json picked_row = picked({"--budget", "1000s", "--by", "flip"}, "gtao");
+  ASSERT_EQ(gloam({"bench", "--all", "-o", path("bench"), "--frame", loggia, "--truth", loggia_truth, "--rounds", "1",
+                   "--variants", "half", "--techniques", "gtao", "--ladder", "none", "--no-growth", "--no-checks",
+                   "--no-images"})
+                .status,
+            0);
+  int compared = 0;
+  for (const Json& row : Json::parse(slurp(path("bench/bench.json")))["results"]) {
+    for (const Json& finalist : picked_row["finalists"]) {
+      if (finalist["preset"] != row["preset"] || finalist["resolution"] != row["resolution"]) continue;
+      EXPECT_NEAR(finalist["flip"], row["flip"], 1e-6) << row["preset"] << row["resolution"];
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 2);
 }
 
 }  // namespace
