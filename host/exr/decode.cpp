@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "exr/whole_chunks.h"
 #include "exr/zip_rows.h"
 #include "gloam/error.h"
 
@@ -98,6 +99,7 @@ void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding
   } else if (rows.first < rows.last) {
     Imf::InputPart input(file, part);
     if (!decode_zip_rows(input, decoding, window, rows.first, rows.last)) {
+      check_whole_chunks(input, rows.first, rows.last);
       input.setFrameBuffer(frame_buffer(decoding, window));
       input.readPixels(int(rows.first), int(rows.last - 1));
     }

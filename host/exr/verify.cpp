@@ -10,6 +10,8 @@
 #include <list>
 #include <vector>
 
+#include "exr/whole_chunks.h"
+
 namespace gloam {
 namespace {
 
@@ -59,8 +61,10 @@ void decode_scanlines(Imf::MultiPartInputFile& file, int part, const std::set<st
   if (band.empty()) return;
   Imf::InputPart input(file, part);
   for (int y = window.min.y; y <= window.max.y; y += rows) {
+    const int last = std::min(y + rows - 1, window.max.y);
+    check_whole_chunks(input, y, last + 1);
     input.setFrameBuffer(band.slices(y));
-    input.readPixels(y, std::min(y + rows - 1, window.max.y));
+    input.readPixels(y, last);
   }
 }
 

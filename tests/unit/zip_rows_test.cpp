@@ -12,10 +12,13 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "base/random.h"
+#include "gloam/exr.h"
+#include "unit/message_of.h"
 
 namespace gloam {
 namespace {
@@ -145,6 +148,79 @@ TEST_F(ZipRowsOf, DamagedFilesDoNoHarm) {
     }
   }
   EXPECT_GT(refused, 100) << "the checksum tells";
+}
+
+// --- Chunks that hold too little
+
+/// What stands for `size` bytes in a chunk of a compression.
+std::string packed(Imf::Compression compression, size_t size) {
+  const std::string zeros(size, '\0');
+  if (compression == Imf::NO_COMPRESSION) return zeros;
+  if (compression == Imf::RLE_COMPRESSION) {  // runs of 128
+    std::string runs;
+    for (size_t i = 0; i < size / 128; ++i) runs += std::string("\x7f\0", 2);
+    return runs;
+  }
+  // One stored block of zlib, and its checksum.
+  std::string stream = {0x78, 0x01, 0x01, char(size & 255), char(size >> 8), char(~size & 255), char(~size >> 8 & 255)};
+  const uint32_t checksum = uint32_t(size % 65521) << 16 | 1;
+  for (const int shift : {24, 16, 8, 0}) stream.insert(stream.size(), 1, char(checksum >> shift));
+  return stream.insert(7, zeros);
+}
+
+/// A file of four rows of 256 floats, each a chunk, whose third holds a half of what its row needs.
+void write_with_short_chunk(const std::string& path, Imf::Compression compression, size_t share) {
+  constexpr int width = 256, height = 4;
+  Imf::Header header(width, height);
+  header.compression() = compression;
+  header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+  const std::vector<float> values(width * height, 0.0f);
+  Imf::FrameBuffer buffer;
+  buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, values.data(), header.dataWindow(), 4, 4 * width));
+  {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(height);
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const auto offset_at = [&](size_t at) {
+    uint64_t offset = 0;
+    std::memcpy(&offset, bytes.data() + at, sizeof offset);
+    return offset;
+  };
+  size_t table = 0;  // of chunks; the first begins where the table ends
+  while (offset_at(table) != table + 8 * height) ++table;
+  bytes.resize(table + 8 * height);
+  for (int y = 0; y < height; ++y) {
+    const uint64_t offset = bytes.size();
+    std::memcpy(bytes.data() + table + 8 * size_t(y), &offset, sizeof offset);
+    const std::string data = y == 2 ? packed(compression, 4 * width / share) : std::string(4 * width, '\0');
+    const int32_t head[2] = {y, int32_t(data.size())};
+    bytes.append(reinterpret_cast<const char*>(head), sizeof head).append(data);
+  }
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// OpenEXR would take the rest of the row from what its memory held before, and other values in each run.
+TEST(ChunksThatHoldTooLittle, AreDamage) {
+  const std::string path = fs::temp_directory_path() / ("gloam-short-chunk-" + std::to_string(getpid()) + ".exr");
+  for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION}) {
+    write_with_short_chunk(path, compression, 2);
+    EXPECT_EQ(
+        test::message_of([&] { FrameFile(path, {.fov_degrees = 60}).read({"depth"}); }),
+        path + ": truncated or corrupted EXR (the chunk of row 2 holds 512 of 1024 bytes); render or copy it again")
+        << compression;
+    const ReadOptions without_depth{.fov_degrees = 60, .channels = {{"depth", "none"}}};
+    EXPECT_NE(test::message_of([&] { FrameFile(path, without_depth).verify(); }).find("the chunk of row 2"),
+              std::string::npos)
+        << compression;
+    if (compression == Imf::ZIPS_COMPRESSION) continue;  // a stored block is larger than what it holds
+    write_with_short_chunk(path, compression, 1);
+    EXPECT_EQ(test::message_of([&] { FrameFile(path, {.fov_degrees = 60}).read({"depth"}); }), "no error")
+        << compression;
+  }
+  fs::remove(path);
 }
 
 }  // namespace
