@@ -101,7 +101,8 @@ std::vector<Candidate> candidates_of(const std::vector<NormalPair>& pairs, const
       const dmat3 products = space == NormalSpace::world ? in_view * pose->world_to_view : in_view;
       for (const NormalAxes& axes : all_axes()) {
         Candidate candidate{{space, range == 1, axes}, 0, departure_of(axes) + 2 * range};
-        if (stated.expects_view && space == NormalSpace::world) candidate.departure += 0.5;
+        const bool is_plain = range == 0 && axes == plain_axes;
+        if (stated.expects_view && space == NormalSpace::world && is_plain) candidate.departure += 0.5;
         for (size_t i = 0; i < 3; ++i) {
           const int axis = std::abs(axes[i]) - 1;
           candidate.agreement += (axes[i] < 0 ? -1 : 1) * products[axis][int(i)];
