@@ -4,7 +4,6 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "base/random.h"
 #include "bench/plans.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
@@ -75,19 +74,6 @@ Plan plan_of_terms(const Variation& variation, const std::vector<std::string>& p
   }
   plan.passes = std::move(passes);
   return plan;
-}
-
-std::vector<glm::ivec2> pixels_of_surfaces(const Channel& depth, int count) {
-  std::vector<glm::ivec2> pixels;
-  Random random(1);
-  constexpr int most_trials = 1000;  // for each pixel
-  for (int trial = 0; int(pixels.size()) < count; ++trial) {
-    if (trial == most_trials * count) throw Error("a frame for fitting shows next to no surface");
-    const glm::ivec2 pixel(int(random.below(size_t(depth.layout().width))),
-                           int(random.below(size_t(depth.layout().height))));
-    if (!is_background(depth.at(pixel.x, pixel.y))) pixels.push_back(pixel);
-  }
-  return pixels;
 }
 
 /// The terms that the error is fitted to.
@@ -183,10 +169,8 @@ void fit_error(const std::vector<FitGroup>& groups, Fit& fit) {
 
 }  // namespace
 
-std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device,
-                                   int pixels) {
-  const auto& planes = training.frame.views[0].planes;
-  const std::vector<glm::ivec2> places = pixels_of_surfaces(planes.at("depth").channels[0], pixels);
+std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device) {
+  const std::vector<glm::ivec2>& places = training.pixels;
   std::vector<FitSample> samples(places.size());
   const auto take = [&](const Frame& frame, const std::string& plane, const auto& field) {
     const Channel& channel = frame.views[0].planes.at(plane).channels[0];

@@ -28,8 +28,8 @@ struct Sampling {
   int directions, steps;
 };
 
-/// Random surface pixels of a frame, the same each time, after the default filter. Throws Error for a frame without surfaces.
-std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device, int pixels);
+/// The pixels of a frame, after the default filter.
+std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device);
 
 /// Pixels of one kind of scene, and how much each counts.
 struct FitGroup {

@@ -21,8 +21,6 @@
 namespace gloam::bench {
 namespace {
 
-constexpr int pixels_of_frame = 2500;
-
 // Leaves and hair have larger errors than all else together: with the same weight they would cost rooms and streets 2 % and win 4 %
 // for themselves. Only where users name the scenes do all count alike.
 constexpr double weight_of_thin = 0.1;
@@ -198,7 +196,7 @@ int bench_main(int argc, char** argv) {
     for (size_t i = 0; i < samplings.size(); ++i) {
       SceneSamples of_scene{scene, names.empty() && scene.kind == "thin" ? weight_of_thin : 1, {}};
       for (const TrainingFrame& frame : frames) {
-        const std::vector<FitSample> samples = fit_samples(frame, samplings[i], device, pixels_of_frame);
+        const std::vector<FitSample> samples = fit_samples(frame, samplings[i], device);
         of_scene.samples.insert(of_scene.samples.end(), samples.begin(), samples.end());
       }
       by_sampling[i].push_back(std::move(of_scene));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace gloam::bench {
 struct TrainingOptions {
   int width = 640, height = 360;
   int frames = 7;                              ///< of each scene
-  int rays = 256;                              ///< per pixel, for the truth
+  int pixels = 2500;                           ///< of each frame, that are fitted to
+  int rays = 256;                              ///< for the truth of each of these
   bool with_layers = false;                    ///< also back_depth, peeled layers and stochastic depths
   double least_pixels = 22, most_pixels = 95;  ///< reach of the radius at the median depth
   uint64_t seed = 1;
@@ -24,8 +26,9 @@ struct TrainingOptions {
 };
 
 struct TrainingFrame {
-  double radius = 0;  ///< scene units
-  Frame frame;        ///< depth, normal, the planes of `with_layers`, and `ao`, the truth
+  double radius = 0;               ///< scene units
+  Frame frame;                     ///< depth, normal, the planes of `with_layers`, and `ao`, the truth at `pixels`
+  std::vector<glm::ivec2> pixels;  ///< random ones that show a surface, the same each time
 };
 
 /// A built-in scene, or one from a file.
