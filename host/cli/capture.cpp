@@ -224,7 +224,7 @@ void add_capture(CLI::App& app) {
              "count per pixel the outlines, that many scene units around the objects, that it is in")
       ->type_name("EXTENT");
   add_choice(*command, "--outline-method", flags->outline_method, methods_by_name(),
-             "how outlines are made; default integrated");
+             "how outlines are made; default mitre");
   add_number(*command, "--outline-angle", flags->outline_angle, {0, 90},
              "degrees between face normals that count as one, 0 to 90; default 1")
       ->type_name("DEGREES");

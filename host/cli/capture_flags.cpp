@@ -40,9 +40,10 @@ std::optional<OutlineOptions> outlines_of(const CaptureCommand& flags) {
   options.extent = *flags.outlines;
   options.method = flags.outline_method.value_or(options.method);
   if (!flags.outline_angle) return options;
-  if (options.method != OutlineMethod::integrated)
+  if (!has_angle(options.method))
     throw UsageError(
-        "--outline-angle tells apart the normals that --outline-method integrated takes the mean of; leave it out");
+        "--outline-angle tells apart the normals that --outline-method mitre and integrated take the mean of; leave it "
+        "out");
   options.angle_degrees = *flags.outline_angle;
   return options;
 }

@@ -25,7 +25,7 @@ Json outlines_document(const CaptureOptions& options, const CaptureFigures& f) {
   const OutlineOptions& made = options.outlines->options();
   return {{"extent", made.extent},
           {"method", outline_methods()[size_t(made.method)]},
-          {"angle", made.method == OutlineMethod::integrated ? Json(made.angle_degrees) : Json()},
+          {"angle", has_angle(made.method) ? Json(made.angle_degrees) : Json()},
           {"triangles", options.outlines->scene().faces()},
           {"triangles_of_scene", f.faces},
           {"ms", {{"build", 1e3 * options.outlines->build_seconds()}, {"count", 1e3 * f.outlines}}}};

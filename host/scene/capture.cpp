@@ -259,7 +259,7 @@ void say_stereo(Frame& frame, const StereoRig& rig) {
 void say_outlines(Frame& frame, const OutlineOptions& options) {
   frame.numbers["gloamOutlines"] = options.extent;
   frame.attributes["gloamOutlineMethod"] = outline_methods()[size_t(options.method)];
-  if (options.method == OutlineMethod::integrated) frame.numbers["gloamOutlineAngle"] = options.angle_degrees;
+  if (has_angle(options.method)) frame.numbers["gloamOutlineAngle"] = options.angle_degrees;
 }
 
 }  // namespace

@@ -74,10 +74,22 @@ dvec3 integrated_normal(const std::vector<dvec3>& normals) {
   return glm::length(sum) > 1e-6 * double(normals.size()) ? glm::normalize(sum) : dvec3(0);
 }
 
+/// How far a vertex is to move along the integrated normal for its faces to move by 1.
+double mitre(const dvec3& integrated, const std::vector<dvec3>& normals) {
+  double least = 1;
+  for (const dvec3& normal : normals) least = std::min(least, glm::dot(integrated, normal));
+  return 1 / std::max(least, 1 / most_mitre);
+}
+
 void push_integrated(Mesh& mesh, const Places& places, const OutlineOptions& options) {
   const std::vector<std::vector<dvec3>> normals = distinct_normals(mesh, places, glm::radians(options.angle_degrees));
+  std::vector<dvec3> moves;
+  for (const std::vector<dvec3>& around : normals) {
+    const dvec3 integrated = integrated_normal(around);
+    moves.push_back(options.method == OutlineMethod::mitre ? mitre(integrated, around) * integrated : integrated);
+  }
   for (size_t i = 0; i < mesh.positions.size(); ++i)
-    mesh.positions[i] = pushed(mesh.positions[i], integrated_normal(normals[places.of[i]]), options.extent);
+    mesh.positions[i] = pushed(mesh.positions[i], moves[places.of[i]], options.extent);
 }
 
 void scale(Mesh& mesh, double extent) {
@@ -184,15 +196,19 @@ void check(const OutlineOptions& options) {
 }  // namespace
 
 const std::vector<std::string>& outline_methods() {
-  static const std::vector<std::string> names = {"integrated", "scaling", "normal"};
+  static const std::vector<std::string> names = {"mitre", "integrated", "scaling", "normal"};
   return names;
+}
+
+bool has_angle(OutlineMethod method) {
+  return method == OutlineMethod::mitre || method == OutlineMethod::integrated;
 }
 
 Outline outline_of(const Mesh& mesh, const OutlineOptions& options) {
   check(options);
   const Places places = places_of(mesh.positions);
   Outline outline{{mesh.name, 0, mesh.positions, {}, {}, mesh.triangles}, {}};
-  if (options.method == OutlineMethod::integrated)
+  if (has_angle(options.method))
     push_integrated(outline.mesh, places, options);
   else if (options.method == OutlineMethod::scaling)
     scale(outline.mesh, options.extent);

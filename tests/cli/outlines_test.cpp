@@ -33,7 +33,7 @@ TEST_F(OutlineCapture, IsAPlaneAndSaysHowItWasMade) {
   ASSERT_EQ(result.status, 0) << result.err;
   const nlohmann::json outlines = result.json()["outlines"];
   EXPECT_EQ(outlines["extent"], 0.25);
-  EXPECT_EQ(outlines["method"], "integrated");
+  EXPECT_EQ(outlines["method"], "mitre");
   EXPECT_EQ(outlines["angle"], 1);
   EXPECT_EQ(outlines["triangles_of_scene"], result.json()["faces"]);
   EXPECT_EQ(outlines["triangles"], outlines["triangles_of_scene"]);
@@ -43,7 +43,7 @@ TEST_F(OutlineCapture, IsAPlaneAndSaysHowItWasMade) {
   FrameFile frame(file("f.exr"), {});
   EXPECT_EQ(frame.common_planes(), (std::vector<std::string>{"depth", "normal", "outline_count"}));
   EXPECT_EQ(frame.number_attribute("gloamOutlines"), 0.25);
-  EXPECT_EQ(frame.text_attribute("gloamOutlineMethod"), "integrated");
+  EXPECT_EQ(frame.text_attribute("gloamOutlineMethod"), "mitre");
   EXPECT_EQ(frame.number_attribute("gloamOutlineAngle"), 1);
   const Frame read = counts("f.exr");
   int in_two = 0;
@@ -72,8 +72,8 @@ TEST_F(OutlineCapture, MethodsOnAMeshFile) {
   // faces up, so that its own outline is not met.) With method normal the ray enters where faces have come apart: it is in the
   // outline, but does not count.
   const std::vector<std::tuple<std::string, std::string, float>> expected = {
-      {"integrated", "0.5", 0}, {"integrated", "0.6", 1}, {"scaling", "0.5", 0},
-      {"scaling", "0.7", 1},    {"normal", "0.2", 0},     {"normal", "0.4", 0}};
+      {"mitre", "0.25", 0},  {"mitre", "0.35", 1},  {"integrated", "0.5", 0}, {"integrated", "0.6", 1},
+      {"scaling", "0.5", 0}, {"scaling", "0.7", 1}, {"normal", "0.2", 0},     {"normal", "0.4", 0}};
   for (const auto& [method, extent, count] : expected) {
     ASSERT_EQ(
         gloam({"capture", file("box.obj"), "-o", file("f.exr"), "--size", "33x33", "--planes", "depth", "--eye",
@@ -112,7 +112,7 @@ TEST_F(OutlineCapture, BadFlags) {
   for (const char* extent : {"0", "-1", "inf", "nan", "wide", "1e16", "0.5m"})
     expect_refused({"--outlines", extent}, std::string("--outlines ") + extent + " is not allowed; a number from ");
   expect_refused({"--outlines", "1", "--outline-method", "integrate"},
-                 "(did you mean 'integrated'?); integrated, scaling");
+                 "(did you mean 'integrated'?); mitre, integrated, scaling");
   expect_refused({"--outlines", "1", "--outline-angle", "91"}, "a number from 0 to 90 is");
   expect_refused({"--outline-method", "scaling"}, "--outlines EXTENT");
   expect_refused({"--outline-angle", "2"}, "--outlines EXTENT");
@@ -121,8 +121,8 @@ TEST_F(OutlineCapture, BadFlags) {
 
 TEST_F(OutlineCapture, HelpHasTheFlagsAndAnExample) {
   const std::string help = gloam({"capture", "--help"}).out;
-  for (const char* text : {"--outlines EXTENT", "--outline-method integrated|scaling|normal", "--outline-angle DEGREES",
-                           "gloam capture courtyard -o courtyard.exr --outlines 0.5"})
+  for (const char* text : {"--outlines EXTENT", "--outline-method mitre|integrated|scaling|normal",
+                           "--outline-angle DEGREES", "gloam capture courtyard -o courtyard.exr --outlines 0.5"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }
 
