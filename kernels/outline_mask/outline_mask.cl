@@ -3,25 +3,30 @@
 //
 // in : outline_count  signed crossings with outlines in front of the surface
 //      depth          view-space z, +inf = background (outline_ao)
-// out: result         1 where the surface lies in at least `least_count` outlines, else 0 (outline_mask, section 3.1)
+// out: result         1 where the surface lies in at least `least_count` outlines, or the count is below 0, else 0 (outline_mask,
+//                     section 3.1)
 //                     1 - occlusion there, else 1; 1 on background (outline_ao, section 5, before the filter)
 // -D STAND_ALONE, MASKED
 #include "outline_mask/params.h"
 #include "shared/frame/camera.h"
 #include "shared/lanes/wanted.h"
 
+// A count below 0 comes from an outline that crosses itself, and says nothing but that details are near one another.
+static inline mask is_near_others(real count, scalar least_count) { return (count >= least_count) | (count < 0); }
+
 #if STAND_ALONE
 kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count, PLANE depth,
                        WANTED_ARGUMENT PLANE_OUT result) {
   SKIP_UNWANTED(frame, store((real)(1), result, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  const mask is_corner = load(outline_count, here) >= params.least_count;
+  const mask is_corner = is_near_others(load(outline_count, here), params.least_count);
   const real ao = choose(is_corner, (real)(1 - params.occlusion), (real)(1));
   store(choose(is_background(load(depth, here)) | !is_wanted, (real)(1), ao), result, here);
 }
 #else
 kernel void outline_mask(Frame frame, OutlineMaskParams params, PLANE outline_count, PLANE_OUT result) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  store(choose(load(outline_count, here) >= params.least_count, (real)(1), (real)(0)), result, here);
+  const mask is_corner = is_near_others(load(outline_count, here), params.least_count);
+  store(choose(is_corner, (real)(1), (real)(0)), result, here);
 }
 #endif

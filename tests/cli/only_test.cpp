@@ -50,6 +50,18 @@ TEST_F(CliOnly, WhatAnOutlineMaskDoesNotWantIsOpen) {
   EXPECT_EQ(occluded(0, 0, 97, 65), occluded(30, 20, 50, 40));
 }
 
+/// Where an outline crosses itself.
+TEST_F(CliOnly, CountsBelow0AreWanted) {
+  Frame frame = shoot(perspective(97, 65), room());
+  Channel& count = plane_of(frame, "outline_count").channels[0];
+  for (int y = 0; y < 65; ++y) std::fill_n(count.row(y), 97, 1.0f);
+  for (int y = 20; y < 40; ++y) std::fill_n(count.row(y) + 30, 20, -1.0f);
+  write_frame(path("frame.exr"), frame);
+  ASSERT_EQ(run({"--only", "outline-mask", "--radius", "0.5"}).status, 0);
+  EXPECT_GT(occluded(30, 20, 50, 40), 200);
+  EXPECT_EQ(occluded(0, 0, 97, 65), occluded(30, 20, 50, 40));
+}
+
 TEST_F(CliOnly, APlaneOfTheFileIsAMask) {
   ASSERT_EQ(run({"--only", "mask", "--plane", "mask=important", "--radius", "0.5"}).status, 0);
   EXPECT_GT(occluded(0, 0, 97, 10), 100);
