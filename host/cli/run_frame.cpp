@@ -15,6 +15,7 @@
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
 #include "gloam/visualise.h"
+#include "plan/missed.h"
 
 namespace gloam::cli {
 namespace {
@@ -91,8 +92,8 @@ std::string second_estimate(const Plan& plan) {
   return "";
 }
 
-Json document(const RunCommand& flags, const Plan& plan, const RunResult& result, const DeviceInfo& device,
-              const std::vector<std::string>& decoded, const Stopwatch& watch) {
+Json document(const RunCommand& flags, const Plan& plan, const RunResult& result, std::optional<double> missed,
+              const DeviceInfo& device, const std::vector<std::string>& decoded, const Stopwatch& watch) {
   Json passes = Json::array();
   for (const PassTime& pass : result.passes) {
     Json entry = {{"name", pass.name}, {"ms", milliseconds(pass.ms)}};
@@ -110,6 +111,7 @@ Json document(const RunCommand& flags, const Plan& plan, const RunResult& result
           {"total_ms", milliseconds(result.total_ms)},
           {"plan", plan_document(plan, decoded)},
           {"skipped_share", result.skipped_share},
+          {"missed_share", missed ? Json(*missed) : Json()},
           {"rest_share", result.rest_share},
           {"device_bytes", result.device_bytes},
           {"wall_ms", wall}};
@@ -167,10 +169,13 @@ std::future<Device> start_device(const RunFlags& flags, const PlannedFrame& plan
                     });
 }
 
-void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result,
+void print_result(const RunCommand& flags, const Plan& plan, const RunResult& result, std::optional<double> missed,
                   const std::vector<std::string>& copied) {
   if (!plan.wanted.empty())
     fmt::print("'{}' left out {:.1f} % of the pixels\n", printable(plan.mask), 100 * result.skipped_share);
+  if (missed)
+    fmt::print("'{}' misses {:.1f} % of the pixels: left out, although '{}' changes there by more than 1/255\n",
+               printable(plan.mask), 100 * *missed, plan.outputs.front());
   if (!plan.rest.empty())
     fmt::print("{} computed {:.1f} % of the pixels\n", second_estimate(plan), 100 * result.rest_share);
   if (!flags.out.empty()) fmt::print("wrote {} ({})\n", printable(flags.out), fmt::join(plan.outputs, ", "));
@@ -233,6 +238,8 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   options.progress = progress_bar();
   RunResult result = run(plan, frame, device, options);
   watch.lap("compute");
+  const std::optional<double> missed = missed_share(planned.request, plan, frame, result.frame, device, options);
+  if (missed) watch.lap("missed");
   if (files.history() && reads_history(plan))
     add_warning_about_history(frame, result.frame,
                               fmt::format("--history {}: shows next to nothing that {} shows",
@@ -244,14 +251,14 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   watch.lap("write");
   std::vector<std::string> written = outputs.paths();
   written.insert(written.end(), pictures.begin(), pictures.end());
-  Json figures = document(flags, plan, result, device.info(), decoded_channels(planned.planes, files), watch);
+  Json figures = document(flags, plan, result, missed, device.info(), decoded_channels(planned.planes, files), watch);
   figures["memory_bytes"] = memory;
   if (radius) radius->add_to(figures);
   flags.json.write(figures, written);
   if (flags.json.only_json()) return;
   if (radius) radius->print();
   print_times(result, device.info(), watch);
-  print_result(flags, plan, result, writing.copied);
+  print_result(flags, plan, result, missed, writing.copied);
   for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
 }
 

@@ -62,6 +62,42 @@ TEST_F(CliOnly, CountsBelow0AreWanted) {
   EXPECT_EQ(occluded(0, 0, 97, 65), occluded(30, 20, 50, 40));
 }
 
+/// An image this small is measured everywhere: the share is that of all pixels whose AO changes.
+TEST_F(CliOnly, WhatAnOutlineMaskMissesIsTold) {
+  ASSERT_EQ(run({"--radius", "0.5"}).status, 0);
+  const Frame whole = FrameFile(path("ao.exr"), {}).read({"ao"});
+  const Result result = run({"--only", "outline-mask", "--radius", "0.5", "--set", "least_count=1.5", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Frame masked = FrameFile(path("ao.exr"), {}).read({"ao"});
+  int missed = 0;
+  for (int y = 0; y < 65; ++y) {
+    for (int x = 0; x < 97; ++x) {
+      const auto at = [&](const Frame& frame) { return frame.views[0].planes.at("ao").channels[0].at(x, y); };
+      missed += std::abs(at(whole) - at(masked)) > 1.0f / 255;
+    }
+  }
+  EXPECT_GT(missed, 97 * 65 / 20);
+  EXPECT_DOUBLE_EQ(result.json()["missed_share"].get<double>(), missed / (97.0 * 65));
+  const std::string told = run({"--only", "outline-mask", "--radius", "0.5"}).out;
+  EXPECT_NE(told.find(fmt::format("'mask' misses {:.1f} % of the pixels: left out, although 'ao' changes there by more "
+                                  "than 1/255\n",
+                                  100 * missed / (97.0 * 65))),
+            std::string::npos)
+      << told;
+}
+
+/// What the frame itself shows, or the user draws, is no mistake.
+TEST_F(CliOnly, OtherMasksMissNothingThatIsTold) {
+  for (const Arguments& mask : {Arguments{"corner-mask"}, Arguments{"mask", "--plane", "mask=important"}}) {
+    Arguments flags = {"--radius", "0.5", "--json", "-", "--only"};
+    flags.insert(flags.end(), mask.begin(), mask.end());
+    const Result result = run(flags);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(result.json()["missed_share"].is_null()) << mask[0];
+  }
+  EXPECT_EQ(run({"--only", "corner-mask", "--radius", "0.5"}).out.find("misses"), std::string::npos);
+}
+
 TEST_F(CliOnly, APlaneOfTheFileIsAMask) {
   ASSERT_EQ(run({"--only", "mask", "--plane", "mask=important", "--radius", "0.5"}).status, 0);
   EXPECT_GT(occluded(0, 0, 97, 10), 100);
