@@ -167,7 +167,23 @@ void fit_error(const std::vector<FitGroup>& groups, Fit& fit) {
   }
 }
 
+/// The square of the share of samples outside of the image.
+double outside_term(const FitSample& s) { return double(s.terms.back()); }
+
 }  // namespace
+
+void fit_outside(const std::vector<FitGroup>& groups, Fit& fit) {
+  fit.outside = 0;
+  double square = 0, product = 0;
+  for (const FitGroup& group : groups) {
+    for (const FitSample& s : *group.samples) {
+      const double missing = std::abs(fit.ao(s) - double(s.truth)) - fit.expected_error(s);
+      square += group.weight * outside_term(s) * outside_term(s);
+      product += group.weight * outside_term(s) * missing;
+    }
+  }
+  if (square > 0) fit.outside = product / square;
+}
 
 std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device) {
   const std::vector<glm::ivec2>& places = training.pixels;
@@ -176,6 +192,11 @@ std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling
     const Channel& channel = frame.views[0].planes.at(plane).channels[0];
     for (size_t i = 0; i < places.size(); ++i) field(samples[i]) = channel.at(places[i].x, places[i].y);
   };
+  const int width = training.frame.width(), height = training.frame.height();
+  for (size_t i = 0; i < places.size(); ++i) {
+    const auto [x, y] = std::pair(places[i].x, places[i].y);
+    samples[i].to_border = (float(std::min({x, y, width - 1 - x, height - 1 - y})) + 0.5f) / float(width);
+  }
   take(training.frame, "ao", [](FitSample& s) -> float& { return s.truth; });
   take(filtered(training, "gtao", sampling, device), "ao", [](FitSample& s) -> float& { return s.gtao; });
   take(filtered(training, "bitmask", sampling, device), "ao", [](FitSample& s) -> float& { return s.bitmask; });
@@ -196,13 +217,17 @@ double Fit::ao(const FitSample& sample) const {
 double Fit::expected_error(const FitSample& sample) const {
   double sum = 0;
   for (int i = 0; i < error_terms; ++i) sum += error[size_t(i)] * double(error_term(sample, i));
+  sum += outside * outside_term(sample);
   return std::clamp(sum, 0.0, 1.0);
 }
 
 std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings) {
   std::vector<Fit> fits{samplings.size()};
   fit_closed(samplings, fits);
-  for (size_t k = 0; k < samplings.size(); ++k) fit_error(samplings[k], fits[k]);
+  for (size_t k = 0; k < samplings.size(); ++k) {
+    fit_error(samplings[k], fits[k]);
+    fit_outside(samplings[k], fits[k]);
+  }
   return fits;
 }
 

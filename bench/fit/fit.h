@@ -12,13 +12,14 @@
 
 namespace gloam::bench {
 
-/// All terms that the kernel makes: those of AO, and the roots that the error is fitted to.
-constexpr int fitted_terms = closed_terms + 2;
+/// All terms that the kernel makes: those of AO, the roots that the error is fitted to, and the square of the share of samples outside of the image.
+constexpr int fitted_terms = closed_terms + 3;
 
-/// One pixel: its filtered terms, the truth, and what other techniques read there.
+/// One pixel: its filtered terms, the truth, what other techniques read there, and its distance to the border of the image over the
+/// image's width.
 struct FitSample {
   std::array<float, fitted_terms> terms;
-  float truth = 1, gtao = 1, bitmask = 1;
+  float truth = 1, gtao = 1, bitmask = 1, to_border = 0;
 };
 
 /// What a set of coefficients is for: who the occluders are known by (EvidenceSet), slices a pixel, and samples on each side of a
@@ -41,6 +42,7 @@ struct FitGroup {
 struct Fit {
   std::array<double, closed_terms> closed{};
   std::array<double, error_terms> error{};
+  double outside = 0;
   /// AO, and its expected absolute error.
   double ao(const FitSample& sample) const;
   double expected_error(const FitSample& sample) const;
@@ -50,6 +52,9 @@ struct Fit {
 /// the number of samples: coefficients of terms with `u` are common to all samplings, so that more samples never make an estimate
 /// surer of what no sample sees. Throws Error for fewer pixels than terms.
 std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings);
+
+/// Fits by how much the error of `fit` grows where samples lie outside of the image: to what it expects too little.
+void fit_outside(const std::vector<FitGroup>& groups, Fit& fit);
 
 /// Root mean square error to the truth, of AO clamped to 0 to 1 after the filter. (The technique clamps before the filter.)
 double rmse(const std::vector<FitSample>& samples, const Fit& fit);

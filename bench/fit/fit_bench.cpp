@@ -2,7 +2,8 @@
 // measured with coefficients that were fitted without it.
 //
 // bench_fit --folder DIR [-o coefficients.json] [--scenes A,B,scene.glb] [--occluders depth,peel] [--presets medium] [--frames N]
-//           [--rays N] [--seed N]
+//           [--rays N] [--seed N] [--keep coefficients.json]
+// --keep: the coefficients of AO and of its error are those of that file; only what lies outside of the image is fitted.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -76,8 +77,20 @@ std::vector<Sampling> samplings_for(const std::vector<std::string>& occluders,
 /// The scenes of each sampling, of those that know occluders by the same means.
 using Samplings = std::vector<std::vector<SceneSamples>>;
 
-/// Fitted to all scenes but one, by its number; to all for -1.
-std::vector<Fit> fitted_without(const Samplings& samplings, int left_out) {
+/// The coefficients of AO and of its error as sets of a file have them. Throws UsageError where they have none for a sampling.
+Fit kept_fit(const std::vector<EvidenceSet>& kept, const Sampling& sampling) {
+  const EvidenceSet* set = nearest_set(kept, sampling.occluders, sampling.directions, sampling.steps);
+  if (!set)
+    throw UsageError("--keep: has no coefficients for occluders by {}; fit these without it", sampling.occluders);
+  Fit fit;
+  std::copy(set->closed.begin(), set->closed.end(), fit.closed.begin());
+  std::copy(set->error.begin(), set->error.end(), fit.error.begin());
+  return fit;
+}
+
+/// Fitted to all scenes but one, by its number; to all for -1. With `kept`, only to what lies outside of the image.
+std::vector<Fit> fitted_without(const Samplings& samplings, int left_out, const std::vector<Sampling>& of,
+                                const std::vector<EvidenceSet>& kept) {
   std::vector<std::vector<FitGroup>> groups;
   for (const std::vector<SceneSamples>& scenes : samplings) {
     std::vector<FitGroup>& of_sampling = groups.emplace_back();
@@ -85,7 +98,36 @@ std::vector<Fit> fitted_without(const Samplings& samplings, int left_out) {
       if (int(k) != left_out) of_sampling.push_back({&scenes[k].samples, scenes[k].weight});
     }
   }
-  return fitted(groups);
+  if (kept.empty()) return fitted(groups);
+  std::vector<Fit> fits;
+  for (size_t k = 0; k < of.size(); ++k) fit_outside(groups[k], fits.emplace_back(kept_fit(kept, of[k])));
+  return fits;
+}
+
+/// Sums over the pixels between two distances to the border of the image.
+struct Band {
+  float from, to;
+  double expected = 0, actual = 0, squares = 0;
+  long long pixels = 0;
+};
+
+void print_bands(const std::vector<SceneSamples>& scenes, const std::vector<Fit>& fits) {
+  std::vector<Band> bands = {{0, 0.01f}, {0.01f, 0.02f}, {0.02f, 0.04f}, {0.04f, 0.1f}, {0.1f, 1}};
+  for (size_t k = 0; k < scenes.size(); ++k) {
+    if (scenes[k].weight < 1) continue;
+    for (const FitSample& s : scenes[k].samples) {
+      const double actual = std::abs(fits[k].ao(s) - double(s.truth));
+      for (Band& band : bands) {
+        if (s.to_border < band.from || s.to_border >= band.to) continue;
+        band.expected += fits[k].expected_error(s), band.actual += actual, band.squares += actual * actual;
+        ++band.pixels;
+      }
+    }
+  }
+  fmt::print("\n| distance to the border, image widths | expected error | actual error | RMSE |\n|---|---|---|---|\n");
+  for (const Band& b : bands)
+    fmt::print("| {:g} to {:g} | {:.4f} | {:.4f} | {:.4f} |\n", b.from, b.to, b.expected / double(b.pixels),
+               b.actual / double(b.pixels), std::sqrt(b.squares / double(b.pixels)));
 }
 
 /// Leave-one-scene-out, as tables in Markdown. `fits`: for each scene, without it.
@@ -115,25 +157,29 @@ void print_cross_validation(const std::vector<SceneSamples>& scenes, const std::
     for (const Decile& d : deciles(pixels)) fmt::print(" {:.4f} {:.4f},", d.expected, d.actual);
     fmt::print("\n");
   }
+  print_bands(scenes, fits);
   std::fflush(stdout);
 }
 
 /// Four digits: more would say more than the fit knows.
+double rounded_number(double n) { return std::round(n * 1e4) / 1e4; }
+
 template <typename List>
 nlohmann::ordered_json rounded(const List& numbers) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const double n : numbers) list.push_back(std::round(n * 1e4) / 1e4);
+  for (const double n : numbers) list.push_back(rounded_number(n));
   return list;
 }
 
 /// Prints cross-validations of samplings that are fitted together. Returns their sets, fitted to all scenes.
-std::vector<nlohmann::ordered_json> sets_of(const Samplings& together, const std::vector<Sampling>& samplings) {
+std::vector<nlohmann::ordered_json> sets_of(const Samplings& together, const std::vector<Sampling>& samplings,
+                                            const std::vector<EvidenceSet>& kept) {
   std::vector<std::vector<Fit>> without(samplings.size());
   for (size_t k = 0; k < together.front().size(); ++k) {
-    const std::vector<Fit> fits = fitted_without(together, int(k));
+    const std::vector<Fit> fits = fitted_without(together, int(k), samplings, kept);
     for (size_t i = 0; i < samplings.size(); ++i) without[i].push_back(fits[i]);
   }
-  const std::vector<Fit> fits = fitted_without(together, -1);
+  const std::vector<Fit> fits = fitted_without(together, -1, samplings, kept);
   std::vector<nlohmann::ordered_json> sets;
   for (size_t i = 0; i < samplings.size(); ++i) {
     print_cross_validation(together[i], without[i], samplings[i]);
@@ -141,7 +187,8 @@ std::vector<nlohmann::ordered_json> sets_of(const Samplings& together, const std
                     {"directions", samplings[i].directions},
                     {"steps", samplings[i].steps},
                     {"closed", rounded(fits[i].closed)},
-                    {"error", rounded(fits[i].error)}});
+                    {"error", rounded(fits[i].error)},
+                    {"outside", rounded_number(fits[i].outside)}});
   }
   return sets;
 }
@@ -157,12 +204,13 @@ std::string document_of(const std::vector<nlohmann::ordered_json>& sets, const s
 
 int bench_main(int argc, char** argv) {
   TrainingOptions options;
-  std::string output;
+  std::string output, keep;
   std::vector<std::string> names, presets, occluders;
   const std::vector<std::string> kinds = {"depth", "back_depth", "peel", "stochastic"};
   CLI::App flags;
   flags.add_option("--folder", options.folder)->required();
   flags.add_option("-o,--output", output);
+  flags.add_option("--keep", keep);
   flags.add_option("--scenes", names)->delimiter(',');
   flags.add_option("--occluders", occluders)->delimiter(',');
   flags.add_option("--presets", presets)->delimiter(',');
@@ -177,6 +225,8 @@ int bench_main(int argc, char** argv) {
       throw UsageError("--occluders {}: is not allowed{}; {} are", kind, suggestion(kind, kinds), enumerate(kinds));
   }
   if (occluders.empty()) occluders = kinds;
+  const std::vector<EvidenceSet> kept =
+      keep.empty() ? std::vector<EvidenceSet>() : evidence_sets(read_text(keep), keep);
   options.with_layers =
       std::any_of(occluders.begin(), occluders.end(), [](const std::string& kind) { return kind != "depth"; });
   const std::vector<TrainingScene> named = scenes_named(names);
@@ -211,7 +261,7 @@ int bench_main(int argc, char** argv) {
     const Samplings together(std::move_iterator(by_sampling.begin() + std::ptrdiff_t(first)),
                              std::move_iterator(by_sampling.begin() + std::ptrdiff_t(last)));
     const std::vector<nlohmann::ordered_json> fitted =
-        sets_of(together, {samplings.begin() + std::ptrdiff_t(first), samplings.begin() + std::ptrdiff_t(last)});
+        sets_of(together, {samplings.begin() + std::ptrdiff_t(first), samplings.begin() + std::ptrdiff_t(last)}, kept);
     sets.insert(sets.end(), fitted.begin(), fitted.end());
     first = last;
   }

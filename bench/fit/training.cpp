@@ -41,8 +41,7 @@ Frame only_at(const std::vector<glm::ivec2>& pixels, const Frame& frame) {
   Plane& depth = copy.views[0].planes["depth"] = view.planes.at("depth").clone();
   for (int y = 0; y < frame.height(); ++y)
     std::fill_n(depth.channels[0].row(y), frame.width(), std::numeric_limits<float>::infinity());
-  for (const glm::ivec2& p : pixels)
-    depth.channels[0].at(p.x, p.y) = view.planes.at("depth").channels[0].at(p.x, p.y);
+  for (const glm::ivec2& p : pixels) depth.channels[0].at(p.x, p.y) = view.planes.at("depth").channels[0].at(p.x, p.y);
   return copy;
 }
 

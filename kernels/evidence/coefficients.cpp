@@ -22,6 +22,14 @@ std::vector<float> numbers(const Json& set, const char* key, size_t count, const
   return found->get<std::vector<float>>();
 }
 
+std::optional<float> outside_of(const Json& set, const std::string& name) {
+  const auto found = set.find("outside");
+  if (found == set.end()) return {};
+  if (!found->is_number() || !std::isfinite(found->get<float>()))
+    throw UsageError("{}: 'outside' of a set has to be a number; bench_fit writes such files", name);
+  return found->get<float>();
+}
+
 /// How unlike two samplings are: what is missed between samples goes with 1 / steps, noise with 1 / directions.
 double distance(const EvidenceSet& set, int directions, int steps) {
   return std::hypot(1.0 / set.directions - 1.0 / directions, 1.0 / set.steps - 1.0 / steps);
@@ -46,7 +54,7 @@ std::vector<EvidenceSet> evidence_sets(const std::string& text, const std::strin
       throw UsageError("{}: 'occluders' of a set has to be depth, back_depth, peel or stochastic", name);
     sets.push_back({set["occluders"].get<std::string>(), whole("directions"), whole("steps"),
                     numbers(set, "closed", size_t(closed_terms), name),
-                    numbers(set, "error", size_t(error_terms), name)});
+                    numbers(set, "error", size_t(error_terms), name), outside_of(set, name)});
   }
   return sets;
 }

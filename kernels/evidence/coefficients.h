@@ -1,6 +1,7 @@
 // Coefficients of evidence.cl: sets, each for what occluders are known by and for a number of slices and steps.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,13 @@ struct EvidenceSet {
   std::string occluders;  ///< depth, back_depth, peel or stochastic
   int directions, steps;
   std::vector<float> closed, error;  ///< `closed_terms` and `error_terms` numbers
+  /// By how much the error grows with the square of the share of samples that lie outside of the image; none in a file that was fitted
+  /// without.
+  std::optional<float> outside = {};
 };
 
-/// The sets of a JSON document: {"sets": [{"occluders", "directions", "steps", "closed", "error"}]}. `name`: of the file, for
-/// messages. Throws UsageError for anything else.
+/// The sets of a JSON document: {"sets": [{"occluders", "directions", "steps", "closed", "error", "outside"}]}, where `outside` may be
+/// missing. `name`: of the file, for messages. Throws UsageError for anything else.
 std::vector<EvidenceSet> evidence_sets(const std::string& text, const std::string& name);
 
 /// Those that script/fit has made.

@@ -11,14 +11,15 @@
 //   t = (a, b, u, aa, ab, bb, au, bu, uu, af, bf, uf)
 //   AO = 1 - mean over slices of (w + r v) . t
 // w holds where one surface fills the surroundings, w + v among leaves and hair. There is no constant term: a plane is open to the
-// last bit. The expected absolute error of AO is e . (t, sqrt(a), sqrt(u), 1).
+// last bit. The expected absolute error of AO is e . (t, sqrt(a), sqrt(u), 1) + g oo, where
+//   o  share of the samples that lie outside of the image: what occludes there is unknown
 //
 // in : depth         view-space z, scene units, +inf = background
 //      normal        unit, view space
 //      occluders     further depth layers (layers.h); without them, depth is the only layer
 //      back_depth    of the back of what is seen, +inf where it is unknown (WITH_BACK_DEPTH)
 //      other_depth   of the other eye (shared/stereo/slices.h)
-//      coefficients  w, v, e; then those for a known back
+//      coefficients  w, v, e, g; then those for a known back
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
 //      ao_error_raw  expected absolute error of the filtered AO, unfiltered (WITH_AO_ERROR); 0 on background
 //      bent_normal   unit, view space (WITH_BENT_NORMAL); zero on background
@@ -48,14 +49,16 @@
 #endif
 
 #if TERMS_ONLY
-// A plane each: t, r t, and the roots of a and u.
-#define FOR_TERMS(DO)                                                                                              \
-  DO(0)                                                                                                            \
-  DO(1)                                                                                                            \
-  DO(2)                                                                                                            \
-  DO(3)                                                                                                            \
-  DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) \
-      DO(21) DO(22) DO(23) DO(24) DO(25)
+// A plane each: t, r t, the roots of a and u, and oo.
+#define FOR_TERMS(DO)                                                                                                \
+  DO(0)                                                                                                              \
+  DO(1)                                                                                                              \
+  DO(2)                                                                                                              \
+  DO(3)                                                                                                              \
+  DO(4)                                                                                                              \
+  DO(5)                                                                                                              \
+  DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) \
+      DO(23) DO(24) DO(25) DO(26)
 #define TERM_ARGUMENT(k) , PLANE_OUT term_##k
 #define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
 #define RESULTS PLANE_OUT ao_raw FOR_TERMS(TERM_ARGUMENT)
@@ -92,7 +95,7 @@ kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE de
   store_open(1 - COMPENSATE(params, mean.closed, mean.closed_by_depth), r, ao_raw);
 #if WITH_AO_ERROR
   // Of what no slice shows, the same everywhere.
-  const real error = mean.error + coefficients[NUMBERS - 1];
+  const real error = mean.error + coefficients[3 * TERMS + 2];
   store(choose(r.point.background, (real)(0), smaller(larger(error, (real)(0)), (real)(1))), ao_error, r.here);
 #endif
   STORE_OPEN_DIRECTIONS(directions, r)

@@ -230,7 +230,7 @@ static inline __attribute__((always_inline)) void add_side(Slice slice, const Si
 }
 
 #define TERMS 12
-#define FITTED_TERMS (2 * TERMS + 2)
+#define FITTED_TERMS (2 * TERMS + 3)
 static inline void terms_of(Evidence e, real facing, real* t) {
   const real a = e.below_horizon, b = e.within_thickness, u = e.unknown;
   t[0] = a;
@@ -247,8 +247,8 @@ static inline void terms_of(Evidence e, real facing, real* t) {
   t[11] = u * facing;
 }
 
-// Of w, v and e.
-#define NUMBERS (3 * TERMS + 3)
+// Of w, v, e and g.
+#define NUMBERS (3 * TERMS + 4)
 
 static inline real sum_of_terms(const real* t, constant float* weights) {
   real sum = (real)(0);
@@ -269,7 +269,35 @@ static inline __attribute__((always_inline)) real closed_share(Evidence e, real 
   return closed;
 }
 
-// Without the constant.
+#define WITH_OUTSIDE (WITH_AO_ERROR || TERMS_ONLY)
+#if WITH_OUTSIDE
+// How far the image goes on from a point in a direction, in reaches of `x` pixels to the right and `y` down.
+static inline real reaches_inside(Frame frame, Anchor point, real x, real y) {
+  const real columns = choose(x > 0, (scalar)frame.width - (scalar)0.5 - point.x, point.x + (scalar)0.5);
+  const real rows = choose(y > 0, (scalar)frame.height - (scalar)0.5 - point.y, point.y + (scalar)0.5);
+  const real least = (real)(1e-6f);
+  return smaller(columns / larger(fabs(x), least), rows / larger(fabs(y), least));
+}
+
+// Share of a slice's samples that lie outside of the image, both sides together.
+static inline real share_outside(Frame frame, Receiver r, Slice slice, int within) {
+  real outside = (real)(0);
+  if (within == SAMPLES_INSIDE) return outside;
+  const real x = slice.screen_x * r.reach.pixels_x, y = slice.screen_y * r.reach.pixels_y;
+  const real right = reaches_inside(frame, r.point, x, y), left = reaches_inside(frame, r.point, -x, -y);
+  for (int k = 0; k < STEPS; ++k) {
+    const real t = distance_of_step(k, r.noise);
+    outside += choose(t > right, (real)(1), (real)(0)) + choose(t > left, (real)(1), (real)(0));
+  }
+  return outside * (scalar)(0.5f / STEPS);
+}
+
+static inline real error_of_outside(real outside, COEFFICIENTS) {
+  return outside * outside * coefficients[NUMBERS - 1];
+}
+#endif
+
+// Without the constant, and without what lies outside.
 static inline real expected_error(Evidence e, real facing, COEFFICIENTS) {
   constant float* weights = coefficients + 2 * TERMS;
   real t[TERMS];
@@ -346,6 +374,9 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
   const real importance = density * slice.weight, facing = search.surface.facing;
   const real closed = closed_share(evidence, facing, coefficients);
   sum->closed += importance * closed;
+#if WITH_OUTSIDE
+  const real outside = share_outside(frame, search.receiver, slice, within);
+#endif
 #if TERMS_ONLY
   real t[TERMS];
   terms_of(evidence, facing, t);
@@ -355,6 +386,7 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
   }
   sum->terms[2 * TERMS] += importance * sqrt(larger(evidence.below_horizon, (real)(0)));
   sum->terms[2 * TERMS + 1] += importance * sqrt(evidence.unknown);
+  sum->terms[2 * TERMS + 2] += importance * outside * outside;
 #endif
 #if COMPENSATED
   Evidence by_depth = no_evidence();
@@ -363,7 +395,7 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
   sum->closed_by_depth += importance * closed_share(by_depth, facing, coefficients);
 #endif
 #if WITH_AO_ERROR
-  sum->error += importance * expected_error(evidence, facing, coefficients);
+  sum->error += importance * (expected_error(evidence, facing, coefficients) + error_of_outside(outside, coefficients));
 #endif
 #if WITH_DEGREES
   right.degrees = left.degrees = degrees_of(evidence, closed);

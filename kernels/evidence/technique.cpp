@@ -14,10 +14,13 @@ std::vector<EvidenceSet> sets_of(const std::string& file) {
   return file.empty() ? fitted_evidence_sets() : evidence_sets(read_text(file), file);
 }
 
-/// w, v and e of evidence.cl, one after another.
+/// w, v, e and g of evidence.cl, one after another. What lies outside of the image is as unknown in a scene of the user's: where a file
+/// was fitted without g, the built-in one serves.
 void append(std::vector<float>& table, const EvidenceSet& set) {
   table.insert(table.end(), set.closed.begin(), set.closed.end());
   table.insert(table.end(), set.error.begin(), set.error.end());
+  const EvidenceSet* fitted = nearest_set(fitted_evidence_sets(), set.occluders, set.directions, set.steps);
+  table.push_back(set.outside.value_or(fitted ? fitted->outside.value_or(0) : 0));
 }
 
 /// The estimate from what `occluders` names, a kind of EvidenceSet.

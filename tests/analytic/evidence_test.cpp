@@ -157,7 +157,58 @@ TEST(Evidence, ExpectedErrorIsTheErrorToBeExpected) {
   }
 }
 
-/// Only what no slice shows: the same everywhere.
+/// Expected and actual absolute error, summed over pixels.
+struct ErrorsAtBorder {
+  double expected = 0, actual = 0;
+};
+
+/// Adds the pixels of a view whose distance to the image's border is below .04 of its width.
+void add_border(ErrorsAtBorder& errors, const gloam::Scene& scene, const SceneCamera& camera) {
+  constexpr int width = 480, height = 270;
+  CaptureOptions options{.width = width, .height = height, .planes = {"depth", "normal"}};
+  options.views = {{"", camera_for(camera, width, height), {}}};
+  const Tracer tracer(scene);
+  const Frame frame = capture(tracer, options).frame;
+  const Frame truth = ao_reference(tracer, frame, {.radius = scene.ao_radius, .samples = 64}).frame;
+  const Frame out =
+      made({.outputs = {"evidence"}, .with = {"ao_error"}, .radius = scene.ao_radius}, {"depth", "normal"}, frame);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double to_border = std::min({x + 0.5, y + 0.5, width - x - 0.5, height - y - 0.5}) / width;
+      if (to_border >= 0.04 || !std::isfinite(value_at(frame, "depth", x, y))) continue;
+      errors.expected += value_at(out, "ao_error", x, y);
+      errors.actual += std::abs(value_at(out, "ao", x, y) - value_at(truth, "ao", x, y));
+    }
+  }
+}
+
+/// What lies outside of the image is unknown, half of the samples at the border itself. Four scenes together, since single views are up to
+/// a third off. Without what lies outside, .82 and less of the error is expected there in frames that the fit was measured on.
+TEST(Evidence, ExpectsTheErrorAtTheBorder) {
+  ErrorsAtBorder errors;
+  for (const char* name : {"courtyard", "lounge", "gallery", "corridor"}) {
+    const gloam::Scene scene = load_scene(name, {});
+    add_border(errors, scene, scene.cameras.front());
+  }
+  std::printf("expected / actual at the border: %.3f\n", errors.expected / errors.actual);
+  EXPECT_GT(errors.expected, 0.8 * errors.actual);
+  EXPECT_LT(errors.expected, 1.3 * errors.actual);
+}
+
+/// Nothing of what lies outside is known where a frame ends, and nothing changes where no sample leaves it.
+TEST(Evidence, TheBorderAddsToTheErrorAndNothingToAo) {
+  const Frame frame = shoot(perspective(160, 120), tilted_plane(3, 1.2, 0.4));
+  const PlanRequest alone{.outputs = {"evidence"}, .radius = 0.5};
+  PlanRequest with = alone;
+  with.with = {"ao_error"};
+  const Frame out = made(with, {"depth", "normal"}, frame), without = made(alone, {"depth", "normal"}, frame);
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) EXPECT_EQ(value_at(out, "ao", x, y), value_at(without, "ao", x, y));
+  }
+  EXPECT_GT(value_at(out, "ao_error", 1, 60), 2 * value_at(out, "ao_error", 80, 60));
+}
+
+/// Only what no slice shows: the same everywhere but where samples may lie outside of the image, a fourth of its width from the border.
 TEST(Evidence, ExpectsLittleErrorOfAPlane) {
   const Frame frame = shoot(perspective(160, 120), tilted_plane(3, 1.2, 0.4));
   const Frame out = made({.outputs = {"evidence"}, .with = {"ao_error"}, .radius = 0.5}, {"depth", "normal"}, frame);
@@ -165,8 +216,9 @@ TEST(Evidence, ExpectsLittleErrorOfAPlane) {
     for (int x = 0; x < 160; ++x) {
       const float error = value_at(out, "ao_error", x, y);
       if (std::isfinite(value_at(frame, "depth", x, y))) {
+        const bool is_inside = std::min({x, y, 159 - x, 119 - y}) >= 40;
         EXPECT_GT(error, 0) << x << ", " << y;
-        EXPECT_LT(error, 0.008f) << x << ", " << y;
+        EXPECT_LT(error, is_inside ? 0.008f : 0.06f) << x << ", " << y;
       } else {
         EXPECT_EQ(error, 0) << x << ", " << y;
       }
