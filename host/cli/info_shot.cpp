@@ -7,6 +7,7 @@
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"
+#include "sequence/pattern_reads.h"
 
 namespace gloam::cli {
 namespace {
@@ -149,6 +150,8 @@ void describe_shot(const std::string& pattern, const FrameChoice& choice, const 
   ReadOptions options = flags.read_options();
   options.only_looks = true;
   const FramePattern files(pattern, "FRAME.exr");
+  reads_pattern(files);
+  reads_cameras_beside(files);
   std::vector<std::string> notes;  // the table says the same
   std::vector<FrameRow> rows;
   for (const SequenceFrame& frame : list_frames({files}, {choice.frames, MissingFrames::skip}, notes))

@@ -38,7 +38,6 @@ const std::vector<Reading> readings = {
      "-o @new.####.exr"},
     {"run environment @s.####.exr --radius 0.5 --environment @sky.exr", {"sky.exr"}, {"--json"}, "-o @new.####.exr"},
     {"auto @f.exr", {"f.exr", "f.json"}, {"-o", "--composite", "--json"}, "-o @new.exr"},
-    {"auto @f.exr --environment @sky.exr", {"sky.exr"}, {"-o", "--json"}, "-o @new.exr"},
     {"auto @s.####.exr --radius 0.5 --frames 2", {"s.0002.exr", "s.camera.json"}, {"--json"}, "-o @new.####.exr"},
     {"compare @a.exr @f.exr", {"a.exr", "f.exr"}, {"--json"}},
     {"compare @a.exr @a.exr --frame @f.exr", {"f.exr"}, {"--json"}},
