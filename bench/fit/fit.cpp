@@ -146,43 +146,32 @@ void fit_closed(const std::vector<std::vector<FitGroup>>& samplings, std::vector
   }
 }
 
-/// The fit to the error of a sampling, twice: the second time pixels count by the inverse of what the first expects, so that small
+/// The square of the share of samples outside of the image.
+double outside_term(const FitSample& s) { return double(s.terms.back()); }
+
+}  // namespace
+
+/// Twice: the second time pixels count by the inverse of what the first expects, so that small
 /// errors are met as well as large ones.
 void fit_error(const std::vector<FitGroup>& groups, Fit& fit) {
   constexpr double least = 0.01;
   std::vector<int> columns;
-  for (int i = 0; i < error_terms; ++i) columns.push_back(i);
+  for (int i = 0; i < error_terms + 1; ++i) columns.push_back(i);
   for (int round = 0; round < 2; ++round) {
-    Regression regression(error_terms);
+    Regression regression(error_terms + 1);
     for (const FitGroup& group : groups) {
       for (const FitSample& s : *group.samples) {
         std::vector<double> terms;
         for (int i = 0; i < error_terms; ++i) terms.push_back(double(error_term(s, i)));
+        terms.push_back(outside_term(s));
         const double weight = round == 0 ? group.weight : group.weight / (fit.expected_error(s) + least);
         regression.add(columns, terms, std::abs(fit.ao(s) - double(s.truth)), weight);
       }
     }
     const cv::Mat solution = regression.solution();
     for (int i = 0; i < error_terms; ++i) fit.error[size_t(i)] = solution.at<double>(i);
+    fit.outside = solution.at<double>(error_terms);
   }
-}
-
-/// The square of the share of samples outside of the image.
-double outside_term(const FitSample& s) { return double(s.terms.back()); }
-
-}  // namespace
-
-void fit_outside(const std::vector<FitGroup>& groups, Fit& fit) {
-  fit.outside = 0;
-  double square = 0, product = 0;
-  for (const FitGroup& group : groups) {
-    for (const FitSample& s : *group.samples) {
-      const double missing = std::abs(fit.ao(s) - double(s.truth)) - fit.expected_error(s);
-      square += group.weight * outside_term(s) * outside_term(s);
-      product += group.weight * outside_term(s) * missing;
-    }
-  }
-  if (square > 0) fit.outside = product / square;
 }
 
 std::vector<FitSample> fit_samples(const TrainingFrame& training, const Sampling& sampling, Device& device) {
@@ -224,10 +213,7 @@ double Fit::expected_error(const FitSample& sample) const {
 std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings) {
   std::vector<Fit> fits{samplings.size()};
   fit_closed(samplings, fits);
-  for (size_t k = 0; k < samplings.size(); ++k) {
-    fit_error(samplings[k], fits[k]);
-    fit_outside(samplings[k], fits[k]);
-  }
+  for (size_t k = 0; k < samplings.size(); ++k) fit_error(samplings[k], fits[k]);
   return fits;
 }
 

@@ -53,8 +53,8 @@ struct Fit {
 /// surer of what no sample sees. Throws Error for fewer pixels than terms.
 std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings);
 
-/// Fits by how much the error of `fit` grows where samples lie outside of the image: to what it expects too little.
-void fit_outside(const std::vector<FitGroup>& groups, Fit& fit);
+/// Fits the error of a sampling whose AO is fitted: by terms, and by how much it grows where samples lie outside of the image.
+void fit_error(const std::vector<FitGroup>& groups, Fit& fit);
 
 /// Root mean square error to the truth, of AO clamped to 0 to 1 after the filter. (The technique clamps before the filter.)
 double rmse(const std::vector<FitSample>& samples, const Fit& fit);

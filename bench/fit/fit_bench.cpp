@@ -3,7 +3,7 @@
 //
 // bench_fit --folder DIR [-o coefficients.json] [--scenes A,B,scene.glb] [--occluders depth,peel] [--presets medium] [--frames N]
 //           [--rays N] [--seed N] [--keep coefficients.json]
-// --keep: the coefficients of AO and of its error are those of that file; only what lies outside of the image is fitted.
+// --keep: the coefficients of AO are those of that file; only its expected error is fitted.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -77,18 +77,17 @@ std::vector<Sampling> samplings_for(const std::vector<std::string>& occluders,
 /// The scenes of each sampling, of those that know occluders by the same means.
 using Samplings = std::vector<std::vector<SceneSamples>>;
 
-/// The coefficients of AO and of its error as sets of a file have them. Throws UsageError where they have none for a sampling.
+/// The coefficients of AO as sets of a file have them. Throws UsageError where they have none for a sampling.
 Fit kept_fit(const std::vector<EvidenceSet>& kept, const Sampling& sampling) {
   const EvidenceSet* set = nearest_set(kept, sampling.occluders, sampling.directions, sampling.steps);
   if (!set)
     throw UsageError("--keep: has no coefficients for occluders by {}; fit these without it", sampling.occluders);
   Fit fit;
   std::copy(set->closed.begin(), set->closed.end(), fit.closed.begin());
-  std::copy(set->error.begin(), set->error.end(), fit.error.begin());
   return fit;
 }
 
-/// Fitted to all scenes but one, by its number; to all for -1. With `kept`, only to what lies outside of the image.
+/// Fitted to all scenes but one, by its number; to all for -1. With `kept`, only the error.
 std::vector<Fit> fitted_without(const Samplings& samplings, int left_out, const std::vector<Sampling>& of,
                                 const std::vector<EvidenceSet>& kept) {
   std::vector<std::vector<FitGroup>> groups;
@@ -100,7 +99,7 @@ std::vector<Fit> fitted_without(const Samplings& samplings, int left_out, const 
   }
   if (kept.empty()) return fitted(groups);
   std::vector<Fit> fits;
-  for (size_t k = 0; k < of.size(); ++k) fit_outside(groups[k], fits.emplace_back(kept_fit(kept, of[k])));
+  for (size_t k = 0; k < of.size(); ++k) fit_error(groups[k], fits.emplace_back(kept_fit(kept, of[k])));
   return fits;
 }
 

@@ -5,6 +5,7 @@ LONG = "hours of programs that are built with sanitizers and other flags (script
 record("docs/fuzzing.md", "The last long runs", why=LONG)
 OTHER_DEVICES = "needs OpenCL implementations that are not on one machine together"
 record("docs/portability.md", "What was tried", why=OTHER_DEVICES)
+record("docs/portability.md", "On GPUs", why="script/check-device on a GPU; script/update-devices makes the table from data/results/devices")
 record("docs/portability.md", "Faults and peculiarities of implementations", why=OTHER_DEVICES)
 record("docs/view.md", "docs/images/view.png", why="a browser's window, with a pointer moved by hand")
 no_figures("docs/portability.md", "What a device needs", why="requirements")

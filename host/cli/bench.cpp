@@ -122,7 +122,8 @@ void bench_command(const BenchCommand& given) {
   Measurement result;
   Device device = flags.open();
   if (!flags.set.empty() && before) {
-    check_paths({{earlier, before->file.string()}},
+    make_output_folder(flags.folder);
+    check_paths({{earlier, before->file.string()}}, {},
                 {{"-o", (std::filesystem::path(flags.folder) / "bench.json").string()}});
     return bench_rows_of_set(flags, device, rows, *before);
   }

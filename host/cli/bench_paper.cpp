@@ -46,7 +46,7 @@ void bench_paper(const PaperFlags& flags, const JsonFlag& json) {
   options.rays = flags.rays.value_or(options.rays);
   make_output_folder(options.folder);
   const std::filesystem::path document = options.folder / "bench.json", page = options.folder / (paper.name + ".md");
-  check_paths({}, {{"-o", document.string()}, {"-o", page.string()}, {"--json", json.file()}});
+  check_paths({}, {{"-o", page.string()}, {"--json", json.file()}}, {{"-o", document.string()}});
   const BenchFile file(options.folder);
   const PaperResult result = paper.reproduce(device, options);
   erase_status();

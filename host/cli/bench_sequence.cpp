@@ -224,13 +224,19 @@ SequenceMeasurement measured_on(MeasuredSequence& sequence, const MeasureOptions
   return measured;
 }
 
-void read_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const MeasureOptions& options,
-              const SceneOptions& making, const std::vector<NamedPath>& outputs) {
-  const ShotFiles shot(patterns_of(flags), flags.frame_flags, flags.choice);
+/// The user's frames; throws UsageError or Error where they cannot be measured.
+ShotFiles own_frames(const SequenceBenchFlags& flags) {
+  ShotFiles shot(patterns_of(flags), flags.frame_flags, flags.choice);
   if (!flags.frame_flags.camera.empty() && shot.camera_of(shot.frames().front()).empty())
     throw UsageError("--camera {}: lists cameras; write one file for each frame, as in camera.####.json",
                      flags.frame_flags.camera);
   check_count(shot.numbers());
+  return shot;
+}
+
+void read_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const MeasureOptions& options,
+              const SceneOptions& making, const std::vector<NamedPath>& outputs) {
+  const ShotFiles shot = own_frames(flags);
   make_output_folder(making.folder);
   check_outputs({}, shot, outputs);
   add_own(sequence, flags, shot, options, making);
@@ -251,12 +257,14 @@ MeasuredShot measure_own_shot(const SequenceBenchFlags& flags, MeasureOptions op
 
 void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given, const SceneOptions& scene,
                     const std::vector<Skipped>& skipped, Device& device, const JsonFlag& json) {
-  const std::string document_path = (std::filesystem::path(flags.folder) / "bench.json").string();
-  const std::vector<NamedPath> outputs = {{"-o", document_path}, {"--json", json.file()}};
+  const std::vector<NamedPath> outputs = {{"--json", json.file()}};
+  const bool is_own = FramePattern::is_pattern(flags.sequence);
+  if (is_own) own_frames(flags);  // before the folder is made
   make_output_folder(flags.folder);
   const BenchFile written(flags.folder);
+  check_paths({}, outputs, {{"-o", written.path().string()}});
   MeasuredShot shot;
-  if (FramePattern::is_pattern(flags.sequence)) {
+  if (is_own) {
     shot = measure_own_shot(flags, given, scene, skipped, device, outputs);
   } else {
     MeasureOptions options = given;
@@ -265,7 +273,6 @@ void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given
     fit(options, making, flags, left_out);
     const BuiltinShot builtin = find_shot(flags.sequence);
     make_output_folder(making.folder);
-    check_paths({}, outputs);
     add_builtin(shot.sequence, builtin, frames_of(flags.choice, builtin), options, making);
     shot.measured = measured_on(shot.sequence, options, left_out, device);
   }
@@ -274,7 +281,7 @@ void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given
   json.write(document);
   if (json.only_json()) return;
   print(shot.sequence, shot.measured, device.info());
-  fmt::print("wrote {}\n", printable(document_path));
+  fmt::print("wrote {}\n", printable(written.path().string()));
 }
 
 }  // namespace gloam::cli

@@ -68,7 +68,8 @@ TEST_F(BenchTime, WithTimeEnoughEverythingIsMeasured) {
 TEST_F(BenchTime, RoundsMayBeFixed) {
   const Result result = bench({"--time", "1h", "--rounds", "4", "--no-growth", "--no-checks", "--ladder", "none"});
   ASSERT_EQ(result.status, 0) << result.err;
-  for (const Json& row : result.json()["results"]) EXPECT_EQ(row["ms"]["rounds"].size(), 4u);
+  const Json document = result.json();
+  for (const Json& row : document["results"]) EXPECT_EQ(row["ms"]["rounds"].size(), 4u);
 }
 
 TEST_F(BenchTime, WhatIsLeftOutIsSaidAndShownInTheReport) {

@@ -39,8 +39,7 @@ class Doctor : public Cli {
     EXPECT_EQ(run.status, 0) << run.err;
     return run.json()["device"];
   }
-  nlohmann::json listed() const {
-    const std::string device = default_device();
+  nlohmann::json listed(const std::string& device) const {
     for (const nlohmann::json& entry : gloam({"list", "devices", "--json", "-"}, environment()).json())
       if (entry["device"] == device) return entry;
     ADD_FAILURE() << device << " is not listed";
@@ -49,8 +48,8 @@ class Doctor : public Cli {
 };
 
 TEST_F(Doctor, HoldsAndKeepsWhatItMeasured) {
-  EXPECT_TRUE(listed()["held"].is_null());
   const std::string device = default_device();
+  EXPECT_TRUE(listed(device)["held"].is_null());
   const Result first = doctor({"--device", device, "--json", "-"});
   ASSERT_EQ(first.status, 0) << first.err << first.out;
   const nlohmann::json found = first.json()["devices"][0];
@@ -60,8 +59,8 @@ TEST_F(Doctor, HoldsAndKeepsWhatItMeasured) {
   EXPECT_FALSE(found["timed"].empty());
   EXPECT_GT(found["cold_ms"], 0);
   EXPECT_GT(found["warm_ms"], 0);
-  EXPECT_EQ(listed()["held"], true);
-  EXPECT_EQ(listed()["lanes"], found["lanes"]);
+  EXPECT_EQ(listed(device)["held"], true);
+  EXPECT_EQ(listed(device)["lanes"], found["lanes"]);
 
   const Result second = doctor({"--device", device, "--json", "-"});
   ASSERT_EQ(second.status, 0) << second.err;
@@ -72,8 +71,9 @@ TEST_F(Doctor, HoldsAndKeepsWhatItMeasured) {
 }
 
 TEST_F(Doctor, FindsAWrongKernel) {
+  const std::string device = default_device();
   program = GLOAM_WITH_FAULTS;
-  const Result result = doctor({"--device", default_device(), "--json", "-"});
+  const Result result = doctor({"--device", device, "--json", "-"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.lines_of_error(), 1) << result.err;
   EXPECT_NE(result.err.find("does not compute what it should"), std::string::npos) << result.err;
@@ -81,13 +81,14 @@ TEST_F(Doctor, FindsAWrongKernel) {
   const nlohmann::json document = result.json();
   for (const nlohmann::json& test : document["devices"][0]["tests"]) held[test["technique"]] = test["held"];
   EXPECT_EQ(held, (std::map<std::string, bool>{{"faultless", true}, {"shadows-itself", false}, {"by-lanes", false}}));
-  EXPECT_EQ(listed()["held"], false);
+  EXPECT_EQ(listed(device)["held"], false);
 }
 
 /// What was measured decides, unless the user wants it otherwise, or it is damaged.
 TEST_F(Doctor, MeasuredLanesAreUsed) {
+  const std::string device = default_device();
   program = GLOAM_WITH_FAULTS;  // writes a record within a second
-  doctor({"--device", default_device()});
+  doctor({"--device", device});
   program = GLOAM_BINARY;
   const std::vector<fs::path> records = kept(path("cache/devices"), ".json");
   ASSERT_EQ(records.size(), 1u);
@@ -110,7 +111,7 @@ TEST_F(Doctor, MeasuredLanesAreUsed) {
   EXPECT_EQ(lanes({}), usual);
   std::ofstream(records[0]) << "{\"device\": ";
   EXPECT_EQ(lanes({}), usual);
-  EXPECT_TRUE(listed()["held"].is_null());
+  EXPECT_TRUE(listed(device)["held"].is_null());
 }
 
 /// What suits one kernel may be more than a device, or another kernel, takes.
@@ -164,8 +165,8 @@ TEST_F(Doctor, WrongBytesInTheDriversKernelsAreNoticedAndReplaced) {
 }
 
 TEST_F(Doctor, SaysWhereNothingLasts) {
-  program = GLOAM_WITH_FAULTS;
   const std::string device = default_device();
+  program = GLOAM_WITH_FAULTS;
   const Result unwritable = doctor({"--device", device, "--json", "-"}, {{"GLOAM_CACHE_DIR", "/proc/gloam"}});
   EXPECT_NE(unwritable.json()["notes"].dump().find("/proc/gloam cannot be written: what is kept goes to "),
             std::string::npos)

@@ -147,7 +147,8 @@ TEST_F(CliLight, AutoDoesWithoutWhatANoteCallsUnfit) {
     const Result result = gloam(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     std::map<std::string, std::string> found;
-    for (const nlohmann::json& effect : result.json()["effects"])
+    const nlohmann::json document = result.json();
+    for (const nlohmann::json& effect : document["effects"])
       found[effect["name"]] = (effect["wanted"].get<bool>() ? "wanted: " : "") + effect["why"].get<std::string>();
     return found;
   };

@@ -229,7 +229,8 @@ TEST_F(PickBy, FlipIsThatOfABenchedRow) {
                 .status,
             0);
   int compared = 0;
-  for (const Json& row : Json::parse(slurp(path("bench/bench.json")))["results"]) {
+  const Json benched = Json::parse(slurp(path("bench/bench.json")));
+  for (const Json& row : benched["results"]) {
     for (const Json& finalist : picked_row["finalists"]) {
       if (finalist["preset"] != row["preset"] || finalist["resolution"] != row["resolution"]) continue;
       EXPECT_NEAR(finalist["flip"], row["flip"], 1e-6) << row["preset"] << row["resolution"];

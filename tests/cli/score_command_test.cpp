@@ -229,7 +229,8 @@ TEST_F(ScoreCommand, WritesOverNothingThatItReads) {
   fs::copy_file(frame("room"), images / "room.exr");
   fs::copy_file(truth("room", "ao"), images / "room_ao.exr");
   std::ofstream(images / "room.camera.json")
-      << R"({"width": 96, "height": 54, "fx": 70, "fy": 70, "cx": 48, "cy": 27})";
+      << R"({"width": 96, "height": 54, "fx": 70, "fy": 70, "cx": 48, "cy": 27,
+             "camera_to_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})";
   const std::string engine = "false {frame} {image}";
   expect_kept(images / "room_ao.exr",
               with({"--command", engine, "--frame", images / "room.exr", "--truth", images / "room_ao.exr"}));

@@ -215,7 +215,7 @@ TEST_F(ViewPage, SaysWhatIsWrongAndWritesNothing) {
                  "frame.exr: has none of --planes ao; it has");
   expect_refused({frame, "-o", frame}, 2, "is also a file to show");
   expect_refused({frame, file("ao.exr"), "-o", file("ao.exr")}, 2, "is also a file to show");
-  expect_refused({file("shot.####.exr"), "-o", file("shot.0001.exr")}, 2, "is also a file to show");
+  expect_refused({file("shot.####.exr"), "-o", file("shot.0001.exr")}, 2, "is also what frame 1 is read from");
   expect_refused({frame, "-o", page, "--json", page}, 2, "--json");
   expect_refused({frame, "-o", file("nowhere/page.html")}, 1, "is not a folder");
   expect_refused({frame, "-o", file("folder")}, 1, "folder");

@@ -326,7 +326,7 @@ def test_names_that_are_not_utf8(depth, camera, tmp_path):
     name = os.fsdecode(os.path.join(folder, b"caf\xe9.exr"))
     gloam.write(name, {"depth": depth}, camera=camera)
     frame = gloam.read(name)
-    assert numpy.array_equal(frame["depth"], depth) and frame.name == name and "caf\\xe9" in repr(frame)
+    assert numpy.array_equal(frame["depth"], depth) and frame.name == os.path.basename(name) and "caf\\xe9" in repr(frame)
     assert gloam.run("hbao+", name, radius=0.5)["ao"].shape == depth.shape
     shot = os.fsdecode(os.path.join(folder, b"s\xe9.####.exr"))
     gloam.write(shot.replace("####", "0001"), {"depth": depth}, camera=camera)
