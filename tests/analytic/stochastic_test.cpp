@@ -132,9 +132,10 @@ Settings range_of(const Estimator& e) { return e.name == "ssao" ? e.settings : S
 
 constexpr double wall = 4, hidden_height = 0.15;
 
-/// A wall that faces the eye, with blocks before it at a height, and in a stochastic depth map a surface behind each block.
+/// A wall that faces the eye, with blocks before it at a height, and in a stochastic depth map a surface behind each block. Seen without
+/// perspective, which would move the blocks sideways, out of reach.
 Frame blocks_before_a_wall(double height) {
-  Frame frame = shoot(perspective(96, 64), tilted_plane(wall, 0, 0));
+  Frame frame = shoot(orthographic(96, 64, 4.6), tilted_plane(wall, 0, 0));
   Channel& depth = frame.views[0].planes.at("depth").channels[0];
   Channel& hidden = plane_of(frame, layer_name("stochastic", 0)).channels[0];
   for (int i = 1; i < 4; ++i) plane_of(frame, layer_name("stochastic", i));
