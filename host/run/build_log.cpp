@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <regex>
 #include <sstream>
 
+#include "base/files.h"
+#include "gloam/error.h"
 #include "run/kept_folders.h"
 
 namespace gloam {
@@ -23,10 +24,14 @@ std::string written(const std::string& kernel, const std::string& text) {
   const std::filesystem::path folder = cache_folder().folder / "build-logs", file = folder / (kernel + ".log");
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  std::ofstream out(file, std::ios::trunc);
-  out << text;
-  out.close();
-  return out ? file.string() : "";
+  make_way(file);
+  try {
+    write_atomically(
+        file, [&](NewFile& out) { out.append(text); }, FileFor::cache);
+  } catch (const Error&) {  // the line is told without it
+    return "";
+  }
+  return file.string();
 }
 
 }  // namespace
