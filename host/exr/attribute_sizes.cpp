@@ -105,11 +105,13 @@ bool check_header(const fs::path& path, ExrInput& stream) {
 
 }  // namespace
 
-void check_attribute_sizes(const fs::path& path, ExrInput& stream, bool is_multipart) {
+uint64_t check_attribute_sizes(const fs::path& path, ExrInput& stream, bool is_multipart) {
   const uint64_t begin = stream.tellg();
   while (check_header(path, stream) && is_multipart) {
   }
+  const uint64_t end = stream.tellg();
   stream.seekg(begin);
+  return end;
 }
 
 }  // namespace gloam

@@ -53,11 +53,13 @@ struct Rows {
 };
 
 /// Tiles are decoded whole. Tiles that the window cuts are decoded into memory of their own.
-void decode_tiles(Imf::TiledInputPart& input, PartDecoding& decoding, const Box& data, const Window& window,
+void decode_tiles(const ExrFile& file, int part, PartDecoding& decoding, const Box& data, const Window& window,
                   const Rows& rows) {
+  Imf::TiledInputPart input(*file.parts, part);
   const int64_t tile = input.tileYSize(), first_tile = (rows.first - data.y0) / tile,
                 last_tile = (rows.last - 1 - data.y0) / tile;
   const Rows whole{data.y0 + first_tile * tile, std::min(data.y0 + (last_tile + 1) * tile, data.y1)};
+  check_whole_tiles(file, part, first_tile, last_tile);
   const auto read = [&](PartDecoding& into, const Window& covered) {
     input.setFrameBuffer(frame_buffer(into, covered));
     input.readTiles(0, input.numXTiles(0) - 1, int(first_tile), int(last_tile), 0);
@@ -89,15 +91,14 @@ void check_sampling(const Imf::Header& header, const PartDecoding& decoding) {
   }
 }
 
-void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding, const Window& window) {
-  const Imf::Header& header = file.header(part);
+void decode_part(const ExrFile& file, int part, PartDecoding& decoding, const Window& window) {
+  const Imf::Header& header = file.headers.of_part(part);
   const Box data = box_of(header.dataWindow());
   const Rows rows{std::max(data.y0, int64_t(window.y0)), std::min(data.y1, int64_t(window.y1))};
   if (rows.first < rows.last && header.hasTileDescription()) {
-    Imf::TiledInputPart input(file, part);
-    decode_tiles(input, decoding, data, window, rows);
+    decode_tiles(file, part, decoding, data, window, rows);
   } else if (rows.first < rows.last) {
-    Imf::InputPart input(file, part);
+    Imf::InputPart input(*file.parts, part);
     if (!decode_zip_rows(input, decoding, window, rows.first, rows.last)) {
       check_whole_chunks(input, rows.first, rows.last);
       input.setFrameBuffer(frame_buffer(decoding, window));

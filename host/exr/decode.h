@@ -1,13 +1,11 @@
 // Decodes an EXR part into channels of floats: all rows of a frame, or some of them.
 #pragma once
 
-#include <OpenEXR/ImfMultiPartInputFile.h>
-
 #include <map>
 #include <string>
 #include <vector>
 
-#include "exr/box.h"
+#include "exr/file.h"
 #include "gloam/frame.h"
 
 namespace gloam {
@@ -24,7 +22,7 @@ void check_sampling(const Imf::Header& header, const PartDecoding& decoding);
 
 /// Decodes the pixels of a part in `window`, which all targets cover. The window is at least as wide as the part's data window, and
 /// has any rows. Pixels beyond the data window are set to `outside`.
-void decode_part(Imf::MultiPartInputFile& file, int part, PartDecoding& decoding, const Window& window);
+void decode_part(const ExrFile& file, int part, PartDecoding& decoding, const Window& window);
 
 /// Number of NaN and infinite values of a channel that covers `window`, inside the data window: the file has no others.
 long long count_nonfinite(const Channel& channel, const Box& data, const Window& window);

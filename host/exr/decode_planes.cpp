@@ -82,8 +82,7 @@ void decode_planes(const ExrFile& file, Frame& frame) {
     const Imf::Header& header = file.headers.of_part(part);
     named(file.path, [&, &decoding = decoding] { check_sampling(header, decoding); });
     check_plausible(file.path, header, file.stream->size());
-    guarded(file.path,
-            [&, part = part, &decoding = decoding] { decode_part(*file.parts, part, decoding, frame.window); });
+    guarded(file.path, [&, part = part, &decoding = decoding] { decode_part(file, part, decoding, frame.window); });
   }
   for_each_channel(file, frame, [&](const ChannelSource& source, Channel& channel, const PlaneSource&) {
     if (source.scale != 1 && !file.options.unconverted) scale_image(channel, source.scale);

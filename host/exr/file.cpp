@@ -30,7 +30,7 @@ void open_parts(ExrFile& file) {
   check_magic(*file.stream, file.path);
   use_all_threads();
   guarded(file.path, [&] {
-    check_headers(file.path, *file.stream, file.options.most_pixels);
+    file.end_of_headers = check_headers(file.path, *file.stream, file.options.most_pixels);
     file.parts = std::make_unique<Imf::MultiPartInputFile>(*file.stream);
   });
   check_parts(file.path, *file.parts, file.options.most_pixels);

@@ -21,6 +21,7 @@ struct ExrFile {
   ReadOptions options;
   std::unique_ptr<ExrInput> stream;
   std::unique_ptr<Imf::MultiPartInputFile> parts;
+  uint64_t end_of_headers = 0;  ///< bytes from the start
   Headers headers;
   NamedPlanes names;
   Window display, window;  ///< `window`: the one that frames cover

@@ -24,9 +24,10 @@ class ExrInput : public Imf::IStream {
   uint64_t tellg() override { return position_; }
   void seekg(uint64_t position) override { position_ = position; }
   uint64_t size() const { return size_; }
+  /// Reads bytes from any place, and leaves the stream where it is. Throws as `read`.
+  void read_at(uint64_t position, char* bytes, size_t count) const;
 
  private:
-  void read_at(uint64_t position, char* bytes, size_t count) const;
   int descriptor_ = -1;
   uint64_t position_ = 0, size_ = 0, buffered_from_ = 0;
   std::vector<char> buffer_;

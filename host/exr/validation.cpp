@@ -31,12 +31,12 @@ void check_size(const fs::path& path, const Box& box, const char* what, long lon
               box.x1 - box.x0, box.y1 - box.y0, std::bit_width(uint64_t(most_pixels)) - 1);
 }
 
-void check_headers(const fs::path& path, ExrInput& stream, long long most_pixels) {
+uint64_t check_headers(const fs::path& path, ExrInput& stream, long long most_pixels) {
   char start[8];
   stream.read(start, 8);
   const unsigned flags = unsigned(uint8_t(start[5])) << 8;
   int version = int(uint8_t(start[4]) | flags);
-  check_attribute_sizes(path, stream, flags & Imf::MULTI_PART_FILE_FLAG);
+  const uint64_t end = check_attribute_sizes(path, stream, flags & Imf::MULTI_PART_FILE_FLAG);
   try {
     do {
       Imf::Header header;
@@ -47,6 +47,7 @@ void check_headers(const fs::path& path, ExrInput& stream, long long most_pixels
   } catch (const IEX_NAMESPACE::BaseExc&) {
   }
   stream.seekg(0);
+  return end;
 }
 
 void check_parts(const fs::path& path, const Imf::MultiPartInputFile& file, long long most_pixels) {

@@ -16,8 +16,8 @@ namespace gloam {
 void check_size(const std::filesystem::path& path, const Box& box, const char* what, long long most_pixels);
 
 /// Checks the attributes and windows of all headers before OpenEXR allocates memory for them. OpenEXR itself refuses headers that
-/// cannot be parsed.
-void check_headers(const std::filesystem::path& path, ExrInput& stream, long long most_pixels);
+/// cannot be parsed. Returns where the headers end and the tables of chunks begin.
+uint64_t check_headers(const std::filesystem::path& path, ExrInput& stream, long long most_pixels);
 
 /// Throws Error for parts that cannot be read: deep ones, and those with windows that `check_size` refuses.
 void check_parts(const std::filesystem::path& path, const Imf::MultiPartInputFile& file, long long most_pixels);

@@ -54,12 +54,13 @@ class Band {
   std::list<Pixels> channels_;
 };
 
-void decode_scanlines(Imf::MultiPartInputFile& file, int part, const std::set<std::pair<int, std::string>>& decoded) {
-  const Imath::Box2i window = file.header(part).dataWindow();
+void decode_scanlines(const ExrFile& file, int part, const std::set<std::pair<int, std::string>>& decoded) {
+  const Imf::Header& header = file.headers.of_part(part);
+  const Imath::Box2i window = header.dataWindow();
   const int rows = std::min(band_rows, window.max.y - window.min.y + 1);
-  Band band(file.header(part), part, decoded, rows);
+  Band band(header, part, decoded, rows);
   if (band.empty()) return;
-  Imf::InputPart input(file, part);
+  Imf::InputPart input(*file.parts, part);
   for (int y = window.min.y; y <= window.max.y; y += rows) {
     const int last = std::min(y + rows - 1, window.max.y);
     check_whole_chunks(input, y, last + 1);
@@ -68,13 +69,15 @@ void decode_scanlines(Imf::MultiPartInputFile& file, int part, const std::set<st
   }
 }
 
-void decode_tiles(Imf::MultiPartInputFile& file, int part, const std::set<std::pair<int, std::string>>& decoded) {
-  Imf::TiledInputPart input(file, part);
-  const Imath::Box2i window = file.header(part).dataWindow();
+void decode_tiles(const ExrFile& file, int part, const std::set<std::pair<int, std::string>>& decoded) {
+  Imf::TiledInputPart input(*file.parts, part);
+  const Imf::Header& header = file.headers.of_part(part);
+  const Imath::Box2i window = header.dataWindow();
   // A tile may be far larger than the image.
   const int64_t rows = std::min(int64_t(input.tileYSize()), int64_t(window.max.y) - window.min.y + 1);
-  Band band(file.header(part), part, decoded, int(rows));
+  Band band(header, part, decoded, int(rows));
   if (band.empty()) return;
+  check_whole_tiles(file, part, 0, input.numYTiles(0) - 1);
   for (int tile_y = 0; tile_y < input.numYTiles(0); ++tile_y) {
     input.setFrameBuffer(band.slices(input.dataWindowForTile(0, tile_y, 0).min.y));
     input.readTiles(0, input.numXTiles(0) - 1, tile_y, tile_y, 0);
@@ -83,9 +86,9 @@ void decode_tiles(Imf::MultiPartInputFile& file, int part, const std::set<std::p
 
 }  // namespace
 
-void decode_the_rest(Imf::MultiPartInputFile& file, const std::set<std::pair<int, std::string>>& decoded) {
-  for (int part = 0; part < file.parts(); ++part) {
-    if (file.header(part).hasTileDescription()) {
+void decode_the_rest(const ExrFile& file, const std::set<std::pair<int, std::string>>& decoded) {
+  for (int part = 0; part < file.headers.parts(); ++part) {
+    if (file.headers.of_part(part).hasTileDescription()) {
       decode_tiles(file, part, decoded);
     } else {
       decode_scanlines(file, part, decoded);

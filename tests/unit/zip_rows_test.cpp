@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -168,8 +169,8 @@ std::string packed(Imf::Compression compression, size_t size) {
   return stream.insert(7, zeros);
 }
 
-/// A file of four rows of 256 floats, each a chunk, whose third holds a half of what its row needs.
-void write_with_short_chunk(const std::string& path, Imf::Compression compression, size_t share) {
+/// A file of four rows of 256 floats, each a chunk or a tile, whose third holds 1/share of what its row needs.
+void write_with_short_chunk(const std::string& path, Imf::Compression compression, size_t share, bool is_tiled) {
   constexpr int width = 256, height = 4;
   Imf::Header header(width, height);
   header.compression() = compression;
@@ -177,7 +178,12 @@ void write_with_short_chunk(const std::string& path, Imf::Compression compressio
   const std::vector<float> values(width * height, 0.0f);
   Imf::FrameBuffer buffer;
   buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, values.data(), header.dataWindow(), 4, 4 * width));
-  {
+  if (is_tiled) {
+    header.setTileDescription({width, 1});
+    Imf::TiledOutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writeTiles(0, 0, 0, height - 1);
+  } else {
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(buffer);
     file.writePixels(height);
@@ -196,32 +202,37 @@ void write_with_short_chunk(const std::string& path, Imf::Compression compressio
     const uint64_t offset = bytes.size();
     std::memcpy(bytes.data() + table + 8 * size_t(y), &offset, sizeof offset);
     const std::string data = y == 2 ? packed(compression, 4 * width / share) : std::string(4 * width, '\0');
-    const int32_t head[2] = {y, int32_t(data.size())};
-    bytes.append(reinterpret_cast<const char*>(head), sizeof head).append(data);
+    std::vector<int32_t> head = {y, int32_t(data.size())};
+    if (is_tiled) head = {0, y, 0, 0, int32_t(data.size())};
+    bytes.append(reinterpret_cast<const char*>(head.data()), sizeof(int32_t) * head.size()).append(data);
   }
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
+class ChunksThatHoldTooLittle : public testing::TestWithParam<bool> {};
+
 /// OpenEXR would take the rest of the row from what its memory held before, and other values in each run.
-TEST(ChunksThatHoldTooLittle, AreDamage) {
+TEST_P(ChunksThatHoldTooLittle, AreDamage) {
   const std::string path = fs::temp_directory_path() / ("gloam-short-chunk-" + std::to_string(getpid()) + ".exr");
+  const std::string chunk = GetParam() ? "the chunk of tile 0, 2" : "the chunk of row 2";
   for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION}) {
-    write_with_short_chunk(path, compression, 2);
-    EXPECT_EQ(
-        test::message_of([&] { FrameFile(path, {.fov_degrees = 60}).read({"depth"}); }),
-        path + ": truncated or corrupted EXR (the chunk of row 2 holds 512 of 1024 bytes); render or copy it again")
+    write_with_short_chunk(path, compression, 2, GetParam());
+    EXPECT_EQ(test::message_of([&] { FrameFile(path, {.fov_degrees = 60}).read({"depth"}); }),
+              path + ": truncated or corrupted EXR (" + chunk + " holds 512 of 1024 bytes); render or copy it again")
         << compression;
     const ReadOptions without_depth{.fov_degrees = 60, .channels = {{"depth", "none"}}};
-    EXPECT_NE(test::message_of([&] { FrameFile(path, without_depth).verify(); }).find("the chunk of row 2"),
-              std::string::npos)
+    EXPECT_NE(test::message_of([&] { FrameFile(path, without_depth).verify(); }).find(chunk), std::string::npos)
         << compression;
     if (compression == Imf::ZIPS_COMPRESSION) continue;  // a stored block is larger than what it holds
-    write_with_short_chunk(path, compression, 1);
+    write_with_short_chunk(path, compression, 1, GetParam());
     EXPECT_EQ(test::message_of([&] { FrameFile(path, {.fov_degrees = 60}).read({"depth"}); }), "no error")
         << compression;
   }
   fs::remove(path);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, ChunksThatHoldTooLittle, testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "tiles" : "rows"; });
 
 }  // namespace
 }  // namespace gloam
