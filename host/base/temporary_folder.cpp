@@ -7,11 +7,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <ctime>
 
 #include "base/files.h"
 #include "gloam/error.h"
@@ -52,66 +52,95 @@ void remove_tree(int above, const char* name, int levels) {
   ::unlinkat(above, name, AT_REMOVEDIR);
 }
 
-/// The folder that exists, where a handler can read its name; a process has one at a time.
+/// A folder that exists, where a handler can read its name.
 struct Known {
-  std::atomic<bool> exists{false};
+  std::atomic<bool> is_taken{false}, exists{false};
   char path[PATH_MAX];
 };
-Known known;
+std::array<Known, 8> all_known;
 
 void remove_known() {
   constexpr int levels = 12;  // kernels of PoCL lie in the fifth
-  if (known.exists.load()) remove_tree(AT_FDCWD, known.path, levels);
+  for (const Known& known : all_known)
+    if (known.exists.load()) remove_tree(AT_FDCWD, known.path, levels);
+}
+
+void remember(const std::string& path) {
+  if (path.size() >= PATH_MAX) return;
+  for (Known& known : all_known) {
+    if (known.is_taken.exchange(true)) continue;
+    std::memcpy(known.path, path.c_str(), path.size() + 1);
+    known.exists.store(true);
+    return call_on_signal(&remove_known);
+  }
+}
+
+void forget(const std::string& path) {
+  for (Known& known : all_known) {
+    if (!known.exists.load() || path != known.path) continue;
+    known.exists.store(false);
+    known.is_taken.store(false);
+  }
 }
 
 // --- Folders of killed processes
 
-/// Whether no process has it: its lock ended with the process. A new one is locked at once.
-bool is_abandoned(const fs::path& folder) {
-  constexpr time_t new_for = 60;  ///< seconds
-  struct stat about {};
-  if (::lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != ::geteuid()) return false;
-  if (about.st_mtime > std::time(nullptr) - new_for) return false;
+/// The folder of this user, locked; -1 if there is none, or another process has it.
+int locked(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool is_free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (descriptor < 0) return -1;
+  struct stat about {};
+  // A folder without links was removed by a process that had the lock before.
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ::fstat(descriptor, &about) == 0 && about.st_nlink > 0 &&
+      about.st_uid == ::geteuid())
+    return descriptor;
   ::close(descriptor);
-  return is_free;
+  return -1;
 }
 
-void remove_abandoned(const fs::path& base, const std::string& prefix) {
+void remove_abandoned(const fs::path& parent, const std::string& prefix) {
   std::error_code failed, ignored;
-  for (fs::directory_iterator entry(base, failed), end; !failed && entry != end; entry.increment(failed)) {
+  for (fs::directory_iterator entry(parent, failed), end; !failed && entry != end; entry.increment(failed)) {
     const std::string name = entry->path().filename().string();
-    if (name.size() == prefix.size() + random_letters && name.starts_with(prefix) && is_abandoned(entry->path()))
-      fs::remove_all(entry->path(), ignored);
+    if (name.size() != prefix.size() + random_letters || !name.starts_with(prefix)) continue;
+    const int descriptor = locked(entry->path());  // its process had it locked to its end
+    if (descriptor < 0) continue;
+    fs::remove_all(entry->path(), ignored);
+    ::close(descriptor);
   }
+}
+
+fs::path folder_of_temporaries() {
+  std::error_code unset;
+  const fs::path base = fs::temp_directory_path(unset);
+  if (unset) throw Error("no folder for temporary files: TMPDIR names none ({})", unset.message());
+  return base;
 }
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder(const std::string& kind) {
-  std::error_code unset;
-  const fs::path base = fs::temp_directory_path(unset);
-  if (unset) throw Error("no folder for temporary files: TMPDIR names none ({})", unset.message());
-  const std::string prefix = "gloam-" + kind + "-";
-  remove_abandoned(base, prefix);
-  std::string pattern = (base / (prefix + std::string(random_letters, 'X'))).string();
-  if (!mkdtemp(pattern.data())) throw Error("{}: no folder can be made: {}", pattern, std::strerror(errno));
-  path_ = pattern;
-  lock_ = ::open(pattern.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
-  if (pattern.size() >= sizeof known.path || known.exists.load()) return;
-  std::memcpy(known.path, pattern.c_str(), pattern.size() + 1);
-  known.exists.store(true);
-  call_on_signal(&remove_known);
+TemporaryFolder::TemporaryFolder(const std::string& kind)
+    : TemporaryFolder(folder_of_temporaries(), "gloam-" + kind + "-") {}
+
+TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& prefix) {
+  constexpr int tries = 100;  // another process may take one for a leftover before it is locked
+  remove_abandoned(parent, prefix);
+  for (int i = 0; i < tries && lock_ < 0; ++i) {
+    std::string path = (parent / (prefix + std::string(random_letters, 'X'))).string();
+    if (!::mkdtemp(path.data()))
+      throw Error("{}: no folder can be made in it ({})", parent.string(), std::strerror(errno));
+    path_ = path;
+    lock_ = locked(path_);
+  }
+  if (lock_ < 0) throw Error("{}: no folder can be made in it", parent.string());
+  remember(path_.string());
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
-  if (path_ == known.path) known.exists.store(false);
-  if (lock_ >= 0) ::close(lock_);
+  forget(path_.string());
+  ::close(lock_);
 }
 
 }  // namespace gloam

@@ -5,10 +5,10 @@
 #include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/lists.h"
+#include "base/temporary_folder.h"
 #include "bench/effects.h"
 #include "cli/camera_file.h"
 #include "cli/foreign_process.h"
-#include "cli/making_folder.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/radius.h"
@@ -23,6 +23,7 @@ using score::TargetFrame;
 
 constexpr const char* flag = "--command";
 constexpr const char* own_image = "gloam_own.exr";
+constexpr const char* making_prefix = ".gloam-making-";  ///< of folders in which another program makes images
 
 /// The technique that gloam takes for an effect; empty if there is none.
 std::string own_technique(const std::string& effect) {
@@ -31,6 +32,17 @@ std::string own_technique(const std::string& effect) {
     if (bench::measured_plane(technique) == effect && technique.views == 1) return technique.name;
   }
   return "";
+}
+
+/// Moves an image that another program made to its name, in place of what is there. False if there is none.
+bool hand_over(const fs::path& made, const fs::path& to) {
+  std::error_code failed;
+  if (!fs::exists(made, failed)) return false;
+  check_before_writing(to);
+  fs::rename(made, to, failed);
+  if (failed) throw Error("{}: cannot be written ({})", to.string(), failed.message());
+  has_written(to);
+  return true;
 }
 
 }  // namespace
@@ -132,13 +144,13 @@ MethodCommand::Made MethodCommand::make(const Target& target, const TargetFrame&
   Made made;
   try {
     if (has("{camera}")) write_camera_file(camera_of(target, at), at.frame);
-    const MakingFolder making(folder_);
+    const TemporaryFolder making(folder_, making_prefix);
     for (const Job& job : jobs_for(target, at, making.path())) {
       const ForeignEnd end = run_foreign(job.words, flags_.timeout);
       if (!end.why.empty()) return {{}, fmt::format("'{}' ended: {}", job.words.front(), in_words(end))};
       for (const std::string& name : names_of(target, job)) {
         // An image of an earlier run stays where there is no new one.
-        if (making.hand_over(name, folder_ / name))
+        if (hand_over(making.path() / name, folder_ / name))
           made.files.push_back({folder_ / name, job.view});
         else if (!is_whole(target) || name == job.image)
           return {{},
@@ -172,7 +184,7 @@ std::vector<score::SubmittedFile> MethodCommand::files_of(const Target& target, 
 
 double MethodCommand::milliseconds_of(const Target& target, const TargetFrame& at) const {
   double ms = 0;
-  const MakingFolder making(folder_);
+  const TemporaryFolder making(folder_, making_prefix);
   for (const Job& job : jobs_for(target, at, making.path())) {
     const ForeignEnd end = run_foreign(job.words, flags_.timeout);
     if (!end.why.empty()) throw Error("'{}' ended: {}", job.words.front(), in_words(end));
@@ -200,7 +212,7 @@ std::optional<score::WholeTimes> MethodCommand::time(const Target& target, std::
   const bool has_own = !own_technique(target.effect).empty();
   const size_t frames = is_whole(target) ? 1 : target.frames.size();
   const double per = is_whole(target) ? double(target.frames.size()) : 1;  // of a frame
-  const MakingFolder making(folder_);
+  const TemporaryFolder making(folder_, making_prefix);
   if (has_own)
     times.gloam_command = command_without_folders(shell_line(own_words(target, target.frames.front(), folder_)));
   const auto run_own = [&](const TargetFrame& at) {

@@ -176,6 +176,8 @@ TEST_F(ScoreCommand, InterruptedItEndsItsChildrenAndKeepsWhatWasScored) {
       << result.err;
   EXPECT_EQ(document()["results"].size(), 1u);
   EXPECT_FALSE(is_running(std::stoi(slurp(path("pid")))));
+  for (const auto& entry : fs::directory_iterator(path("out/submitted/other")))
+    EXPECT_NE(entry.path().filename().string().rfind(".gloam-making-", 0), 0u) << entry.path();
 }
 
 /// An image of an earlier run stays where the command makes no new one.
@@ -228,8 +230,7 @@ TEST_F(ScoreCommand, WritesOverNothingThatItReads) {
   fs::create_directories(pictures);
   fs::copy_file(frame("room"), images / "room.exr");
   fs::copy_file(truth("room", "ao"), images / "room_ao.exr");
-  std::ofstream(images / "room.camera.json")
-      << R"({"width": 96, "height": 54, "fx": 70, "fy": 70, "cx": 48, "cy": 27,
+  std::ofstream(images / "room.camera.json") << R"({"width": 96, "height": 54, "fx": 70, "fy": 70, "cx": 48, "cy": 27,
              "camera_to_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})";
   const std::string engine = "false {frame} {image}";
   expect_kept(images / "room_ao.exr",
