@@ -181,7 +181,7 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
 #if COMPENSATED
   if (ANY(counts)) take_occluder(s, p, thickness, counts, &s->closed_by_depth);
 #endif
-  const mask asked = in_frame & asks_further(rises, e < 0, p.square >= search.radius_square);
+  const mask asked = in_frame & asks_behind(r, rises, e < 0, p.square >= search.radius_square);
   mask is_there = in_frame;
   // A surface is taken once the next one is known, at which it ends.
   FOR_DEPTHS_BEHIND(behind, layers, frame, here, place, asked, r.farthest) {

@@ -231,6 +231,21 @@ TEST(StochasticDepth, EarlyOutBelowLosesNothing) {
   }
 }
 
+/// Of sd-evidence too, whose coefficients are others than those of evidence, so that it stands beside no plain technique.
+TEST(StochasticDepth, EarlyOutBelowLosesNothingOfEvidence) {
+  for (const double cosine : {1.0, 0.1, 0.01, -0.2}) {
+    const Frame frame = strewn(cosine);
+    const auto image = [&](const char* early_out) {
+      return unfiltered(frame, "sd-evidence", {{"early_out", early_out}}, 0.5);
+    };
+    const Channel off = image("off");
+    EXPECT_EQ(largest_difference(image("below"), off), 0) << cosine;
+    if (cosine > 0) {
+      EXPECT_GT(largest_difference(image("on"), off), 1e-3) << cosine;
+    }
+  }
+}
+
 // --- Compensation
 
 TEST(StochasticDepth, CompensationOfZeroIsThePlainTechnique) {
