@@ -39,6 +39,18 @@ class CliLight : public Cli {
     return name;
   }
 
+  /// Writes these planes of a frame, one of them through a function.
+  static void changed_copy(const std::string& from, const std::vector<std::string>& planes, const std::string& plane,
+                           const std::function<float(float)>& change, const std::string& to) {
+    Frame frame = FrameFile(from, {}).read(planes);
+    for (Channel& channel : frame.views[0].planes.at(plane).channels) {
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) channel.at(x, y) = change(channel.at(x, y));
+      }
+    }
+    write_frame(to, frame);
+  }
+
   /// Lines of `info` and of `run` that speak of a plane.
   std::string notes_of_info(const std::string& frame) const { return lines(gloam({"info", frame}).out, "assumed: "); }
   std::string notes_of_run(const std::string& frame) const {
@@ -132,13 +144,7 @@ TEST_F(CliLight, AutoDoesWithoutWhatANoteCallsUnfit) {
                 .status,
             0);
   const auto spoil = [&](const std::string& plane, const std::function<float(float)>& change) {
-    Frame frame = FrameFile(whole, {}).read(planes);
-    for (Channel& channel : frame.views[0].planes.at(plane).channels) {
-      for (int y = 0; y < frame.height(); ++y) {
-        for (int x = 0; x < frame.width(); ++x) channel.at(x, y) = change(channel.at(x, y));
-      }
-    }
-    write_frame(spoilt, frame);
+    changed_copy(whole, planes, plane, change, spoilt);
   };
   /// Why each effect is wanted or not, by its name.
   const auto reasons = [&](const Arguments& more) {
@@ -189,6 +195,31 @@ TEST_F(CliLight, AutoDoesWithoutWhatANoteCallsUnfit) {
     EXPECT_NE(refused.err.find("--plane color=CHANNELS has it taken"), std::string::npos) << refused.err;
     EXPECT_FALSE(fs::exists(path("other.exr")));
   }
+}
+
+/// What is unfit in the first frame of a shot is left out of all: nothing comes and goes.
+TEST_F(CliLight, AutoDoesWithoutItInAllFramesOfAShot) {
+  const std::string whole = path("shot.2.exr"), out = path("out.#.exr");
+  ASSERT_EQ(gloam({"capture", "lounge", "-o", whole, "--size", "96x54", "--planes", "normal,color,albedo"}).status, 0);
+  const Arguments command = {"auto", path("shot.#.exr"), "-o", out, "--radius", "0.5", "--preset", "low"};
+  const auto lit_frames = [&] {
+    const Result result = gloam(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+    int lit = 0;
+    for (const char* frame : {"out.1.exr", "out.2.exr"}) {
+      const std::vector<std::string> written = FrameFile(path(frame), {}).common_planes();
+      EXPECT_EQ(std::count(written.begin(), written.end(), "ao"), 1) << frame;
+      lit += int(std::count(written.begin(), written.end(), "indirect"));
+    }
+    return lit;
+  };
+  const std::vector<std::string> planes = {"depth", "normal", "color", "albedo"};
+  changed_copy(
+      whole, planes, "albedo", [](float v) { return v; }, path("shot.1.exr"));
+  EXPECT_EQ(lit_frames(), 2);
+  changed_copy(
+      whole, planes, "albedo", [](float v) { return 10 * v; }, path("shot.1.exr"));
+  EXPECT_EQ(lit_frames(), 0);
 }
 
 TEST_F(CliLight, LightsInsideSurfacesAreTold) {
