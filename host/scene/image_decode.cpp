@@ -11,6 +11,9 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
+#ifdef __SANITIZE_ADDRESS__
+#define STBI_NO_SIMD  // GCC refuses its intrinsics where shifts are watched
+#endif
 #include <stb/stb_image.h>
 
 namespace gloam {
