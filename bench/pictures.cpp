@@ -4,6 +4,7 @@
 #include <cctype>
 #include <opencv2/core.hpp>
 
+#include "base/hash.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "picture/picture.h"
@@ -21,17 +22,22 @@ double mean_at(const Plane& plane, int x, int y) {
 
 std::string file_name(const std::string& name) {
   std::string safe;
+  bool is_unlike = name.find("plus") != std::string::npos;  // as "+" is written
   for (const char c : name) {
     const unsigned char byte = static_cast<unsigned char>(c);
     if (byte < 128 && (std::isalnum(byte) || c == '.' || c == '_' || c == '-'))
       safe += c;
     else if (c == '+')
       safe += "plus";
-    else if (safe.empty() || safe.back() != '-')
-      safe += '-';
+    else {
+      is_unlike |= c != ' ' || safe.empty() || safe.back() == '-';
+      if (safe.empty() || safe.back() != '-') safe += '-';
+    }
   }
   // Neither hidden nor a folder above.
-  return safe.empty() || safe.front() == '.' ? "_" + safe : safe;
+  if (safe.empty() || safe.front() == '.') safe = "_" + safe, is_unlike = true;
+  // Names of which the same is left are told apart, but for one space in place of '-'.
+  return is_unlike ? fmt::format("{}-{:08x}", safe, uint32_t(hash_of(name))) : safe;
 }
 
 void write_grey(const std::filesystem::path& path, const Plane& plane, const Channel& depth, double white) {

@@ -11,7 +11,7 @@
 namespace gloam::bench {
 
 /// A name that is safe in files and addresses: letters, digits, '.', '_' and '-' stay, '+' becomes "plus", any run of other
-/// characters one '-'.
+/// characters one '-', after which eight digits at the end tell such names apart, unless it was a space alone.
 std::string file_name(const std::string& name);
 
 /// "images/gallery_indirect": where the pictures of an effect on a scene lie, below the folder of the results.

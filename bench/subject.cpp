@@ -84,17 +84,20 @@ void Truths::tell(const std::string& what, double share) const {
   if (options_.progress) options_.progress(name_ + ": " + what, share);
 }
 
-/// Notes whether a file is reused. A file that cannot be read is made again.
+/// Notes whether a file is reused. A file that cannot be read is made again. Throws Error for one that a user has put there.
 bool Truths::is_there(const std::string& file, const std::string& recipe) {
   const LooksAtFiles looks;
-  bool same = false;
+  const std::filesystem::path path = options_.folder / file;
+  std::optional<std::string> made_by;
   try {
     std::error_code unknown;
-    const std::filesystem::path path = options_.folder / file;
-    same = std::filesystem::exists(path, unknown) && FrameFile(path, {}).text_attribute(recipe_attribute) == recipe;
+    if (std::filesystem::exists(path, unknown)) made_by = FrameFile(path, {}).text_attribute(recipe_attribute);
   } catch (const Error&) {
-    same = false;
   }
+  if (made_by && made_by->empty())
+    throw Error("{}: is no file that gloam bench made, and would be replaced; move it, or name another folder (-o)",
+                path.string());
+  const bool same = made_by == recipe;
   add_new(same ? reused_ : made_, file);
   return same;
 }

@@ -25,8 +25,12 @@ Attempt lock_bytes(int descriptor, off_t first, off_t length) {
   region.l_whence = SEEK_SET;
   region.l_start = first;
   region.l_len = length;
-  if (::fcntl(descriptor, F_OFD_SETLK, &region) == 0) return Attempt::locked;
-  return errno == EAGAIN || errno == EACCES ? Attempt::held : Attempt::no_locks;
+  int failed = 0;
+  do failed = ::fcntl(descriptor, F_OFD_SETLK, &region) == 0 ? 0 : errno;
+  while (failed == EINTR);
+  if (failed == 0) return Attempt::locked;
+  // A server of files that is busy (ENOLCK) may grant the lock later.
+  return failed == EAGAIN || failed == EACCES || failed == ENOLCK ? Attempt::held : Attempt::no_locks;
 }
 
 Attempt lock_all(int descriptor, const FileLock::Ranges& bytes) {
@@ -43,6 +47,13 @@ bool has_name(int descriptor) {
   return ::fstat(descriptor, &about) == 0 && about.st_nlink > 0;
 }
 
+/// Whoever may write into the folder may lock files in it, whatever the mask of the user who came first.
+void share_as_folder(int descriptor, const std::filesystem::path& file) {
+  struct stat folder {};
+  const std::filesystem::path above = file.parent_path();
+  if (::stat(above.empty() ? "." : above.c_str(), &folder) == 0) (void)!::fchmod(descriptor, folder.st_mode & 0666);
+}
+
 }  // namespace
 
 FileLock::FileLock(const std::filesystem::path& file, const Ranges& bytes, double patience) : path_(file.string()) {
@@ -50,7 +61,8 @@ FileLock::FileLock(const std::filesystem::path& file, const Ranges& bytes, doubl
   const auto start = std::chrono::steady_clock::now();
   for (;;) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-    if (descriptor_ < 0) throw Error("{}", std::strerror(errno));
+    if (descriptor_ < 0) throw Error("{}: cannot be made ({})", path_, std::strerror(errno));
+    share_as_folder(descriptor_, file);
     const Attempt attempt = lock_all(descriptor_, bytes);
     if (attempt == Attempt::no_locks || (attempt == Attempt::locked && has_name(descriptor_))) return;
     ::close(descriptor_);

@@ -16,7 +16,7 @@ class FileLock {
   using Ranges = std::vector<std::pair<int, int>>;
 
   /// Locks these bytes of the file, which is made where it is not there. `patience`: seconds to wait for another process. Where the
-  /// file system has no locks, nothing is locked. Throws Error with the cause alone if the file cannot be made.
+  /// file system has no locks, nothing is locked. Throws Error naming the file if it cannot be made.
   FileLock(const std::filesystem::path& file, const Ranges& bytes, double patience = 0);
   ~FileLock();
   FileLock(const FileLock&) = delete;

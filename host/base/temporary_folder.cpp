@@ -85,17 +85,25 @@ void forget(const std::string& path) {
 
 // --- Folders of killed processes
 
-/// The folder of this user, locked; -1 if there is none, or another process has it.
-int locked(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) return -1;
+enum class Lock { taken, of_another, none };  ///< none: the file system has no locks
+
+/// Opens and locks a folder; `descriptor` is -1 where another process has the lock, or the folder is gone.
+Lock lock_folder(const fs::path& folder, int& descriptor) {
+  descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) return errno == ENOENT ? Lock::of_another : Lock::none;
   struct stat about {};
+  const bool is_locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (!is_locked && errno != EWOULDBLOCK) return Lock::none;
   // A folder without links was removed by a process that had the lock before.
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ::fstat(descriptor, &about) == 0 && about.st_nlink > 0 &&
-      about.st_uid == ::geteuid())
-    return descriptor;
+  if (is_locked && ::fstat(descriptor, &about) == 0 && about.st_nlink > 0) return Lock::taken;
   ::close(descriptor);
-  return -1;
+  descriptor = -1;
+  return Lock::of_another;
+}
+
+bool is_of_this_user(int descriptor) {
+  struct stat about {};
+  return ::fstat(descriptor, &about) == 0 && about.st_uid == ::geteuid();
 }
 
 void remove_abandoned(const fs::path& parent, const std::string& prefix) {
@@ -103,10 +111,10 @@ void remove_abandoned(const fs::path& parent, const std::string& prefix) {
   for (fs::directory_iterator entry(parent, failed), end; !failed && entry != end; entry.increment(failed)) {
     const std::string name = entry->path().filename().string();
     if (name.size() != prefix.size() + random_letters || !name.starts_with(prefix)) continue;
-    const int descriptor = locked(entry->path());  // its process had it locked to its end
-    if (descriptor < 0) continue;
-    fs::remove_all(entry->path(), ignored);
-    ::close(descriptor);
+    int descriptor = -1;  // its process had it locked to its end
+    if (lock_folder(entry->path(), descriptor) == Lock::taken && is_of_this_user(descriptor))
+      fs::remove_all(entry->path(), ignored);
+    if (descriptor >= 0) ::close(descriptor);
   }
 }
 
@@ -123,16 +131,14 @@ TemporaryFolder::TemporaryFolder(const std::string& kind)
     : TemporaryFolder(folder_of_temporaries(), "gloam-" + kind + "-") {}
 
 TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& prefix) {
-  constexpr int tries = 100;  // another process may take one for a leftover before it is locked
   remove_abandoned(parent, prefix);
-  for (int i = 0; i < tries && lock_ < 0; ++i) {
+  // Another process may take one for a leftover before it is locked, and remove it.
+  do {
     std::string path = (parent / (prefix + std::string(random_letters, 'X'))).string();
     if (!::mkdtemp(path.data()))
       throw Error("{}: no folder can be made in it ({})", parent.string(), std::strerror(errno));
     path_ = path;
-    lock_ = locked(path_);
-  }
-  if (lock_ < 0) throw Error("{}: no folder can be made in it", parent.string());
+  } while (lock_folder(path_, lock_) == Lock::of_another);
   remember(path_.string());
 }
 
@@ -140,7 +146,7 @@ TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
   forget(path_.string());
-  ::close(lock_);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 }  // namespace gloam

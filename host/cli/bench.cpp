@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/elapsed.h"
+#include "base/files.h"
 #include "bench/document.h"
 #include "bench/effects.h"
 #include "bench/measurement.h"
@@ -143,6 +144,7 @@ void bench_command(const BenchCommand& given) {
                {"--json", flags.json.file()}},
               {{"-o", (folder / "bench.json").string()}});
   const BenchFile written(flags.folder);
+  say_on_interruption("bench.json is as it was, and pictures and truths of this run may lie beside it; run it again");
   std::vector<std::pair<std::string, RadiusReport>> radii;
   unsigned long long memory = 0;
   TimeLimit limit = measures_all(flags) ? TimeLimit() : TimeLimit(flags.time);

@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/statistics.h"
+#include "base/temporary_folder.h"
 #include "bench/intervals.h"
 #include "cli/children.h"
 #include "cli/subjects.h"
@@ -67,28 +68,11 @@ void join_row(Json& row, const Json& other) {
   join_ratios(row, other);
 }
 
-/// A folder for one process, with the frames and truths of the first; removed at the end.
-class OwnFolder {
- public:
-  explicit OwnFolder(const std::filesystem::path& path) : path_(path) {
-    std::filesystem::remove_all(path_);
-    make_output_folder(path_);
-    std::filesystem::create_directory_symlink("../scenes", path_ / "scenes");
-  }
-  ~OwnFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  OwnFolder(const OwnFolder&) = delete;
-
- private:
-  std::filesystem::path path_;
-};
-
 Json measured_by_process(const MoreProcesses& more, int number) {
   constexpr double a_day = 86400;
-  const std::filesystem::path folder = more.folder / fmt::format("process-{}", number);
-  const OwnFolder own(folder);
+  const TemporaryFolder own(more.folder, ".gloam-process-");
+  const std::filesystem::path folder = own.path();
+  std::filesystem::create_directory_symlink("../scenes", folder / "scenes");  // frames and truths of the first
   std::vector<std::string> words = more.repeated;
   for (const std::string& word :
        {std::string("--output"), folder.string(), std::string("--rows"), (more.folder / "bench.json").string(),

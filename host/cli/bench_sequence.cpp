@@ -261,8 +261,8 @@ void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given
   const bool is_own = FramePattern::is_pattern(flags.sequence);
   if (is_own) own_frames(flags);  // before the folder is made
   make_output_folder(flags.folder);
+  check_paths({}, outputs, {{"-o", (std::filesystem::path(flags.folder) / "bench.json").string()}});
   const BenchFile written(flags.folder);
-  check_paths({}, outputs, {{"-o", written.path().string()}});
   MeasuredShot shot;
   if (is_own) {
     shot = measure_own_shot(flags, given, scene, skipped, device, outputs);

@@ -65,8 +65,9 @@ class SetBench {
       return skipped.scene.empty() && !needs_naming(find_technique(skipped.technique)).empty();
     });
     make_output_folder(flags_.folder);
+    check_paths({}, {{"--json", flags_.json.file()}},
+                {{"-o", (std::filesystem::path(flags_.folder) / "bench.json").string()}});
     file_.emplace(flags_.folder, set_.id);
-    check_paths({}, {{"--json", flags_.json.file()}}, {{"-o", file_->path().string()}});
   }
 
   void run() {

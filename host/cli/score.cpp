@@ -86,6 +86,7 @@ class ScoreRun {
     check_paths({{"--json", flags.entry()}, {"--camera", flags.frame_flags.camera}}, {},
                 {{"-o", (fs::path(flags.folder) / "bench.json").string()}});
     result_.emplace(flags.folder, set_);
+    result_->found().check_files_of(entry_.name);
     score::ScoringOptions options;
     if (!flags.no_images) options.folder = flags.folder;
     options.frames = reading_;

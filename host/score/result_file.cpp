@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/file_identity.h"
 #include "base/file_lock.h"
 #include "base/files.h"
 #include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/statistics.h"
 #include "bench/document.h"
+#include "bench/pictures.h"
 #include "gloam/error.h"
 #include "report/measurements.h"
 
@@ -121,7 +123,10 @@ Json new_document(const std::optional<SetId>& set) {
 /// Bytes of the lock's file.
 constexpr int change_byte = 0, measuring_byte = 1;
 
-std::filesystem::path lock_of(const std::filesystem::path& folder) { return folder / ".gloam-lock-bench"; }
+/// Beside the file itself, which a link in the folder may lead to.
+std::filesystem::path lock_of(const std::filesystem::path& folder) {
+  return follow_links(folder / "bench.json").parent_path() / ".gloam-lock-bench";
+}
 
 }  // namespace
 
@@ -223,6 +228,17 @@ size_t Results::measured_rows() const {
   const auto submitted = size_t(std::count_if(rows.begin(), rows.end(), is_submitted));
   return rows.size() - submitted + length(document_, "paper") +
          length(document_.value("sequence", Json::object()), "rows");
+}
+
+void Results::check_files_of(const std::string& entry) const {
+  for (const Json& row : document_["results"]) {
+    if (!row.contains("submitted") || !row["submitted"].is_object()) continue;
+    const std::string other = row["submitted"].value("name", "");
+    if (other != entry && bench::file_name(other) == bench::file_name(entry))
+      throw Error(
+          "{}: holds rows of '{}', whose files are called as those of '{}' would be; give the method another name",
+          name_, other, entry);
+  }
 }
 
 void Results::put(Json row, Json scene) {

@@ -56,6 +56,8 @@ class Results {
   size_t rows_of(const std::string& entry) const;
   /// Number of rows that gloam measured; those of a shot, or of a paper's tables, count too.
   size_t measured_rows() const;
+  /// Throws Error if another method has rows whose files would be called as those of this one.
+  void check_files_of(const std::string& entry) const;
 
   /// Adds a row and its scene, in place of the same entry's row on the same scene. Throws Error for a scene of the same name that is another.
   void put(Json row, Json scene);

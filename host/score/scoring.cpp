@@ -183,19 +183,20 @@ std::optional<Scoring::Walked> Scoring::walk(const Target& target, const FilesOf
       const bench::Image plain = plain_image(target, loaded, files_of(target, at), own);
       const bench::Image image = transform ? transform(plain) : bench::Image();
       const bench::Image& shown = transform ? image : plain;
+      if (is_first && !walked.scene) {
+        note_radius(target, loaded);
+        auto facts = facts_of(target, loaded, options_.folder);
+        if (!options_.folder.empty())
+          walked.picture = write_picture(options_.folder, target, submitted_picture(entry_.name), loaded, shown);
+        walked.scene = std::move(facts);
+      }
       walked.sums.add(loaded, shown, at.number, target.is_sequence);
       if (own) {
         walked.sums.figures.rmse_at_own_size = walked.sums.figures.rmse_at_own_size.value_or(0) + *own;
         ++walked.sums.own_sizes;
       }
       walked.frames.push_back(at.number);
-      if (!is_first) continue;
-      add_to_fit(target, at, loaded, plain);
-      if (walked.scene) continue;
-      note_radius(target, loaded);
-      walked.scene = facts_of(target, loaded, options_.folder);
-      if (!options_.folder.empty())
-        walked.picture = write_picture(options_.folder, target, submitted_picture(entry_.name), loaded, shown);
+      if (is_first) add_to_fit(target, at, loaded, plain);
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {

@@ -12,17 +12,10 @@ std::filesystem::path lock_of(const FramePattern& output) {
   return output.folder() / fmt::format(".gloam-lock-{:016x}", hash_of(output.normal_name()));
 }
 
-FileLock locked(const FramePattern& output, const std::vector<int>& frames) {
-  try {
-    return FileLock(lock_of(output), ranges_of(frames));
-  } catch (const Error& error) {
-    throw Error("{}: cannot be written: {}", output.text(), error.what());
-  }
-}
-
 }  // namespace
 
-FrameLocks::FrameLocks(const FramePattern& output, const std::vector<int>& frames) : lock_(locked(output, frames)) {
+FrameLocks::FrameLocks(const FramePattern& output, const std::vector<int>& frames)
+    : lock_(lock_of(output), ranges_of(frames)) {
   if (lock_.is_held_by_another())
     throw Error(
         "{}: another gloam is writing frames among {}-{}; wait for its end, or name other frames or another output",

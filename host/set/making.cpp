@@ -9,6 +9,7 @@
 
 #include "base/elapsed.h"
 #include "base/file_ledger.h"
+#include "base/file_lock.h"
 #include "base/files.h"
 #include "base/lists.h"
 #include "gloam/error.h"
@@ -95,6 +96,42 @@ void compare_with_frozen(const Recipe& recipe, const MakeOptions& options, MakeR
   }
 }
 
+// --- Several processes that make items of one set
+
+std::filesystem::path lock_of(const std::filesystem::path& folder) { return folder / ".gloam-lock-set"; }
+
+/// Held while an item is made, whose unfinished truths lie beside it.
+class ItemLock {
+ public:
+  ItemLock(const Recipe& recipe, const ItemRecipe& item, const std::filesystem::path& folder)
+      : lock_(lock_of(folder), byte_of(recipe, item)) {
+    if (lock_.is_held_by_another())
+      throw Error("-o {}: another gloam makes {} there; wait for its end, or name other items by --only",
+                  folder.string(), item.name);
+  }
+
+ private:
+  /// Byte 0 is the manifest's.
+  static FileLock::Ranges byte_of(const Recipe& recipe, const ItemRecipe& item) {
+    const int number = int(&item - recipe.items.data()) + 1;
+    return {{number, number}};
+  }
+  FileLock lock_;
+};
+
+/// Writes the manifest with these items, and with those that others have made.
+void add_to_manifest(const Recipe& recipe, const std::vector<SetItem>& made, const MakeOptions& options,
+                     Manifest& manifest) {
+  constexpr double patience = 60;  ///< seconds; writing takes a fraction of one
+  const FileLock lock(lock_of(options.folder), {{0, 0}}, patience);
+  if (lock.is_held_by_another())
+    throw Error("-o {}: another gloam has not come to an end with its manifest for {} s", options.folder.string(),
+                patience);
+  manifest.items = merged(recipe, made, earlier(recipe, options).items);
+  manifest.hash = hash_of(manifest.items);
+  write_manifest(options.folder, manifest);
+}
+
 }  // namespace
 
 std::string libraries_in_words() {
@@ -108,7 +145,7 @@ std::string libraries_in_words() {
 
 MakeResult make_set(const Recipe& recipe, const MakeOptions& options) {
   const std::vector<const ItemRecipe*> chosen = chosen_items(recipe, options.only);
-  const Manifest before = earlier(recipe, options);
+  earlier(recipe, options);  // of another set: refused before anything is made
   for (const char* folder : {"frames", "truths"}) {
     make_folder(options.folder / folder);
     remove_leftovers(options.folder / folder);
@@ -126,6 +163,7 @@ MakeResult make_set(const Recipe& recipe, const MakeOptions& options) {
   for (const ItemRecipe* item : chosen) {
     const auto start = std::chrono::steady_clock::now();
     const double own = work_in(*item);
+    const ItemLock making(recipe, *item, options.folder);
     ItemMaker maker(recipe, *item, options.folder, [&](const std::string& what, double share) {
       if (options.progress) options.progress(what, (done + share * own) / all);
     });
@@ -133,9 +171,7 @@ MakeResult make_set(const Recipe& recipe, const MakeOptions& options) {
     done += own;
     result.made += maker.made();
     result.kept += maker.kept();
-    manifest.items = merged(recipe, made, before.items);
-    manifest.hash = hash_of(manifest.items);
-    write_manifest(options.folder, manifest);
+    add_to_manifest(recipe, made, options, manifest);
     if (options.item_done) options.item_done(made.back(), seconds_since(start));
   }
   for (const ItemRecipe& item : recipe.items) {

@@ -102,6 +102,8 @@ TEST_F(BenchBaseline, FailsOnATimeThatGrewUnlessErrorsAloneCount) {
 }
 
 TEST_F(BenchBaseline, MeasuresInSeveralProcesses) {
+  fs::create_directories(path("before/process-2"));
+  std::ofstream(path("before/process-2/notes.txt")) << "mine";
   const Json document = before({"--processes", "2"});
   EXPECT_EQ(document["processes"], 2);
   for (const Json& row : document["results"]) {
@@ -115,10 +117,35 @@ TEST_F(BenchBaseline, MeasuresInSeveralProcesses) {
   }
   std::set<std::string> left;
   for (const auto& entry : fs::directory_iterator(path("before"))) left.insert(entry.path().filename().string());
-  EXPECT_EQ(left, (std::set<std::string>{"bench.json", "scenes"}));
+  EXPECT_EQ(left, (std::set<std::string>{"bench.json", "process-2", "scenes"}));
+  EXPECT_EQ(slurp(path("before/process-2/notes.txt")), "mine");
   // The baseline's number of processes is that of the comparison, unless another is given.
   ASSERT_EQ(after({"--regression", "error"}).status, 0);
   EXPECT_EQ(Json::parse(slurp(path("after/bench.json")))["processes"], 2);
+}
+
+/// What lies where frames and truths are kept, and was made by somebody else, is not replaced.
+TEST_F(BenchBaseline, LeavesFramesOfTheUser) {
+  fs::create_directories(path("own/scenes"));
+  const std::string frame = path("own/scenes/plane.exr");
+  ASSERT_EQ(gloam({"capture", "plane", "-o", frame, "--size", "32x18"}).status, 0);
+  const std::string mine = slurp(frame);
+  const Result result = gloam({"bench", "-o", path("own"), "--scenes", "plane", "--size", "48x32", "--techniques",
+                               "ssao", "--presets", "low", "--rays", "1", "--rounds", "1"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find(frame + ": is no file that gloam bench made"), std::string::npos) << result.err;
+  EXPECT_EQ(slurp(frame), mine);
+}
+
+/// Every error names its file.
+TEST_F(BenchBaseline, NamesTheLockThatCannotBeMade) {
+  fs::create_directories(path("own/.gloam-lock-bench"));
+  const Result result = gloam({"bench", "-o", path("own"), "--scenes", "plane", "--size", "48x32", "--techniques",
+                               "ssao", "--presets", "low", "--rays", "1", "--rounds", "1"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find(path("own/.gloam-lock-bench").string() + ": cannot be made (Is a directory)"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST_F(BenchBaseline, SaysWhatToDoWithFilesThatCannotBeCompared) {

@@ -222,6 +222,16 @@ TEST_F(Score, WhatIsWrongIsOneLineAndTheRestIsScored) {
   EXPECT_EQ(row("walk")["rmse_to_truth"], 0);
 }
 
+TEST_F(Score, PicturesThatCannotBeWrittenLeaveTheItemOut) {
+  write_all(same);
+  fs::create_directories(path("out"));
+  std::ofstream(path("out/images")) << "a file";
+  const Result result = score_images();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(lines_beginning(result.err, "gloam: room: left out: "), 1) << result.err;
+  EXPECT_NE(result.err.find("nothing could be scored"), std::string::npos) << result.err;
+}
+
 TEST_F(Score, FilesThatAreNoImagesAreLeftOut) {
   write_all(same);
   std::ofstream(path("images/room_ao.exr")) << "no image";

@@ -124,6 +124,17 @@ TEST_F(Sets, GoOnWhereTheyWereKilled) {
   EXPECT_TRUE(verified("set", 0)["held"]);
 }
 
+TEST_F(Sets, ArePutTogetherOfPartsThatAreMadeAtOnce) {
+  std::vector<pid_t> makers;
+  for (const char* item : {"corner", "eyes", "gallery"})
+    makers.push_back(start({"set", "make", "small", "-o", in("set"), "--only", item, "-q"}));
+  for (const pid_t maker : makers) {
+    const Result result = finish(maker);
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+  EXPECT_EQ(made("small", "set", {"--only", "corner"})["missing"], json({"gears", "display"}));
+}
+
 TEST_F(Sets, ArePutTogetherOfParts) {
   made("small", "set", {"--only", "corner"});
   const json both = made("small", "set", {"--only", "eyes"});

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <map>
+#include <set>
 
 #include "base/files.h"
+#include "bench/pictures.h"
 #include "support/long.h"
 #include "unit/message_of.h"
 
@@ -139,6 +141,36 @@ TEST_F(ResultFiles, TwoMeasurementsAtOnceAreRefused) {
   const ResultFile file(folder, {});
   file.update([](Results& results) { results.put(row("other", "room", 1), scene("room")); });  // does not wait
   EXPECT_EQ(document()["results"].size(), 1u);
+}
+
+/// Folders whose bench.json is one file have one lock.
+TEST_F(ResultFiles, ALinkToItIsTheSameFile) {
+  const ResultFile file(folder, {});
+  file.update([](Results& results) { results.put(row("other", "room", 1), scene("room")); });
+  fs::create_directory(folder / "link");
+  fs::create_symlink(folder / "bench.json", folder / "link/bench.json");
+  const score::MeasuringAlone first(folder / "link");
+  EXPECT_NE(message_of([&] { score::MeasuringAlone second(folder); }).find("another gloam bench measures into it"),
+            std::string::npos);
+}
+
+TEST_F(ResultFiles, NamesOfMethodsAreToldApartInFiles) {
+  EXPECT_EQ(bench::file_name("gtao"), "gtao");
+  EXPECT_EQ(bench::file_name("hbao+"), "hbaoplus");
+  std::set<std::string> files;
+  const std::vector<std::string> names = {"方法一", "方法二", "my method", "my: method", "x+", "xplus",
+                                          ".x",     "_.x",    ""};
+  for (const std::string& name : names) files.insert(bench::file_name(name));
+  EXPECT_EQ(files.size(), names.size());
+}
+
+TEST_F(ResultFiles, MethodsWhoseFilesWouldHaveOneNameAreRefused) {
+  const ResultFile file(folder, {});
+  file.update([](Results& results) { results.put(row("my-method", "room", 1), scene("room")); });
+  const ResultFile again(folder, {});
+  EXPECT_EQ(message_of([&] { again.found().check_files_of("my-method"); }), "no error");
+  EXPECT_NE(message_of([&] { again.found().check_files_of("my method"); }).find("holds rows of 'my-method'"),
+            std::string::npos);
 }
 
 TEST_F(ResultFiles, WrongTypesAreOneLineThatNamesThePlace) {
