@@ -112,8 +112,8 @@ fs::path asked_for() {
 /// Why a folder is not used; empty: it is.
 std::string why_not_used(const fs::path& asked) {
   if (asked.empty()) return "neither GLOAM_CACHE_DIR, XDG_CACHE_HOME nor HOME is set";
-  if (std::string why = why_not_ours(asked); !why.empty()) return why;
-  return usable(asked) ? "" : fmt::format("{} cannot be written", asked.string());
+  if (std::string why = why_not_ours_once_made(asked); !why.empty()) return why;
+  return usable(asked) ? why_not_ours(asked) : fmt::format("{} cannot be written", asked.string());
 }
 
 CacheFolder find_cache_folder() {
@@ -164,7 +164,7 @@ void give_pocl_a_folder() {
   }
   for (const DriverCache& cache : driver_caches) {
     const fs::path folder = folder_of(cache);
-    const std::string why = folder.empty() ? "" : why_not_ours(folder);
+    const std::string why = folder.empty() ? "" : why_not_ours_once_made(folder);
     if (!why.empty()) add_new(foreign_folders(), why);
     const bool can_stay = why.empty() && (!cache.is_needed || (!folder.empty() && usable(folder)));
     if (can_stay) continue;

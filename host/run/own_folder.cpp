@@ -85,7 +85,12 @@ std::string why_not_ours(const fs::path& folder) {
     }
     const fs::path next = at / part;
     struct stat about {};
-    if (::lstat(next.c_str(), &about) != 0) return errno == ENOENT ? "" : next.string() + " cannot be looked at";
+    if (::lstat(next.c_str(), &about) != 0) {
+      if (errno != ENOENT) return next.string() + " cannot be looked at";
+      // A name above a missing one leads elsewhere once that is made.
+      const bool leads_back = std::find(left.begin(), left.end(), fs::path("..")) != left.end();
+      return leads_back ? next.string() + " is missing, and the name leads back out of it" : "";
+    }
     if (S_ISLNK(about.st_mode)) {
       if (!is_trusted(about.st_uid))
         return fmt::format("the link {} belongs to user {}", next.string(), name_of_user(about.st_uid));
@@ -101,6 +106,17 @@ std::string why_not_ours(const fs::path& folder) {
     at = next;
   }
   return "";
+}
+
+std::string why_not_ours_once_made(const fs::path& folder) {
+  std::string why = why_not_ours(folder);
+  if (!why.empty() || fs::exists(folder)) return why;
+  // In a folder that all users may write into, another one may make it before a driver does.
+  fs::path there = fs::absolute(folder);
+  while (there.has_relative_path() && !fs::exists(there)) there = there.parent_path();
+  struct stat about {};
+  if (::stat(there.c_str(), &about) == 0 && (about.st_mode & S_ISVTX)) make_own_folder(folder);
+  return why_not_ours(folder);
 }
 
 bool make_own_folder(const fs::path& folder) {

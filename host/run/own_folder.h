@@ -11,6 +11,9 @@ namespace gloam {
 /// made by `make_own_folder`.
 std::string why_not_ours(const std::filesystem::path& folder);
 
+/// The same. Where a folder is missing and all users may write into the one around it, makes it first, so that nobody else can.
+std::string why_not_ours_once_made(const std::filesystem::path& folder);
+
 /// Makes the missing folders of a path so that nobody else may write there. False if one cannot be made, or is no folder.
 bool make_own_folder(const std::filesystem::path& folder);
 
