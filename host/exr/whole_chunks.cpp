@@ -106,18 +106,20 @@ uint64_t table_of(const ExrFile& file, int part) {
   return table;
 }
 
-/// Reads a tile as the file has it into `bytes`. Empty where the table of chunks does not lead to it, which OpenEXR notices.
+/// Reads a tile as the file has it into `bytes`. Throws std::runtime_error where the table of chunks does not lead to it: OpenEXR would
+/// look for the tile by itself.
 Stored stored_tile(const ExrFile& file, uint64_t place_in_table, int x, int y, std::vector<char>& bytes) {
-  char offset[8], head[20];
+  char offset[8], head[20] = {};
   file.stream->read_at(place_in_table, offset, sizeof offset);
-  const uint64_t begin =
-      number_at<uint64_t>(offset) + (Imf::isMultiPart(file.parts->version()) ? 4 : 0);  // the part's number
-  if (begin > file.stream->size() - std::min<uint64_t>(file.stream->size(), sizeof head)) return {};
-  file.stream->read_at(begin, head, sizeof head);  // column and row of the tile, of its level, and its size
+  const uint64_t begin = number_at<uint64_t>(offset) + (Imf::isMultiPart(file.parts->version()) ? 4 : 0);  // its number
+  const uint64_t size_of_file = file.stream->size();
+  const bool is_inside = begin < size_of_file && size_of_file - begin >= sizeof head;
+  if (is_inside) file.stream->read_at(begin, head, sizeof head);  // place of the tile, of its level, and its size
   const int32_t size = number_at<int32_t>(head + 16);
-  const bool is_it = number_at<int32_t>(head) == x && number_at<int32_t>(head + 4) == y;
-  if (!is_it || size < 0 || begin + sizeof head + uint64_t(size) > file.stream->size()) return {};
-  bytes.resize(size_t(size) + 1);
+  const bool is_it = number_at<int32_t>(head) == x && number_at<int32_t>(head + 4) == y && size >= 0;
+  if (!is_inside || !is_it || uint64_t(size) > size_of_file - begin - sizeof head)
+    throw std::runtime_error(fmt::format("the table of tiles does not lead to tile {}, {}", x, y));
+  bytes.resize(size_t(size));
   file.stream->read_at(begin + sizeof head, bytes.data(), size_t(size));
   return {bytes.data(), size_t(size)};
 }
@@ -150,8 +152,7 @@ void check_whole_tiles(const ExrFile& file, int part, int64_t first, int64_t las
     for (int x = 0; x < input.numXTiles(0); ++x) {
       const uint64_t index = uint64_t(y) * uint64_t(input.numXTiles(0)) + uint64_t(x);
       const Stored tile = stored_tile(file, table + sizeof(uint64_t) * index, x, y, bytes);
-      if (tile.bytes)
-        check(fmt::format("tile {}, {}", x, y), tile, bytes_of(header, box_of(input.dataWindowForTile(x, y, 0))));
+      check(fmt::format("tile {}, {}", x, y), tile, bytes_of(header, box_of(input.dataWindowForTile(x, y, 0))));
     }
   }
 }

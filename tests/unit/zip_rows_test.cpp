@@ -169,6 +169,15 @@ std::string packed(Imf::Compression compression, size_t size) {
   return stream.insert(7, zeros);
 }
 
+/// Where the table of a file's four chunks begins: the first of them begins where it ends.
+size_t table_in(const std::string& bytes) {
+  for (size_t table = 0;; ++table) {
+    uint64_t offset = 0;
+    std::memcpy(&offset, bytes.data() + table, sizeof offset);
+    if (offset == table + 4 * sizeof offset) return table;
+  }
+}
+
 /// A file of four rows of 256 floats, each a chunk or a tile, whose third holds 1/share of what its row needs.
 void write_with_short_chunk(const std::string& path, Imf::Compression compression, size_t share, bool is_tiled) {
   constexpr int width = 256, height = 4;
@@ -190,13 +199,7 @@ void write_with_short_chunk(const std::string& path, Imf::Compression compressio
   }
   std::ifstream in(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  const auto offset_at = [&](size_t at) {
-    uint64_t offset = 0;
-    std::memcpy(&offset, bytes.data() + at, sizeof offset);
-    return offset;
-  };
-  size_t table = 0;  // of chunks; the first begins where the table ends
-  while (offset_at(table) != table + 8 * height) ++table;
+  const size_t table = table_in(bytes);
   bytes.resize(table + 8 * height);
   for (int y = 0; y < height; ++y) {
     const uint64_t offset = bytes.size();
@@ -209,10 +212,10 @@ void write_with_short_chunk(const std::string& path, Imf::Compression compressio
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-class ChunksThatHoldTooLittle : public testing::TestWithParam<bool> {};
+class ChunksOf : public testing::TestWithParam<bool> {};
 
 /// OpenEXR would take the rest of the row from what its memory held before, and other values in each run.
-TEST_P(ChunksThatHoldTooLittle, AreDamage) {
+TEST_P(ChunksOf, TooLittleAreDamage) {
   const std::string path = fs::temp_directory_path() / ("gloam-short-chunk-" + std::to_string(getpid()) + ".exr");
   const std::string chunk = GetParam() ? "the chunk of tile 0, 2" : "the chunk of row 2";
   for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION}) {
@@ -231,7 +234,23 @@ TEST_P(ChunksThatHoldTooLittle, AreDamage) {
   fs::remove(path);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, ChunksThatHoldTooLittle, testing::Bool(),
+/// OpenEXR would find the tile by itself, and take what it lacks from memory.
+TEST(ChunksThatHoldTooLittle, ATableThatDoesNotLeadToATileIsDamage) {
+  const std::string path = fs::temp_directory_path() / ("gloam-lost-tile-" + std::to_string(getpid()) + ".exr");
+  write_with_short_chunk(path, Imf::NO_COMPRESSION, 2, true);
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  file.seekp(std::streamoff(table_in(bytes) + 2 * sizeof(uint64_t)));
+  file.write(std::string(8, 0).data(), 8);
+  file.close();
+  EXPECT_NE(test::message_of([&] {
+              FrameFile(path, {.fov_degrees = 60}).read({"depth"});
+            }).find("the table of tiles does not lead to tile 0, 2"),
+            std::string::npos);
+  fs::remove(path);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ChunksOf, testing::Bool(),
                          [](const auto& kind) { return kind.param ? "tiles" : "rows"; });
 
 }  // namespace
