@@ -284,6 +284,14 @@ AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPur
   return planned;
 }
 
+void check_has_depth(const AutoFrame& planned, const std::string& out) {
+  if (out.empty() || contains(planned.files.common_planes(), "depth")) return;
+  throw Error(
+      "{}: has no depth, so that no effect can be computed and -o {} would be empty; give a frame with depth, or "
+      "--composite alone",
+      planned.files.name(), out);
+}
+
 Frame read_and_judge(AutoFrame& planned, const PlanRequest& asked, const AutoPurpose& purpose) {
   Frame frame = planned.files.read(planned.planes);
   planned.unfit = unfit_planes(frame.assumed);

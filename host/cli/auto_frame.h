@@ -67,6 +67,9 @@ struct AutoPurpose {
 AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPurpose& purpose,
                        const std::vector<Unfit>& unfit = {});
 
+/// Throws Error for files without depth, if effects are to be written: what holds all light already has none to add.
+void check_has_depth(const AutoFrame& planned, const std::string& out);
+
 /// Decodes the planes, and plans again without those that turned out to be unfit, which are left out of the frame (but for colour,
 /// which pictures show).
 Frame read_and_judge(AutoFrame& planned, const PlanRequest& asked, const AutoPurpose& purpose);

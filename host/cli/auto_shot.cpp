@@ -1,5 +1,6 @@
 #include "cli/auto_shot.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -57,6 +58,7 @@ struct AutoShotSettings {
   std::optional<FramePattern> composite_output = {};  ///< none: no composite
   bool keeps_depth = false, resumes = false;
   std::vector<Unfit> unfit;       ///< of the first frame, left out of all: nothing comes and goes by a share of pixels
+  int decider = 0;                ///< number of that frame
   std::string version, contents;  ///< as in FrameMaking
   Window display;
   unsigned long long frame_bytes = 0;
@@ -146,7 +148,7 @@ class AutoShotWork {
       if (!open(i, flight)) return false;
       flight.frame = flight.planned->files.read(flight.planned->planes);
       if (flight.source) read_colour(*flight.source);
-      steps_.add_notes(i, flight.frame.assumed);
+      add_notes(i, flight.frame.assumed);
       return true;
     });
   }
@@ -158,7 +160,9 @@ class AutoShotWork {
       flight.result = std::move(result.frame);
       compose(i, flight);
       keep_first_outputs(flight.result, result.outcomes);
-      if (settings_.keeps_depth) take_depth(flight.frame, flight.result);
+      // Where nothing is called for, a frame with a plane is written all the same.
+      const bool is_empty = flight.result.views.front().planes.empty();
+      if (settings_.keeps_depth || (settings_.output && is_empty)) take_depth(flight.frame, flight.result);
       flight.result.attributes.merge(attributes_of(flight.making));
       if (result.used_radius && result.used_radius->from == RadiusSource::frame)
         note({fmt::format("radius: {:g} for all frames, made from the first; --radius gives another",
@@ -200,6 +204,12 @@ class AutoShotWork {
     return settings_.composite_output->path_of(files_.frames()[i].number);
   }
 
+  /// What a frame shows to be unfit is used all the same if it was sound in the first.
+  void add_notes(size_t i, std::vector<std::string> notes) {
+    for (std::string& text : notes) text = note_in_shot(text, settings_.unfit, settings_.decider);
+    steps_.add_notes(i, notes);
+  }
+
   /// The first of a frame's files that --resume makes again, and why; empty if none is.
   std::pair<std::filesystem::path, std::string> first_to_write_again(size_t i, const FrameMaking& making) const {
     std::vector<std::filesystem::path> paths;
@@ -216,7 +226,7 @@ class AutoShotWork {
     if (!flight.source) return;
     flight.composite.emplace(make_composite(*flight.source, flight.result));
     flight.composite->picture.attributes.merge(attributes_of(flight.making));
-    steps_.add_notes(i, flight.composite->composition.notes);
+    add_notes(i, flight.composite->composition.notes);
     if (!is_composition_told_) note({composition_in_words(flight.composite->composition)});
     is_composition_told_ = true;
     flight.source.reset();
@@ -276,7 +286,27 @@ struct FirstFrame {
   Radius radius;
   std::optional<CompositeSource> source;
   AutoPurpose purpose;
+  int number = 0;
 };
+
+std::vector<const Technique*> techniques_of(const std::vector<Candidate>& candidates) {
+  std::vector<const Technique*> techniques;
+  for (const Candidate& candidate : candidates) techniques.push_back(candidate.technique);
+  return techniques;
+}
+
+/// Tells what the first frame leaves out of all: no later frame reads its unfit planes, so none would tell of them. `expected`: the techniques
+/// of the effects that were possible before its planes were judged.
+void note_left_out(const AutoFrame& first, const std::vector<std::string>& assumed,
+                   const std::vector<const Technique*>& expected, int number) {
+  for (const std::string& text : assumed)
+    if (!unfit_planes({text}).empty()) note({note_in_shot(text, first.unfit, number)});
+  for (const Outcome& outcome : first.candidates.impossible) {
+    const EffectChoice& effect = outcome.decision.effect;
+    if (std::find(expected.begin(), expected.end(), effect.technique) != expected.end())
+      note({fmt::format("{}: in no frame; {}", effect.technique->effect.name, effect.why)});
+  }
+}
 
 FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked, const AutoCommand& flags) {
   std::optional<FirstFrame> first;
@@ -286,13 +316,16 @@ FirstFrame first_frame(const ShotFiles& shot, const PlanRequest& asked, const Au
     const AutoPurpose purpose{false, flags.goal || !flags.composite.path.empty(),
                               compose_options(flags.composite.light, files, notes)};
     AutoFrame planned = planned_auto(std::move(files), asked, purpose);
+    check_has_depth(planned, flags.out);
+    const std::vector<const Technique*> expected = techniques_of(planned.candidates.possible);
     const Frame read = read_and_judge(planned, asked, purpose);
     check_goal(flags.goal, planned);
     const Radius radius = default_radius(read, stated_radius(planned.files));
     if (flags.goal && flags.composite.path.empty()) note(notes);
     auto source = open_composite(flags.composite, shot.paths_of(frame), shot.options_for(frame));
     leave_out(source, planned.unfit);
-    first.emplace(FirstFrame{std::move(planned), radius, std::move(source), purpose});
+    note_left_out(planned, read.assumed, expected, frame.number);
+    first.emplace(FirstFrame{std::move(planned), radius, std::move(source), purpose, frame.number});
   });
   return std::move(*first);
 }
@@ -322,6 +355,7 @@ void run_auto_on_shot(const AutoCommand& flags) {
                             .keeps_depth = flags.shot.keep_depth,
                             .resumes = flags.shot.resume,
                             .unfit = first.planned.unfit,
+                            .decider = first.number,
                             .version = version_with_kernels(GLOAM_VERSION),
                             .contents = fmt::format("auto{} radius {}{}", flags.given, first.radius.value,
                                                     left_out_in_words(first.planned.unfit)),

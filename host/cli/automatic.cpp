@@ -39,6 +39,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   const PlanRequest asked = flags.technique_flags.request({});
   AutoFrame planned = planned_auto(std::move(files), asked, purpose);
   check_goal(flags.goal, planned);
+  check_has_depth(planned, flags.out);
   std::optional<CompositeSource> source =
       open_composite(flags.composite, flags.frame.files(), flags.frame_flags.read_options());
   const unsigned long long memory = planned_memory(

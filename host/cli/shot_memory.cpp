@@ -25,7 +25,8 @@ ShotMemory shot_memory(const std::string& name, unsigned long long own, unsigned
     throw Error("{}: one frame of the shot would take about {} of memory, and {}; {}", name,
                 memory_in_words(beside + own), limit.words, ways_out);
   ShotMemory memory{wanted_size(), 0, 0};
-  memory.size.in_flight = size_t(std::min<unsigned long long>(memory.size.in_flight, (limit.bytes - beside) / own));
+  memory.size.in_flight =
+      size_t(std::min<unsigned long long>(memory.size.in_flight, (limit.bytes - beside) / std::max(own, 1ull)));
   memory.size.decoders = std::min(memory.size.decoders, memory.size.in_flight);
   memory.size.writers = std::min(memory.size.writers, memory.size.in_flight);
   memory.frame = (limit.bytes - beside) / memory.size.in_flight;

@@ -66,7 +66,7 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
     conventions.take(convert_depth(file, cameras, view, frame));
     conventions.take(convert_normals(file, view, frame, conventions.normals));
     note_fills(file, view, frame);
-    light.add(view);
+    light.add(view, view.find("depth"));
     if (!file.options.as_stored) drop_positions_without_pose(cameras, view, frame);
   }
   if (!has_background) note_missing_background(file, frame);

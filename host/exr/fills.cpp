@@ -1,9 +1,13 @@
 #include "exr/fills.h"
 
+#include <OpenEXR/ImfHeader.h>
+
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "base/lists.h"
+#include "base/words.h"
 #include "frame/unfit.h"
 #include "gloam/error.h"
 
@@ -13,14 +17,14 @@ namespace {
 /// A value that stands for none.
 struct Fill {
   const char* plane;
-  const char* channel;  ///< part of the channel's name; empty: any
+  const char* name;  ///< in the channel's name or its part's, in small letters without marks; empty: any
   float value;
   double least_share;  ///< of the surfaces
   const char* why;     ///< "{}": the share in percent
 };
 
 constexpr std::array<Fill, 2> fills = {{
-    {"reflectance", "GlossCol", 1, 0.5,
+    {"reflectance", "glosscol", 1, 0.5,
      "GlossCol is 1 on {:.0f} % of the surfaces, as a Principled BSDF writes it for any material, and reflections "
      "would "
      "be far too bright (--plane reflectance=none takes 0.04)"},
@@ -28,6 +32,14 @@ constexpr std::array<Fill, 2> fills = {{
     {"roughness", "", 0, 0.999,
      "it is 0 on {:.0f} % of the surfaces, as an output that no material fills, and all would be perfect mirrors"},
 }};
+
+/// The names of a channel and its part, in small letters and digits: renderers write layers as either.
+std::string plain_names(const ExrFile& file, const ChannelSource& channel) {
+  const Imf::Header& part = file.headers.of_part(channel.part);
+  std::string names = lower((part.hasName() ? part.name() + "." : "") + channel.name);
+  std::erase_if(names, [](unsigned char c) { return c < 128 && !std::isalnum(c); });
+  return names;
+}
 
 const Fill& fill_of(const std::string& plane) {
   return *std::find_if(fills.begin(), fills.end(), [&](const Fill& fill) { return fill.plane == plane; });
@@ -39,7 +51,7 @@ Fills::Fills(const ExrFile& file, const std::string& view) {
   for (const Fill& fill : fills) {
     const PlaneSource* source = file.source(fill.plane, view);
     if (!source || source->channels.empty() || file.options.channels.contains(fill.plane)) continue;
-    if (source->channels.front().name.find(fill.channel) == std::string::npos) continue;
+    if (plain_names(file, source->channels.front()).find(fill.name) == std::string::npos) continue;
     counts_[fill.plane].value = fill.value;
   }
 }

@@ -90,7 +90,7 @@ std::vector<ViewSums> sums_of(const ExrFile& file, const FileCameras& cameras, c
     const Frame rows = decode_rows(file, cameras, planes, first, std::min(first + step, image.height));
     for (size_t i = 0; i < sums.size(); ++i) {
       add_rows(sums[i], rows.views[i], frame.views[i], first);
-      light.add(rows.views[i]);
+      light.add(rows.views[i], frame.views[i].find("depth"), first);
     }
   }
   return sums;

@@ -152,7 +152,7 @@ void normalise_planes(Frame& frame, std::optional<float> background, bool as_sto
 void normalise(Frame& frame, std::optional<float> background) {
   LightCounts light;
   for (View& view : frame.views) {
-    light.add(view);
+    light.add(view, view.find("depth"));
     clean_rows(cleaners_of(view, background_in(view, background), false, true), layout_of(view));
     fill_paddings(view);
     add_new(frame.assumed, notes_on_agreement(view, frame.window));

@@ -47,7 +47,9 @@ void try_steps(const float* row, int width, ColourCounts& counts) {
   }
 }
 
-ColourCounts colour_of_row(const Plane& plane, int y) {
+bool is_surface_at(const float* depth, int x) { return !depth || !is_background(depth[x]); }
+
+ColourCounts colour_of_row(const Plane& plane, int y, const float* depth) {
   ColourCounts counts;
   const int width = plane.channels.front().layout().width;
   counts.pixels = width;
@@ -63,6 +65,10 @@ ColourCounts colour_of_row(const Plane& plane, int y) {
   }
   counts.negative = std::count(negative.begin(), negative.end(), 1);
   counts.nonfinite = std::count(nonfinite.begin(), nonfinite.end(), 1);
+  for (int x = 0; x < width; ++x) {
+    counts.surfaces += is_surface_at(depth, x);
+    counts.dark_surfaces += nonfinite[size_t(x)] && is_surface_at(depth, x);
+  }
   return counts;
 }
 
@@ -70,6 +76,8 @@ void merge(ColourCounts& sum, const ColourCounts& counts) {
   sum.pixels += counts.pixels;
   sum.negative += counts.negative;
   sum.nonfinite += counts.nonfinite;
+  sum.surfaces += counts.surfaces;
+  sum.dark_surfaces += counts.dark_surfaces;
   sum.outside += counts.outside;
   sum.tried += counts.tried;
   sum.steps += counts.steps;
@@ -88,11 +96,12 @@ std::string pixels_are(long long count, long long pixels) {
   return fmt::format("{} pixel{} of {} {}", count, count == 1 ? "" : "s", pixels, count == 1 ? "is" : "are");
 }
 
-AlbedoCounts albedo_of_row(const Plane& plane, int y) {
+AlbedoCounts albedo_of_row(const Plane& plane, int y, const float* depth) {
   AlbedoCounts counts;
   const int width = plane.channels.front().layout().width;
-  counts.pixels = width;
   for (int x = 0; x < width; ++x) {
+    if (!is_surface_at(depth, x)) continue;
+    ++counts.pixels;
     bool above = false, below = false;
     for (const Channel& channel : plane.channels) {
       above |= channel.at(x, y) > 1;
@@ -118,7 +127,8 @@ std::string note_or_verdict(const Unfit& found, bool is_judged) {
 std::vector<std::string> notes_on(const ColourCounts& counts, bool is_judged) {
   std::vector<std::string> notes;
   if (counts.nonfinite > 0) {
-    const bool is_unfit = is_judged && double(counts.nonfinite) >= most_without_light * double(counts.pixels);
+    const bool is_unfit = is_judged && counts.dark_surfaces > 0 &&
+                          double(counts.dark_surfaces) >= most_without_light * double(counts.surfaces);
     notes.push_back(
         note_or_verdict({"color", fmt::format("{} infinite or NaN and taken for black: their light is missing",
                                               pixels_are(counts.nonfinite, counts.pixels))},
@@ -159,23 +169,24 @@ std::vector<std::string> notes_on(const AlbedoCounts& counts, bool is_judged) {
 
 }  // namespace
 
-void LightCounts::add_row(const View& view, int y) {
+void LightCounts::add_row(const View& view, int y, const float* depth) {
   if (const Plane* plane = view.find("color")) {
-    const ColourCounts row = colour_of_row(*plane, y);
+    const ColourCounts row = colour_of_row(*plane, y, depth);
 #pragma omp critical(light_counts)
     merge(color, row);
   }
   if (const Plane* plane = view.find("albedo")) {
-    const AlbedoCounts row = albedo_of_row(*plane, y);
+    const AlbedoCounts row = albedo_of_row(*plane, y, depth);
 #pragma omp critical(light_counts)
     merge(albedo, row);
   }
 }
 
-void LightCounts::add(const View& view) {
+void LightCounts::add(const View& view, const Plane* depth, int first_row) {
   for (const char* name : {"color", "albedo"}) {
     if (const Plane* plane = view.find(name)) {
-      for_each_row(plane->channels.front().layout(), [&](int y) { add_row(view, y); });
+      for_each_row(plane->channels.front().layout(),
+                   [&](int y) { add_row(view, y, depth ? depth->channels.front().row(first_row + y) : nullptr); });
       return;
     }
   }

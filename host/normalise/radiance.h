@@ -12,7 +12,9 @@ namespace gloam {
 /// Sums over pixels. They do not depend on the order of the rows.
 struct ColourCounts {
   long long pixels = 0, negative = 0, nonfinite = 0;  ///< `negative`, `nonfinite`: pixels with such a component
-  long long outside = 0;                              ///< components below 0 or above 1
+  long long surfaces = 0,
+            dark_surfaces = 0;  ///< pixels before the background, and those of them without a finite value
+  long long outside = 0;        ///< components below 0 or above 1
   /// Some components of each row that lie between 0 and 1, and those of them that an 8-bit picture can have: as k/255, and as the
   /// light for which the sRGB curve has k/255.
   long long tried = 0, steps = 0, steps_of_light = 0;
@@ -20,7 +22,7 @@ struct ColourCounts {
 };
 
 struct AlbedoCounts {
-  long long pixels = 0, above_one = 0, negative = 0;  ///< pixels with such a component; NaN counts as negative
+  long long pixels = 0, above_one = 0, negative = 0;  ///< of surfaces, with such a component; NaN counts as negative
 };
 
 /// What the planes `color` and `albedo` hold that is no light.
@@ -28,9 +30,11 @@ struct LightCounts {
   ColourCounts color;
   AlbedoCounts albedo;
 
-  /// Adds a row of a view's planes, of those that it has. Threads may add rows at the same time.
-  void add_row(const View& view, int y);
-  void add(const View& view);
+  /// Adds a row of a view's planes, of those that it has. `depth`: of the row, which tells surfaces from the background; null: all are
+  /// surfaces. Threads may add rows at the same time.
+  void add_row(const View& view, int y, const float* depth);
+  /// Adds all rows. `depth`: an image of which they are those from `first_row` on; null as above.
+  void add(const View& view, const Plane* depth, int first_row = 0);
   /// One sentence each for what is found and what becomes of it. `judged`: the planes that nobody has chosen, which are called unfit
   /// (frame/unfit.h) if what is found says so.
   std::vector<std::string> notes(const std::vector<std::string>& judged = {}) const;

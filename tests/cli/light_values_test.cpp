@@ -1,4 +1,11 @@
 // Colour and albedo that are no light, and lights inside surfaces: what is told, and what is not.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -130,9 +137,70 @@ TEST_F(CliLight, AlbedoAboveOneIsTold) {
   write_frame(path("bright.exr"), frame);
   const Result result = gloam({"run", "multi-bounce", path("bright.exr"), "-o", path("out.exr"), "--radius", "0.5"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.err.find("albedo: 1 pixel of 5184 is above 1"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("albedo: 1 pixel of 5184 is negative or NaN"), std::string::npos) << result.err;
-  EXPECT_NE(notes_of_info(path("bright.exr")).find("albedo: 1 pixel of 5184 is above 1"), std::string::npos);
+  EXPECT_NE(result.err.find("albedo: 1 pixel of 4946 is above 1"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("albedo: 1 pixel of 4946 is negative or NaN"), std::string::npos) << result.err;
+  EXPECT_NE(notes_of_info(path("bright.exr")).find("albedo: 1 pixel of 4946 is above 1"), std::string::npos);
+}
+
+/// Renderers write the sky into all their planes.
+TEST_F(CliLight, WhatTheSkyHoldsSaysNothingOfAPlane) {
+  Frame frame = FrameFile(captured(), {}).read({"depth", "normal", "color", "albedo"});
+  View& view = frame.views[0];
+  int sky = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (y < 40) view.planes.at("depth").channels[0].at(x, y) = INFINITY;
+      if (view.planes.at("depth").channels[0].at(x, y) < INFINITY) continue;
+      ++sky;
+      for (Channel& channel : view.planes.at("albedo").channels) channel.at(x, y) = 2;
+      for (Channel& channel : view.planes.at("color").channels) channel.at(x, y) = INFINITY;
+    }
+  }
+  ASSERT_GT(2 * sky, frame.width() * frame.height());
+  write_frame(path("sky.exr"), frame);
+  const std::string notes = notes_of_info(path("sky.exr"));
+  EXPECT_EQ(notes.find("unfit"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("albedo"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("are infinite or NaN"), std::string::npos) << notes;
+}
+
+/// A file of two parts: Z, and three channels that are 1.
+void write_parts(const std::string& path, const std::string& part, const std::vector<std::string>& channels) {
+  constexpr int width = 32, height = 18;
+  const std::vector<float> ones(width * height, 1.0f);
+  std::vector<Imf::Header> headers(2, Imf::Header(width, height));
+  headers[0].channels().insert("Z", Imf::Channel(Imf::FLOAT));
+  for (const std::string& name : channels) headers[1].channels().insert(name, Imf::Channel(Imf::FLOAT));
+  const std::string names[] = {"depth", part};
+  for (size_t i : {0, 1}) {
+    headers[i].setName(names[i]);
+    headers[i].setType(Imf::SCANLINEIMAGE);
+  }
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), 2);
+  for (int i : {0, 1}) {
+    Imf::FrameBuffer buffer;
+    const Imf::ChannelList& list = headers[size_t(i)].channels();
+    for (auto c = list.begin(); c != list.end(); ++c)
+      buffer.insert(c.name(), Imf::Slice::Make(Imf::FLOAT, ones.data(), headers[0].dataWindow(), 4, 4 * width));
+    Imf::OutputPart output(file, i);
+    output.setFrameBuffer(buffer);
+    output.writePixels(height);
+  }
+}
+
+/// A layer's name may be the channel's or its part's, in any letters.
+TEST_F(CliLight, AReflectanceOfOneIsToldHoweverItIsCalled) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> spellings = {
+      {"light", {"ViewLayer.GlossCol.R", "ViewLayer.GlossCol.G", "ViewLayer.GlossCol.B"}},
+      {"light", {"Gloss_Col.R", "Gloss_Col.G", "Gloss_Col.B"}},
+      {"GlossCol", {"R", "G", "B"}}};
+  for (const auto& [part, channels] : spellings) {
+    write_parts(path("gloss.exr"), part, channels);
+    const Result result = gloam({"info", path("gloss.exr"), "--fov", "60"});
+    EXPECT_NE(result.out.find("reflectance is unfit: GlossCol is 1 on 100 % of the surfaces"), std::string::npos)
+        << part << " " << channels.front() << "\n"
+        << result.out;
+  }
 }
 
 TEST_F(CliLight, AutoDoesWithoutWhatANoteCallsUnfit) {
@@ -197,14 +265,45 @@ TEST_F(CliLight, AutoDoesWithoutWhatANoteCallsUnfit) {
   }
 }
 
-/// What is unfit in the first frame of a shot is left out of all: nothing comes and goes.
+/// Colour that holds all light calls for nothing: frames with depth are written all the same, and others told.
+TEST_F(CliLight, AutoOnColourThatHoldsAllLight) {
+  const std::string all = "ambient,shadows,ao,indirect,reflection", whole = captured();
+  write_frame(path("bare.exr"), FrameFile(whole, {}).read({"color"}));
+  for (const char* number : {"1", "2"}) {
+    fs::copy_file(whole, path(std::string("shot.") + number + ".exr"));
+    fs::copy_file(path("bare.exr"), path(std::string("bare.") + number + ".exr"));
+  }
+  const auto run = [&](const std::string& frame, const Arguments& outputs) {
+    Arguments arguments = {"auto", path(frame), "--color-holds", all, "--radius", "0.5"};
+    arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+    return gloam(arguments);
+  };
+  EXPECT_EQ(run("courtyard.exr", {"-o", path("out.exr")}).status, 0);
+  const Result shot = run("shot.#.exr", {"-o", path("out.#.exr")});
+  EXPECT_EQ(shot.status, 0) << shot.err;
+  EXPECT_TRUE(fs::exists(path("out.2.exr")));
+  for (const auto& [frame, out] : {std::pair("bare.exr", "none.exr"), std::pair("bare.#.exr", "none.#.exr")}) {
+    const Result refused = run(frame, {"-o", path(out), "--composite", path(std::string("picture-") + out)});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
+    EXPECT_NE(refused.err.find("has no depth, so that no effect can be computed"), std::string::npos) << refused.err;
+  }
+  for (const auto& entry : fs::directory_iterator(path(".")))
+    EXPECT_EQ(entry.path().filename().string().find("none"), std::string::npos) << entry.path();
+  const Result picture = run("bare.exr", {"--composite", path("picture.exr")});
+  EXPECT_EQ(picture.status, 0) << picture.err;
+}
+
+/// What is unfit in the first frame of a shot is left out of all, and what is sound there is taken in all: nothing comes and goes.
 TEST_F(CliLight, AutoDoesWithoutItInAllFramesOfAShot) {
-  const std::string whole = path("shot.2.exr"), out = path("out.#.exr");
+  const std::string whole = path("whole.exr"), out = path("out.#.exr");
   ASSERT_EQ(gloam({"capture", "lounge", "-o", whole, "--size", "96x54", "--planes", "normal,color,albedo"}).status, 0);
   const Arguments command = {"auto", path("shot.#.exr"), "-o", out, "--radius", "0.5", "--preset", "low"};
+  std::string told;
   const auto lit_frames = [&] {
     const Result result = gloam(command);
     EXPECT_EQ(result.status, 0) << result.err;
+    told = result.err;
     int lit = 0;
     for (const char* frame : {"out.1.exr", "out.2.exr"}) {
       const std::vector<std::string> written = FrameFile(path(frame), {}).common_planes();
@@ -213,13 +312,31 @@ TEST_F(CliLight, AutoDoesWithoutItInAllFramesOfAShot) {
     }
     return lit;
   };
-  const std::vector<std::string> planes = {"depth", "normal", "color", "albedo"};
-  changed_copy(
-      whole, planes, "albedo", [](float v) { return v; }, path("shot.1.exr"));
+  const auto write_shot = [&](float first, float second) {
+    const std::vector<std::string> planes = {"depth", "normal", "color", "albedo"};
+    for (const auto& [name, factor] : {std::pair("shot.1.exr", first), std::pair("shot.2.exr", second)})
+      changed_copy(
+          whole, planes, "albedo", [factor = factor](float v) { return factor * v; }, path(name));
+  };
+  const auto is_told = [&](const std::string& part) { return told.find(part) != std::string::npos; };
+  write_shot(1, 1);
   EXPECT_EQ(lit_frames(), 2);
-  changed_copy(
-      whole, planes, "albedo", [](float v) { return 10 * v; }, path("shot.1.exr"));
+  EXPECT_FALSE(is_told("is unfit")) << told;
+  write_shot(10, 1);
   EXPECT_EQ(lit_frames(), 0);
+  EXPECT_TRUE(is_told("note: albedo is unfit: ")) << told;
+  EXPECT_TRUE(
+      is_told("; gloam auto does without in all frames, as frame 1 decides (--plane albedo=CHANNELS has it taken)\n"))
+      << told;
+  EXPECT_TRUE(is_told("note: light of near surfaces: in no frame; needs 'albedo', which is unfit\n")) << told;
+  write_shot(1, 10);
+  EXPECT_EQ(lit_frames(), 2);
+  EXPECT_TRUE(is_told("note: albedo is unfit: ")) << told;
+  EXPECT_TRUE(
+      is_told("; it is taken all the same, as frame 1 decides for all frames (--plane albedo=none leaves it out)\n"))
+      << told;
+  EXPECT_FALSE(is_told("auto does without")) << told;
+  EXPECT_FALSE(is_told("which is unfit")) << told;
 }
 
 TEST_F(CliLight, LightsInsideSurfacesAreTold) {
