@@ -7,7 +7,7 @@
 #include "exr/read_words.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
-#include "normalise/normal_form.h"
+#include "normalise/normal_axes.h"
 
 namespace gloam::cli {
 void FrameArguments::add_to(CLI::App& app) {

@@ -140,7 +140,7 @@ std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View&
   scale_to_positions(source, relation.scale, depth, notes);
   const bool is_half = std::all_of(source.channels.begin(), source.channels.end(),
                                    [](const ChannelSource& channel) { return channel.type == "half"; });
-  if (!is_window_depth(options.depth)) {
+  if (!is_window_depth(options.depth)) {  // whose steps are those of the map, and not told
     const std::string steps =
         note_on_steps([&](int x, int y) { return depth.at(x, y); }, depth.layout(), *view.camera, is_half);
     if (!steps.empty()) notes.push_back(steps);

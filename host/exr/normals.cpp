@@ -44,7 +44,7 @@ StatedNormals stated_normals(const ExrFile& file, const PlaneSource& normal, boo
   stated.by = enumerate(by);
   stated.convention = with_unstated(flags, stated.convention);
   if (file.options.shot_normals && !is_whole(stated.convention)) {
-    const FoundNormals shot = file.options.shot_normals();
+    const FoundNormals shot = file.options.shot_normals(file.path);
     is_of_shot = is_whole(shot.convention);
     stated.convention = with_unstated(stated.convention, shot.convention);
     add_new(notes, shot.notes);
@@ -52,9 +52,16 @@ StatedNormals stated_normals(const ExrFile& file, const PlaneSource& normal, boo
   return stated;
 }
 
-/// The form that is stated of the normals, or that they show.
-NormalForm form_of(const ExrFile& file, const View& view, const NormalSamples& samples, Frame& frame,
-                   FoundNormals& found) {
+/// Whether the user says which channels are the normals, or anything of what they hold.
+bool are_chosen(const ExrFile& file) {
+  const NormalConvention& flags = file.options.normals;
+  return file.options.channels.contains("normal") || flags.space != NormalSpace::automatic ||
+         flags.range != NormalRange::automatic || flags.axes;
+}
+
+/// The form that is stated of the normals, or that they show; none where they fit none, and nobody has chosen them.
+std::optional<NormalForm> form_of(const ExrFile& file, const View& view, const NormalSamples& samples, Frame& frame,
+                                  FoundNormals& found) {
   const Plane* depth = view.find("depth");
   std::vector<std::string> notes, of_frame;
   bool is_of_shot = false;
@@ -65,21 +72,17 @@ NormalForm form_of(const ExrFile& file, const View& view, const NormalSamples& s
   if (depth)
     pairs = named(file.path, [&] { return samples.pairs(depth->channels.front(), frame.window, *view.camera); });
   const NormalForm form = find_form(pairs, view.camera->pose, stated, of_frame);
-  if (is_of_shot && !of_frame.empty())
+  const bool is_used = are_chosen(file) || of_frame.empty() || !fit_no_convention(pairs, form, view.camera->pose);
+  if (!is_used)
+    of_frame.back() += "; they are not used (--plane normal=CHANNELS has them taken)";
+  else if (is_of_shot && !of_frame.empty())
     of_frame = {
         "normals: not all frames of the shot agree best with the convention that was found for it "
         "(--normal-space, --normal-range and --normal-axes state one)"};
   if (depth) add_new(notes, of_frame);
   add_new(frame.assumed, notes);
   if (!pairs.empty() && !is_whole(found.convention)) found = {convention_of(form), notes};
-  return form;
-}
-
-void note_missing(long long missing, Frame& frame) {
-  if (missing <= 0) return;
-  add_new(frame.assumed,
-          fmt::format("normals: {} pixel{} of the foreground {} none (zero or not finite) and read{} open", missing,
-                      missing == 1 ? "" : "s", missing == 1 ? "has" : "have", missing == 1 ? "s" : ""));
+  return is_used ? std::optional(form) : std::nullopt;
 }
 
 }  // namespace
@@ -87,12 +90,15 @@ void note_missing(long long missing, Frame& frame) {
 std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view, const NormalSamples& samples,
                                            const std::function<long long(const NormalForm&)>& count_missing,
                                            Frame& frame, FoundNormals& found) {
-  const NormalForm form = form_of(file, view, samples, frame, found);
-  if (form.space == NormalSpace::world && !view.camera->pose) {
+  const std::optional<NormalForm> form = form_of(file, view, samples, frame, found);
+  if (!form) return {};
+  if (form->space == NormalSpace::world && !view.camera->pose) {
     add_new(frame.assumed, "normals: not used, since the camera's pose is unknown (--camera gives it)");
     return {};
   }
-  if (view.find("depth")) note_missing(count_missing(form), frame);
+  if (!view.find("depth")) return form;
+  if (const std::string note = note_on_missing_normals(count_missing(*form)); !note.empty())
+    add_new(frame.assumed, note);
   return form;
 }
 

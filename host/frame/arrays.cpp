@@ -93,6 +93,10 @@ View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string
   }
   const StoredSurfaces stored = stored_surfaces(arrays);
   notes = stored.notes;
+  if (!stored.are_normals_used) {
+    std::erase_if(sources, [](const auto& source) { return source.first->name == "normal"; });
+    view.planes.erase("normal");
+  }
   const auto fill = [&](Plane& plane, std::span<const float> values, int y) {
     fill_row(plane, values, y);
     std::vector<Channel>& to = plane.channels;
@@ -102,8 +106,14 @@ View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string
   };
   normalise_while_filling(view, layout, [&](int y) {
     for (const auto& [plane, values] : sources) fill(*plane, values, y);
-    light.add_row(view, y);
+    const Plane* depth = view.find("depth");
+    light.add_row(view, y, depth ? depth->channels.front().row(y) : nullptr);
   });
+  const Plane *depth = view.find("depth"), *normal = view.find("normal");
+  if (depth && normal) {
+    const long long missing = count_missing_normals(*normal, depth->channels.front());
+    if (std::string note = note_on_missing_normals(missing); !note.empty()) notes.push_back(std::move(note));
+  }
   return view;
 }
 

@@ -151,7 +151,7 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
 
   const StoredDepth stored =
       look_at_depth(rows_of(depth), background_of(options.background, options.far ? options.far : camera.far),
-                    options.background.has_value());
+                    options.background.has_value(), "; --background says otherwise");
   assumed.insert(assumed.end(), stored.notes.begin(), stored.notes.end());
   clean_depth(depth, stored.sign, stored.background);
   if (options.depth == DepthConvention::ray) {

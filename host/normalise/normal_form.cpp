@@ -9,6 +9,7 @@
 
 #include "gloam/error.h"
 #include "normalise/common_turn.h"
+#include "normalise/normal_axes.h"
 
 namespace gloam {
 namespace {
@@ -32,39 +33,10 @@ constexpr double fewest_votes = 24;
 constexpr double least_agreement = 0.7;
 /// A convention is the best one seen through noise only if it agrees less by no more than this share of what the best one lacks.
 constexpr double share_of_noise = 0.5;
+/// So few pairs may agree badly by chance.
+constexpr double most_of_chance = 256;
 /// Components of encoded normals below 0: a filter with negative lobes makes a few of them.
 constexpr double most_below_zero = 0.01;
-
-double det(const NormalAxes& axes) {
-  dmat3 m(0.0);
-  for (int i : {0, 1, 2}) m[i][std::abs(axes[size_t(i)]) - 1] = axes[size_t(i)] < 0 ? -1 : 1;
-  return glm::determinant(m);
-}
-
-/// Mirrored axes are further from the plain ones than turned ones where axes are exchanged: y up and z up are turned.
-double departure_of(const NormalAxes& axes) {
-  double flips = 0, moves = 0;
-  for (size_t i = 0; i < 3; ++i) flips += axes[i] < 0, moves += std::abs(axes[i]) != plain_axes[i];
-  return flips + 2 * moves + (moves > 0 && det(axes) < 0 ? 0.5 : 0);
-}
-
-/// All 48 ways in which components lie along axes.
-const std::vector<NormalAxes>& all_axes() {
-  static const std::vector<NormalAxes> all = [] {
-    std::vector<NormalAxes> found;
-    NormalAxes order = plain_axes;
-    do {
-      for (int signs = 0; signs < 8; ++signs) {
-        NormalAxes axes = order;
-        for (size_t i = 0; i < 3; ++i)
-          if (signs >> i & 1) axes[i] = -axes[i];
-        found.push_back(axes);
-      }
-    } while (std::next_permutation(order.begin(), order.end()));
-    return found;
-  }();
-  return all;
-}
 
 dvec3 decoded(const dvec3& stored, bool is_encoded) { return is_encoded ? 2.0 * stored - 1.0 : stored; }
 
@@ -198,6 +170,24 @@ std::string taken_in_words(const NormalForm& form) {
                      word_for(form.space), form.axes == plain_axes ? "" : " with the axes " + in_words(form.axes));
 }
 
+/// Vectors longer than this are no unit vectors, whatever they were rounded to.
+constexpr double longest_unit = 1.1, least_share_too_long = 0.1, most_spread_of_one_length = 0.05;
+/// Normals of any length that agree better with the depth have directions that make sense.
+constexpr double least_agreement_of_any_length = 0.95;
+
+/// Of which range, by the lengths alone: vectors that are all of one length, or short enough.
+bool may_be_unit(const std::vector<NormalPair>& pairs, bool is_encoded) {
+  double too_long = 0, sum = 0, squares = 0;
+  for (const NormalPair& pair : pairs) {
+    const double length = glm::length(decoded(pair.stored, is_encoded));
+    too_long += length > longest_unit;
+    sum += length;
+    squares += length * length;
+  }
+  const double n = double(pairs.size()), mean = sum / n, spread = std::sqrt(std::max(0.0, squares / n - mean * mean));
+  return too_long < least_share_too_long * n || spread < most_spread_of_one_length * mean;
+}
+
 /// The flags that differ between two conventions, with their words for the first.
 std::vector<std::string> differing_flags(const NormalForm& form, const NormalForm& other) {
   std::vector<std::string> flags;
@@ -219,13 +209,13 @@ bool face_one_way(const std::vector<NormalPair>& pairs) {
   return glm::length(sum) > most_one_way * double(pairs.size());
 }
 
-/// Of normals that fit no convention, but would if all of them were turned: of which the camera's pose is likely wrong, and not they. Returns whether they are
-/// such.
-bool note_turned(const Candidate& chosen, const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose,
-                 std::vector<std::string>& notes) {
+/// Of normals that fit no convention, but would if all of them were turned: of which the camera's pose is likely wrong, and not they.
+/// `best`: how well they fit a convention. Returns whether they are such.
+bool note_turned(const Candidate& chosen, double best, const std::vector<NormalPair>& pairs,
+                 const std::optional<Pose>& pose, std::vector<std::string>& notes) {
   if (face_one_way(pairs)) return false;
   const CommonTurn turn = any_turn(pairs, chosen.form, pose);
-  if (turn.agreement < std::max(least_turned_agreement, chosen.agreement + least_gain_by_turn) ||
+  if (turn.agreement < std::max(least_turned_agreement, best + least_gain_by_turn) ||
       !is_turned(chosen.agreement, turn))
     return false;
   const char* likely = !pose ? "they are likely in world space, and the camera's pose is unknown (--camera gives it)"
@@ -239,13 +229,27 @@ bool note_turned(const Candidate& chosen, const std::vector<NormalPair>& pairs, 
   return true;
 }
 
+/// Of normals that are those of no surface here, or hardly, in any convention.
+bool note_strange(const Candidate& best, const std::vector<NormalPair>& pairs, std::vector<std::string>& notes) {
+  if (best.agreement >= least_agreement || double(pairs.size()) < most_of_chance) return false;
+  notes.push_back(fmt::format(
+      "normals: they agree with depth to {:.2f} at best, in any convention: are they of this frame? (--plane "
+      "normal=none makes them from the depth)",
+      best.agreement));
+  return true;
+}
+
 /// Without a pose, for normals of which nothing states the space.
 NormalForm form_without_pose(const Candidate& chosen, const Candidate& plain, const std::vector<NormalPair>& pairs,
                              const StatedNormals& stated, std::vector<std::string>& notes) {
   const CommonTurn turn = small_turn(pairs, chosen.form, {});
   if (!are_in_view_space(chosen.agreement, turn)) {
     if (stated.expects_view) {
-      note_turned(plain, pairs, {}, notes);
+      if (!note_turned(plain, plain.agreement, pairs, {}, notes))
+        notes.push_back(
+            fmt::format("normals: taken as {} space, but they agree with depth only to {:.2f}: if they are in world "
+                        "space, a camera with a pose is needed",
+                        word_for(plain.form.space), plain.agreement));
       return plain.form;
     }
     notes.push_back(fmt::format("normals: taken as world space: as view space they agree with depth only to {:.2f}",
@@ -291,7 +295,9 @@ bool note_better(const Candidate& chosen, const std::vector<Candidate>& candidat
                  const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose, const StatedNormals& stated,
                  std::vector<std::string>& notes) {
   const Candidate better = chosen_of(candidates, pairs, pose);
-  if (!clearly_beats(better, chosen, pairs, pose)) return pose && note_turned(chosen, pairs, pose, notes);
+  const double best = std::max(better.agreement, chosen.agreement);
+  if (pose && note_turned(chosen, best, pairs, pose, notes)) return true;
+  if (!clearly_beats(better, chosen, pairs, pose)) return note_strange(candidates.front(), pairs, notes);
   notes.push_back(
       fmt::format("normals: {}, as {} says, and agree with depth only to {:.2f}; {} to {:.2f}: {} states that",
                   taken_in_words(chosen.form), stated.by, chosen.agreement, taken_in_words(better.form),
@@ -328,13 +334,23 @@ NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<P
   if (pairs.empty() || (plain.space == NormalSpace::world && !pose)) {
     if (!is_space_stated && !stated.expects_view)
       notes.push_back(
-          "normals: taken as view space, as no pixel has a depth to compare them with; --normal-space says otherwise");
+          "normals: taken as view space, as no pixel has both a normal and a depth to compare it with; --normal-space "
+          "says "
+          "otherwise");
     return plain;
   }
   const std::vector<Candidate> candidates = candidates_of(pairs, pose, stated);
   std::vector<Candidate> allowed = candidates;
   std::erase_if(allowed, [&](const Candidate& c) { return !is_allowed(c.form, stated.convention); });
   const Candidate chosen = chosen_of(allowed, pairs, pose);
+  if (fit_no_convention(pairs, chosen_of(candidates, pairs, pose).form, pose)) {
+    notes.push_back(
+        fmt::format("normals: they fit no convention: at best, {}, they agree with depth to {:.2f}, and their lengths "
+                    "are neither 1 "
+                    "nor alike",
+                    taken_in_words(chosen.form), chosen.agreement));
+    return chosen.form;
+  }
   if (!is_space_stated && !stated.expects_view) plain.space = chosen.form.space;
   if (!pose && !is_space_stated) return form_without_pose(chosen, of_form(candidates, plain), pairs, stated, notes);
   if (!note_better(chosen, candidates, pairs, pose, stated, notes))
@@ -342,25 +358,18 @@ NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<P
   return chosen.form;
 }
 
+bool fit_no_convention(const std::vector<NormalPair>& pairs, const NormalForm& form, const std::optional<Pose>& pose) {
+  if (double(pairs.size()) < most_of_chance || may_be_unit(pairs, false) || may_be_unit(pairs, true)) return false;
+  double agreement = 0;
+  for (const NormalPair& pair : pairs) agreement += glm::dot(view_normal(pair.stored, form, pose), pair.from_depth);
+  return agreement < least_agreement_of_any_length * double(pairs.size());
+}
+
 dvec3 view_normal(const dvec3& stored, const NormalForm& form, const std::optional<Pose>& pose) {
   const dvec3 given = unit_or_zero(decoded(stored, form.is_encoded));
   dvec3 normal(0.0);
   for (size_t i = 0; i < 3; ++i) normal[std::abs(form.axes[i]) - 1] = (form.axes[i] < 0 ? -1 : 1) * given[int(i)];
   return form.space == NormalSpace::world && pose ? pose->world_to_view * normal : normal;
-}
-
-std::string in_words(const NormalAxes& axes) {
-  std::string words;
-  for (const int axis : axes)
-    words += fmt::format("{}{}{}", words.empty() ? "" : ",", axis < 0 ? "-" : "", " xyz"[std::abs(axis)]);
-  return words;
-}
-
-std::optional<NormalAxes> parse_normal_axes(const std::string& text, const std::string& flag) {
-  if (text == "auto") return {};
-  for (const NormalAxes& axes : all_axes())
-    if (text == in_words(axes)) return axes;
-  throw UsageError("{} {}: is not allowed; 'auto' is, or the axis of each component, such as x,-y,z", flag, text);
 }
 
 }  // namespace gloam

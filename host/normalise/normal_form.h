@@ -39,12 +39,11 @@ NormalForm plain_form(const NormalConvention& stated);
 NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose, const StatedNormals& stated,
                      std::vector<std::string>& notes);
 
+/// Whether the normals fit no convention, of which `form` is the best: they agree poorly with the depth, and their lengths
+/// are neither 1 nor alike.
+bool fit_no_convention(const std::vector<NormalPair>& pairs, const NormalForm& form, const std::optional<Pose>& pose);
+
 /// A stored normal brought to view space, unit; zero where it is none.
 glm::dvec3 view_normal(const glm::dvec3& stored, const NormalForm& form, const std::optional<Pose>& pose);
-
-/// "x,-y,z"
-std::string in_words(const NormalAxes& axes);
-/// Axes by their words; throws UsageError, naming the flag, for others.
-std::optional<NormalAxes> parse_normal_axes(const std::string& text, const std::string& flag);
 
 }  // namespace gloam

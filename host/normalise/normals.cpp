@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
+#include "gloam/error.h"
 #include "normalise/each_row.h"
 
 namespace gloam {
@@ -76,6 +77,12 @@ long long count_missing_normals(const Plane& normal, const Channel& depth, int f
     total += count;
   }
   return total;
+}
+
+std::string note_on_missing_normals(long long missing) {
+  if (missing <= 0) return "";
+  return fmt::format("normals: {} pixel{} of the foreground {} none (zero or not finite) and read{} open", missing,
+                     missing == 1 ? "" : "s", missing == 1 ? "has" : "have", missing == 1 ? "s" : "");
 }
 
 }  // namespace gloam

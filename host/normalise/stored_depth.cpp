@@ -34,7 +34,7 @@ Counts counts_of(const DepthRows& depth, const Background& background) {
       in_row[0] += surface;
       in_row[1] += is_surface(-row[x], background) & (row[x] != background.value);
       in_row[2] += surface & (row[x] > 1);
-      in_row[3] += row[x] == largest_half;
+      in_row[3] += surface & (row[x] == largest_half);
       in_row[4] += surface & (row[x] > largest_half);
     }
     positive += in_row[0], negative += in_row[1], over_one += in_row[2], largest += in_row[3], beyond += in_row[4];
@@ -58,7 +58,8 @@ bool is_a_mark(long long pixels, long long of) {
   return pixels >= fewest_marked && double(pixels) >= least_share_marked * double(of);
 }
 
-StoredDepth look_at_depth(const DepthRows& depth, const Background& background, bool is_stated) {
+StoredDepth look_at_depth(const DepthRows& depth, const Background& background, bool is_stated,
+                          const std::string& remedy) {
   const Counts counts = counts_of(depth, background);
   const long long pixels = (long long)depth.width * depth.height;
   StoredDepth found{.background = background};
@@ -68,9 +69,8 @@ StoredDepth look_at_depth(const DepthRows& depth, const Background& background, 
     found.background.value = largest_half;
     surfaces -= counts.largest;
     found.notes.push_back(
-        fmt::format("depth: {:.1f} % of the pixels are 65504, the largest half, and taken as background; "
-                    "--background says otherwise",
-                    100 * double(counts.largest) / double(pixels)));
+        fmt::format("depth: {:.1f} % of the pixels are 65504, the largest half, and taken as background{}",
+                    100 * double(counts.largest) / double(pixels), remedy));
   }
   if (is_negative) {
     found.sign = -1;

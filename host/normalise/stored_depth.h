@@ -29,7 +29,9 @@ struct StoredDepth {
 
 /// `background`: what is known of it. `is_stated`: the user says what marks it; else the largest half, 65504, does where a share of the
 /// pixels holds it and none more: a depth that was written as half cannot be farther.
-StoredDepth look_at_depth(const DepthRows& depth, const Background& background, bool is_stated);
+/// `remedy`: the end of a note on that, "; --background says otherwise".
+StoredDepth look_at_depth(const DepthRows& depth, const Background& background, bool is_stated,
+                          const std::string& remedy);
 
 /// So many pixels, and such a share of them, hold one value that no surface has by chance.
 bool is_a_mark(long long pixels, long long of);

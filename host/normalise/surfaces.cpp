@@ -10,7 +10,7 @@ namespace gloam {
 
 StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* normals, const Window& window,
                                 const Camera& camera, const NormalConvention& stated) {
-  StoredSurfaces found{.depth = look_at_depth(depth, background_of({}, camera.far), false)};
+  StoredSurfaces found{.depth = look_at_depth(depth, background_of({}, camera.far), false, "")};
   found.normals = plain_form(stated);
   if (normals && found.normals.space == NormalSpace::world && !camera.pose)
     throw Error("normals in world space need a camera with a pose; give one, or normals in view space");
@@ -26,9 +26,13 @@ StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* nor
   };
   const std::string steps = note_on_steps(depth_at, Layout(depth.width, depth.height), camera, false);
   if (!steps.empty()) found.notes.push_back(steps);
-  if (normals)
-    found.normals = find_form(normals->pairs(depth_at, window, camera), camera.pose,
-                              {stated, "what is stated of them", true}, found.notes);
+  if (!normals) return found;
+  const std::vector<NormalPair> pairs = normals->pairs(depth_at, window, camera);
+  found.normals = find_form(pairs, camera.pose, {stated, "what is stated of them", true}, found.notes);
+  const bool states_nothing =
+      stated.space == NormalSpace::automatic && stated.range == NormalRange::automatic && !stated.axes;
+  found.are_normals_used = !states_nothing || !fit_no_convention(pairs, found.normals, camera.pose);
+  if (!found.are_normals_used) found.notes.back() += "; they are not used, and made from the depth";
   return found;
 }
 
@@ -42,8 +46,16 @@ void settle_surfaces(Frame& frame, bool has_new_normals, const NormalConvention&
     const StoredSurfaces found = look_at_surfaces(rows_of(values), samples ? &*samples : nullptr, frame.window,
                                                   *view.camera, has_new_normals ? stated : convention_of({}));
     clean_depth(values, found.depth.sign, found.depth.background);
-    if (normal != view.planes.end()) bring_to_view_space(normal->second, found.normals, *view.camera);
     add_new(frame.assumed, found.notes);
+    if (normal == view.planes.end()) continue;
+    if (!found.are_normals_used) {
+      view.planes.erase(normal);
+      continue;
+    }
+    bring_to_view_space(normal->second, found.normals, *view.camera);
+    if (const std::string missing = note_on_missing_normals(count_missing_normals(normal->second, values));
+        !missing.empty())
+      add_new(frame.assumed, missing);
   }
 }
 

@@ -13,10 +13,11 @@ namespace gloam {
 struct StoredSurfaces {
   StoredDepth depth;
   NormalForm normals;
+  bool are_normals_used = true;    ///< false: they fit no convention, and nobody says that they do
   std::vector<std::string> notes;  ///< a sentence for each assumption
 };
 
-/// `normals`: none of a view without them. Normals that nothing is stated of are in view space, unless they agree with the depth in another
+/// `normals`: null for a view without them. Normals that nothing is stated of are in view space, unless they agree with the depth in another
 /// convention alone. Throws Error for normals that are stated to be in world space, with a camera without a pose.
 StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* normals, const Window& window,
                                 const Camera& camera, const NormalConvention& stated);

@@ -184,7 +184,13 @@ void add_frames(py::module_& module) {
           "camera",
           [](const HeldFrame& self) { return of_views(self.frame, [](const View& view) { return view.camera; }); })
       .def_property_readonly("notes", [](const HeldFrame& self) { return texts_of(self.frame.assumed); })
-      .def_property_readonly("attributes", [](const HeldFrame& self) { return self.frame.attributes; })
+      .def_property_readonly("attributes",
+                             [](const HeldFrame& self) {
+                               py::dict attributes;
+                               for (const auto& [name, value] : self.frame.attributes)
+                                 attributes[text_of(name)] = text_of(value);
+                               return attributes;
+                             })
       .def_property_readonly("numbers", [](const HeldFrame& self) { return self.frame.numbers; })
       .def("keys", [](const HeldFrame& self) { return common_planes(self.frame); })
       .def("__iter__", [](const HeldFrame& self) { return py::iter(py::cast(common_planes(self.frame))); })

@@ -4,7 +4,7 @@
 
 #include "base/lists.h"
 #include "exr/read_words.h"
-#include "normalise/normal_form.h"
+#include "normalise/normal_axes.h"
 #include "run/run_words.h"
 #include "technique/default_technique.h"
 

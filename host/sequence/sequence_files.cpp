@@ -7,6 +7,7 @@
 
 #include "base/file_ledger.h"
 #include "gloam/error.h"
+#include "normalise/normal_form.h"
 #include "sequence/pattern_reads.h"
 
 namespace gloam {
@@ -21,34 +22,81 @@ std::vector<int> sources_of(const std::vector<SequenceFrame>& frames) {
   return sources;
 }
 
-/// Frames that are looked at for the convention of all: the first ones may be empty.
+/// Frames that are looked at for the convention of all: the first ones may show nothing, or next to nothing.
 constexpr size_t most_looked_at = 5;
+/// Surface that a frame has to show to decide for all, pixels. By the share, a hundred or so of the places where normals are compared with the
+/// depth (normalise/normal_samples.h) lie on it; a convention that is not plain is found by 24 at least.
+constexpr double least_share_shown = 0.03;
+constexpr long long least_shown = 256;
 
-bool has_surface(const Frame& frame) {
-  const Plane* depth = frame.views.front().find("depth");
-  const Channel* values = depth ? &depth->channels.front() : nullptr;
-  for (int y = 0; values && y < frame.height(); ++y) {
-    const float* row = values->row(y);
-    if (!std::all_of(row, row + frame.width(), is_background)) return true;
+/// What the files of one eye, or of both in one, tell of their normals.
+struct Told {
+  FoundNormals normals;
+  long long shown = 0;  ///< pixels of surface in the frame that tells
+  bool is_enough = false;
+};
+
+/// The pixels of a view that have a depth and a normal.
+long long surface_of(const View& view, const FoundNormals& found) {
+  const Plane *depth = view.find("depth"), *normal = view.find("normal");
+  // Those of a world are left out of a frame without a pose, and tell of the others all the same.
+  const bool is_left_out = found.convention.space == NormalSpace::world && !(view.camera && view.camera->pose);
+  if (!depth || (!normal && !is_left_out)) return 0;
+  const Channel& z = depth->channels.front();
+  long long count = 0;
+  for (int y = 0; y < z.layout().height; ++y) {
+    for (int x = 0; x < z.layout().width; ++x) {
+      const auto is_any = [&](const Channel& component) { return component.at(x, y) != 0; };
+      count += !is_background(z.at(x, y)) &&
+               (!normal || std::any_of(normal->channels.begin(), normal->channels.end(), is_any));
+    }
   }
-  return false;
+  return count;
 }
 
-/// What the normals of a sequence tell: the first of its frames that can be read and shows a surface stands for all. `frames`: those to look
-/// at. A frame that cannot be read is told when its turn comes.
-FoundNormals normals_of(const SequenceFiles& sequence, const std::vector<SequenceFrame>& frames) {
+/// The surface by which a file's normals were found: in its view, or in the first of its views that shows any.
+long long surface_of(const Frame& frame, const FrameFiles& files, size_t file) {
+  const FoundNormals& found = files.files()[file].found_normals();
+  if (!is_whole(found.convention)) return 0;
+  if (files.files().size() > 1) return surface_of(frame.views[file], found);
+  for (const View& view : frame.views) {
+    if (const long long shown = surface_of(view, found); shown > 0) return shown;
+  }
+  return 0;
+}
+
+/// Takes over what a frame tells, if it shows more than the frames before and none of them has shown enough.
+void look_at(const SequenceFrame& at, const SequenceFiles& sequence, std::vector<Told>& told) {
+  FrameFiles files = sequence.open(at);
+  const Frame frame = files.read({"depth", "normal"});
+  const double pixels = double(frame.width()) * double(frame.height());
+  for (size_t i = 0; i < files.files().size(); ++i) {
+    const long long shown = surface_of(frame, files, i);
+    if (told[i].is_enough || shown <= told[i].shown) continue;
+    told[i] = {files.files()[i].found_normals(), shown,
+               shown >= least_shown && double(shown) >= least_share_shown * pixels};
+    for (std::string& note : told[i].normals.notes)
+      note += fmt::format(" (decided on frame {} for the whole sequence)", at.number);
+  }
+}
+
+/// What the normals of a sequence tell, by its inputs: the first of the frames that can be read and shows enough of a surface stands for all,
+/// else the one that shows most. `frames`: those to look at. A frame that cannot be read is told when its turn comes.
+std::vector<Told> normals_of(const SequenceFiles& sequence, const std::vector<SequenceFrame>& frames) {
+  std::vector<Told> told(sequence.inputs().size());
   for (size_t i = 0; i < std::min(frames.size(), most_looked_at); ++i) {
+    if (std::all_of(told.begin(), told.end(), [](const Told& each) { return each.is_enough; })) break;
     try {
-      FrameFiles files = sequence.open(frames[i]);
-      if (!has_surface(files.read({"depth", "normal"}))) continue;
-      FoundNormals found = files.files().front().found_normals();
-      for (std::string& note : found.notes)
-        note += fmt::format(" (decided on frame {} for the whole sequence)", frames[i].number);
-      return found;
+      look_at(frames[i], sequence, told);
     } catch (const Error&) {
     }
   }
-  return {};
+  return told;
+}
+
+bool is_frame_of(const FramePattern& pattern, const std::filesystem::path& file) {
+  const std::optional<int> frame = pattern.frame_of(file.filename().string());
+  return frame && pattern.path_of(*frame) == file;
 }
 
 /// The frames that are there, whichever are asked for: so a frame has the same bits in every part of its shot. Cameras in the order of the
@@ -61,15 +109,18 @@ std::vector<SequenceFrame> frames_to_look_at(const SequenceFiles& sequence) {
   return list_frames(sequence.inputs(), all, unused);
 }
 
-/// `normals_of`, worked out once, when the first thread asks.
-std::function<FoundNormals()> normals_when_asked(std::shared_ptr<const SequenceFiles> sequence) {
+/// `normals_of`, worked out once, when the first thread asks; for the input that a file is of.
+std::function<FoundNormals(const std::filesystem::path&)> normals_when_asked(
+    std::shared_ptr<const SequenceFiles> sequence) {
   struct Kept {
     std::once_flag once;
-    FoundNormals found;
+    std::vector<Told> told;
   };
-  return [kept = std::make_shared<Kept>(), sequence = std::move(sequence)] {
-    std::call_once(kept->once, [&] { kept->found = normals_of(*sequence, frames_to_look_at(*sequence)); });
-    return kept->found;
+  return [kept = std::make_shared<Kept>(), sequence = std::move(sequence)](const std::filesystem::path& file) {
+    std::call_once(kept->once, [&] { kept->told = normals_of(*sequence, frames_to_look_at(*sequence)); });
+    for (size_t i = 0; i < kept->told.size(); ++i)
+      if (is_frame_of(sequence->inputs()[i], file)) return kept->told[i].normals;
+    return FoundNormals{};
   };
 }
 

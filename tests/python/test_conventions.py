@@ -76,6 +76,29 @@ def test_normals_that_join_a_frame_are_looked_at(room):
         gloam.run("gtao", frame, normal_axes="x,-y,z")
 
 
+def test_normals_that_are_none_are_counted(room):
+    half = room["normal"].copy()
+    half[::2] = 0
+    for normal in (room["normal"] * 0, room["normal"] * numpy.float32(numpy.nan), half):
+        notes = run(room, normal=normal).notes
+        assert any("have none (zero or not finite)" in note for note in notes), notes
+
+
+def test_normals_of_no_convention_are_made_from_the_depth(room):
+    strange = 255 * (0.5 + 0.5 * room["normal"]).astype(numpy.float32)
+    result = run(room, normal=strange)
+    assert any("fit no convention" in note and "not used" in note for note in result.notes), result.notes
+    without = run({name: value for name, value in room.items() if name != "normal"})
+    assert numpy.array_equal(result["ao"], without["ao"])
+
+
+def test_normals_of_another_frame_are_told(room):
+    constant = numpy.zeros_like(room["normal"])
+    constant[..., 2] = 1
+    notes = run(room, normal=constant).notes
+    assert any("in any convention" in note for note in notes), notes
+
+
 def test_words_are_checked(room):
     with pytest.raises(gloam.UsageError, match="normal_axes y,y,z: is not allowed"):
         gloam.run("gtao", **room, normal_axes="y,y,z")

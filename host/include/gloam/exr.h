@@ -31,9 +31,9 @@ struct ReadOptions {
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: depth that means background, instead of 1e10 and more
   NormalConvention normals;         ///< --normal-space, --normal-range, --normal-axes
-  /// Of a frame of a shot: what was found of the normals for all of its frames (normal_convention.h). Called where normals are read and
-  /// something of their convention is not stated; null: the frame's own decide.
-  std::function<FoundNormals()> shot_normals;
+  /// Of a frame of a shot: what was found of the normals for all of its frames (normal_convention.h), by the path of the frame's file: of two
+  /// eyes each has its own. Called where normals are read and something of their convention is not stated; null: the frame's own decide.
+  std::function<FoundNormals(const std::filesystem::path& file)> shot_normals;
   std::vector<std::string> views;  ///< --view, --views: views to read, in this order; empty: all
   bool count_nonfinite = false;    ///< `read` counts NaN and infinite values of the file
   /// Keeps values as in the file: only depth and the space of normals are converted; nothing is clamped, replaced or made unit. For
