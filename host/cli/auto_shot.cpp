@@ -242,6 +242,7 @@ class AutoShotWork {
     }
     check_size_in_shot(files, settings_.display);
     flight.planned.emplace(planned_auto(std::move(files), settings_.asked, computing_.purpose, settings_.unfit));
+    if (settings_.output) check_has_depth(*flight.planned, output_of(i).string());
     set_radius(*flight.planned, settings_.radius);
     if (auto source = open_composite(settings_.composite, files_.paths_of(frame), files_.options_for(frame))) {
       leave_out(source, settings_.unfit);

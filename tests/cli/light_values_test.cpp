@@ -290,6 +290,11 @@ TEST_F(CliLight, AutoOnColourThatHoldsAllLight) {
   }
   for (const auto& entry : fs::directory_iterator(path(".")))
     EXPECT_EQ(entry.path().filename().string().find("none"), std::string::npos) << entry.path();
+  fs::copy_file(path("bare.exr"), path("mixed.2.exr"));
+  fs::copy_file(whole, path("mixed.1.exr"));
+  const Result mixed = run("mixed.#.exr", {"-o", path("mixed-out.#.exr")});
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_NE(mixed.err.find("mixed.2.exr: has no depth"), std::string::npos) << mixed.err;
   const Result picture = run("bare.exr", {"--composite", path("picture.exr")});
   EXPECT_EQ(picture.status, 0) << picture.err;
 }
