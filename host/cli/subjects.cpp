@@ -25,9 +25,9 @@ void show_status(const std::string& what, double share) {
 }
 
 void make_output_folder(const std::filesystem::path& folder) {
-  std::error_code error;
+  std::error_code error, unknown;
   std::filesystem::create_directories(folder, error);
-  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+  if (std::filesystem::exists(folder, unknown) && !std::filesystem::is_directory(folder, unknown))
     throw Error("-o {}: is a file; name a folder", folder.string());
   if (error) throw Error("-o {}: cannot be made ({})", folder.string(), error.message());
 }

@@ -54,9 +54,7 @@ StatedNormals stated_normals(const ExrFile& file, const PlaneSource& normal, boo
 
 /// Whether the user says which channels are the normals, or anything of what they hold.
 bool are_chosen(const ExrFile& file) {
-  const NormalConvention& flags = file.options.normals;
-  return file.options.channels.contains("normal") || flags.space != NormalSpace::automatic ||
-         flags.range != NormalRange::automatic || flags.axes;
+  return file.options.channels.contains("normal") || states_anything(file.options.normals);
 }
 
 /// The form that is stated of the normals, or that they show; none where they fit none, and nobody has chosen them.

@@ -104,12 +104,11 @@ View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string
     if (plane.name == "normal" && stored.normals != NormalForm())
       bring_to_view_space(to[0].row(y), to[1].row(y), to[2].row(y), layout.width, stored.normals, *view.camera);
   };
+  const Plane *depth = view.find("depth"), *normal = view.find("normal");
   normalise_while_filling(view, layout, [&](int y) {
     for (const auto& [plane, values] : sources) fill(*plane, values, y);
-    const Plane* depth = view.find("depth");
     light.add_row(view, y, depth ? depth->channels.front().row(y) : nullptr);
   });
-  const Plane *depth = view.find("depth"), *normal = view.find("normal");
   if (depth && normal) {
     const long long missing = count_missing_normals(*normal, depth->channels.front());
     if (std::string note = note_on_missing_normals(missing); !note.empty()) notes.push_back(std::move(note));

@@ -290,11 +290,10 @@ void note_taken(const Candidate& chosen, const Candidate& plain, const std::vect
 }
 
 /// Of a convention that a statement rules out, or of normals that fit no convention but would if all were turned. Returns whether there is
-/// anything to say.
-bool note_better(const Candidate& chosen, const std::vector<Candidate>& candidates,
+/// anything to say. `better`: chosen of all candidates.
+bool note_better(const Candidate& chosen, const Candidate& better, const std::vector<Candidate>& candidates,
                  const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose, const StatedNormals& stated,
                  std::vector<std::string>& notes) {
-  const Candidate better = chosen_of(candidates, pairs, pose);
   const double best = std::max(better.agreement, chosen.agreement);
   if (pose && note_turned(chosen, best, pairs, pose, notes)) return true;
   if (!clearly_beats(better, chosen, pairs, pose)) return note_strange(candidates.front(), pairs, notes);
@@ -306,6 +305,10 @@ bool note_better(const Candidate& chosen, const std::vector<Candidate>& candidat
 }
 
 }  // namespace
+
+bool states_anything(const NormalConvention& convention) {
+  return convention.space != NormalSpace::automatic || convention.range != NormalRange::automatic || convention.axes;
+}
 
 bool is_whole(const NormalConvention& convention) {
   return convention.space != NormalSpace::automatic && convention.range != NormalRange::automatic && convention.axes;
@@ -342,8 +345,9 @@ NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<P
   const std::vector<Candidate> candidates = candidates_of(pairs, pose, stated);
   std::vector<Candidate> allowed = candidates;
   std::erase_if(allowed, [&](const Candidate& c) { return !is_allowed(c.form, stated.convention); });
-  const Candidate chosen = chosen_of(allowed, pairs, pose);
-  if (fit_no_convention(pairs, chosen_of(candidates, pairs, pose).form, pose)) {
+  const Candidate of_all = chosen_of(candidates, pairs, pose);
+  const Candidate chosen = allowed.size() == candidates.size() ? of_all : chosen_of(allowed, pairs, pose);
+  if (fit_no_convention(pairs, of_all.form, pose)) {
     notes.push_back(
         fmt::format("normals: they fit no convention: at best, {}, they agree with depth to {:.2f}, and their lengths "
                     "are neither 1 "
@@ -353,7 +357,7 @@ NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<P
   }
   if (!is_space_stated && !stated.expects_view) plain.space = chosen.form.space;
   if (!pose && !is_space_stated) return form_without_pose(chosen, of_form(candidates, plain), pairs, stated, notes);
-  if (!note_better(chosen, candidates, pairs, pose, stated, notes))
+  if (!note_better(chosen, of_all, candidates, pairs, pose, stated, notes))
     note_taken(chosen, of_form(candidates, plain), candidates, stated, notes);
   return chosen.form;
 }

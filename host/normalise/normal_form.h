@@ -27,6 +27,8 @@ struct StatedNormals {
 
 /// Whether every part of a convention is stated.
 bool is_whole(const NormalConvention& convention);
+/// Whether any part of a convention is stated.
+bool states_anything(const NormalConvention& convention);
 /// A convention with what it leaves open taken from another.
 NormalConvention with_unstated(NormalConvention convention, const NormalConvention& more);
 NormalConvention convention_of(const NormalForm& form);

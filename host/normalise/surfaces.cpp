@@ -29,9 +29,7 @@ StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* nor
   if (!normals) return found;
   const std::vector<NormalPair> pairs = normals->pairs(depth_at, window, camera);
   found.normals = find_form(pairs, camera.pose, {stated, "what is stated of them", true}, found.notes);
-  const bool states_nothing =
-      stated.space == NormalSpace::automatic && stated.range == NormalRange::automatic && !stated.axes;
-  found.are_normals_used = !states_nothing || !fit_no_convention(pairs, found.normals, camera.pose);
+  found.are_normals_used = states_anything(stated) || !fit_no_convention(pairs, found.normals, camera.pose);
   if (!found.are_normals_used) found.notes.back() += "; they are not used, and made from the depth";
   return found;
 }
