@@ -236,23 +236,6 @@ Json document_of(const LeftOut& l) {
           {"what", l.what}};
 }
 
-Json document_of(const PaperTime& t) {
-  return {{"table", t.table},
-          {"row", t.row},
-          {"column", t.column},
-          {"ms", t.ms},
-          {"ratio", or_null(t.ratio)},
-          {"paper_ms", or_null(t.paper_ms)},
-          {"paper_ratio", or_null(t.paper_ratio)},
-          {"base", t.base}};
-}
-
-Json document_of(const PaperFact& f) {
-  return {{"figure", f.figure}, {"row", f.row}, {"column", f.column}, {"value", f.value}, {"unit", f.unit}};
-}
-
-Json document_of(const PaperPicture& p) { return {{"figure", p.figure}, {"caption", p.caption}, {"file", p.file}}; }
-
 template <typename Thing>
 Json list_of(const std::vector<Thing>& things) {
   Json list = Json::array();
@@ -323,20 +306,6 @@ Json document_of(const Measurement& measurement, const MeasureOptions& options, 
                    {"skipped", list_of(measurement.skipped)},
                    {"left_out", list_of(measurement.left_out)},
                    {"paper", Json::array()}});
-  return document;
-}
-
-Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device) {
-  Json document = origin_of(device);
-  document.update({{"rounds", options.rounds},
-                   {"width", options.width},
-                   {"height", options.height},
-                   {"rays", options.rays},
-                   {"results", Json::array()},
-                   {"paper", list_of(result.times)},
-                   {"facts", list_of(result.facts)},
-                   {"pictures", list_of(result.pictures)},
-                   {"notes", result.notes}});
   return document;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "bench/measurement.h"
-#include "bench/papers/paper.h"
 
 namespace gloam::bench {
 
@@ -21,8 +20,5 @@ Json origin_of(const DeviceInfo& device);
 Json document_of(const SceneFacts& scene);
 
 Json document_of(const Measurement& measurement, const MeasureOptions& options, const DeviceInfo& device);
-
-/// The document of a reproduced paper: no results, but `paper`, `facts` and `pictures`.
-Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device);
 
 }  // namespace gloam::bench

@@ -10,7 +10,7 @@ namespace {
 
 #define FRAME_SCALAR float
 #define FRAME_NAME KernelFrame
-#include "shared/frame/frame.h"
+#include "shared/both/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
 

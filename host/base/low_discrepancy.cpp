@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "shared/lanes/hash.h"
+#include "shared/both/hash.h"
 
 namespace gloam {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "base/files.h"
 #include "base/lists.h"
-#include "bench/document.h"
 #include "bench/papers/paper.h"
+#include "bench/papers/paper_document.h"
 #include "cli/bench_file.h"
 #include "cli/options.h"
 #include "cli/subjects.h"

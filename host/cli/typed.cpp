@@ -8,7 +8,7 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
-#include "gloam/exr.h"
+#include "gloam/frame.h"
 
 namespace gloam::cli {
 namespace {

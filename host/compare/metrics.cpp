@@ -7,10 +7,10 @@
 #include <opencv2/quality/qualitygmsd.hpp>
 #include <opencv2/quality/qualityssim.hpp>
 
+#include "base/srgb.h"
 #include "compare/flip.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
-#include "picture/picture.h"
 
 namespace gloam {
 namespace {

@@ -8,63 +8,23 @@
 #include <limits>
 #include <numbers>
 
+#include "frame/two_eyes.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
-#include "gloam/projection.h"
 
 namespace gloam {
 namespace {
-
-/// Largest distance from p at which the way back may end, pixels: "1 pixel width".
-constexpr double back_check = 1;
 
 /// Positions this near to the middle of a pixel count as the middle, pixels. Cameras in single precision, as OpenEXR's M44f, are
 /// off by some 1e-4 pixels.
 constexpr double on_centre = 1e-3;
 
 /// One view as the comparison needs it.
-struct Eye {
-  const Camera& camera;
-  const Window& window;
-  const Channel& depth;
+struct ComparedEye : Eye {
   const Plane& values;
   const Plane* normal;  ///< null: no normal-check
   bool are_directions;  ///< values are unit vectors in view space
-
-  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < window.width() && y < window.height(); }
 };
-
-// ---------------------------------------------------------------------------------------------------------------------
-// From eye to eye
-
-/// From the view space of one eye to that of the other.
-struct Motion {
-  glm::dmat3 rotation;
-  glm::dvec3 translation;
-  glm::dvec3 of_point(const glm::dvec3& p) const { return rotation * p + translation; }
-};
-
-/// Positions are subtracted first: they may be far from the origin, and near each other.
-Motion motion_between(const Pose& from, const Pose& to) {
-  return {to.world_to_view * glm::transpose(from.world_to_view), to.world_to_view * (from.position - to.position)};
-}
-
-/// The point that the centre of a pixel shows, view space.
-glm::dvec3 point_of(const Eye& eye, int x, int y) {
-  const std::optional<ViewRay> ray = view_ray(eye.camera, {eye.window.x0 + x + 0.5, eye.window.y0 + y + 0.5});
-  return ray ? ray->at(double(eye.depth.at(x, y))) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-}
-
-/// Pixel of a point, relative to the corner of the window; NaN for a point that the camera does not show.
-glm::dvec2 pixel_of(const Eye& eye, const glm::dvec3& point) {
-  const std::optional<glm::dvec2> place = gloam::pixel_of(eye.camera, point);
-  if (!place) return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
-  return *place - glm::dvec2(eye.window.x0, eye.window.y0);
-}
-
-bool is_inside(const Eye& eye, const glm::dvec2& place) {  // false for NaN
-  return place.x >= 0 && place.y >= 0 && place.x < eye.window.width() && place.y < eye.window.height();
-}
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Neighbours
@@ -119,22 +79,14 @@ bool is_within(double cosine, const glm::dvec3& a, const glm::dvec3& b) {
 
 /// From one eye to the other.
 struct Lookup {
-  const Eye &own, &other;
-  Motion there, back;
+  const ComparedEye &own, &other;
+  EyeMotion there, back;
   double cosine;  ///< of the normal-check
 };
 
-/// Whether the other eye sees the point of pixel (x, y), which has the position `place` there.
-bool comes_back(const Lookup& lookup, int x, int y, const glm::dvec2& place) {
-  const int there_x = int(place.x), there_y = int(place.y);
-  if (is_background(lookup.other.depth.at(there_x, there_y))) return false;
-  const glm::dvec3 point = lookup.back.of_point(point_of(lookup.other, there_x, there_y));
-  return glm::distance(pixel_of(lookup.own, point), glm::dvec2(x + 0.5, y + 0.5)) <= back_check;  // false for NaN
-}
-
 /// The result of the checks on the neighbours that I is made from.
 StereoPixel verdict_of(const Lookup& lookup, int x, int y, const Neighbours& neighbours) {
-  const Eye& other = lookup.other;
+  const ComparedEye& other = lookup.other;
   for (const auto& n : neighbours) {
     if (!other.holds(n.x, n.y)) return StereoPixel::outside;
   }
@@ -174,22 +126,11 @@ StereoPixel look_up(const Lookup& lookup, int x, int y, float& error) {
   if (is_background(lookup.own.depth.at(x, y))) return StereoPixel::background;
   const glm::dvec2 place = pixel_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
   if (!is_inside(lookup.other, place)) return StereoPixel::outside;
-  if (!comes_back(lookup, x, y, place)) return StereoPixel::hidden;
+  if (!comes_back(lookup.own, lookup.other, lookup.back, x, y, place)) return StereoPixel::hidden;
   const Neighbours neighbours = neighbours_of(place);
   const StereoPixel verdict = verdict_of(lookup, x, y, neighbours);
   if (verdict == StereoPixel::counted) error = float(error_at(lookup, x, y, neighbours));
   return verdict;
-}
-
-bool sees_any(const Lookup& lookup) {
-  for (int y = 0; y < lookup.own.window.height(); ++y) {
-    for (int x = 0; x < lookup.own.window.width(); ++x) {
-      if (is_background(lookup.own.depth.at(x, y))) continue;
-      const glm::dvec2 place = pixel_of(lookup.other, lookup.there.of_point(point_of(lookup.own, x, y)));
-      if (is_inside(lookup.other, place) && comes_back(lookup, x, y, place)) return true;
-    }
-  }
-  return false;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -267,27 +208,10 @@ void check_finite(const StereoErrors& errors, const std::string& view, const std
 // ---------------------------------------------------------------------------------------------------------------------
 // What is needed
 
-const Plane& plane_in(const View& view, const std::string& name, const Layout& layout) {
-  const Plane* plane = view.find(name);
-  if (!plane || plane->channels.empty()) throw Error("view '{}' has no {}", view.name, name);
-  for (const Channel& channel : plane->channels) {
-    const Layout& own = channel.layout();
-    if (own == layout) continue;
-    throw Error("'{}' of view '{}' is {}x{}, and the frame is {}x{}", name, view.name, own.width, own.height,
-                layout.width, layout.height);
-  }
-  return *plane;
-}
-
 void check_views(const Frame& frame, const std::string& plane, const Layout& layout) {
   if (frame.views.size() != 2)
     throw Error("the stereo inconsistency is between two views, and the frame has {}", frame.views.size());
-  for (const View& view : frame.views) {
-    if (!view.camera || !view.camera->pose)
-      throw Error("view '{}' has no camera with a pose: where its pixels lie in the other view is not known",
-                  view.name);
-    plane_in(view, "depth", layout);
-  }
+  for (const View& view : frame.views) check_eye(view, layout);
   const size_t a = plane_in(frame.views[0], plane, layout).channels.size();
   const size_t b = plane_in(frame.views[1], plane, layout).channels.size();
   if (a != b) throw Error("'{}' has {} components in one view and {} in the other", plane, a, b);
@@ -297,33 +221,22 @@ bool has_normals(const Frame& frame) {
   return std::all_of(frame.views.begin(), frame.views.end(), [](const View& view) { return view.find("normal"); });
 }
 
-Eye eye_of(const Frame& frame, const View& view, const std::string& plane, bool with_normals, const Layout& layout) {
+ComparedEye eye_of(const Frame& frame, const View& view, const std::string& plane, bool with_normals, const Layout& layout) {
   const bool are_directions = plane_kind(plane).meaning == PlaneKind::unit_vector;
-  return {*view.camera,
-          frame.window,
-          plane_in(view, "depth", layout).channels[0],
+  return {{*view.camera, frame.window, plane_in(view, "depth", layout).channels[0]},
           plane_in(view, plane, layout),
           with_normals ? &plane_in(view, "normal", layout) : nullptr,
           are_directions};
 }
 
 /// Lookups from either eye to the other. `cosine`: of the normal-check.
-std::array<Lookup, 2> lookups(const Frame& frame, const std::array<Eye, 2>& eyes, double cosine) {
+std::array<Lookup, 2> lookups(const Frame& frame, const std::array<ComparedEye, 2>& eyes, double cosine) {
   const Pose &first = *frame.views[0].camera->pose, &second = *frame.views[1].camera->pose;
-  const Motion there = motion_between(first, second), back = motion_between(second, first);
+  const EyeMotion there = motion_between(first, second), back = motion_between(second, first);
   return {{{eyes[0], eyes[1], there, back, cosine}, {eyes[1], eyes[0], back, there, cosine}}};
 }
 
 }  // namespace
-
-bool have_surface_in_common(const Frame& frame) {
-  const Layout layout(frame.width(), frame.height());
-  check_views(frame, "depth", layout);
-  const std::array<Eye, 2> eyes = {eye_of(frame, frame.views[0], "depth", false, layout),
-                                   eye_of(frame, frame.views[1], "depth", false, layout)};
-  const std::array<Lookup, 2> both = lookups(frame, eyes, 0);
-  return sees_any(both[0]) || sees_any(both[1]);
-}
 
 StereoInconsistency stereo_inconsistency(const Frame& frame, const std::string& plane, const StereoOptions& options) {
   const Layout layout(frame.width(), frame.height());
@@ -334,7 +247,7 @@ StereoInconsistency stereo_inconsistency(const Frame& frame, const std::string& 
   const auto eye = [&](size_t i) {
     return eye_of(frame, frame.views[i], plane, result.normal_check.has_value(), layout);
   };
-  const std::array<Eye, 2> eyes = {eye(0), eye(1)};
+  const std::array<ComparedEye, 2> eyes = {eye(0), eye(1)};
   const std::array<Lookup, 2> both = lookups(frame, eyes, cosine);
   for (size_t i = 0; i < 2; ++i) result.views[i] = errors_of(both[i]);
   for (size_t i = 0; i < 2; ++i) {

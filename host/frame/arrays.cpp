@@ -8,7 +8,6 @@
 #include "base/lists.h"
 #include "camera/field_of_view.h"
 #include "gloam/error.h"
-#include "gloam/exr.h"
 #include "gloam/planes.h"
 #include "normalise/each_row.h"
 #include "normalise/normalise.h"

@@ -96,11 +96,11 @@ void mark_near_plane(Channel& depth, float near, std::vector<std::string>& assum
 }
 
 /// The map from window depth, checked: near and far are needed; flags override the camera.
-WindowDepth window_depth(const Camera& camera, const ReadOptions& options, std::vector<std::string>& assumed) {
-  const bool reversed = options.depth == DepthConvention::reversed;
+WindowDepth window_depth(const Camera& camera, const StatedDepth& stated, std::vector<std::string>& assumed) {
+  const bool reversed = stated.convention == DepthConvention::reversed;
   const char* name = reversed ? "reversed" : "ndc";
-  const std::optional<double> near = options.near ? options.near : camera.near;
-  std::optional<double> far = options.far ? options.far : camera.far;
+  const std::optional<double> near = stated.near ? stated.near : camera.near;
+  std::optional<double> far = stated.far ? stated.far : camera.far;
   if (!near)
     throw Error("--depth {}: needs the distance of the near plane; give --near, or a camera that has it", name);
   if (!far && reversed && !camera.orthographic) {
@@ -120,17 +120,17 @@ WindowDepth window_depth(const Camera& camera, const ReadOptions& options, std::
   map.b = reversed ? at_near - at_far : at_far - at_near;
   map.lowest = reversed ? std::numeric_limits<float>::denorm_min() : 0.0f;
   map.highest = reversed ? 1.0f : std::nextafter(1.0f, 0.0f);
-  map.background = options.background.value_or(std::numeric_limits<float>::quiet_NaN());
+  map.background = stated.background.value_or(std::numeric_limits<float>::quiet_NaN());
   return map;
 }
 
-std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& camera, const ReadOptions& options,
+std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& camera, const StatedDepth& stated,
                             std::vector<std::string>& assumed) {
-  const bool reversed = options.depth == DepthConvention::reversed;
-  const WindowDepth map = window_depth(camera, options, assumed);
+  const bool reversed = stated.convention == DepthConvention::reversed;
+  const WindowDepth map = window_depth(camera, stated, assumed);
   if (alpha && !reversed && marks_background(*alpha))
     mark_missing(depth, *alpha);
-  else if (!options.background)
+  else if (!stated.background)
     mark_near_plane(depth, reversed ? 1.0f : 0.0f, assumed);
   for_each_row(depth.layout(), [&](int y) {
     const auto convert = camera.orthographic ? orthographic_row : perspective_row;
@@ -142,26 +142,26 @@ std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& 
 }  // namespace
 
 std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
-                          const ReadOptions& options, std::vector<std::string>& assumed) {
-  if (camera.slits && options.depth != DepthConvention::automatic && options.depth != DepthConvention::z)
+                          const StatedDepth& stated, std::vector<std::string>& assumed) {
+  if (camera.slits && stated.convention != DepthConvention::automatic && stated.convention != DepthConvention::z)
     throw UsageError(
         "--depth ray, ndc and reversed need a single centre of projection; the depth of a display's module is z");
-  if (options.depth == DepthConvention::ndc || options.depth == DepthConvention::reversed)
-    return window_to_depth(depth, alpha, camera, options, assumed);
+  if (stated.convention == DepthConvention::ndc || stated.convention == DepthConvention::reversed)
+    return window_to_depth(depth, alpha, camera, stated, assumed);
 
-  const StoredDepth stored =
-      look_at_depth(rows_of(depth), background_of(options.background, options.far ? options.far : camera.far),
-                    options.background.has_value(), "; --background says otherwise");
-  assumed.insert(assumed.end(), stored.notes.begin(), stored.notes.end());
-  clean_depth(depth, stored.sign, stored.background);
-  if (options.depth == DepthConvention::ray) {
+  const StoredDepth found =
+      look_at_depth(rows_of(depth), background_of(stated.background, stated.far ? stated.far : camera.far),
+                    stated.background.has_value(), "; --background says otherwise");
+  assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
+  clean_depth(depth, found.sign, found.background);
+  if (stated.convention == DepthConvention::ray) {
     if (!camera.orthographic) ray_to_depth(depth, window, camera);
     return "ray";
   }
-  if (stored.sign < 0) return "negative z";
-  if (options.depth == DepthConvention::automatic)
+  if (found.sign < 0) return "negative z";
+  if (stated.convention == DepthConvention::automatic)
     assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis{}; --depth says otherwise",
-                                  stored.is_in_unit_interval ? ", though all of it lies in 0..1" : ""));
+                                  found.is_in_unit_interval ? ", though all of it lies in 0..1" : ""));
   return "z";
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gloam/normal_convention.h"
+#include "gloam/conventions.h"
 
 namespace gloam {
 

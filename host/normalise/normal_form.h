@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gloam/normal_convention.h"
+#include "gloam/conventions.h"
 #include "normalise/normal_samples.h"
 
 namespace gloam {

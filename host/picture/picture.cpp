@@ -14,8 +14,8 @@
 #include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/memory.h"
+#include "base/srgb.h"
 #include "gloam/error.h"
-#include "gloam/exr.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -136,8 +136,6 @@ png_image header_of(const cv::Mat& image) {
 unsigned char to_byte(double v) {
   return std::isnan(v) ? 0 : cv::saturate_cast<unsigned char>(std::clamp(v, 0.0, 1.0) * 255);
 }
-
-double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
 cv::Mat image_of(const Plane& plane) {
   return plane.channels.size() == 1 ? grey_image(plane.channels[0]) : colour_image(plane);

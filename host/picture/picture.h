@@ -21,9 +21,6 @@ inline const cv::Vec3b background_line(186, 186, 186);
 /// 0 .. 1 to 0 .. 255, clamped. NaN becomes black: a picture must show something.
 unsigned char to_byte(double v);
 
-/// Linear light as an sRGB value, 0 .. 1 each.
-double srgb(double v);
-
 /// Grey for one component; else the first three as red, green and blue: unit vectors as 0.5 + 0.5 n, others clamped to
 /// 0..1 through sRGB. A missing component is 0. CV_8UC1 or CV_8UC3.
 cv::Mat image_of(const Plane& plane);

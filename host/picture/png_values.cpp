@@ -12,7 +12,7 @@
 #include "base/file_ledger.h"
 #include "base/files.h"
 #include "gloam/error.h"
-#include "gloam/exr.h"
+#include "gloam/frame.h"
 
 namespace gloam {
 namespace {

@@ -14,14 +14,14 @@ namespace {
 #define FRAME_SCALAR float
 #define FRAME_NAME FrameOfFloats
 #define NEIGHBOUR_NAME NeighbourOfFloats
-#include "shared/frame/frame.h"
+#include "shared/both/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
 #undef NEIGHBOUR_NAME
 #define FRAME_SCALAR double
 #define FRAME_NAME FrameOfDoubles
 #define NEIGHBOUR_NAME NeighbourOfDoubles
-#include "shared/frame/frame.h"
+#include "shared/both/frame.h"
 #undef FRAME_SCALAR
 #undef FRAME_NAME
 #undef NEIGHBOUR_NAME

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/lists.h"
+#include "frame/two_eyes.h"
 #include "gloam/error.h"
-#include "gloam/stereo_consistency.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-// A view's projection as kernels get it (kernels/shared/frame/projection.h).
+// A view's projection as kernels get it (kernels/shared/both/projection.h).
 #pragma once
 
 #include "gloam/frame.h"
@@ -7,12 +7,12 @@ namespace gloam {
 
 #define PROJECTION_SCALAR float
 #define PROJECTION_NAME ProjectionOfFloats
-#include "shared/frame/projection.h"
+#include "shared/both/projection.h"
 #undef PROJECTION_SCALAR
 #undef PROJECTION_NAME
 #define PROJECTION_SCALAR double
 #define PROJECTION_NAME ProjectionOfDoubles
-#include "shared/frame/projection.h"
+#include "shared/both/projection.h"
 #undef PROJECTION_SCALAR
 #undef PROJECTION_NAME
 

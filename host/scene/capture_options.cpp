@@ -6,7 +6,7 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
-#include "shared/sampling/stochastic.h"
+#include "shared/both/stochastic.h"
 
 namespace gloam {
 namespace {

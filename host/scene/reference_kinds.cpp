@@ -7,6 +7,7 @@
 
 #include "base/lists.h"
 #include "base/words.h"
+#include "gloam/environment_file.h"
 #include "gloam/error.h"
 #include "gloam/scene/bounces_reference.h"
 #include "gloam/scene/composite_reference.h"

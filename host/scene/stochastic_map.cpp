@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "shared/sampling/stochastic.h"
+#include "shared/both/stochastic.h"
 
 namespace gloam {
 

@@ -200,9 +200,11 @@ std::shared_ptr<const EnvironmentLight> environment_light(const std::string& fil
   Kept& kept = all[file];
   if (kept.light && !unknown && kept.time == time) return kept.light;
   kept.light = nullptr;
+  if (!file.empty() && !environment_reader())
+    throw Error("{}: environments are read from files by gloam::frames, and this program is linked without it", file);
   kept.light = file.empty()
                    ? std::make_shared<const EnvironmentLight>(dvec3(1))
-                   : std::make_shared<const EnvironmentLight>(read_environment(file, EnvironmentAxes::blender));
+                   : std::make_shared<const EnvironmentLight>(environment_reader()(file, EnvironmentAxes::blender, 0));
   kept.time = time;
   return kept.light;
 }

@@ -31,7 +31,8 @@ class EnvironmentLight {
   std::vector<glm::dvec3> on_surfaces_;
 };
 
-/// The light of a file; without one even light of radiance 1. Kept until the file changes. Throws as `read_environment` does.
+/// The light of a file; without one even light of radiance 1. Kept until the file changes. Throws as the reader
+/// of environments does (environment_map.h), and where none is set.
 std::shared_ptr<const EnvironmentLight> environment_light(const std::string& file);
 
 /// The first numbers of a kernel's table: the rotation from view space to the directions of the picture, row by row, and one that fills

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "gloam/error.h"
-#include "shared/lanes/hash.h"
+#include "shared/both/hash.h"
 
 namespace gloam {
 namespace {

@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define ADAPTIVE_PARAMS(P)              \
   P(float, least_range, 0.4f, 0, 1, "", \

@@ -1,5 +1,5 @@
 #include "shared/filter/bilateral_params.h"
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define BILATERAL_FILTER_PARAMS(P)                                        \
   P(float, radius, 0.5f, 0, INFINITY, "scene units",                      \

@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 // The light, and how far it is followed.
 #define CONTACT_LIGHT_PARAMS(P)                                                                                       \

@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define DIELECTRIC_PARAMS(P)             \
   P(float, reflectance, 0.04f, 0, 1, "", \

@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define GAUSSIAN_PARAMS(P)                                                   \
   P(float, sigma, 1.5f, 0, 64, "pixels", "standard deviation; 0: no filter") \

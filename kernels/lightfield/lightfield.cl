@@ -1,6 +1,6 @@
 // Ambient occlusion for light-field displays (Doronin, Kara, Barsi, Martini 2017). A display's module has no single centre of
 // projection: no matrix leads from its image and depths back to points. So points are read from the plane `position`, and only
-// the map from points to pixels is used (Algorithm 2; shared/frame/projection.h). With a camera's map, the results are `ssao` and
+// the map from points to pixels is used (Algorithm 2; shared/both/projection.h). With a camera's map, the results are `ssao` and
 // `hbao+`.
 //
 // lightfield_ssao_estimate       share of the points in a ball around the pixel's point that lie behind what the image shows; of

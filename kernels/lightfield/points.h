@@ -9,7 +9,7 @@
 #ifndef GLOAM_LIGHTFIELD_POINTS_H
 #define GLOAM_LIGHTFIELD_POINTS_H
 
-#include "shared/lanes/hash.h"
+#include "shared/both/hash.h"
 #include "shared/sampling/ball.h"
 
 #define TABLE constant float*

@@ -3,7 +3,7 @@
 #define GLOAM_LIGHTFIELD_SPOT_H
 
 #include "estimators/ball.h"
-#include "shared/frame/projection.h"
+#include "shared/both/projection.h"
 #include "shared/lanes/pixel_list.h"
 
 // The planes that describe surfaces.

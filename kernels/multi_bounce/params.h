@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define MULTI_BOUNCE_PARAMS(P)        \
   P(choice, fit, own, (own, jimenez), \

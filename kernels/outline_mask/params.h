@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define OUTLINE_MASK_PARAMS(P)                                                                                   \
   P(float, least_count, 2, 1, INFINITY, "",                                                                      \

@@ -2,7 +2,7 @@
 //
 // in : depth     planar distance, scene units, +inf = background
 // out: position  scene units, the world's axes, relative to the camera; 0 on background
-#include "shared/frame/projection.h"
+#include "shared/both/projection.h"
 
 kernel void positions(Frame frame, PROJECTIONS projections, PLANE depth, PLANE_OUT position_x, PLANE_OUT position_y,
                       PLANE_OUT position_z) {

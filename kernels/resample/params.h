@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define RESAMPLE_PARAMS(P)                                                                                            \
   P(float, radius, 0.5f, 0, INFINITY, "scene units", "radius of the AO to be upsampled: the unit of depth_tolerance") \

@@ -1,5 +1,5 @@
 #include "shared/filter/bilateral_params.h"
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define SPECULAR_OCCLUSION_PARAMS(P)                                                                             \
   P(choice, method, sectors, (sectors, cone, lagarde),                                                           \

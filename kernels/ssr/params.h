@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 #include "shared/rays/environment_params.h"
 
 // How a ray is followed.

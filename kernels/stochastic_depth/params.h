@@ -1,4 +1,4 @@
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 #define STOCHASTIC_DEPTH_PARAMS(P)                                                        \
   P(int, samples, 4, 1, 16, "", "depths per pixel")                                       \

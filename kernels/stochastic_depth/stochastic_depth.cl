@@ -6,7 +6,7 @@
 // out: stochastic  stack of SAMPLES depths; +inf where a sample was offered nothing
 // -D SAMPLES, HASHED, PEEL_LAYERS
 #include "shared/lanes/load.h"
-#include "shared/sampling/stochastic.h"
+#include "shared/both/stochastic.h"
 #include "stochastic_depth/params.h"
 
 static inline natural subset_of(natural hash, uint alpha) {

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "cli/gloam_process.h"
-#include "gloam/environment_map.h"
+#include "gloam/environment_file.h"
 #include "support/stress.h"
 
 namespace gloam::test {

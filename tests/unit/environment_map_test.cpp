@@ -1,4 +1,5 @@
 // Environments: which texel lies in which direction, and what is refused.
+#include "gloam/environment_file.h"
 #include "gloam/environment_map.h"
 
 #include <OpenEXR/ImfArray.h>

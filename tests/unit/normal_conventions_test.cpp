@@ -19,7 +19,7 @@
 #include "gloam/arrays.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "gloam/normal_convention.h"
+#include "gloam/conventions.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/scene.h"
 #include "gloam/scene/tracer.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gloam/frame.h"
-#include "gloam/normal_convention.h"
+#include "gloam/conventions.h"
 
 namespace gloam {
 

@@ -51,9 +51,12 @@ class EnvironmentMap {
   double turn_;  ///< radians
 };
 
-/// Reads the colour (R, G, B) of an EXR file. Throws Error for a file without colour, for one that is no lat-long map (neither twice
-/// as wide as high nor said to be one by its attribute `envmap`), and as the map itself does.
-EnvironmentMap read_environment(const std::filesystem::path& path, EnvironmentAxes axes = EnvironmentAxes::openexr,
-                                double turn_degrees = 0);
+/// Reads the map of a file.
+using EnvironmentReader = EnvironmentMap (*)(const std::filesystem::path& path, EnvironmentAxes axes, double turn_degrees);
+
+/// What reads environments where a technique's setting names a file. Planes need no files, so the room that has them sets it, exr/; null
+/// in a program without that.
+EnvironmentReader environment_reader();
+void set_environment_reader(EnvironmentReader reader);
 
 }  // namespace gloam

@@ -10,14 +10,9 @@
 #include <vector>
 
 #include "gloam/frame.h"
-#include "gloam/normal_convention.h"
+#include "gloam/conventions.h"
 
 namespace gloam {
-
-/// Largest frame accepted, in pixels. A larger one is refused by its header, before memory is allocated.
-inline constexpr long long max_pixels = 1LL << 28;
-
-enum class DepthConvention { automatic, z, ray, ndc, reversed };
 
 /// What the user states about a file; it overrides what would be found or assumed. Every field may stay empty.
 struct ReadOptions {
@@ -31,7 +26,7 @@ struct ReadOptions {
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: depth that means background, instead of 1e10 and more
   NormalConvention normals;         ///< --normal-space, --normal-range, --normal-axes
-  /// Of a frame of a shot: what was found of the normals for all of its frames (normal_convention.h), by the path of the frame's file: of two
+  /// Of a frame of a shot: what was found of the normals for all of its frames (conventions.h), by the path of the frame's file: of two
   /// eyes each has its own. Called where normals are read and something of their convention is not stated; null: the frame's own decide.
   std::function<FoundNormals(const std::filesystem::path& file)> shot_normals;
   std::vector<std::string> views;  ///< --view, --views: views to read, in this order; empty: all
@@ -47,6 +42,8 @@ struct ReadOptions {
   long long most_pixels = max_pixels;
   /// --plane depth=Layer.Z: plane -> channel, channels (a,b,c), layer, or "none", which hides the plane.
   std::map<std::string, std::string> channels;
+
+  StatedDepth stated_depth() const { return {depth, near, far, background}; }
 };
 
 /// A channel of the file that holds one component of a plane.

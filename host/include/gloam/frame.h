@@ -12,6 +12,9 @@
 
 namespace gloam {
 
+/// Largest frame accepted, in pixels. A larger one is refused before memory is allocated: a file by its header.
+inline constexpr long long max_pixels = 1LL << 28;
+
 /// Pixel rectangle, ends exclusive. EXR coordinates: y down.
 struct Window {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;

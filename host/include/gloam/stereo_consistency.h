@@ -68,8 +68,4 @@ struct StereoInconsistency {
 StereoInconsistency stereo_inconsistency(const Frame& frame, const std::string& plane,
                                          const StereoOptions& options = {});
 
-/// Whether the other view sees the surface of any pixel of one of two views, by the back-check. Both need depth and a camera with a
-/// pose.
-bool have_surface_in_common(const Frame& frame);
-
 }  // namespace gloam

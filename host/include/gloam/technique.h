@@ -100,7 +100,7 @@ struct Pass {
   Footprint footprint;
   /// With a mask it skips rows of lanes without a wanted pixel (shared/lanes/wanted.h).
   bool can_skip = false;
-  /// The kernel reads `projections` (shared/frame/projection.h): the view's own, then, if it reads key views, those of the
+  /// The kernel reads `projections` (shared/both/projection.h): the view's own, then, if it reads key views, those of the
   /// nearest and of the further one.
   bool projects = false;
   /// Tables of numbers that the kernel reads, the same for all pixels, by argument.

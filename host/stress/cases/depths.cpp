@@ -170,12 +170,10 @@ Frame encoded(const Shot& shot, const Scene& scene, const Encoding& encoding, bo
       depth.at(x, y) = seen ? encoding.encode(seen->depth) : nothing;
     }
   }
-  ReadOptions options;
-  options.depth = encoding.convention;
-  options.near = near;
-  if (encoding.convention == DepthConvention::ndc) options.far = far;
+  StatedDepth stated{.convention = encoding.convention, .near = near};
+  if (encoding.convention == DepthConvention::ndc) stated.far = far;
   std::vector<std::string> assumed;
-  to_view_depth(depth, nullptr, frame.window, shot.camera, options, assumed);
+  to_view_depth(depth, nullptr, frame.window, shot.camera, stated, assumed);
   normalise(frame);
   return frame;
 }

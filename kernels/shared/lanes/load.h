@@ -2,7 +2,7 @@
 #ifndef GLOAM_LOAD_H
 #define GLOAM_LOAD_H
 
-#include "shared/frame/frame.h"
+#include "shared/both/frame.h"
 #include "shared/lanes/lanes.h"
 
 #define PLANE global const float* restrict

@@ -2,7 +2,7 @@
 #ifndef GLOAM_AMBIENT_OCCLUSION_H
 #define GLOAM_AMBIENT_OCCLUSION_H
 
-#include "shared/lanes/params.h"
+#include "shared/both/params.h"
 
 // Parameters of every technique that samples around a pixel.
 #define REACH_PARAMS(P)                                                                      \

@@ -21,7 +21,7 @@ struct CaptureView {
   std::optional<Camera> previous_camera = {};  ///< camera of the frame before, for motion vectors
 };
 
-/// A stochastic depth map of all surfaces under the pixel centre (kernels/shared/sampling/stochastic.h).
+/// A stochastic depth map of all surfaces under the pixel centre (kernels/shared/both/stochastic.h).
 struct StochasticOptions {
   int samples = 0;     ///< depths per pixel, 0 to 16: planes stochastic.00 ...
   double alpha = 0.2;  ///< share of the samples that each surface is offered to, 0 to 1; used as float

@@ -5,9 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "base/lists.h"
 #include "gloam/error.h"
-#include "gloam/exr.h"
 
 namespace gloam {
 namespace {
@@ -27,25 +25,9 @@ dvec3 to_world(const dvec3& picture, EnvironmentAxes axes) {
   return axes == EnvironmentAxes::openexr ? dvec3(picture.y, picture.z, picture.x) : picture;
 }
 
-/// "latlong", "cube", or empty if the file does not say.
-std::string stated_kind(const FrameFile& file) {
-  for (const auto& [name, text] : file.attributes()) {
-    if (name == "envmap") return text;
-  }
-  return "";
-}
-
-void check_kind(const FrameFile& file, int width, int height) {
-  const std::string kind = stated_kind(file);
-  if (kind == "latlong") return;
-  if (!kind.empty())
-    throw Error("{}: is an environment of the kind '{}'; a lat-long one is needed, which exrenvmap -latlong makes",
-                file.path().string(), kind);
-  if (width != 2 * height)
-    throw Error(
-        "{}: is {} x {} and no lat-long environment, which is twice as wide as high or has the attribute envmap; give "
-        "another file",
-        file.path().string(), width, height);
+EnvironmentReader& reader() {
+  static EnvironmentReader set = nullptr;
+  return set;
 }
 
 }  // namespace
@@ -110,28 +92,8 @@ dvec3 EnvironmentMap::radiance(const dvec3& direction) const {
   return (1 - v) * ((1 - u) * texel(0, 0) + u * texel(1, 0)) + v * ((1 - u) * texel(0, 1) + u * texel(1, 1));
 }
 
-EnvironmentMap read_environment(const std::filesystem::path& path, EnvironmentAxes axes, double turn_degrees) {
-  ReadOptions options;
-  options.as_stored = true;
-  options.only_looks = true;
-  FrameFile file(path, options);
-  if (!contains(file.common_planes(), "color"))
-    throw Error("{}: has no colour (R, G, B), so that it is no environment", path.string());
-  check_kind(file, file.window().width(), file.window().height());
-  const Frame frame = file.read({"color"});
-  const std::vector<Channel>& c = frame.views[0].planes.at("color").channels;
-  std::vector<vec3> texels;
-  texels.reserve(size_t(frame.width()) * size_t(frame.height()));
-  for (int y = 0; y < frame.height(); ++y) {
-    for (int x = 0; x < frame.width(); ++x) texels.emplace_back(c[0].at(x, y), c[1].at(x, y), c[2].at(x, y));
-  }
-  try {
-    return EnvironmentMap(frame.width(), frame.height(), std::move(texels), axes, turn_degrees);
-  } catch (const UsageError&) {
-    throw;
-  } catch (const Error& error) {
-    throw Error("{}: {}", path.string(), error.what());
-  }
-}
+EnvironmentReader environment_reader() { return reader(); }
+
+void set_environment_reader(EnvironmentReader of_files) { reader() = of_files; }
 
 }  // namespace gloam

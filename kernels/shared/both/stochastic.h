@@ -11,7 +11,7 @@
 
 #define STOCHASTIC_MOST 16
 
-#include "shared/lanes/hash.h"
+#include "shared/both/hash.h"
 
 #ifdef __OPENCL_C_VERSION__
 #define UPPER_PRODUCT(a, b) mul_hi(a, b)

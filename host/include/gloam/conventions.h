@@ -1,4 +1,4 @@
-// What the components of a normal stand for where a file or an array holds it.
+// What the values of depth and normals stand for where a file or an array holds them.
 #pragma once
 
 #include <array>
@@ -7,6 +7,15 @@
 #include <vector>
 
 namespace gloam {
+
+enum class DepthConvention { automatic, z, ray, ndc, reversed };
+
+/// What is stated of depth.
+struct StatedDepth {
+  DepthConvention convention = DepthConvention::automatic;
+  std::optional<double> near, far;  ///< for NDC and reversed depth, and the far plane as background
+  std::optional<float> background;  ///< depth that means background, instead of 1e10 and more
+};
 
 enum class NormalSpace { automatic, view, world };
 
