@@ -6,9 +6,9 @@
 
 #include "base/lists.h"
 #include "base/low_discrepancy.h"
-#include "bench/measures.h"
-#include "bench/native.h"
-#include "cli/typed.h"
+#include "measure/measures.h"
+#include "measure/native.h"
+#include "flags/typed.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "loggia.h"

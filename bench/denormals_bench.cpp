@@ -10,7 +10,7 @@
 
 #include "base/low_discrepancy.h"
 #include "bench/bench_frame.h"
-#include "bench/timing.h"
+#include "measure/timing.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
 #include "stress/frames.h"

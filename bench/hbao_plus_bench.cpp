@@ -8,11 +8,11 @@
 #include <memory>
 
 #include "bench/bench_frame.h"
-#include "bench/floors.h"
-#include "bench/measures.h"
-#include "bench/naive.h"
-#include "bench/native.h"
-#include "bench/timing.h"
+#include "measure/floors.h"
+#include "measure/measures.h"
+#include "measure/naive.h"
+#include "measure/native.h"
+#include "measure/timing.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
 

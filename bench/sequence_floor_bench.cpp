@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "base/elapsed.h"
-#include "cli/typed.h"
+#include "flags/typed.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"

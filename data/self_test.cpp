@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "gloam/error.h"
-#include "run/data_files.h"
+#include "technique/data_files.h"
 
 namespace gloam::doctor {
 namespace {

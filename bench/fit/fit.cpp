@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "bench/plans.h"
+#include "measure/plans.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
 

@@ -13,7 +13,7 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "bench/bench_frame.h"
-#include "bench/plans.h"
+#include "measure/plans.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"

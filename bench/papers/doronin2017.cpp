@@ -8,7 +8,7 @@
 #include "bench/papers/display_stage.h"
 #include "bench/papers/neighbouring_views.h"
 #include "bench/papers/timed_table.h"
-#include "bench/timing.h"
+#include "measure/timing.h"
 
 namespace gloam::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "bench/papers/study.h"
 #include "bench/papers/timed_table.h"
-#include "bench/timing.h"
+#include "measure/timing.h"
 #include "gloam/scene/capture.h"
 
 namespace gloam::bench {

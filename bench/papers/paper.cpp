@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/lists.h"
-#include "bench/document.h"
+#include "measure/document.h"
 #include "bench/papers/doronin2017.h"
 #include "bench/papers/odssao2020.h"
 #include "bench/papers/shi2022.h"

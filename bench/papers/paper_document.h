@@ -1,7 +1,7 @@
 // What a reproduced paper leaves in bench.json (docs/benchmarking.md).
 #pragma once
 
-#include "bench/document.h"
+#include "measure/document.h"
 #include "bench/papers/paper.h"
 
 namespace gloam::bench {

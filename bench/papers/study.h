@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/measures.h"
+#include "measure/measures.h"
 #include "bench/papers/panels.h"
 #include "bench/papers/paper.h"
-#include "bench/plans.h"
+#include "measure/plans.h"
 #include "gloam/scene/outlines.h"
 #include "gloam/scene/reference.h"
 #include "gloam/scene/scene.h"

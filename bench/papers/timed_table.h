@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/papers/study.h"
-#include "bench/timing.h"
+#include "measure/timing.h"
 
 namespace gloam::bench {
 

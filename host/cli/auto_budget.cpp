@@ -5,7 +5,7 @@
 
 #include "base/lists.h"
 #include "base/statistics.h"
-#include "run/effect_speeds.h"
+#include "auto/effect_speeds.h"
 
 namespace gloam::cli {
 namespace {

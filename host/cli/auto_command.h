@@ -7,8 +7,8 @@
 #include "cli/auto_composite.h"
 #include "cli/options.h"
 #include "cli/shot_flags.h"
-#include "plan/automatic.h"
-#include "plan/budget.h"
+#include "auto/automatic.h"
+#include "auto/budget.h"
 
 namespace gloam::cli {
 

@@ -4,7 +4,7 @@
 
 #include "cli/memory.h"
 #include "gloam/exr_copy.h"
-#include "plan/automatic.h"
+#include "auto/automatic.h"
 
 namespace gloam::cli {
 namespace {

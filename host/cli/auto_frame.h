@@ -11,8 +11,8 @@
 #include "cli/radius.h"
 #include "frame/unfit.h"
 #include "gloam/composition.h"
-#include "plan/automatic.h"
-#include "plan/budget.h"
+#include "auto/automatic.h"
+#include "auto/budget.h"
 
 namespace gloam::cli {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "bench/measurement.h"
+#include "measure/measurement.h"
 #include "cli/options.h"
 #include "score/result_file.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/lists.h"
-#include "bench/document.h"
+#include "measure/document.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

@@ -1,7 +1,7 @@
 // What gloam bench prints of its measurements.
 #pragma once
 
-#include "bench/tables.h"
+#include "measure/tables.h"
 #include "cli/bench_request.h"
 
 namespace gloam::cli {

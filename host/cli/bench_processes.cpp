@@ -8,7 +8,7 @@
 #include "base/json_text.h"
 #include "base/statistics.h"
 #include "base/temporary_folder.h"
-#include "bench/intervals.h"
+#include "measure/intervals.h"
 #include "cli/children.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/effects.h"
+#include "measure/effects.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

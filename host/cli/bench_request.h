@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measurement.h"
+#include "measure/measurement.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
 #include "sequence/frame_list.h"

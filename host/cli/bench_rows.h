@@ -1,9 +1,9 @@
 // gloam bench --rows FILE and --baseline FILE: the rows of an earlier result, measured again.
 #pragma once
 
-#include "bench/measurement.h"
+#include "measure/measurement.h"
 #include "cli/bench_request.h"
-#include "report/joined.h"
+#include "results/joined.h"
 
 namespace gloam::cli {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/sequence_document.h"
+#include "measure/sequence_document.h"
 #include "cli/bench_file.h"
 #include "cli/bench_print.h"
 #include "cli/memory.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/sequence.h"
+#include "measure/sequence.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
 #include "sequence/frame_list.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "base/json_text.h"
-#include "bench/document.h"
-#include "bench/effects.h"
-#include "bench/sequence.h"
-#include "bench/sequence_document.h"
+#include "measure/document.h"
+#include "measure/effects.h"
+#include "measure/sequence.h"
+#include "measure/sequence_document.h"
 #include "cli/bench_file.h"
 #include "cli/bench_print.h"
 #include "cli/score_targets.h"

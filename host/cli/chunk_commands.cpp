@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/typed.h"
+#include "flags/typed.h"
 #include "gloam/error.h"
 #include "sequence/chunks.h"
 

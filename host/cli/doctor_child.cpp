@@ -12,7 +12,7 @@
 #include "doctor/measure.h"
 #include "doctor/self_test.h"
 #include "gloam/exr.h"
-#include "run/data_files.h"
+#include "technique/data_files.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
 #include "stress/frames.h"

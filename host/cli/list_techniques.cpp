@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "bench/plans.h"
+#include "measure/plans.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"

@@ -14,7 +14,7 @@
 #include "camera/camera_search.h"
 #include "cli/noted.h"
 #include "gloam/error.h"
-#include "run/plan_files.h"
+#include "sequence/plan_files.h"
 #include "technique/default_technique.h"
 
 namespace gloam::cli {

@@ -13,7 +13,7 @@
 #include "cli/frame_flags.h"
 #include "cli/notes.h"
 #include "cli/technique_flags.h"
-#include "cli/typed.h"
+#include "flags/typed.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
 

@@ -1,5 +1,5 @@
 // gloam pick FRAME.exr --budget 20ms | --error 0.02: the setting to use
-#include "bench/pick.h"
+#include "choose/pick.h"
 
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 
 #include "base/elapsed.h"
 #include "base/temporary_folder.h"
-#include "bench/effects.h"
+#include "measure/effects.h"
 #include "cli/pick_shot.h"
 #include "cli/shot_flags.h"
 #include "cli/subjects.h"

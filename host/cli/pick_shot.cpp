@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/statistics.h"
-#include "bench/sequence_document.h"
+#include "measure/sequence_document.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

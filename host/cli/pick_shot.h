@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "bench/pick.h"
+#include "choose/pick.h"
 #include "cli/bench_sequence.h"
 
 namespace gloam::cli {

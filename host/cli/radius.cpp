@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "gloam/error.h"
-#include "run/plan_files.h"
+#include "sequence/plan_files.h"
 
 namespace gloam::cli {
 namespace {

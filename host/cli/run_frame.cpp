@@ -15,7 +15,7 @@
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
 #include "gloam/visualise.h"
-#include "plan/missed.h"
+#include "run/missed.h"
 
 namespace gloam::cli {
 namespace {

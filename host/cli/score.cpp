@@ -5,7 +5,7 @@
 #include "base/command_line.h"
 #include "base/file_ledger.h"
 #include "base/files.h"
-#include "bench/pictures.h"
+#include "measure/pictures.h"
 #include "cli/memory.h"
 #include "cli/score_command.h"
 #include "cli/score_print.h"

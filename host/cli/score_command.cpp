@@ -6,7 +6,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "base/temporary_folder.h"
-#include "bench/effects.h"
+#include "measure/effects.h"
 #include "cli/camera_file.h"
 #include "cli/foreign_process.h"
 #include "cli/options.h"

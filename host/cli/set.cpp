@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/file_ledger.h"
-#include "bench/commit.h"
+#include "measure/commit.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "set/hard_frames.h"

@@ -2,7 +2,7 @@
 
 #include "cli/chunk_commands.h"
 #include "cli/memory.h"
-#include "cli/typed.h"
+#include "flags/typed.h"
 #include "gloam/frame_numbers.h"
 
 namespace gloam::cli {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bench/effects.h"
+#include "measure/effects.h"
 #include "cli/memory.h"
 #include "cli/notes.h"
 #include "gloam/error.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measurement.h"
+#include "measure/measurement.h"
 #include "cli/radius.h"
 #include "cli/scene_flags.h"
 
@@ -17,7 +17,7 @@ void erase_status();
 /// Throws Error if the folder of -o cannot be made.
 void make_output_folder(const std::filesystem::path& folder);
 
-/// Techniques that make one of these effects (bench/effects.h), without filters.
+/// Techniques that make one of these effects (host/measure/effects.h), without filters.
 std::vector<std::string> techniques_making(const std::vector<std::string>& effects);
 /// Why a technique is not among `techniques_making`; else empty.
 std::string why_not_measured(const Technique& technique, const std::vector<std::string>& effects);

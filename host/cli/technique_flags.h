@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/typed.h"
+#include "flags/typed.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
 #include "run/run_words.h"

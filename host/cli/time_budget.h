@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/typed.h"
+#include "flags/typed.h"
 
 namespace gloam::cli {
 

@@ -1,7 +1,7 @@
 #include "exr/assumed_camera.h"
 
 #include "base/lists.h"
-#include "camera/field_of_view.h"
+#include "frame/field_of_view.h"
 #include "gloam/error.h"
 
 namespace gloam {

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "base/lists.h"
-#include "camera/field_of_view.h"
+#include "frame/field_of_view.h"
 #include "exr/errors.h"
 #include "exr/header_cameras.h"
 #include "gloam/error.h"

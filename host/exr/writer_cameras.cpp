@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "base/lists.h"
-#include "camera/field_of_view.h"
+#include "frame/field_of_view.h"
 #include "camera/rotations.h"
 #include "exr/attributes.h"
 #include "gloam/error.h"

@@ -9,8 +9,8 @@
 #include "leaderboard/embedded.h"
 #include "leaderboard/table.h"
 #include "page/html.h"
-#include "report/embedded_pictures.h"
-#include "report/submitted.h"
+#include "page/embedded_pictures.h"
+#include "page/submitted.h"
 
 namespace gloam::leaderboard {
 namespace {

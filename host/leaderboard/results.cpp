@@ -6,7 +6,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "gloam/error.h"
-#include "report/hard_cases.h"
+#include "results/hard_cases.h"
 
 namespace gloam::leaderboard {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/joined.h"
+#include "results/joined.h"
 
 namespace gloam::leaderboard {
 

@@ -8,7 +8,7 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
-#include "report/submitted.h"
+#include "page/submitted.h"
 
 namespace gloam::leaderboard {
 namespace {

@@ -10,7 +10,7 @@
 #include "python/interrupts.h"
 #include "python/memory.h"
 #include "python/requests.h"
-#include "run/plan_files.h"
+#include "sequence/plan_files.h"
 
 namespace gloam::python {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/joined.h"
+#include "results/joined.h"
 
 namespace gloam::report {
 

@@ -9,7 +9,7 @@
 #include "gloam/error.h"
 #include "report/markdown_text.h"
 #include "report/material.h"
-#include "report/pictures.h"
+#include "page/pictures.h"
 #include "report/sections_choice.h"
 #include "report/sections_errors.h"
 #include "report/sections_sequence.h"

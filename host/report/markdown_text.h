@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/measurements.h"
+#include "results/measurements.h"
 
 namespace gloam::report {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/joined.h"
+#include "results/joined.h"
 #include "report/needs.h"
 
 namespace gloam::report {

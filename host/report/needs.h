@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/front.h"
+#include "results/front.h"
 
 namespace gloam::report {
 

@@ -5,8 +5,8 @@
 #include "base/json_text.h"
 #include "page/html.h"
 #include "report/embedded.h"
-#include "report/embedded_pictures.h"
-#include "report/submitted.h"
+#include "page/embedded_pictures.h"
+#include "page/submitted.h"
 
 namespace gloam::report {
 namespace {

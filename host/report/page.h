@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "report/front.h"
-#include "report/measurements.h"
+#include "results/front.h"
+#include "results/measurements.h"
 
 namespace gloam::report {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "report/markdown_text.h"
-#include "report/submitted.h"
+#include "page/submitted.h"
 
 namespace gloam::report {
 namespace {

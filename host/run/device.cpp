@@ -18,7 +18,7 @@
 #include "run/device_record.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 #include "run/known_devices.h"
 
 namespace gloam {

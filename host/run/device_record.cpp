@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "run/kept_folders.h"
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam {
 namespace {

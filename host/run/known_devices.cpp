@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/data_files.h"
+#include "technique/data_files.h"
 
 namespace gloam {
 

@@ -6,7 +6,7 @@
 #include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/lists.h"
-#include "bench/effects.h"
+#include "measure/effects.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/technique.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/measures.h"
+#include "measure/measures.h"
 
 namespace gloam::score {
 

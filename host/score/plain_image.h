@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measures.h"
+#include "measure/measures.h"
 #include "score/entry.h"
 #include "score/stored_image.h"
 

@@ -9,10 +9,10 @@
 #include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/statistics.h"
-#include "bench/document.h"
-#include "bench/pictures.h"
+#include "measure/document.h"
+#include "measure/pictures.h"
 #include "gloam/error.h"
-#include "report/measurements.h"
+#include "results/measurements.h"
 
 namespace gloam::score {
 namespace {

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "base/lists.h"
-#include "bench/sequence.h"
+#include "measure/sequence.h"
 #include "compare/plane_pairs.h"
 #include "gloam/error.h"
 #include "gloam/flicker.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/similarity.h"
+#include "measure/similarity.h"
 #include "score/entry.h"
 #include "score/fit.h"
 #include "score/submitted_files.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measures.h"
+#include "measure/measures.h"
 #include "gloam/exr.h"
 
 namespace gloam::score {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/lists.h"
-#include "bench/effects.h"
-#include "bench/pictures.h"
+#include "measure/effects.h"
+#include "measure/pictures.h"
 #include "compare/plane_pairs.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measurement.h"
+#include "measure/measurement.h"
 #include "gloam/exr.h"
 
 namespace gloam::score {

@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam {
 namespace {

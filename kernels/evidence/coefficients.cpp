@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gloam/error.h"
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam {
 namespace {

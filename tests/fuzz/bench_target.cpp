@@ -7,7 +7,7 @@
 #include "fuzz/promise.h"
 #include "fuzz/target.h"
 #include "leaderboard/page.h"
-#include "report/joined.h"
+#include "results/joined.h"
 #include "score/entry.h"
 #include "score/result_file.h"
 

@@ -8,12 +8,12 @@
 #include <map>
 #include <vector>
 
-#include "bench/floors.h"
-#include "bench/naive.h"
+#include "measure/floors.h"
+#include "measure/naive.h"
 #include "gloam/error.h"
 #include "plan/layouts.h"
 #include "run/arguments.h"
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 #include "support/kernel_runs.h"
 #include "support/long.h"
 

@@ -14,7 +14,7 @@
 
 #include "camera/camera_json.h"
 #include "camera/camera_search.h"
-#include "camera/field_of_view.h"
+#include "frame/field_of_view.h"
 #include "camera/matrices.h"
 #include "gloam/error.h"
 #include "unit/read_channel.h"

@@ -1,5 +1,5 @@
-// The choice of effects for a time or an error (host/plan/choice.h).
-#include "plan/choice.h"
+// The choice of effects for a time or an error (host/auto/choice.h).
+#include "auto/choice.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "camera/camera_json.h"
 #include "camera/camera_search.h"
-#include "camera/field_of_view.h"
+#include "frame/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/normalise.h"

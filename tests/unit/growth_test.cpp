@@ -1,5 +1,5 @@
 // The exponent of growth, and the frames for measuring it.
-#include "bench/growth.h"
+#include "measure/growth.h"
 
 #include <gtest/gtest.h>
 

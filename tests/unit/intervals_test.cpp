@@ -1,5 +1,5 @@
 // Intervals of medians: closed forms, and simulated rounds whose median is known.
-#include "bench/intervals.h"
+#include "measure/intervals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/contest.h"
+#include "measure/contest.h"
 
 namespace gloam::test {
 namespace {

@@ -1,5 +1,5 @@
 // The split of a technique's time.
-#include "bench/race.h"
+#include "measure/race.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "gloam/error.h"
-#include "report/front.h"
-#include "report/joined.h"
+#include "results/front.h"
+#include "results/joined.h"
 #include "report/markdown_text.h"
 #include "report/needs.h"
 

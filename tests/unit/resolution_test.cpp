@@ -14,7 +14,7 @@
 #include "gloam/planes.h"
 #include "gloam/run.h"
 #include "plan/resample.h"
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"

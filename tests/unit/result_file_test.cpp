@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/files.h"
-#include "bench/pictures.h"
+#include "measure/pictures.h"
 #include "support/long.h"
 #include "unit/message_of.h"
 

@@ -1,5 +1,5 @@
 // The counts of the roofline, against arithmetic by hand.
-#include "bench/roofline.h"
+#include "measure/roofline.h"
 
 #include <gtest/gtest.h>
 

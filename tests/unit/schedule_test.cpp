@@ -1,5 +1,5 @@
 // What is measured first where the time is limited.
-#include "bench/schedule.h"
+#include "measure/schedule.h"
 
 #include <gtest/gtest.h>
 

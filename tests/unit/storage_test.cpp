@@ -1,5 +1,5 @@
 // The effect of half precision on planes.
-#include "bench/storage.h"
+#include "measure/storage.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/kernel_sources.h"
+#include "technique/kernel_sources.h"
 #include "stress/case.h"
 #include "stress/frames.h"
 

@@ -1,0 +1,210 @@
+#include "auto/budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/lists.h"
+#include "base/statistics.h"
+
+namespace gloam {
+namespace {
+
+/// More rounds than options of one effect are never needed; this bounds a device whose times jump.
+constexpr int most_rounds = 24;
+
+RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means) {
+  RunOptions options = means.options;
+  options.repeat = std::max(3, means.options.repeat);
+  return run(plan, frame, means.device, options);
+}
+
+/// An option's error beside the one of the effect's sign and size, which the glance's losses hold already.
+double unsigned_error(const Technique& technique, const EffectOption& option) {
+  const double missing = 1 - 1 / true_per_seen_change(technique);
+  return std::sqrt(std::max(0.0, option.relative_error * option.relative_error - missing * missing));
+}
+
+double pixels_of(const Frame& frame) { return double(frame.width()) * frame.height() * double(frame.views.size()); }
+
+/// Options of all effects that the table does not have are measured on the glance's pixels.
+void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, EffectSpeeds& speeds) {
+  std::vector<const EffectOption*> unknown;
+  for (const BudgetedEffect& effect : effects)
+    for (const EffectOption& option : effect.options)
+      if (!speeds.find(option.label())) unknown.push_back(&option);
+  const Frame& small = means.glance.small();
+  for (size_t i = 0; i < unknown.size(); ++i) {
+    if (means.measuring) means.measuring(int(i), int(unknown.size()));
+    const Plan plan = make_plan(unknown[i]->request, means.available, means.holds);
+    speeds.set(unknown[i]->label(), 1e6 * median(timed(plan, small, means).total_ms) / pixels_of(small));
+  }
+  if (means.measuring && !unknown.empty()) means.measuring(int(unknown.size()), int(unknown.size()));
+  const double pixels = pixels_of(means.frame);
+  for (BudgetedEffect& effect : effects) {
+    effect.expected_ms.clear();
+    for (const EffectOption& option : effect.options)
+      effect.expected_ms.push_back(speeds.find(option.label()).value_or(1) * pixels / 1e6);
+  }
+}
+
+/// One round of measuring: what was measured on the frame, and by how much the table was wrong.
+class Spending {
+ public:
+  Spending(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, EffectSpeeds& speeds)
+      : effects_(effects), means_(means), speeds_(speeds), times_(effects.size()), corrections_(effects.size(), 1) {}
+
+  ChoiceProblem problem() const {
+    ChoiceProblem problem;
+    for (size_t i = 0; i < effects_.size(); ++i) {
+      problem.effects.emplace_back();
+      for (size_t k = 0; k < effects_[i].options.size(); ++k) {
+        const EffectOption& option = effects_[i].options[k];
+        problem.effects.back().push_back({option.makes, ms_with_its_part(i, int(k)), option.relative_error,
+                                          unsigned_error(*effects_[i].technique, option)});
+      }
+      problem.loss_without.push_back(effects_[i].without);
+    }
+    problem.loss_with = [this](const std::vector<std::string>& planes) { return means_.glance.loss_with(planes); };
+    return problem;
+  }
+
+  /// Runs what is chosen and was not run yet. Whether there was any.
+  bool run_chosen(const Choice& choice) {
+    bool any = false;
+    for (size_t i = 0; i < effects_.size(); ++i) {
+      BudgetedEffect& effect = effects_[i];
+      if (choice.options[i] == left_out) {
+        effect.chosen = left_out;
+        effect.result = {};
+        continue;
+      }
+      if (times_[i].count(choice.options[i]) && effect.chosen == choice.options[i]) continue;
+      any = true;
+      effect.chosen = choice.options[i];
+      run_one(i);
+    }
+    return any;
+  }
+
+ private:
+  double ms_of(size_t effect, int option) const {
+    const auto measured = times_[effect].find(option);
+    if (measured != times_[effect].end()) return measured->second;
+    return effects_[effect].expected_ms[size_t(option)] * corrections_[effect];
+  }
+
+  /// What completes an effect takes no less than the effect alone, however noisy the times are.
+  double ms_with_its_part(size_t effect, int option) const {
+    const std::vector<EffectOption>& options = effects_[effect].options;
+    double ms = ms_of(effect, option);
+    if (options[size_t(option)].request.outputs.size() == 1) return ms;
+    for (size_t k = 0; k < options.size(); ++k) {
+      const bool is_its_part =
+          options[k].request.outputs.size() == 1 && options[k].setting() == options[size_t(option)].setting();
+      if (is_its_part) ms = std::max(ms, ms_of(effect, int(k)));
+    }
+    return ms;
+  }
+
+  void take(BudgetedEffect& effect, Plan plan, RunResult result, bool is_masked) {
+    effect.ms = median(result.total_ms);
+    effect.result = std::move(result);
+    effect.plan = std::move(plan);
+    effect.is_masked = is_masked;
+  }
+
+  void run_one(size_t i) {
+    BudgetedEffect& effect = effects_[i];
+    const EffectOption& option = effect.options[size_t(effect.chosen)];
+    Plan plan = make_plan(option.request, means_.available, means_.holds);
+    RunResult result = timed(plan, means_.frame, means_);
+    const double everywhere = median(result.total_ms);
+    take(effect, std::move(plan), std::move(result), false);
+    speeds_.set(option.label(), 1e6 * everywhere / pixels_of(means_.frame));
+    corrections_[i] = everywhere / std::max(effect.expected_ms[size_t(effect.chosen)], 1e-6);
+    if (!effect.mask.empty()) try_mask(effect, option);
+    // The slower of two times is kept, so that noise does not make a choice go round in circles.
+    double& kept = times_[i][effect.chosen];
+    kept = std::max(kept, effect.ms);
+  }
+
+  void try_mask(BudgetedEffect& effect, const EffectOption& option) {
+    PlanRequest request = option.request;
+    request.mask = effect.mask;
+    request.elsewhere = effect.elsewhere;
+    Plan plan = make_plan(request, means_.available, means_.holds);
+    RunResult result = timed(plan, means_.frame, means_);
+    if (means_.always_masked || median(result.total_ms) <= most_of_everywhere * effect.ms)
+      take(effect, std::move(plan), std::move(result), true);
+  }
+
+  std::vector<BudgetedEffect>& effects_;
+  const BudgetMeans& means_;
+  EffectSpeeds& speeds_;
+  std::vector<std::map<int, double>> times_;  ///< by effect, measured on the frame
+  std::vector<double> corrections_;           ///< by effect: measured over expected
+};
+
+Choice choose_for(const BudgetGoal& goal, const ChoiceProblem& problem, double glance_ms, bool& is_missed) {
+  is_missed = false;
+  if (goal.ms) {
+    if (const auto best = best_within_time(problem, *goal.ms - glance_ms)) return *best;
+    is_missed = true;
+    return figures_of(problem, std::vector<int>(problem.effects.size(), left_out));
+  }
+  if (const auto fastest = fastest_within_error(problem, *goal.error)) return *fastest;
+  is_missed = true;
+  return most_accurate(problem);
+}
+
+void name_cheapest(const std::vector<BudgetedEffect>& effects, const ChoiceProblem& problem, Spent& spent) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < effects.size(); ++i) {
+    for (size_t k = 0; k < effects[i].options.size(); ++k) {
+      const double ms = problem.effects[i][k].ms;
+      if (ms >= least) continue;
+      least = ms;
+      spent.cheapest = fmt::format("{} by {}", effects[i].technique->effect.name, effects[i].options[k].label());
+    }
+  }
+  spent.cheapest_ms = spent.glance_ms + (effects.empty() ? 0 : least);
+}
+
+/// What the picture changes by an effect's planes, by any of its options.
+double change_by(const BudgetedEffect& effect, const Glance& glance) {
+  std::vector<std::string> planes;
+  for (const EffectOption& option : effect.options) add_new(planes, option.makes);
+  return glance.change_by(planes);
+}
+
+}  // namespace
+
+Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
+            EffectSpeeds& speeds) {
+  for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
+  fill_speeds(effects, means, speeds);
+  Spent spent;
+  spent.glance_ms = means.glance.ms() + means.probing_ms;
+  Spending spending(effects, means, speeds);
+  Choice choice;
+  for (int round = 0; round < most_rounds; ++round) {
+    choice = choose_for(goal, spending.problem(), spent.glance_ms, spent.is_missed);
+    if (!spending.run_chosen(choice)) break;
+  }
+  const ChoiceProblem problem = spending.problem();
+  spent.expected_error = choice.error;
+  name_cheapest(effects, problem, spent);
+  const bool any = std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e.chosen != left_out; });
+  if (goal.ms && !any && !effects.empty()) spent.is_missed = true;
+  for (BudgetedEffect& effect : effects) {
+    const bool is_left_out = effect.chosen == left_out;
+    effect.lost = effect.without * (is_left_out ? 1 : effect.options[size_t(effect.chosen)].relative_error);
+  }
+  speeds.keep();
+  return spent;
+}
+
+}  // namespace gloam

@@ -1,0 +1,68 @@
+// A budget: effects, presets and resolutions for a time or an error of the whole picture.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "auto/automatic.h"
+#include "auto/choice.h"
+#include "auto/effect_options.h"
+#include "auto/glance.h"
+#include "auto/effect_speeds.h"
+
+namespace gloam {
+
+/// One of both is given, or none: then there is no budget.
+struct BudgetGoal {
+  std::optional<double> ms;     ///< device time, the glance included
+  std::optional<double> error;  ///< expected RMS error of the picture
+  explicit operator bool() const { return ms || error; }
+};
+
+/// An effect that the frame calls for: its options, and after `spend` what was chosen and computed.
+struct BudgetedEffect {
+  const Technique* technique = nullptr;  ///< of the effect
+  std::string mask, elsewhere;           ///< as the decision for the effect has them; empty: none
+  std::vector<EffectOption> options;
+  std::vector<double> expected_ms;  ///< of each option, as the table of the device has it for this frame's size
+
+  int chosen = left_out;
+  bool is_masked = false;  ///< the mask was faster
+  double ms = 0;           ///< as measured on this frame, the median of three runs
+  RunResult result;
+  Plan plan;
+  double lost =
+      0;  ///< expected RMS error of the picture that the choice for this effect brings, or that leaving it out does
+  double without = 0;  ///< RMS change of the true picture by the effect, as expected
+};
+
+struct Spent {
+  double expected_error = 0;  ///< RMS of the picture
+  double glance_ms = 0;       ///< of looking: probes for masks, and the glance
+  /// The goal was not met: no choice is expected to reach the error, or nothing fits the time that the glance leaves.
+  bool is_missed = false;
+  double cheapest_ms = 0;  ///< of the fastest option of any effect, the glance included
+  std::string cheapest;    ///< the effect and the option
+};
+
+/// What spending a budget needs besides the effects.
+struct BudgetMeans {
+  const Frame& frame;
+  const std::vector<std::string>& available;
+  const std::string& holds;
+  Device& device;
+  const RunOptions& options;
+  const Glance& glance;
+  double probing_ms = 0;                                 ///< device time of the probes for masks
+  bool always_masked = false;                            ///< a mask is used where there is one, even if it is slower
+  std::function<void(int done, int of)> measuring = {};  ///< progress of the first measurement on a device
+};
+
+/// Chooses by the device's table of speeds, computes, measures, and chooses again by what was measured, until the choice stays. Options
+/// that the table lacks are measured on the glance's pixels first, once on a device.
+Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
+            EffectSpeeds& speeds);
+
+}  // namespace gloam

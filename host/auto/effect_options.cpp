@@ -1,0 +1,109 @@
+#include "auto/effect_options.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/lists.h"
+#include "gloam/composition.h"
+#include "technique/data_files.h"
+#include "run/run_words.h"
+
+namespace gloam {
+namespace {
+
+/// Of an option that nothing was measured for.
+constexpr double unmeasured_error = 0.6;
+
+const Technique& measured_like(const Technique& technique) {
+  const std::string& refined = technique.effect.refines;
+  return refined.empty() ? technique : find_technique(refined);
+}
+
+std::string setting_of(const std::string& preset, int resolution) {
+  return fmt::format("{}, {}", preset, word_for(resolution, resolution_words));
+}
+
+std::string label_of(const std::vector<std::string>& techniques, const std::string& preset, int resolution) {
+  return fmt::format("{}, {}", fmt::join(techniques, " + "), setting_of(preset, resolution));
+}
+
+const nlohmann::json& measured_figures() {
+  static const nlohmann::json table = nlohmann::json::parse(data_files().at("effect_errors.json"));
+  return table;
+}
+
+/// What refines another is not measured, and that one's figures stand for it. What completes an effect changes no error of its planes.
+double measured_error(const EffectOption& option, const Technique& technique) {
+  const nlohmann::json& errors = measured_figures().at("relative_errors");
+  for (const std::string& name : {technique.name, measured_like(technique).name}) {
+    const auto found = errors.find(label_of({name}, option.preset, option.resolution));
+    if (found != errors.end()) return *found;
+  }
+  return unmeasured_error;
+}
+
+std::vector<std::string> presets_of(const Technique& technique, const PlanRequest& asked) {
+  if (!asked.preset.empty()) return {asked.preset};
+  std::vector<std::string> names;
+  for (const Preset& preset : technique.presets) names.push_back(preset.name);
+  return names;
+}
+
+std::vector<int> resolutions_of(const PlanRequest& asked) {
+  return asked.resolution > 1 ? std::vector{asked.resolution} : std::vector{1, 2, 4};
+}
+
+/// The effect's technique alone, and with each technique that completes it.
+std::vector<std::vector<std::string>> combinations_of(const Technique& technique) {
+  std::vector<std::vector<std::string>> combinations = {{technique.name}};
+  for (const Technique* more : techniques_that_complete(measured_like(technique)))
+    combinations.push_back({technique.name, more->name});
+  return combinations;
+}
+
+std::vector<std::string> parts_among(const std::vector<std::string>& planes) {
+  std::vector<std::string> parts;
+  for (const std::string& plane : part_planes())
+    if (contains(planes, plane)) parts.push_back(plane);
+  return parts;
+}
+
+/// Leaves out settings that the option's plan does not have, and names its planes. False: the frame does not allow it.
+bool complete(EffectOption& option, const Technique& technique, const EffectProbe& probe) {
+  try {
+    option.request = with_known_settings(technique, option.request, probe.available, probe.holds);
+    option.makes = parts_among(make_plan(option.request, probe.available, probe.holds).outputs);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::string EffectOption::label() const { return label_of(request.outputs, preset, resolution); }
+
+std::string EffectOption::setting() const { return setting_of(preset, resolution); }
+
+double true_per_seen_change(const Technique& technique) {
+  return measured_figures().at("true_per_seen_change").value(technique.name, 1.0);
+}
+
+std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe) {
+  std::vector<EffectOption> options;
+  for (const std::vector<std::string>& techniques : combinations_of(technique)) {
+    for (const std::string& preset : presets_of(technique, probe.asked)) {
+      for (const int resolution : resolutions_of(probe.asked)) {
+        EffectOption option{request_everywhere(technique, probe.asked), preset, resolution};
+        option.request.outputs = techniques;
+        option.request.preset = preset;
+        option.request.resolution = resolution;
+        if (!complete(option, technique, probe)) continue;
+        option.relative_error = measured_error(option, technique);
+        options.push_back(std::move(option));
+      }
+    }
+  }
+  return options;
+}
+
+}  // namespace gloam

@@ -1,0 +1,125 @@
+#include "flags/typed.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "base/lists.h"
+#include "gloam/error.h"
+#include "gloam/frame.h"
+
+namespace gloam::cli {
+namespace {
+
+/// The whole text as a number; none if it is not a number.
+template <typename Number>
+std::optional<Number> number_in(const std::string& text) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return {};
+  return value;
+}
+
+bool is_within(double value, const Range<double>& range) {
+  if (range.or_infinite && std::isinf(value)) return value > 0 || range.least < 0;
+  return value >= range.least && value <= range.most;  // false for NaN
+}
+
+[[noreturn]] void refuse_number(const std::string& text, const std::string& flag, const Range<int>& range) {
+  throw UsageError("{} {} is not allowed; a whole number from {} to {} is", flag, text, range.least, range.most);
+}
+
+bool is_within(int value, const Range<int>& range) { return value >= range.least && value <= range.most; }
+
+}  // namespace
+
+double parse_number(const std::string& text, const std::string& flag, const Range<double>& range) {
+  const std::optional<double> value = number_in<double>(text);
+  if (value && is_within(*value, range)) return *value;
+  const char* infinite = !range.or_infinite ? "" : range.least < 0 ? ", or inf or -inf," : ", or inf,";
+  throw UsageError("{} {} is not allowed; a number from {:g} to {:g}{} is", flag, text, range.least, range.most,
+                   infinite);
+}
+
+int parse_number(const std::string& text, const std::string& flag, const Range<int>& range) {
+  const std::optional<int> value = number_in<int>(text);
+  if (value && is_within(*value, range)) return *value;
+  refuse_number(text, flag, range);
+}
+
+void check_number(int value, const std::string& flag, const Range<int>& range) {
+  if (!is_within(value, range)) refuse_number(std::to_string(value), flag, range);
+}
+
+Size parse_size(const std::string& text, const std::string& flag) {
+  const size_t cross = text.find('x');
+  if (cross == std::string::npos || cross == 0 || cross + 1 == text.size())
+    throw UsageError("{} {} is not WIDTHxHEIGHT; write 1920x1080", flag, text);
+  const Range<int> pixels = {1, 65536};
+  const int width = parse_number(text.substr(0, cross), flag + " " + text + ": width", pixels);
+  const int height = parse_number(text.substr(cross + 1), flag + " " + text + ": height", pixels);
+  if ((long long)width * height > max_pixels)
+    throw UsageError("{} {} has more than {} pixels; take a smaller one", flag, text, max_pixels);
+  return {width, height};
+}
+
+namespace {
+
+struct TimeUnit {
+  const char* name;
+  double seconds;
+};
+
+/// The largest first, as the parts of a time follow one another. "m" and "s" stand behind the units that end in them.
+constexpr std::array<TimeUnit, 5> time_units = {{{"h", 3600}, {"m", 60}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}}};
+
+/// Seconds of "2m30s" or "0.5ms"; none for another form.
+std::optional<double> seconds_in(const std::string& text) {
+  double seconds = 0;
+  size_t unit = 0;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find_first_not_of("0123456789.", at), text.size());
+    const size_t next = std::min(text.find_first_of("0123456789.", end), text.size());
+    const std::string name = text.substr(end, next - end);
+    while (unit < time_units.size() && time_units[unit].name != name) ++unit;
+    const std::optional<double> value = number_in<double>(text.substr(at, end - at));
+    if (!value || unit == time_units.size()) return {};
+    seconds += *value * time_units[unit++].seconds;
+    at = next;
+  }
+  return seconds;
+}
+
+}  // namespace
+
+double parse_time(const std::string& text, const std::string& flag) {
+  const std::optional<double> seconds = seconds_in(text);
+  if (seconds && is_within(*seconds, Range<double>{1e-9, 1e6})) return *seconds;
+  throw UsageError("{} {} is not allowed; write a number with its unit, such as 30ms, 500us, 90s, 2m30s or 1h, above 0",
+                   flag, text);
+}
+
+std::vector<std::string> split_list(const std::string& text, const std::string& flag) {
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');) items.push_back(item);
+  if (items.empty() || std::find(items.begin(), items.end(), "") != items.end() || text.back() == ',') {
+    throw UsageError("{} '{}' has an empty item; write a,b", flag, text);
+  }
+  return items;
+}
+
+std::string type_of_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "|")); }
+
+CLI::Option* add_word(CLI::App& app, const std::string& flag, std::string& target,
+                      const std::vector<std::string>& words, const std::string& help) {
+  const auto check = [words](const std::string& word, const std::string& name) {
+    if (!contains(words, word)) refuse_word(word, name, words);
+  };
+  return app.add_option(flag, target, help)->check(accepted_by(check, flag))->type_name(type_of_words(words));
+}
+
+}  // namespace gloam::cli

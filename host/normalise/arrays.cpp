@@ -1,0 +1,168 @@
+#include "gloam/arrays.h"
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "base/lists.h"
+#include "frame/field_of_view.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "normalise/each_row.h"
+#include "normalise/normalise.h"
+#include "normalise/normals.h"
+#include "normalise/radiance.h"
+#include "normalise/surfaces.h"
+
+namespace gloam {
+namespace {
+
+constexpr int longest_side = 65536;
+
+void check_size(int width, int height) {
+  const bool is_allowed = width >= 1 && height >= 1 && width <= longest_side && height <= longest_side &&
+                          (long long)width * height <= max_pixels;
+  if (!is_allowed)
+    throw Error("an image of {} x {} pixels is not allowed; 1 to {} each way and {} in all are", width, height,
+                longest_side, max_pixels);
+}
+
+void check_array(const std::string& name, std::span<const float> values, int width, int height, size_t components) {
+  if (name.empty()) throw Error("a plane without a name; give one of planes.h, such as 'depth'");
+  const size_t needed = size_t(width) * size_t(height) * components;
+  if (values.size() != needed)
+    throw Error("plane '{}' has {} values; {} x {} pixels of {} component{} are {}", name, values.size(), width, height,
+                components, components == 1 ? "" : "s", needed);
+  if (!values.data()) throw Error("plane '{}' is a null pointer; give its {} values, or leave it out", name, needed);
+}
+
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  Plane plane{name, {}};
+  for (size_t i = 0; i < plane_kind(name).components.size(); ++i) plane.channels.emplace_back(layout);
+  return plane;
+}
+
+/// Copies a row of an array to that of a plane.
+void fill_row(Plane& plane, std::span<const float> values, int y) {
+  const size_t components = plane.channels.size();
+  const int width = plane.channels.front().layout().width;
+  const float* const pixels = values.data() + size_t(y) * size_t(width) * components;
+  if (components == 1) {
+    std::copy(pixels, pixels + width, plane.channels.front().row(y));
+    return;
+  }
+  if (components == 3) {
+    float *a = plane.channels[0].row(y), *b = plane.channels[1].row(y), *c = plane.channels[2].row(y);
+    for (int x = 0; x < width; ++x) {
+      a[x] = pixels[3 * x];
+      b[x] = pixels[3 * x + 1];
+      c[x] = pixels[3 * x + 2];
+    }
+    return;
+  }
+  for (size_t i = 0; i < components; ++i) {
+    float* row = plane.channels[i].row(y);
+    for (int x = 0; x < width; ++x) row[x] = pixels[size_t(x) * components + i];
+  }
+}
+
+/// What the depth of a view, if it has one, and its normals are found to be.
+StoredSurfaces stored_surfaces(const Arrays& arrays) {
+  const auto depth = arrays.planes.find("depth"), normal = arrays.planes.find("normal");
+  if (depth == arrays.planes.end()) return {.normals = plain_form(arrays.normals)};
+  const float* const values = depth->second.data();
+  const DepthRows rows{[&](int y) { return values + size_t(y) * size_t(arrays.width); }, arrays.width, arrays.height};
+  std::optional<NormalSamples> samples;
+  if (normal != arrays.planes.end()) samples.emplace(Layout(arrays.width, arrays.height)).take(normal->second.data());
+  return look_at_surfaces(rows, samples ? &*samples : nullptr, {0, 0, arrays.width, arrays.height}, arrays.camera,
+                          arrays.normals);
+}
+
+/// Values are copied and cleaned row by row: each is then taken from memory once.
+View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string>& notes) {
+  View view;
+  view.camera = arrays.camera;
+  if (view.camera->source.empty()) view.camera->source = "memory";
+  const Layout layout(arrays.width, arrays.height);
+  std::vector<std::pair<Plane*, std::span<const float>>> sources;
+  for (const auto& [name, values] : arrays.planes) {
+    check_array(name, values, arrays.width, arrays.height, plane_kind(name).components.size());
+    sources.emplace_back(&view.planes.emplace(name, empty_plane(name, layout)).first->second, values);
+  }
+  const StoredSurfaces stored = stored_surfaces(arrays);
+  notes = stored.notes;
+  if (!stored.are_normals_used) {
+    std::erase_if(sources, [](const auto& source) { return source.first->name == "normal"; });
+    view.planes.erase("normal");
+  }
+  const auto fill = [&](Plane& plane, std::span<const float> values, int y) {
+    fill_row(plane, values, y);
+    std::vector<Channel>& to = plane.channels;
+    if (plane.name == "depth") clean_depth_row(to[0].row(y), layout.width, stored.depth.sign, stored.depth.background);
+    if (plane.name == "normal" && stored.normals != NormalForm())
+      bring_to_view_space(to[0].row(y), to[1].row(y), to[2].row(y), layout.width, stored.normals, *view.camera);
+  };
+  const Plane *depth = view.find("depth"), *normal = view.find("normal");
+  normalise_while_filling(view, layout, [&](int y) {
+    for (const auto& [plane, values] : sources) fill(*plane, values, y);
+    light.add_row(view, y, depth ? depth->channels.front().row(y) : nullptr);
+  });
+  if (depth && normal) {
+    const long long missing = count_missing_normals(*normal, depth->channels.front());
+    if (std::string note = note_on_missing_normals(missing); !note.empty()) notes.push_back(std::move(note));
+  }
+  return view;
+}
+
+}  // namespace
+
+Camera camera_with_fov(int width, int height, double degrees) {
+  check_size(width, height);
+  return camera_from_fov(degrees, {0, 0, width, height}, 1, "field of view");
+}
+
+Frame frame_from(const Arrays& arrays) {
+  check_size(arrays.width, arrays.height);
+  check(arrays.camera);
+  Frame frame;
+  frame.display = frame.window = {0, 0, arrays.width, arrays.height};
+  try {
+    LightCounts light;
+    frame.views.push_back(view_from(arrays, light, frame.assumed));
+    add_new(frame.assumed, light.notes());
+  } catch (const std::bad_alloc&) {
+    throw Error("out of memory for {} planes of {} x {} pixels; use a smaller image", arrays.planes.size(),
+                arrays.width, arrays.height);
+  }
+  return frame;
+}
+
+Plane plane_from(const std::string& name, int width, int height, std::span<const float> values) {
+  check_array(name, values, width, height, plane_kind(name).components.size());
+  Plane plane = empty_plane(name, Layout(width, height));
+  for_each_row(plane.channels.front().layout(), [&](int y) { fill_row(plane, values, y); });
+  return plane;
+}
+
+std::vector<float> values_of(const Frame& frame, const std::string& plane, const std::string& view) {
+  const View& found = frame.view(view);
+  const Plane* const held = found.find(plane);
+  if (!held) {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : found.planes) names.push_back(name);
+    throw Error("view '{}' has no plane '{}'; it has {}", view, plane, names.empty() ? "none" : enumerate(names));
+  }
+  const size_t components = held->channels.size();
+  std::vector<float> values(size_t(frame.width()) * size_t(frame.height()) * components);
+  for (size_t i = 0; i < components; ++i) {
+    float* value = values.data() + i;
+    for (int y = 0; y < frame.height(); ++y) {
+      const float* row = held->channels[i].row(y);
+      for (int x = 0; x < frame.width(); ++x, value += components) *value = row[x];
+    }
+  }
+  return values;
+}
+
+}  // namespace gloam

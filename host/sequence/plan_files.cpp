@@ -1,0 +1,35 @@
+#include "sequence/plan_files.h"
+
+#include "exr/holdings.h"
+#include "gloam/error.h"
+
+namespace gloam {
+
+Plan plan_for_files(const FrameFiles& files, const PlanRequest& request) {
+  try {
+    return make_plan(request, files.common_planes(), holdings(files));
+  } catch (const MissingPlanes& missing) {
+    // If only some views lack the plane, a list of channels would confuse.
+    std::vector<std::string> wanted = missing.planes;
+    for (const auto& [plane, instead] : missing.instead) wanted.push_back(instead);
+    for (const std::string& plane : wanted) {
+      const std::string why = files.why_missing(plane);
+      if (!why.empty()) {
+        throw Error(
+            "{}: needs '{}', and in {} {}; {}", request.outputs.front(), plane, files.name(), why,
+            files.files().size() > 1 ? "give the file of the other view alone" : "--view NAME chooses another view");
+      }
+    }
+    throw;
+  }
+}
+
+std::optional<double> stated_radius(const FrameFile& file, std::vector<std::string>& notes) {
+  const std::optional<double> stated = file.number_attribute("aoRadius");
+  if (!stated || (*stated >= least_radius && *stated <= most_radius)) return stated;
+  notes.push_back(fmt::format("{}: aoRadius {:g} in the header is not a valid radius, and is ignored",
+                              file.path().filename().string(), *stated));
+  return {};
+}
+
+}  // namespace gloam
