@@ -62,6 +62,7 @@ Technique over_slices(Technique technique) {
 }
 
 Technique over_peeled_layers(Technique technique) {
+  technique.variant = {technique.name, Layers::peeled};
   technique.summary = technique.name + " over all peeled depth layers: the upper bound of what more layers can give";
   technique.name.insert(0, peeled_prefix);
   technique.paper += "; over layers Vermeer, Scandolo, Eisemann 2021";
@@ -105,6 +106,7 @@ Pass at_lower_resolution(Pass sort, int scale) {
 
 Technique over_stochastic_depth(Technique technique, ParameterList parameters,
                                 std::function<std::vector<Pass>(const ParameterValues&)> passes) {
+  technique.variant = {technique.name, Layers::stochastic};
   technique.summary = technique.name + " with stochastic depths behind what is seen";
   technique.name.insert(0, stochastic_prefix);
   technique.paper += "; over stochastic depth Vermeer, Scandolo, Eisemann 2021";

@@ -105,6 +105,8 @@ std::string filtered(const std::string& raw) { return raw.substr(0, raw.rfind("_
 Technique over_two_eyes(Technique mono, ParameterList parameters,
                         std::function<std::vector<Pass>(const ParameterValues&)> passes) {
   Technique t = std::move(mono);
+  if (t.variant.of.empty()) t.variant.of = t.name;
+  t.variant.both_eyes = true;
   t.summary = t.name + " for two eyes that agree on what both of them see";
   t.name.insert(0, "stereo-");
   t.paper += "; for two eyes Shi, Billeter, Eisemann 2022";

@@ -131,7 +131,7 @@ struct Effect {
   std::string completes;
   std::string changes;        ///< plane that it gives to the picture (composite.h): "ao"; empty: none
   bool for_displays = false;  ///< only for frames of light-field displays, which need `any_projection`
-  std::string mask;  ///< technique whose mask tells where the effect is called for; empty: everywhere
+  std::string mask;           ///< technique whose mask tells where the effect is called for; empty: everywhere
   /// Parameter without which the effect has nothing to compute, such as the file of a map. Empty: none.
   std::string needs;
   /// The probe: settings and resolution with which the mask is very cheap and still tells how many pixels call for the effect.
@@ -145,6 +145,16 @@ struct Effect {
   double least_change = 0;
   Settings settings;               ///< settings in `gloam auto`; the user's own override them
   std::string somewhere, nowhere;  ///< the reason why, followed by "on 12 % of the image", and why not
+};
+
+/// Which depths a technique reads: those that the frame shows, hidden ones chosen at random, or all.
+enum class Layers { one, stochastic, peeled };
+
+/// What a technique is, as a variant of another that reads one layer with one eye.
+struct Variant {
+  std::string of;  ///< the other's name; empty: it is none
+  Layers layers = Layers::one;
+  bool both_eyes = false;
 };
 
 struct Technique {
@@ -188,6 +198,7 @@ struct Technique {
   /// relative to the cosine-weighted integral: AO = 1 - mean over cosine-weighted directions of `contribution`. Changes to the
   /// mean afterwards, such as an exponent for contrast, are left out. Empty if the technique has no falloff of its own.
   std::function<double(const ParameterValues&, double cosine, double distance)> contribution;
+  Variant variant = {};
 };
 
 /// Adapts a function of a technique's own parameter struct to `Technique::passes`.
