@@ -6,12 +6,12 @@
 
 #include "base/lists.h"
 #include "base/low_discrepancy.h"
-#include "measure/measures.h"
-#include "measure/native.h"
 #include "flags/typed.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "loggia.h"
+#include "measure/measures.h"
+#include "measure/native.h"
 
 namespace gloam::bench {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "base/low_discrepancy.h"
 #include "bench/bench_frame.h"
-#include "measure/timing.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
+#include "measure/timing.h"
 #include "stress/frames.h"
 #include "stress/outputs.h"
 

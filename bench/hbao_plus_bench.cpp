@@ -8,13 +8,13 @@
 #include <memory>
 
 #include "bench/bench_frame.h"
+#include "gloam/error.h"
+#include "gloam/run.h"
 #include "measure/floors.h"
 #include "measure/measures.h"
 #include "measure/naive.h"
 #include "measure/native.h"
 #include "measure/timing.h"
-#include "gloam/error.h"
-#include "gloam/run.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,12 +1,12 @@
-#include "bench/fit/fit.h"
+#include "fit/fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "measure/plans.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
+#include "measure/plans.h"
 
 namespace gloam::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/fit/training.h"
 #include "evidence/coefficients.h"
+#include "fit/training.h"
 #include "gloam/device.h"
 
 namespace gloam::bench {

@@ -14,7 +14,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "bench/bench_frame.h"
-#include "bench/fit/fit.h"
+#include "fit/fit.h"
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
 #include "gloam/technique.h"

@@ -1,4 +1,4 @@
-#include "bench/fit/training.h"
+#include "fit/training.h"
 
 #include <algorithm>
 #include <limits>

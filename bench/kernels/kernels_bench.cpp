@@ -13,11 +13,11 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "bench/bench_frame.h"
-#include "measure/plans.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"
 #include "gloam/run.h"
+#include "measure/plans.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,10 +1,10 @@
-#include "bench/papers/back_check.h"
+#include "papers/back_check.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "bench/papers/eyes.h"
+#include "papers/eyes.h"
 
 namespace gloam::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/papers/study.h"
+#include "papers/study.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/papers/display_stage.h"
+#include "papers/display_stage.h"
 
 #include "gloam/display_json.h"
 #include "gloam/error.h"

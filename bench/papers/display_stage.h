@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/papers/study.h"
 #include "gloam/light_field.h"
+#include "papers/study.h"
 
 namespace gloam::bench {
 

@@ -1,14 +1,14 @@
-#include "bench/papers/doronin2017.h"
+#include "papers/doronin2017.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "bench/papers/display_stage.h"
-#include "bench/papers/neighbouring_views.h"
-#include "bench/papers/timed_table.h"
 #include "measure/timing.h"
+#include "papers/display_stage.h"
+#include "papers/neighbouring_views.h"
+#include "papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

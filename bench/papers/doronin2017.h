@@ -1,7 +1,7 @@
 // Doronin, Kara, Barsi, Martini 2017: screen-space ambient occlusion for light-field displays.
 #pragma once
 
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

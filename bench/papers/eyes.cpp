@@ -1,4 +1,4 @@
-#include "bench/papers/eyes.h"
+#include "papers/eyes.h"
 
 namespace gloam::bench {
 

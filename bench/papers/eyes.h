@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "bench/papers/study.h"
 #include "gloam/stereo_consistency.h"
+#include "papers/study.h"
 
 namespace gloam::bench {
 

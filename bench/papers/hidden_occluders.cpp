@@ -1,4 +1,4 @@
-#include "bench/papers/hidden_occluders.h"
+#include "papers/hidden_occluders.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
-#include "bench/papers/neighbouring_views.h"
+#include "papers/neighbouring_views.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "bench/papers/display_stage.h"
-#include "bench/papers/eyes.h"
-#include "bench/papers/timed_table.h"
 #include "gloam/run.h"
+#include "papers/display_stage.h"
+#include "papers/eyes.h"
+#include "papers/timed_table.h"
 #include "plan/key_views.h"
 
 namespace gloam::bench {

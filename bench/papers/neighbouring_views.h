@@ -1,7 +1,7 @@
 // Savings and errors if views of a light-field display reuse the AO of key views for the same points.
 #pragma once
 
-#include "bench/papers/study.h"
+#include "papers/study.h"
 
 namespace gloam::bench {
 

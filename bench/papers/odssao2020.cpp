@@ -1,4 +1,4 @@
-#include "bench/papers/odssao2020.h"
+#include "papers/odssao2020.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "bench/papers/study.h"
-#include "bench/papers/timed_table.h"
-#include "measure/timing.h"
 #include "gloam/scene/capture.h"
+#include "measure/timing.h"
+#include "papers/study.h"
+#include "papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

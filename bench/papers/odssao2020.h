@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

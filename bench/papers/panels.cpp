@@ -1,4 +1,4 @@
-#include "bench/papers/panels.h"
+#include "papers/panels.h"
 
 #include <algorithm>
 #include <opencv2/core.hpp>

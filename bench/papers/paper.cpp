@@ -1,4 +1,4 @@
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 
 #include "base/lists.h"
 #include "measure/document.h"
-#include "bench/papers/doronin2017.h"
-#include "bench/papers/odssao2020.h"
-#include "bench/papers/shi2022.h"
-#include "bench/papers/vermeer2021.h"
-#include "bench/papers/wu2024.h"
+#include "papers/doronin2017.h"
+#include "papers/odssao2020.h"
+#include "papers/shi2022.h"
+#include "papers/vermeer2021.h"
+#include "papers/wu2024.h"
 #include "report/markdown_text.h"
 
 namespace gloam::bench {

@@ -1,4 +1,4 @@
-#include "bench/papers/paper_document.h"
+#include "papers/paper_document.h"
 
 #include "base/json_text.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "measure/document.h"
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/papers/pop_in.h"
+#include "papers/pop_in.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/papers/study.h"
+#include "papers/study.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/papers/shi2022.h"
+#include "papers/shi2022.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "bench/papers/back_check.h"
-#include "bench/papers/eyes.h"
-#include "bench/papers/study.h"
-#include "bench/papers/timed_table.h"
+#include "papers/back_check.h"
+#include "papers/eyes.h"
+#include "papers/study.h"
+#include "papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

@@ -2,7 +2,7 @@
 // and 10.
 #pragma once
 
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/papers/study.h"
+#include "papers/study.h"
 
 #include <algorithm>
 

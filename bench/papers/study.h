@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "measure/measures.h"
-#include "bench/papers/panels.h"
-#include "bench/papers/paper.h"
-#include "measure/plans.h"
 #include "gloam/scene/outlines.h"
 #include "gloam/scene/reference.h"
 #include "gloam/scene/scene.h"
 #include "gloam/scene/tracer.h"
+#include "measure/measures.h"
+#include "measure/plans.h"
+#include "papers/panels.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

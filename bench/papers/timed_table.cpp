@@ -1,4 +1,4 @@
-#include "bench/papers/timed_table.h"
+#include "papers/timed_table.h"
 
 #include <algorithm>
 #include <memory>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/papers/study.h"
 #include "measure/timing.h"
+#include "papers/study.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/papers/vermeer2021.h"
+#include "papers/vermeer2021.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "bench/papers/hidden_occluders.h"
-#include "bench/papers/pop_in.h"
-#include "bench/papers/study.h"
-#include "bench/papers/timed_table.h"
+#include "papers/hidden_occluders.h"
+#include "papers/pop_in.h"
+#include "papers/study.h"
+#include "papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,7 +1,7 @@
 // "Stochastic-Depth Ambient Occlusion" (Vermeer, Scandolo, Eisemann 2021), tables 1 to 3 and figures 3 to 9.
 #pragma once
 
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/papers/wu2024.h"
+#include "papers/wu2024.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "base/lists.h"
-#include "bench/papers/eyes.h"
-#include "bench/papers/study.h"
-#include "bench/papers/timed_table.h"
 #include "gloam/metrics.h"
 #include "gloam/scene/reflection_reference.h"
+#include "papers/eyes.h"
+#include "papers/study.h"
+#include "papers/timed_table.h"
 
 namespace gloam::bench {
 namespace {

@@ -2,7 +2,7 @@
 // and the failure cases.
 #pragma once
 
-#include "bench/papers/paper.h"
+#include "papers/paper.h"
 
 namespace gloam::bench {
 

@@ -7,6 +7,7 @@ OTHER_DEVICES = "needs OpenCL implementations that are not on one machine togeth
 record("docs/portability.md", "What was tried", why=OTHER_DEVICES)
 record("docs/portability.md", "On GPUs", why="script/check-device on a GPU; script/update-devices makes the table from data/results/devices")
 record("docs/portability.md", "Faults and peculiarities of implementations", why=OTHER_DEVICES)
+record("docs/architecture.md", "docs/images/rooms.svg", why="script/rooms draws it, of CMake's list of rooms")
 record("docs/view.md", "docs/images/view.png", why="a browser's window, with a pointer moved by hand")
 no_figures("docs/portability.md", "What a device needs", why="requirements")
 no_figures("docs/reference.md", "Truth: what `gloam reference` traces", why="definitions")

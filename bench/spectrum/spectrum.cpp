@@ -1,4 +1,4 @@
-#include "bench/spectrum/spectrum.h"
+#include "spectrum/spectrum.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 
 #include "base/lists.h"
 #include "bench/bench_frame.h"
-#include "bench/spectrum/spectrum.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "spectrum/spectrum.h"
 
 namespace gloam::bench {
 namespace {

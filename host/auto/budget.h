@@ -9,8 +9,8 @@
 #include "auto/automatic.h"
 #include "auto/choice.h"
 #include "auto/effect_options.h"
-#include "auto/glance.h"
 #include "auto/effect_speeds.h"
+#include "auto/glance.h"
 
 namespace gloam {
 

@@ -4,8 +4,8 @@
 
 #include "base/lists.h"
 #include "gloam/composition.h"
-#include "technique/data_files.h"
 #include "run/run_words.h"
+#include "technique/data_files.h"
 
 namespace gloam {
 namespace {

@@ -4,11 +4,11 @@
 #include <map>
 #include <memory>
 
+#include "gloam/error.h"
+#include "gloam/metrics.h"
 #include "measure/effects.h"
 #include "measure/schedule.h"
 #include "measure/similarity.h"
-#include "gloam/error.h"
-#include "gloam/metrics.h"
 
 namespace gloam::bench {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "auto/effect_speeds.h"
 #include "base/lists.h"
 #include "base/statistics.h"
-#include "auto/effect_speeds.h"
 
 namespace gloam::cli {
 namespace {

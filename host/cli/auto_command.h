@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "auto/automatic.h"
+#include "auto/budget.h"
 #include "cli/auto_composite.h"
 #include "cli/options.h"
 #include "cli/shot_flags.h"
-#include "auto/automatic.h"
-#include "auto/budget.h"
 
 namespace gloam::cli {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "auto/automatic.h"
 #include "cli/memory.h"
 #include "gloam/exr_copy.h"
-#include "auto/automatic.h"
 
 namespace gloam::cli {
 namespace {

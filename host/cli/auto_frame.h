@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "auto/automatic.h"
+#include "auto/budget.h"
 #include "cli/options.h"
 #include "cli/radius.h"
 #include "frame/unfit.h"
 #include "gloam/composition.h"
-#include "auto/automatic.h"
-#include "auto/budget.h"
 
 namespace gloam::cli {
 

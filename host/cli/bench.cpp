@@ -6,10 +6,6 @@
 
 #include "base/elapsed.h"
 #include "base/files.h"
-#include "measure/document.h"
-#include "measure/effects.h"
-#include "measure/measurement.h"
-#include "measure/native.h"
 #include "cli/bench_baseline.h"
 #include "cli/bench_chunks.h"
 #include "cli/bench_file.h"
@@ -25,6 +21,10 @@
 #include "cli/report_compare.h"
 #include "cli/shot_flags.h"
 #include "gloam/error.h"
+#include "measure/document.h"
+#include "measure/effects.h"
+#include "measure/measurement.h"
+#include "measure/native.h"
 #include "report/comparison_page.h"
 
 namespace gloam::cli {

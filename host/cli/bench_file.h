@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "measure/measurement.h"
 #include "cli/options.h"
+#include "measure/measurement.h"
 #include "score/result_file.h"
 
 namespace gloam::cli {

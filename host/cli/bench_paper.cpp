@@ -5,12 +5,12 @@
 
 #include "base/files.h"
 #include "base/lists.h"
-#include "bench/papers/paper.h"
-#include "bench/papers/paper_document.h"
 #include "cli/bench_file.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"
+#include "papers/paper.h"
+#include "papers/paper_document.h"
 
 namespace gloam::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/lists.h"
-#include "measure/document.h"
 #include "gloam/error.h"
+#include "measure/document.h"
 
 namespace gloam::cli {
 

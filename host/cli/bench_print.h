@@ -1,8 +1,8 @@
 // What gloam bench prints of its measurements.
 #pragma once
 
-#include "measure/tables.h"
 #include "cli/bench_request.h"
+#include "measure/tables.h"
 
 namespace gloam::cli {
 

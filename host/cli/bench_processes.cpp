@@ -8,10 +8,10 @@
 #include "base/json_text.h"
 #include "base/statistics.h"
 #include "base/temporary_folder.h"
-#include "measure/intervals.h"
 #include "cli/children.h"
 #include "cli/subjects.h"
 #include "gloam/error.h"
+#include "measure/intervals.h"
 
 namespace gloam::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/effects.h"
 #include "gloam/error.h"
+#include "measure/effects.h"
 
 namespace gloam::cli {
 namespace {

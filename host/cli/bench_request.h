@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/measurement.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
+#include "measure/measurement.h"
 #include "sequence/frame_list.h"
 
 namespace gloam::cli {

@@ -1,8 +1,8 @@
 // gloam bench --rows FILE and --baseline FILE: the rows of an earlier result, measured again.
 #pragma once
 
-#include "measure/measurement.h"
 #include "cli/bench_request.h"
+#include "measure/measurement.h"
 #include "results/joined.h"
 
 namespace gloam::cli {

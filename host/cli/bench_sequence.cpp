@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "measure/sequence_document.h"
 #include "cli/bench_file.h"
 #include "cli/bench_print.h"
 #include "cli/memory.h"
 #include "cli/shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
+#include "measure/sequence_document.h"
 
 namespace gloam::cli {
 namespace {

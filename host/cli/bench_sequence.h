@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/sequence.h"
 #include "cli/options.h"
 #include "cli/subjects.h"
+#include "measure/sequence.h"
 #include "sequence/frame_list.h"
 
 namespace gloam::cli {

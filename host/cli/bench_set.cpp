@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "base/json_text.h"
-#include "measure/document.h"
-#include "measure/effects.h"
-#include "measure/sequence.h"
-#include "measure/sequence_document.h"
 #include "cli/bench_file.h"
 #include "cli/bench_print.h"
 #include "cli/score_targets.h"
 #include "gloam/error.h"
+#include "measure/document.h"
+#include "measure/effects.h"
+#include "measure/sequence.h"
+#include "measure/sequence_document.h"
 
 namespace gloam::cli {
 namespace {

@@ -12,10 +12,10 @@
 #include "doctor/measure.h"
 #include "doctor/self_test.h"
 #include "gloam/exr.h"
-#include "technique/data_files.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
 #include "stress/frames.h"
+#include "technique/data_files.h"
 
 namespace gloam::cli {
 namespace {

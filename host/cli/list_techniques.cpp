@@ -4,10 +4,10 @@
 #include <cmath>
 #include <functional>
 
-#include "measure/plans.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"
+#include "measure/plans.h"
 
 namespace gloam::cli {
 

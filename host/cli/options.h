@@ -13,8 +13,8 @@
 #include "cli/frame_flags.h"
 #include "cli/notes.h"
 #include "cli/technique_flags.h"
-#include "flags/typed.h"
 #include "exr/holdings.h"
+#include "flags/typed.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

@@ -12,12 +12,12 @@
 
 #include "base/elapsed.h"
 #include "base/temporary_folder.h"
-#include "measure/effects.h"
 #include "cli/pick_shot.h"
 #include "cli/shot_flags.h"
 #include "cli/subjects.h"
 #include "cli/time_budget.h"
 #include "gloam/error.h"
+#include "measure/effects.h"
 
 namespace gloam::cli {
 namespace {

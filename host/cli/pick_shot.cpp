@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/statistics.h"
-#include "measure/sequence_document.h"
 #include "gloam/error.h"
+#include "measure/sequence_document.h"
 
 namespace gloam::cli {
 namespace {

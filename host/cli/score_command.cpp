@@ -6,12 +6,12 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "base/temporary_folder.h"
-#include "measure/effects.h"
 #include "cli/camera_file.h"
 #include "cli/foreign_process.h"
 #include "cli/options.h"
 #include "gloam/error.h"
 #include "gloam/radius.h"
+#include "measure/effects.h"
 #include "technique/default_technique.h"
 
 namespace gloam::cli {

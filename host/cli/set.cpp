@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "base/file_ledger.h"
-#include "measure/commit.h"
 #include "cli/options.h"
 #include "gloam/error.h"
+#include "measure/commit.h"
 #include "set/hard_frames.h"
 #include "set/making.h"
 #include "set/seeded.h"

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "measure/effects.h"
 #include "cli/memory.h"
 #include "cli/notes.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
 #include "gloam/planes.h"
+#include "measure/effects.h"
 
 namespace gloam::cli {
 

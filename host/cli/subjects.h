@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/measurement.h"
 #include "cli/radius.h"
 #include "cli/scene_flags.h"
+#include "measure/measurement.h"
 
 namespace gloam::cli {
 

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 
+#include "frame/two_cameras.h"
 #include "gloam/error.h"
 #include "gloam/projection.h"
 
@@ -21,24 +22,10 @@ constexpr double same_depth = 0.05;
 /// in view, as for techniques with a history. At an edge a surface may be in view by less than what a comparison needs.
 constexpr double least_weight = 0.5, least_weight_in_view = 0.01;
 
-/// Positions this near to the middle of a pixel count as the middle, pixels: cameras and motion in single precision are not exact.
-constexpr double on_centre = 1e-3;
-
 /// Age of surfaces that the first frame shows.
 constexpr unsigned char always = 255;
 
 bool has_pose(const Surfaces& surfaces) { return surfaces.camera && surfaces.camera->pose; }
-
-/// From the view space of one frame to that of the frame before.
-struct CameraMotion {
-  glm::dmat3 rotation{1.0};
-  glm::dvec3 translation{0.0};
-};
-
-/// Positions are subtracted first: they may be far from the origin, and near each other.
-CameraMotion motion_between(const Pose& from, const Pose& to) {
-  return {to.world_to_view * glm::transpose(from.world_to_view), to.world_to_view * (from.position - to.position)};
-}
 
 /// Where a surface was in the frame before: pixels from the centre of the window's first pixel, and its depth there.
 struct Place {

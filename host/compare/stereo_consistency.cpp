@@ -8,16 +8,12 @@
 #include <limits>
 #include <numbers>
 
-#include "frame/two_eyes.h"
+#include "frame/two_cameras.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 
 namespace gloam {
 namespace {
-
-/// Positions this near to the middle of a pixel count as the middle, pixels. Cameras in single precision, as OpenEXR's M44f, are
-/// off by some 1e-4 pixels.
-constexpr double on_centre = 1e-3;
 
 /// One view as the comparison needs it.
 struct ComparedEye : Eye {
@@ -80,7 +76,7 @@ bool is_within(double cosine, const glm::dvec3& a, const glm::dvec3& b) {
 /// From one eye to the other.
 struct Lookup {
   const ComparedEye &own, &other;
-  EyeMotion there, back;
+  CameraMotion there, back;
   double cosine;  ///< of the normal-check
 };
 
@@ -221,7 +217,8 @@ bool has_normals(const Frame& frame) {
   return std::all_of(frame.views.begin(), frame.views.end(), [](const View& view) { return view.find("normal"); });
 }
 
-ComparedEye eye_of(const Frame& frame, const View& view, const std::string& plane, bool with_normals, const Layout& layout) {
+ComparedEye eye_of(const Frame& frame, const View& view, const std::string& plane, bool with_normals,
+                   const Layout& layout) {
   const bool are_directions = plane_kind(plane).meaning == PlaneKind::unit_vector;
   return {{*view.camera, frame.window, plane_in(view, "depth", layout).channels[0]},
           plane_in(view, plane, layout),
@@ -232,7 +229,7 @@ ComparedEye eye_of(const Frame& frame, const View& view, const std::string& plan
 /// Lookups from either eye to the other. `cosine`: of the normal-check.
 std::array<Lookup, 2> lookups(const Frame& frame, const std::array<ComparedEye, 2>& eyes, double cosine) {
   const Pose &first = *frame.views[0].camera->pose, &second = *frame.views[1].camera->pose;
-  const EyeMotion there = motion_between(first, second), back = motion_between(second, first);
+  const CameraMotion there = motion_between(first, second), back = motion_between(second, first);
   return {{{eyes[0], eyes[1], there, back, cosine}, {eyes[1], eyes[0], back, there, cosine}}};
 }
 

@@ -11,7 +11,8 @@
 namespace gloam::doctor {
 namespace {
 
-constexpr int width = 960, height = 540;  ///< on CPUs, groups of smaller images have one work-item (run/launch.cpp)
+constexpr int timed_width = 960,
+              timed_height = 540;  ///< on CPUs, groups of smaller images have one work-item (run/launch.cpp)
 constexpr int rounds = 5;
 constexpr double hopeless = 1.5;   ///< of the best time: after the first round, such a candidate drops out
 constexpr double worth_it = 0.97;  ///< share of the usual tuning's time that another must not exceed to take its place
@@ -82,7 +83,7 @@ std::vector<Tuning> group_candidates(const Tuning& best, bool is_cpu) {
 }  // namespace
 
 Measurement measure_tuning(const std::string& technique, Device& device, const std::function<void()>& goes_on) {
-  Frame frame = stress::shoot(stress::perspective(width, height), stress::room());
+  Frame frame = stress::shoot(stress::perspective(timed_width, timed_height), stress::room());
   const Plan plan = stress::plan_for(PlanRequest{.outputs = {technique}, .then = "none"}, frame);
   const Tuning usual = device.info().usual;
   const std::vector<Candidate> by_lanes = times_of(lane_candidates(usual), plan, frame, device, goes_on);

@@ -135,7 +135,8 @@ std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View&
   const Plane* alpha = view.find("alpha");
   std::vector<std::string> notes;
   const std::string convention = named(file.path, [&] {
-    return to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, file.window, *view.camera, options.stated_depth(), notes);
+    return to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, file.window, *view.camera,
+                         options.stated_depth(), notes);
   });
   scale_to_positions(source, relation.scale, depth, notes);
   const bool is_half = std::all_of(source.channels.begin(), source.channels.end(),

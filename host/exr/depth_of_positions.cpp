@@ -13,8 +13,6 @@
 namespace gloam {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Turns positions of one row into depths.
 class RowOfDepths {
  public:

@@ -40,7 +40,7 @@ EnvironmentMap read_environment(const std::filesystem::path& path, EnvironmentAx
   check_kind(file, file.window().width(), file.window().height());
   const Frame frame = file.read({"color"});
   const std::vector<Channel>& c = frame.views[0].planes.at("color").channels;
-  std::vector<vec3> texels;
+  std::vector<glm::vec3> texels;
   texels.reserve(size_t(frame.width()) * size_t(frame.height()));
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) texels.emplace_back(c[0].at(x, y), c[1].at(x, y), c[2].at(x, y));

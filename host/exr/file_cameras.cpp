@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "base/lists.h"
-#include "frame/field_of_view.h"
 #include "exr/errors.h"
 #include "exr/header_cameras.h"
+#include "frame/field_of_view.h"
 #include "gloam/error.h"
 
 namespace gloam {

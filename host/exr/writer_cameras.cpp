@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "base/lists.h"
-#include "frame/field_of_view.h"
 #include "camera/rotations.h"
 #include "exr/attributes.h"
+#include "frame/field_of_view.h"
 #include "gloam/error.h"
 
 namespace gloam {

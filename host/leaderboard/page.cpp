@@ -8,8 +8,8 @@
 #include "leaderboard/commands.h"
 #include "leaderboard/embedded.h"
 #include "leaderboard/table.h"
-#include "page/html.h"
 #include "page/embedded_pictures.h"
+#include "page/html.h"
 #include "page/submitted.h"
 
 namespace gloam::leaderboard {

@@ -1,9 +1,9 @@
 #include "measure/baselines.h"
 
-#include "measure/measures.h"
-#include "measure/plans.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "measure/measures.h"
+#include "measure/plans.h"
 
 namespace gloam::bench {
 namespace {

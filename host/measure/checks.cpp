@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
-#include "measure/plans.h"
 #include "gloam/planes.h"
 #include "gloam/run.h"
+#include "measure/plans.h"
 
 namespace gloam::bench {
 namespace {

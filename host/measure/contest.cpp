@@ -4,10 +4,10 @@
 #include <limits>
 #include <set>
 
+#include "gloam/error.h"
 #include "measure/effects.h"
 #include "measure/schedule.h"
 #include "measure/timing.h"
-#include "gloam/error.h"
 
 namespace gloam::bench {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <memory>
 
+#include "gloam/planes.h"
 #include "measure/measures.h"
 #include "measure/plans.h"
 #include "measure/timing.h"
-#include "gloam/planes.h"
 
 namespace gloam::bench {
 namespace {

@@ -1,9 +1,9 @@
 #include "measure/ladder.h"
 
-#include "measure/effects.h"
-#include "measure/storage.h"
 #include "gloam/error.h"
 #include "gloam/run.h"
+#include "measure/effects.h"
+#include "measure/storage.h"
 
 namespace gloam::bench {
 namespace {

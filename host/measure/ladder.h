@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "gloam/device.h"
 #include "measure/effects.h"
 #include "measure/measures.h"
 #include "measure/plans.h"
 #include "measure/similarity.h"
 #include "measure/subject.h"
-#include "gloam/device.h"
 
 namespace gloam::bench {
 

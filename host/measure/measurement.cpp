@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/lists.h"
-#include "measure/session.h"
+#include "measure/timed_session.h"
 
 namespace gloam::bench {
 
@@ -42,7 +42,7 @@ MeasureOptions for_effect(const MeasureOptions& options, const std::string& plan
 }
 
 void measure(Subject& subject, const MeasureOptions& options, bool is_first, Device& device, Measurement& result) {
-  Session session(subject, options, device, result);
+  TimedSession session(subject, options, device, result);
   if (options.limit.is_set()) {
     session.measure_within(options.limit, is_first);
   } else {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gloam/radius.h"
 #include "measure/checks.h"
 #include "measure/growth.h"
 #include "measure/ladder.h"
@@ -16,7 +17,6 @@
 #include "measure/subject.h"
 #include "measure/variations.h"
 #include "measure/wanted_rows.h"
-#include "gloam/radius.h"
 
 namespace gloam::bench {
 

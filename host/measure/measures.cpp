@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/timing.h"
 #include "gloam/radius.h"
+#include "measure/timing.h"
 
 namespace gloam::bench {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "gloam/plan.h"
 #include "measure/estimate.h"
 #include "measure/opencl_bench.h"
 #include "measure/timing.h"
-#include "gloam/plan.h"
 
 namespace gloam::bench {
 

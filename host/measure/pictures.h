@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/measures.h"
 #include "gloam/frame.h"
+#include "measure/measures.h"
 
 namespace gloam::bench {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/lists.h"
-#include "measure/effects.h"
 #include "gloam/history.h"
 #include "gloam/planes.h"
+#include "measure/effects.h"
 #include "shared/sampling/ambient_occlusion.h"
 #include "technique/ambient_occlusion.h"
 

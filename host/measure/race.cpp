@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gloam/error.h"
 #include "measure/baselines.h"
 #include "measure/intervals.h"
 #include "measure/measures.h"
 #include "measure/naive.h"
-#include "gloam/error.h"
 
 namespace gloam::bench {
 namespace {

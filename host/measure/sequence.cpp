@@ -5,10 +5,10 @@
 
 #include "base/lists.h"
 #include "base/statistics.h"
-#include "measure/similarity.h"
 #include "gloam/error.h"
 #include "gloam/history.h"
 #include "gloam/metrics.h"
+#include "measure/similarity.h"
 #include "sequence/history_chain.h"
 
 namespace gloam::bench {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/measurement.h"
 #include "gloam/flicker.h"
+#include "measure/measurement.h"
 
 namespace gloam::bench {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "gloam/error.h"
 #include "measure/measurement.h"
 #include "measure/schedule.h"
-#include "gloam/error.h"
 
 namespace gloam::bench {
 
@@ -19,25 +19,13 @@ class Session {
 
   /// Every setting, with all that belongs to its row.
   void measure_all();
-  /// As much as fits in the time: the front first (docs/benchmarking.md, A minute). What is left out is listed in the result.
-  /// `is_first`: as for `measure`.
-  void measure_within(const TimeLimit& limit, bool is_first);
-
   void measure_growth(const std::vector<const Technique*>& techniques);
   /// Captures a built-in scene with twice as many pixels each way, so that the frame itself is the middle one of three.
   void measure_scales();
   void measure_planes();
   void add_scene();
 
- private:
-  /// A setting that is measured within a time.
-  struct Candidate {
-    Variation variation;
-    std::optional<FirstLook> look;  ///< none: not looked at, or not possible
-    std::unique_ptr<Row> row;       ///< once it is in the race
-    bool is_near_front = false, has_similarity = false, has_ladder = false, failed = false;
-  };
-
+ protected:
   std::vector<const Technique*> those_measured() const;
   void tell(const std::string& what, int done, int of) const;
   void skip(const Technique& technique, const std::string& preset, const std::string& why);
@@ -55,24 +43,6 @@ class Session {
   /// Draws the first view; returns the path below the folder, empty if there are to be no pictures.
   std::string picture(const std::string& name, const Image& image);
   std::string picture_of(const Variation& variation, const Image& image);
-
-  // Within a time.
-  std::vector<Candidate> candidates();
-  void look_at_all(std::vector<Candidate>& all, const TimeLimit& limit);
-  bool is_possible(Candidate& candidate, std::vector<Skipped>& failed);
-  void look_at(Candidate& candidate, std::vector<Skipped>& failed);
-  void race(const std::vector<Candidate*>& some, const Rounds& wanted, const TimeLimit& limit, const std::string& what);
-  void race_the_rest(std::vector<Candidate>& all, const TimeLimit& limit);
-  void add_parts(std::vector<Candidate>& all, const TimeLimit& limit, bool near_front);
-  std::vector<Candidate*> raced(std::vector<Candidate>& all, bool near_front) const;
-  void add_similarities(std::vector<Candidate>& all, const TimeLimit& limit, bool near_front);
-  void add_similarity(Candidate& candidate);
-  double ladder_seconds(const Candidate& candidate) const;
-  void measure_once(const std::vector<Candidate>& all, const TimeLimit& limit, bool is_first);
-  void list_left_out(const std::vector<Candidate>& all);
-  void leave_out(const Variation& variation, const std::string& what);
-  /// Null: of all techniques.
-  void leave_out(const Technique* technique, const std::string& what);
 
   Subject& subject_;
   const MeasureOptions& options_;

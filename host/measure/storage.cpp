@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/measures.h"
 #include "gloam/planes.h"
+#include "measure/measures.h"
 
 namespace gloam::bench {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "base/file_ledger.h"
 #include "base/lists.h"
-#include "measure/effects.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/reference.h"
+#include "measure/effects.h"
 #include "scene/fingerprint.h"
 #include "scene/reference_kinds.h"
 

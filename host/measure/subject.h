@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "measure/measures.h"
 #include "gloam/frame.h"
 #include "gloam/scene/reference.h"
 #include "gloam/scene/tracer.h"
 #include "gloam/technique.h"
+#include "measure/measures.h"
 
 namespace gloam::bench {
 

@@ -1,13 +1,13 @@
-// What is measured where the time is limited (docs/benchmarking.md, A minute).
+#include "measure/timed_session.h"
+
 #include <algorithm>
 #include <map>
 
 #include "base/elapsed.h"
 #include "base/lists.h"
 #include "base/statistics.h"
-#include "measure/naive.h"
-#include "measure/session.h"
 #include "gloam/run.h"
+#include "measure/naive.h"
 
 namespace gloam::bench {
 namespace {
@@ -26,7 +26,7 @@ double megapixels(const Frame& frame) { return 1e-6 * frame.width() * frame.heig
 
 }  // namespace
 
-std::vector<Session::Candidate> Session::candidates() {
+std::vector<TimedSession::Candidate> TimedSession::candidates() {
   std::vector<Candidate> all;
   for (const Technique* technique : options_.techniques) {
     const std::vector<Variation> variations = variations_of(*technique, subject_.radius.value, options_);
@@ -39,7 +39,7 @@ std::vector<Session::Candidate> Session::candidates() {
   return all;
 }
 
-bool Session::is_possible(Candidate& candidate, std::vector<Skipped>& failed) try {
+bool TimedSession::is_possible(Candidate& candidate, std::vector<Skipped>& failed) try {
   whole_plan(candidate.variation, planes_of(subject_.frame), subject_.holds);
   return true;
 } catch (const Error& error) {
@@ -48,7 +48,7 @@ bool Session::is_possible(Candidate& candidate, std::vector<Skipped>& failed) tr
   return false;
 }
 
-void Session::look_at(Candidate& candidate, std::vector<Skipped>& failed) try {
+void TimedSession::look_at(Candidate& candidate, std::vector<Skipped>& failed) try {
   const Variation& v = candidate.variation;
   const Plan plan = whole_plan(v, planes_of(subject_.frame), subject_.holds);
   RunOptions options = v.run_options();
@@ -68,7 +68,7 @@ void Session::look_at(Candidate& candidate, std::vector<Skipped>& failed) try {
   failed.push_back(failure_of(candidate.variation, error));
 }
 
-void Session::look_at_all(std::vector<Candidate>& all, const TimeLimit& limit) {
+void TimedSession::look_at_all(std::vector<Candidate>& all, const TimeLimit& limit) {
   std::vector<Variation> variations;
   for (const Candidate& c : all) variations.push_back(c.variation);
   std::map<std::string, std::vector<Skipped>> failed;
@@ -105,8 +105,8 @@ void Session::look_at_all(std::vector<Candidate>& all, const TimeLimit& limit) {
   }
 }
 
-void Session::race(const std::vector<Candidate*>& some, const Rounds& wanted, const TimeLimit& limit,
-                   const std::string& what) {
+void TimedSession::race(const std::vector<Candidate*>& some, const Rounds& wanted, const TimeLimit& limit,
+                        const std::string& what) {
   std::vector<Candidate*> entered;
   for (Candidate* c : some) {
     if (limit.is_over()) break;
@@ -132,7 +132,7 @@ void Session::race(const std::vector<Candidate*>& some, const Rounds& wanted, co
       rounds, [&](int done, int of) { tell(what, done, of); }, false);
 }
 
-void Session::race_the_rest(std::vector<Candidate>& all, const TimeLimit& limit) {
+void TimedSession::race_the_rest(std::vector<Candidate>& all, const TimeLimit& limit) {
   std::vector<FirstLook> looks;
   std::vector<Candidate*> rest;
   for (Candidate& c : all) {
@@ -168,14 +168,14 @@ void Session::race_the_rest(std::vector<Candidate>& all, const TimeLimit& limit)
   }
 }
 
-void Session::add_similarity(Candidate& candidate) {
+void TimedSession::add_similarity(Candidate& candidate) {
   const Image shipped = steps_.shipped(candidate.variation);
   candidate.row->similarity = steps_.similarity(shipped);
   candidate.row->inconsistency = inconsistency(subject_.frame, shipped);
 }
 
 /// By the number of samples of the converged settings, and of double, which takes about eight times as long.
-double Session::ladder_seconds(const Candidate& candidate) const {
+double TimedSession::ladder_seconds(const Candidate& candidate) const {
   const Technique& technique = *candidate.variation.technique;
   const Technique& source = source_of(technique);
   const double ms = candidate.look ? candidate.look->ms : 100;
@@ -195,7 +195,7 @@ double Session::ladder_seconds(const Candidate& candidate) const {
   return 1e-3 * ms * (layers * factor + 20) + 2;
 }
 
-std::vector<Session::Candidate*> Session::raced(std::vector<Candidate>& all, bool near_front) const {
+std::vector<TimedSession::Candidate*> TimedSession::raced(std::vector<Candidate>& all, bool near_front) const {
   std::vector<Candidate*> some;
   for (Candidate& c : all) {
     if (c.row && c.is_near_front == near_front) some.push_back(&c);
@@ -203,7 +203,7 @@ std::vector<Session::Candidate*> Session::raced(std::vector<Candidate>& all, boo
   return some;
 }
 
-void Session::add_similarities(std::vector<Candidate>& all, const TimeLimit& limit, bool near_front) {
+void TimedSession::add_similarities(std::vector<Candidate>& all, const TimeLimit& limit, bool near_front) {
   if (!subject_.truth) return;
   const std::vector<Candidate*> some = raced(all, near_front);
   Expected similarity(2 * megapixels(subject_.frame));
@@ -215,7 +215,7 @@ void Session::add_similarities(std::vector<Candidate>& all, const TimeLimit& lim
 }
 
 /// Own floors near the front, and ladders.
-void Session::add_parts(std::vector<Candidate>& all, const TimeLimit& limit, bool near_front) {
+void TimedSession::add_parts(std::vector<Candidate>& all, const TimeLimit& limit, bool near_front) {
   const std::vector<Candidate*> some = raced(all, near_front);
   for (size_t i = 0; i < some.size() && near_front; ++i) {
     tell("gathers alone", int(i), int(some.size()));
@@ -232,7 +232,7 @@ void Session::add_parts(std::vector<Candidate>& all, const TimeLimit& limit, boo
   }
 }
 
-void Session::measure_once(const std::vector<Candidate>& all, const TimeLimit& limit, bool is_first) {
+void TimedSession::measure_once(const std::vector<Candidate>& all, const TimeLimit& limit, bool is_first) {
   double ms = 0;
   std::map<const Technique*, double> ms_of;  // with a middle preset
   for (const Technique* technique : those_measured()) {
@@ -264,15 +264,15 @@ void Session::measure_once(const std::vector<Candidate>& all, const TimeLimit& l
   }
 }
 
-void Session::leave_out(const Technique* technique, const std::string& what) {
+void TimedSession::leave_out(const Technique* technique, const std::string& what) {
   result_.left_out.push_back({technique ? technique->name : "", "", "", subject_.name, subject_.effect, what});
 }
 
-void Session::leave_out(const Variation& v, const std::string& what) {
+void TimedSession::leave_out(const Variation& v, const std::string& what) {
   result_.left_out.push_back({v.technique->name, v.name(), v.variant, subject_.name, subject_.effect, what});
 }
 
-void Session::list_left_out(const std::vector<Candidate>& all) {
+void TimedSession::list_left_out(const std::vector<Candidate>& all) {
   for (const Candidate& c : all) {
     if (c.failed) continue;
     if (!c.look) {
@@ -290,7 +290,7 @@ void Session::list_left_out(const std::vector<Candidate>& all) {
   }
 }
 
-void Session::measure_within(const TimeLimit& limit, bool is_first) {
+void TimedSession::measure_within(const TimeLimit& limit, bool is_first) {
   std::vector<Candidate> all = candidates();
   look_at_all(all, limit.part(share_of_looks));
   std::vector<FirstLook> looks;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/lists.h"
-#include "measure/variations.h"
 #include "gloam/error.h"
+#include "measure/variations.h"
 
 namespace gloam::bench {
 namespace {

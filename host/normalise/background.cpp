@@ -8,7 +8,6 @@ namespace gloam {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Depths from here on are never surfaces: positions would leave the range of float with any camera.
 constexpr float beyond_reach = 1e20f;
 

@@ -13,8 +13,6 @@ namespace gloam {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 void ray_row(float* row, const double* squares_x, int width, double square_y) {
   for (int x = 0; x < width; ++x) {
     const float z = float(row[x] / std::sqrt(1 + square_y + squares_x[x]));

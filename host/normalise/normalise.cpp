@@ -18,8 +18,6 @@ namespace gloam {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Pixels of a row that are made unit together.
 constexpr int at_once = 64;
 

@@ -12,8 +12,6 @@ namespace gloam {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Squared length below which a decoded normal is none: the middle of 8 bits is 0.004 from 0 in each component.
 constexpr float most_of_none = 0.02f * 0.02f;
 

@@ -12,8 +12,6 @@
 namespace gloam {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Components of a row that are compared with the steps of 8 bits.
 constexpr int tried_of_row = 64;
 /// A picture of fewer values, or of fewer different ones, tells nothing.

@@ -7,8 +7,8 @@
 
 #include "gloam/error.h"
 #include "page/html.h"
-#include "picture/picture.h"
 #include "page/pictures.h"
+#include "picture/picture.h"
 
 namespace gloam::report {
 namespace {

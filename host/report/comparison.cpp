@@ -220,14 +220,14 @@ void compare_errors(const std::vector<Pair>& pairs, const Conditions& conditions
   }
 }
 
-std::string percent(double logarithm) { return fmt::format("{:+.1f} %", 100 * std::expm1(logarithm)); }
+std::string percent_of(double logarithm) { return fmt::format("{:+.1f} %", 100 * std::expm1(logarithm)); }
 
 void add_notes_on_reference(Comparison& c) {
   if (c.reference == gather_floor)
     c.notes.push_back(
         fmt::format("hbao+ medium itself changed: {} against the gather floor, and the other techniques together {} "
                     "against it; times are compared with the gather floor, which varies more",
-                    percent(*c.reference_change), percent(*c.others_change)));
+                    percent_of(*c.reference_change), percent_of(*c.others_change)));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "page/pictures.h"
 #include "report/markdown_text.h"
 #include "report/material.h"
-#include "page/pictures.h"
 #include "report/sections_choice.h"
 #include "report/sections_errors.h"
 #include "report/sections_sequence.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "results/joined.h"
 #include "report/needs.h"
+#include "results/joined.h"
 
 namespace gloam::report {
 

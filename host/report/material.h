@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "results/joined.h"
 #include "report/needs.h"
+#include "results/joined.h"
 
 namespace gloam::report {
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/json_text.h"
-#include "page/html.h"
-#include "report/embedded.h"
 #include "page/embedded_pictures.h"
+#include "page/html.h"
 #include "page/submitted.h"
+#include "report/embedded.h"
 
 namespace gloam::report {
 namespace {

@@ -12,7 +12,7 @@
 namespace gloam::report {
 namespace {
 
-std::string setting_text(const ClassPoint& p) { return gloam::report::setting_text(p.technique, p.preset, p.variant); }
+std::string setting_of(const ClassPoint& p) { return setting_text(p.technique, p.preset, p.variant); }
 
 std::string names(const std::vector<std::string>& scenes) {
   std::vector<std::string> shown;
@@ -45,7 +45,7 @@ std::string overview(const std::vector<ClassFront>& groups) {
       const std::vector<Choice> of_group = choices(group);
       const auto found =
           std::find_if(of_group.begin(), of_group.end(), [&](const Choice& c) { return c.need == need; });
-      cells.push_back(found != of_group.end() && found->best ? setting_text(*found->best) : "-");
+      cells.push_back(found != of_group.end() && found->best ? setting_of(*found->best) : "-");
     }
     table.add(cells);
   }
@@ -70,7 +70,7 @@ std::string needs_of_group(const ClassFront& group) {
   Table table({"need", "setting", "RMSE (bias)", "time"}, "llr");
   for (const Choice& choice : choices(group)) {
     if (choice.best)
-      table.add({choice.need, setting_text(*choice.best), error_and_bias(choice.best->error, choice.best->bias),
+      table.add({choice.need, setting_of(*choice.best), error_and_bias(choice.best->error, choice.best->bias),
                  ratio_text(choice.best->ratio)});
     else
       table.add({choice.need, "none of those measured", "-", "-"});
@@ -84,10 +84,10 @@ std::string front_of_group(const ClassFront& group) {
   std::vector<std::string> elsewhere;
   for (const ClassPoint& p : group.points) {
     if (p.on_front)
-      table.add({setting_text(p), error_and_bias(p.error, p.bias), ratio_text(p.ratio),
+      table.add({setting_of(p), error_and_bias(p.error, p.bias), ratio_text(p.ratio),
                  fmt::format("{} of {}", p.fronts.size(), group.scenes.size())});
     else if (!p.fronts.empty())
-      elsewhere.push_back(fmt::format("{} ({})", setting_text(p), names(p.fronts)));
+      elsewhere.push_back(fmt::format("{} ({})", setting_of(p), names(p.fronts)));
   }
   std::string text = fmt::format("### The front: {}\n\n", plain_text(group.name)) + table.text();
   if (!elsewhere.empty())

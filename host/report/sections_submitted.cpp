@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "report/markdown_text.h"
 #include "page/submitted.h"
+#include "report/markdown_text.h"
 
 namespace gloam::report {
 namespace {

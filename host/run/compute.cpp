@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/lists.h"
-#include "frame/two_eyes.h"
+#include "frame/two_cameras.h"
 #include "gloam/error.h"
 
 namespace gloam {

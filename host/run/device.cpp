@@ -18,8 +18,8 @@
 #include "run/device_record.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
-#include "technique/kernel_sources.h"
 #include "run/known_devices.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam {
 namespace {

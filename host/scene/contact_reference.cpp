@@ -20,8 +20,6 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr int packet = rays_per_packet;
-
 /// Shadow rays end this share of the distance before a light, which may stand on a surface.
 constexpr double before_light = 1e-5;
 
@@ -47,15 +45,15 @@ class ContactTracer {
     const glm::dmat3 about = frame_about(glm::normalize(towards));
     const double far = std::min(light_.length, distance * (1 - before_light));
     int lit = 0;
-    for (int first = 0; first < samples; first += packet)
-      lit += lit_of_packet(site, about, float(far), std::min(packet, samples - first), first, seed);
+    for (int first = 0; first < samples; first += rays_per_packet)
+      lit += lit_of_packet(site, about, float(far), std::min(rays_per_packet, samples - first), first, seed);
     return double(lit) / samples;
   }
 
  private:
   int lit_of_packet(const Site& site, const glm::dmat3& about, float far, int samples, int first, uint32_t seed) const {
-    vec3 directions[packet];
-    bool blocked[packet];
+    vec3 directions[rays_per_packet];
+    bool blocked[rays_per_packet];
     int count = 0;
     for (int i = 0; i < samples; ++i) {
       const glm::dvec2 u = scrambled_sobol(uint32_t(first + i), seed);

@@ -10,7 +10,7 @@ namespace {
 using glm::dvec3;
 
 /// Weights of a triangle's corners, whose sum is 1, for a point in its plane.
-dvec3 barycentric(const dvec3 (&corners)[3], const dvec3& point) {
+dvec3 weights_at(const dvec3 (&corners)[3], const dvec3& point) {
   const dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], p = point - corners[0];
   const dvec3 normal = glm::cross(u, v);
   const double area = glm::dot(normal, normal);
@@ -32,7 +32,7 @@ dvec3 earlier_position(const Scene& now, const Scene& before, const Surface& sur
     has_moved |= corners[i] != earlier[i];
   }
   if (!has_moved) return surface.position + now.origin;
-  const dvec3 weights = barycentric(corners, surface.position);
+  const dvec3 weights = weights_at(corners, surface.position);
   return weights.x * earlier[0] + weights.y * earlier[1] + weights.z * earlier[2] + before.origin;
 }
 

@@ -14,8 +14,6 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 
-constexpr int packet = rays_per_packet;
-
 class EnvironmentTracer {
  public:
   EnvironmentTracer(const Tracer& tracer, const EnvironmentMap& map, double radius)
@@ -26,7 +24,7 @@ class EnvironmentTracer {
   /// Mean light of one half of the rays.
   dvec3 half(const Site& site, int samples, uint32_t seed) const {
     dvec3 sum(0);
-    for (int first = 0; first < samples; first += packet) {
+    for (int first = 0; first < samples; first += rays_per_packet) {
       const CosineRays rays = cosine_rays(site, seed, first);
       sum += light(site, rays);
       if (bright_.any()) sum += light(site, bright_rays(site, hash(seed + 0x9e3779b9u), first));
@@ -37,7 +35,7 @@ class EnvironmentTracer {
  private:
   CosineRays bright_rays(const Site& site, uint32_t seed, int first) const {
     CosineRays rays;
-    for (int i = 0; i < packet; ++i) {
+    for (int i = 0; i < rays_per_packet; ++i) {
       const dvec3 direction = bright_.direction(scrambled_sobol(uint32_t(first + i), seed));
       const double cosine = glm::dot(direction, site.to_world[2]);
       if (cosine <= 0 || glm::dot(vec3(direction), site.facing) <= 0) continue;
@@ -49,7 +47,7 @@ class EnvironmentTracer {
 
   /// Light of one sort of rays: each counts by the share that cosine-weighted ones have of both sorts.
   dvec3 light(const Site& site, const CosineRays& rays) const {
-    bool blocked[packet];
+    bool blocked[rays_per_packet];
     tracer_.blocked(site.origin, rays.directions, rays.count, radius_, blocked);
     dvec3 sum(0);
     for (int i = 0; i < rays.count; ++i) {

@@ -8,8 +8,6 @@
 namespace gloam {
 namespace {
 
-constexpr int packet = rays_per_packet;
-
 /// The estimate from one half of the rays.
 class Estimator {
  public:
@@ -19,7 +17,7 @@ class Estimator {
   /// Open share of the hemisphere, from `half_` rays of the set with this `seed`.
   double open_share(const Site& site, uint32_t seed) const {
     double closed = 0;
-    for (int first = 0; first < half_; first += packet) closed += closed_by_packet(site, seed, first);
+    for (int first = 0; first < half_; first += rays_per_packet) closed += closed_by_packet(site, seed, first);
     return 1 - closed / half_;
   }
 
@@ -31,11 +29,11 @@ class Estimator {
     double closed = 0;
     for (int i = 0; i < rays.count_below; ++i) closed += taken(rays.cosines_below[i], 0);  // by the surface itself
     if (!options_.contribution) {
-      bool blocked[packet];
+      bool blocked[rays_per_packet];
       tracer_.blocked(site.origin, rays.directions, rays.count, float(options_.radius), blocked);
       return closed + double(std::count(blocked, blocked + rays.count, true));
     }
-    float distances[packet];
+    float distances[rays_per_packet];
     tracer_.distances(site.origin, rays.directions, rays.count, float(options_.radius), distances);
     for (int i = 0; i < rays.count; ++i) {
       if (std::isfinite(distances[i])) closed += taken(rays.cosines[i], double(distances[i]) / options_.radius);

@@ -14,8 +14,6 @@ namespace {
 
 using glm::vec3;
 
-constexpr int packet = rays_per_packet;
-
 /// Sums of weights over one half of a pixel's rays.
 struct Half {
   double open = 0, all = 0;
@@ -30,7 +28,8 @@ class LobeTracer {
 
   Half half(const Site& site, const GgxLobe& lobe, int samples, uint32_t seed) const {
     Half sum;
-    for (int first = 0; first < samples; first += packet) add_packet(sum, site, lobe, seed, first, packet);
+    for (int first = 0; first < samples; first += rays_per_packet)
+      add_packet(sum, site, lobe, seed, first, rays_per_packet);
     return sum;
   }
 
@@ -43,8 +42,8 @@ class LobeTracer {
 
  private:
   void add_packet(Half& sum, const Site& site, const GgxLobe& lobe, uint32_t seed, int first, int samples) const {
-    vec3 directions[packet];
-    double weights[packet];
+    vec3 directions[rays_per_packet];
+    double weights[rays_per_packet];
     int count = 0;
     for (int i = 0; i < samples; ++i) {
       const GgxLobe::Sample sample = lobe.sample(scrambled_sobol(uint32_t(first + i), seed));
@@ -55,7 +54,7 @@ class LobeTracer {
       weights[count] = sample.weight;
       directions[count++] = direction;
     }
-    bool blocked[packet];
+    bool blocked[rays_per_packet];
     tracer_.blocked(site.origin, directions, count, radius_, blocked);
     for (int i = 0; i < count; ++i) {
       if (!blocked[i]) sum.open += weights[i];

@@ -6,10 +6,10 @@
 #include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/lists.h"
-#include "measure/effects.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/technique.h"
+#include "measure/effects.h"
 
 namespace gloam::score {
 namespace {

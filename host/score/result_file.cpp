@@ -9,9 +9,9 @@
 #include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/statistics.h"
+#include "gloam/error.h"
 #include "measure/document.h"
 #include "measure/pictures.h"
-#include "gloam/error.h"
 #include "results/measurements.h"
 
 namespace gloam::score {

@@ -5,10 +5,10 @@
 #include <new>
 
 #include "base/lists.h"
-#include "measure/sequence.h"
 #include "compare/plane_pairs.h"
 #include "gloam/error.h"
 #include "gloam/flicker.h"
+#include "measure/sequence.h"
 #include "run/driver.h"
 #include "score/plain_image.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/measures.h"
 #include "gloam/exr.h"
+#include "measure/measures.h"
 
 namespace gloam::score {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/lists.h"
-#include "measure/effects.h"
-#include "measure/pictures.h"
 #include "compare/plane_pairs.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "measure/effects.h"
+#include "measure/pictures.h"
 
 namespace gloam::score {
 namespace {

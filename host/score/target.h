@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/measurement.h"
 #include "gloam/exr.h"
+#include "measure/measurement.h"
 
 namespace gloam::score {
 

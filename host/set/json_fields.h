@@ -1,6 +1,7 @@
 // Fields of a JSON object, checked: a message names the file, the field and what is expected there.
 #pragma once
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -11,6 +12,9 @@
 namespace gloam::sets {
 
 using Json = nlohmann::ordered_json;
+
+/// The largest whole number of a field without a bound of its own.
+inline constexpr int largest = std::numeric_limits<int>::max();
 
 class JsonFields : public JsonObject {
  public:

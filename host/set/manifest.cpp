@@ -13,8 +13,6 @@
 namespace gloam::sets {
 namespace {
 
-constexpr int largest = std::numeric_limits<int>::max();
-
 bool is_item_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';

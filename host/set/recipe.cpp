@@ -15,8 +15,6 @@
 namespace gloam::sets {
 namespace {
 
-constexpr int largest = std::numeric_limits<int>::max();
-
 std::string text_or(const JsonFields& fields, const char* key, const std::string& otherwise) {
   return fields.find(key) ? fields.text(key) : otherwise;
 }

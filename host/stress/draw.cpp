@@ -17,12 +17,11 @@
 namespace gloam::stress {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-
 /// Values that files are known to hold in wrong places, and floats of any size.
 float any_value(Random& random) {
-  static const std::vector<float> specials = {nan,    inf,    -inf,  0,     -0.0f,  -1,    -1e38f, 1e-45f, 1e-39f,
-                                              1e-30f, 1e-20f, 1e-6f, 65504, 9.9e9f, 1e38f, 1,      0.5f,   3.4e38f};
+  static const std::vector<float> specials = {nan,    infinity, -infinity, 0,      -0.0f,  -1,
+                                              -1e38f, 1e-45f,   1e-39f,    1e-30f, 1e-20f, 1e-6f,
+                                              65504,  9.9e9f,   1e38f,     1,      0.5f,   3.4e38f};
   const size_t kind = random.below(4);
   if (kind == 0) return random.pick(specials);
   if (kind == 1) return std::bit_cast<float>(uint32_t(random.next()));

@@ -14,8 +14,6 @@
 namespace gloam::stress {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 constexpr int invented_layers = 3;
 
 /// The number at the end of "peel.03"; 0 for other names.

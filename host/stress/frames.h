@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct Scene;
 }
 
 namespace gloam::stress {
+
+inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 /// A camera at the origin of view space, and the size of its image.
 struct Shot {

@@ -29,7 +29,7 @@ std::string cell(std::string text) {
   return out;
 }
 
-std::string text_of(const Json& place) {
+std::string place_in_words(const Json& place) {
   if (place.is_null()) return "";
   const std::string view = place.at("view"), plane = place.at("plane");
   return fmt::format("{}{} ({}, {}): {}", view.empty() ? "" : view + ".", plane, place.at("x").get<int>(),
@@ -39,7 +39,7 @@ std::string text_of(const Json& place) {
 std::vector<Row> rows_of(const Json& document) {
   std::vector<Row> rows;
   for (const Json& entry : document.at("cases")) {
-    rows.push_back({entry.at("technique"), entry.at("what"), entry.at("conditions"), text_of(entry.at("place")),
+    rows.push_back({entry.at("technique"), entry.at("what"), entry.at("conditions"), place_in_words(entry.at("place")),
                     entry.at("case"), entry.at("trial"), number_of(entry.at("worst")), number_of(entry.at("bound")),
                     entry.at("held")});
   }

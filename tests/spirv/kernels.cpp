@@ -8,14 +8,14 @@
 #include <map>
 #include <vector>
 
+#include "gloam/error.h"
 #include "measure/floors.h"
 #include "measure/naive.h"
-#include "gloam/error.h"
 #include "plan/layouts.h"
 #include "run/arguments.h"
-#include "technique/kernel_sources.h"
 #include "support/kernel_runs.h"
 #include "support/long.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam::test {
 namespace {

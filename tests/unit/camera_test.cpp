@@ -14,8 +14,8 @@
 
 #include "camera/camera_json.h"
 #include "camera/camera_search.h"
-#include "frame/field_of_view.h"
 #include "camera/matrices.h"
+#include "frame/field_of_view.h"
 #include "gloam/error.h"
 #include "unit/read_channel.h"
 

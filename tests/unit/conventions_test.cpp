@@ -54,7 +54,7 @@ struct Converted {
   std::vector<std::string> assumed;
 };
 
-Converted convert(const std::vector<float>& values, const ReadOptions& options = {}, Camera camera = plain_camera(),
+Converted convert(const std::vector<float>& values, const StatedDepth& options = {}, Camera camera = plain_camera(),
                   const std::vector<float>* alpha = nullptr) {
   Channel depth = row_of(values);
   const Channel cover = row_of(alpha ? *alpha : values);
@@ -64,9 +64,9 @@ Converted convert(const std::vector<float>& values, const ReadOptions& options =
   return result;
 }
 
-ReadOptions with(DepthConvention depth, std::optional<double> near = {}, std::optional<double> far = {}) {
-  ReadOptions options;
-  options.depth = depth;
+StatedDepth with(DepthConvention depth, std::optional<double> near = {}, std::optional<double> far = {}) {
+  StatedDepth options;
+  options.convention = depth;
   options.near = near;
   options.far = far;
   return options;
@@ -100,18 +100,18 @@ TEST(Depth, FarPlaneWhereKnown) {
   EXPECT_EQ(convert(values).depth, values);
   camera.far = 60.1;
   EXPECT_EQ(convert(values, {}, camera).depth, (std::vector<float>{inf, inf, 60.099f, 60.2f, 65504}));
-  const ReadOptions options = with(DepthConvention::z, {}, 65504);  // the option wins over the camera
+  const StatedDepth options = with(DepthConvention::z, {}, 65504);  // the option wins over the camera
   EXPECT_EQ(convert(values, options, camera).depth, (std::vector<float>{60.1f, beside, 60.099f, 60.2f, inf}));
   camera.far = std::numeric_limits<double>::infinity();
   EXPECT_EQ(convert(values, {}, camera).depth, values);
 }
 
 TEST(Depth, BackgroundOption) {
-  ReadOptions options;
+  StatedDepth options;
   options.background = 65504.0f;
   const Converted c = convert({65504, 65503, std::nextafter(65504.0f, 0.0f), 1, 0, 1e10f}, options);
   EXPECT_EQ(c.depth, (std::vector<float>{inf, 65503, std::nextafter(65504.0f, 0.0f), 1, inf, 1e10f}));
-  options.depth = DepthConvention::ray;  // compared before conversion
+  options.convention = DepthConvention::ray;  // compared before conversion
   Camera camera = plain_camera();
   camera.cx = 0.5;
   camera.cy = 0.5;
@@ -132,7 +132,7 @@ TEST(Depth, NegativeDepthIsFlippedOnlyWhenAllIs) {
   const Converted mixed = convert({-1, 2});
   EXPECT_EQ(mixed.convention, "z");
   EXPECT_EQ(mixed.depth, (std::vector<float>{inf, 2}));
-  ReadOptions options;
+  StatedDepth options;
   options.background = -50.0f;
   EXPECT_EQ(convert({-1, -50}, options).depth, (std::vector<float>{1, inf}));
   EXPECT_EQ(convert({0, nan, inf}).convention, "z");  // nothing but background
@@ -245,7 +245,7 @@ TEST(Depth, AlphaTellsTheNearPlaneFromNothing) {
 }
 
 TEST(Depth, MissingOrImpossibleClippingPlanes) {
-  const auto message = [](const ReadOptions& options, const Camera& camera = plain_camera()) -> std::string {
+  const auto message = [](const StatedDepth& options, const Camera& camera = plain_camera()) -> std::string {
     try {
       convert({0.5f}, options, camera);
     } catch (const Error& e) {
@@ -273,7 +273,7 @@ TEST(Depth, ErrorOfEachEncodingIsStated) {
   const double near = 0.05, far = 60;
   std::vector<double> truth;
   for (double z = 0.06; z < 59; z *= 1.01) truth.push_back(z);
-  const auto worst = [&](const ReadOptions& options, const std::function<float(double)>& encode) {
+  const auto worst = [&](const StatedDepth& options, const std::function<float(double)>& encode) {
     std::vector<float> encoded;
     for (double z : truth) encoded.push_back(encode(z));
     const std::vector<float> back = convert(encoded, options).depth;
@@ -283,7 +283,7 @@ TEST(Depth, ErrorOfEachEncodingIsStated) {
   };
   const auto ndc = [&](double z) { return far * (z - near) / (z * (far - near)); };
   const auto steps = [](double value, double count) { return float(std::round(value * count) / count); };
-  const ReadOptions as_ndc = with(DepthConvention::ndc, near, far), as_reversed = with(DepthConvention::reversed, near);
+  const StatedDepth as_ndc = with(DepthConvention::ndc, near, far), as_reversed = with(DepthConvention::reversed, near);
   const double z_float = worst(with(DepthConvention::z), [](double z) { return float(z); });
   const double ndc_float = worst(as_ndc, [&](double z) { return float(ndc(z)); });
   const double ndc_24 = worst(as_ndc, [&](double z) { return steps(ndc(z), 16777215.0); });

@@ -1,5 +1,4 @@
 // Environments: which texel lies in which direction, and what is refused.
-#include "gloam/environment_file.h"
 #include "gloam/environment_map.h"
 
 #include <OpenEXR/ImfArray.h>
@@ -16,6 +15,7 @@
 #include <limits>
 #include <optional>
 
+#include "gloam/environment_file.h"
 #include "gloam/error.h"
 #include "message_of.h"
 

@@ -110,7 +110,9 @@ void expect_tint(const Picture& p, const Corner& corner, int width, int height,
     EXPECT_EQ(pale->r, pale->b);
     EXPECT_GE(pale->r, 140);
   }
-  if (tint) EXPECT_GT(tint->b, tint->r + 80);
+  if (tint) {
+    EXPECT_GT(tint->b, tint->r + 80);
+  }
 }
 
 TEST_F(ExplanationTest, TheTintIsWhereTheCellsAreAboveZeroAndNowhereElse) {

@@ -1,4 +1,4 @@
-#include "bench/fit/fit.h"
+#include "fit/fit.h"
 
 #include <gtest/gtest.h>
 

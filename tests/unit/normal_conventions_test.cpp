@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 
 #include "gloam/arrays.h"
+#include "gloam/conventions.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
-#include "gloam/conventions.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/scene.h"
 #include "gloam/scene/tracer.h"

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "gloam/error.h"
-#include "results/front.h"
-#include "results/joined.h"
 #include "report/markdown_text.h"
 #include "report/needs.h"
+#include "results/front.h"
+#include "results/joined.h"
 
 namespace gloam::report {
 namespace {

@@ -14,10 +14,10 @@
 #include "gloam/planes.h"
 #include "gloam/run.h"
 #include "plan/resample.h"
-#include "technique/kernel_sources.h"
 #include "support/long.h"
 #include "support/stress.h"
 #include "support/techniques.h"
+#include "technique/kernel_sources.h"
 #include "unit/message_of.h"
 
 namespace gloam::test {

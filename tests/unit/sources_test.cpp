@@ -58,7 +58,7 @@ std::vector<std::string> long_without_reason(const fs::path& host) {
   return found;
 }
 
-/// Files .cpp below `host` that have no header of their name: neither beside them nor among the public headers.
+/// Files .cpp below `host` that have no header of their name: neither beside them nor among the public headers of their room.
 std::vector<std::string> without_own_header(const fs::path& host) {
   std::vector<std::string> found;
   for (const fs::path& file : files_below(host, {".cpp"})) {
@@ -66,7 +66,8 @@ std::vector<std::string> without_own_header(const fs::path& host) {
     const auto is_above = [&](const std::string& folder) { return name.starts_with(folder); };
     if (std::any_of(without_headers.begin(), without_headers.end(), is_above)) continue;
     const std::string header = file.stem().string() + ".h";
-    const fs::path folders[] = {file.parent_path(), host / "include/gloam", host / "include/gloam/scene"};
+    const fs::path room = host / name.substr(0, name.find('/'));
+    const fs::path folders[] = {file.parent_path(), room / "include/gloam", room / "include/gloam/scene"};
     const auto has_header = [&](const fs::path& folder) { return fs::exists(folder / header); };
     if (std::none_of(std::begin(folders), std::end(folders), has_header)) found.push_back(name);
   }
@@ -104,14 +105,19 @@ TEST(Sources, FilesOfTheHostAreShortOrSayWhyNot) {
 
 TEST(Sources, ASourceFileHasItsOwnHeader) {
   for (const std::string& file : without_own_header(host))
-    ADD_FAILURE() << "host/" << file << " has no header of its name, neither beside it nor in host/include/gloam: name "
+    ADD_FAILURE() << "host/" << file
+                  << " has no header of its name, neither beside it nor in its room's include/gloam: name "
                   << "both alike, or declare what it defines in a header of its own";
 }
 
 TEST(Sources, PublicHeadersShowPublicHeadersOnly) {
-  for (const std::string& line : not_public(host / "include"))
-    ADD_FAILURE() << "host/include/" << line << "\nbelongs in a header of its room: programs that use gloam would need "
-                  << "what it names";
+  for (const fs::directory_entry& room : fs::directory_iterator(host)) {
+    if (!fs::exists(room.path() / "include")) continue;
+    for (const std::string& line : not_public(room.path() / "include"))
+      ADD_FAILURE()
+          << room.path().filename() << "/include/" << line
+          << "\nbelongs in a header beside the room's files: programs that use gloam would need what it names";
+  }
 }
 
 class MadeSources : public ::testing::Test {
@@ -142,12 +148,13 @@ TEST_F(MadeSources, ALongFileIsFoundUnlessItsFirstCommentSaysWhy) {
 }
 
 TEST_F(MadeSources, ASourceFileWithoutAHeaderOfItsNameIsFound) {
-  for (const char* name : {"room/beside.cpp", "room/beside.h", "room/public.cpp", "include/gloam/public.h",
-                           "scene/rays.cpp", "include/gloam/scene/rays.h", "cli/run.cpp", "stress/cases/sizes.cpp",
-                           "scene/built_in/hall.cpp", "room/lost.cpp", "other/beside.cpp", "stress/cases.cpp"})
+  for (const char* name :
+       {"room/beside.cpp", "room/beside.h", "room/public.cpp", "room/include/gloam/public.h", "scene/rays.cpp",
+        "scene/include/gloam/scene/rays.h", "room/elsewhere.cpp", "scene/include/gloam/elsewhere.h", "cli/run.cpp",
+        "stress/cases/sizes.cpp", "scene/built_in/hall.cpp", "room/lost.cpp", "other/beside.cpp", "stress/cases.cpp"})
     write(name, lines(1));
   EXPECT_EQ(without_own_header(folder_),
-            (std::vector<std::string>{"other/beside.cpp", "room/lost.cpp", "stress/cases.cpp"}));
+            (std::vector<std::string>{"other/beside.cpp", "room/elsewhere.cpp", "room/lost.cpp", "stress/cases.cpp"}));
 }
 
 TEST_F(MadeSources, AHeaderThatShowsWhatIsNotPublicIsFound) {

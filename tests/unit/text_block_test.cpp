@@ -64,7 +64,8 @@ TEST(TextBlock, ParagraphsStandOneBelowTheOther) {
   for (size_t i = 0; i < block.lines.size(); ++i) {
     EXPECT_EQ(block.lines[i].at.x, 200);
     EXPECT_LT(block.lines[i].at.y, block.height);
-    if (i > 0) EXPECT_GT(block.lines[i].at.y, block.lines[i - 1].at.y + int(style.size));
+    if (i == 0) continue;
+    EXPECT_GT(block.lines[i].at.y, block.lines[i - 1].at.y + int(style.size));
   }
 }
 

@@ -15,8 +15,6 @@
 namespace gloam::stress {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity();
-
 /// The frame as written by a renderer that marks background by `value`.
 Frame with_background(const Frame& frame, float value) {
   Frame copy = clone(frame);
@@ -67,7 +65,7 @@ struct Spelling {
 
 const Spelling spellings[] = {{"0", 0, {}, {}},
                               {"NaN", std::numeric_limits<float>::quiet_NaN(), {}, {}},
-                              {"-inf", -inf, {}, {}},
+                              {"-inf", -infinity, {}, {}},
                               {"1e10", 1e10f, {}, {}},
                               {"1e11", 1e11f, {}, {}},
                               {"far plane", 250, {}, 250.0},
@@ -166,7 +164,7 @@ Frame encoded(const Shot& shot, const Scene& scene, const Encoding& encoding, bo
   for (int y = 0; y < shot.height; ++y) {
     for (int x = 0; x < shot.width; ++x) {
       const auto seen = scene(ray_through(shot, x + 0.5, y + 0.5));
-      const float nothing = encoding.convention == DepthConvention::ndc ? 1.0f : from_far ? 0.0f : inf;
+      const float nothing = encoding.convention == DepthConvention::ndc ? 1.0f : from_far ? 0.0f : infinity;
       depth.at(x, y) = seen ? encoding.encode(seen->depth) : nothing;
     }
   }

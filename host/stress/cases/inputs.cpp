@@ -12,8 +12,6 @@
 namespace gloam::stress {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-
 const char* const out_of_range = "value out of its range";
 
 /// Reports the smallest draw that shows the same fault, which a person can examine: one is enough.
@@ -88,7 +86,7 @@ const Change changes[] = {{"zero", [](float, int, int) { return 0.0f; }},
                                                               : (x * y) % 5 == 0 ? 0
                                                                                  : n; }},
                           {"facing away", [](float n, int, int) { return -n; }},
-                          {"infinite", [](float n, int, int) { return n * inf; }}};
+                          {"infinite", [](float n, int, int) { return n * infinity; }}};
 
 void normals_of_no_use(Probe& probe) {
   for (const RunOptions& way : probe.two_ways()) {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "technique/kernel_sources.h"
 #include "stress/case.h"
 #include "stress/frames.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam::stress {
 namespace {

@@ -9,7 +9,7 @@
 //     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
 //   PARAMS(NameParams, NAME_PARAMS)
 //
-// Kernels name the struct Params. The host writes it before a kernel's text, from the table (struct_of, run/kernel_sources.h): OpenCL C
+// Kernels name the struct Params. The host writes it before a kernel's text, from the table (struct_of, technique/kernel_sources.h): OpenCL C
 // has no variadic macros, without which a list of entries of different lengths cannot become a struct.
 // Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints, and a file is the number of its
 // name (file_name, gloam/parameters.h), which only the host reads.

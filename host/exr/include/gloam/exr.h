@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "gloam/frame.h"
 #include "gloam/conventions.h"
+#include "gloam/frame.h"
 
 namespace gloam {
 

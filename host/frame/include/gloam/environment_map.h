@@ -52,7 +52,8 @@ class EnvironmentMap {
 };
 
 /// Reads the map of a file.
-using EnvironmentReader = EnvironmentMap (*)(const std::filesystem::path& path, EnvironmentAxes axes, double turn_degrees);
+using EnvironmentReader = EnvironmentMap (*)(const std::filesystem::path& path, EnvironmentAxes axes,
+                                             double turn_degrees);
 
 /// What reads environments where a technique's setting names a file. Planes need no files, so the room that has them sets it, exr/; null
 /// in a program without that.

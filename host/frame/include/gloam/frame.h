@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -121,7 +122,8 @@ void keep_planes(Frame& frame, const std::vector<std::string>& planes);
 /// `check` (camera.h), with a plane whose channels have no memory or not the frame's size.
 void check(const Frame& frame);
 
-/// Background is +inf; everything else is a surface.
+/// The depth of the background; everything else is a surface.
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
 bool is_background(float depth);
 
 }  // namespace gloam

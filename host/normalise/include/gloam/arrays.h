@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gloam/frame.h"
 #include "gloam/conventions.h"
+#include "gloam/frame.h"
 
 namespace gloam {
 

@@ -1,4 +1,4 @@
-#include "frame/two_eyes.h"
+#include "frame/two_cameras.h"
 
 #include <glm/geometric.hpp>
 #include <limits>
@@ -12,7 +12,7 @@ namespace {
 /// Largest distance from p at which the way back may end, pixels: "1 pixel width".
 constexpr double back_check = 1;
 
-bool sees_any(const Eye& own, const Eye& other, const EyeMotion& there, const EyeMotion& back) {
+bool sees_any(const Eye& own, const Eye& other, const CameraMotion& there, const CameraMotion& back) {
   for (int y = 0; y < own.window.height(); ++y) {
     for (int x = 0; x < own.window.width(); ++x) {
       if (is_background(own.depth.at(x, y))) continue;
@@ -25,7 +25,7 @@ bool sees_any(const Eye& own, const Eye& other, const EyeMotion& there, const Ey
 
 }  // namespace
 
-EyeMotion motion_between(const Pose& from, const Pose& to) {
+CameraMotion motion_between(const Pose& from, const Pose& to) {
   return {to.world_to_view * glm::transpose(from.world_to_view), to.world_to_view * (from.position - to.position)};
 }
 
@@ -44,7 +44,7 @@ bool is_inside(const Eye& eye, const glm::dvec2& place) {
   return place.x >= 0 && place.y >= 0 && place.x < eye.window.width() && place.y < eye.window.height();
 }
 
-bool comes_back(const Eye& own, const Eye& other, const EyeMotion& back, int x, int y, const glm::dvec2& place) {
+bool comes_back(const Eye& own, const Eye& other, const CameraMotion& back, int x, int y, const glm::dvec2& place) {
   const int there_x = int(place.x), there_y = int(place.y);
   if (is_background(other.depth.at(there_x, there_y))) return false;
   const glm::dvec3 point = back.of_point(point_of(other, there_x, there_y));
@@ -75,8 +75,8 @@ bool have_surface_in_common(const Frame& frame) {
   const View &a = frame.views[0], &b = frame.views[1];
   const Eye first{*a.camera, frame.window, a.find("depth")->channels[0]};
   const Eye second{*b.camera, frame.window, b.find("depth")->channels[0]};
-  const EyeMotion there = motion_between(*a.camera->pose, *b.camera->pose);
-  const EyeMotion back = motion_between(*b.camera->pose, *a.camera->pose);
+  const CameraMotion there = motion_between(*a.camera->pose, *b.camera->pose);
+  const CameraMotion back = motion_between(*b.camera->pose, *a.camera->pose);
   return sees_any(first, second, there, back) || sees_any(second, first, back, there);
 }
 

@@ -1,4 +1,4 @@
-// Where the pixels of one of two eyes lie in the other.
+// Where the pixels of one camera lie in the image of another: two eyes, or two frames of a shot.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -10,6 +10,10 @@
 
 namespace gloam {
 
+/// Positions this near to the middle of a pixel count as the middle, pixels: cameras and motion in single precision, as OpenEXR's M44f,
+/// are off by some 1e-4 pixels.
+inline constexpr double on_centre = 1e-3;
+
 /// One eye as looking into the other needs it.
 struct Eye {
   const Camera& camera;
@@ -19,15 +23,15 @@ struct Eye {
   bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < window.width() && y < window.height(); }
 };
 
-/// From the view space of one eye to that of the other.
-struct EyeMotion {
-  glm::dmat3 rotation;
-  glm::dvec3 translation;
+/// From the view space of one camera to that of another.
+struct CameraMotion {
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 translation{0.0};
   glm::dvec3 of_point(const glm::dvec3& p) const { return rotation * p + translation; }
 };
 
 /// Positions are subtracted first: they may be far from the origin, and near each other.
-EyeMotion motion_between(const Pose& from, const Pose& to);
+CameraMotion motion_between(const Pose& from, const Pose& to);
 
 /// The point that the centre of a pixel shows, view space; NaN where the camera sees nothing there.
 glm::dvec3 point_of(const Eye& eye, int x, int y);
@@ -40,7 +44,7 @@ bool is_inside(const Eye& eye, const glm::dvec2& place);
 
 /// The back-check of Shi, Billeter and Eisemann 2022 (section 3.1): whether `other` sees the point of pixel (x, y) of `own`, which has
 /// the position `place` there. `back`: from `other` to `own`.
-bool comes_back(const Eye& own, const Eye& other, const EyeMotion& back, int x, int y, const glm::dvec2& place);
+bool comes_back(const Eye& own, const Eye& other, const CameraMotion& back, int x, int y, const glm::dvec2& place);
 
 /// A plane of a view. Throws Error if it is missing, or if its size is not that of the frame.
 const Plane& plane_in(const View& view, const std::string& name, const Layout& layout);

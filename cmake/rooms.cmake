@@ -1,0 +1,73 @@
+# Rooms: the folders of host/, one object library each (docs/architecture.md).
+#
+# A room's files include "room/file.h" of the rooms that it uses, and of those that these use; each room has an include root of its own,
+# so that any other include is an error: no such file. CMake refuses rooms that use each other in a circle.
+set(room_roots ${PROJECT_BINARY_DIR}/rooms)
+
+#   gloam_room(NAME [FOLDER folder] [USES room ...] [READS folder ...] [LINKS library ...] [DEFINES name ...] [GENERATED file ...]
+#              [APART file ...] [OPTIMISED level] [FUSED] [SEPARATE])
+# FOLDER: where its files lie, if not in host/NAME; programs there, *_bench.cpp, are not of the room. READS: further include roots. LINKS: libraries of which its headers, or its files, include something. GENERATED: sources
+# that CMake makes; like those of APART they stay units of their own, and others are compiled several at once. OPTIMISED: for rooms
+# that wait for others most of the time. FUSED: the compiler may fuse products and sums. Elsewhere it may not: sets of frames and truths
+# are the same on every machine (docs/set.md), which on x86-64 costs nothing. SEPARATE: no file is compiled together with another.
+function(gloam_room name)
+  cmake_parse_arguments(room "FUSED;SEPARATE" "FOLDER;OPTIMISED" "USES;LINKS;DEFINES;GENERATED;APART;READS" ${ARGN})
+  set(folder ${PROJECT_SOURCE_DIR}/host/${name})
+  if(room_FOLDER)
+    set(folder ${PROJECT_SOURCE_DIR}/${room_FOLDER})
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  if(room_FOLDER)
+    list(FILTER sources EXCLUDE REGEX "_bench.cpp$")
+  endif()
+  add_library(room_${name} OBJECT ${sources} ${room_GENERATED})
+  file(MAKE_DIRECTORY ${room_roots}/${name})
+  file(CREATE_LINK ${folder} ${room_roots}/${name}/${name} SYMBOLIC)
+  target_include_directories(room_${name} PUBLIC ${room_roots}/${name})
+  if(EXISTS ${folder}/include)
+    target_include_directories(room_${name} PUBLIC ${folder}/include)
+  endif()
+  target_include_directories(room_${name} PRIVATE ${room_READS})
+  list(TRANSFORM room_USES PREPEND room_)
+  target_link_libraries(room_${name} PUBLIC ${room_USES} ${room_LINKS})
+  target_compile_definitions(room_${name} PUBLIC ${room_DEFINES})
+  if(NOT room_FUSED)
+    target_compile_options(room_${name} PRIVATE -ffp-contract=off)
+  endif()
+  if(room_OPTIMISED)
+    target_compile_options(room_${name} PRIVATE $<$<CONFIG:Release>:${room_OPTIMISED}>)
+  endif()
+  if(room_OPTIMISED OR room_FUSED OR name STREQUAL base)
+    target_precompile_headers(room_${name} PRIVATE ${common_headers})
+  else()
+    target_precompile_headers(room_${name} REUSE_FROM room_base)
+  endif()
+  if(GLOAM_UNITY AND NOT room_SEPARATE)
+    set_target_properties(room_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+  list(TRANSFORM room_APART PREPEND ${folder}/)
+  if(room_APART)
+    file(GLOB room_APART CONFIGURE_DEPENDS ${room_APART})
+  endif()
+  set_source_files_properties(${room_APART} ${room_GENERATED} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+#   gloam_library(NAME ROOMS room ... [SOURCES file ...] [USES library ...] [LINKS library ...])
+# A library of rooms, as gloam::NAME without the prefix `gloam_`. USES: libraries of gloam. LINKS: what programs that link it need besides.
+function(gloam_library name)
+  cmake_parse_arguments(library "" "" "ROOMS;SOURCES;USES;LINKS" ${ARGN})
+  set(objects "")
+  set(folders "")
+  foreach(room IN LISTS library_ROOMS)
+    list(APPEND objects $<TARGET_OBJECTS:room_${room}>)
+    list(APPEND folders $<BUILD_INTERFACE:$<TARGET_PROPERTY:room_${room},INTERFACE_INCLUDE_DIRECTORIES>>)
+  endforeach()
+  add_library(${name} STATIC ${objects} ${library_SOURCES})
+  string(REPLACE gloam_ "" export ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${export})
+  add_library(gloam::${export} ALIAS ${name})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_include_directories(${name} PUBLIC ${folders} $<INSTALL_INTERFACE:include>)
+  target_link_libraries(${name} PUBLIC ${library_USES} fmt::fmt glm::glm $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
+    PRIVATE ${library_LINKS})
+endfunction()
