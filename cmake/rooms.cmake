@@ -6,9 +6,9 @@ set(room_roots ${PROJECT_BINARY_DIR}/rooms)
 
 #   gloam_room(NAME [FOLDER folder] [USES room ...] [READS folder ...] [LINKS library ...] [DEFINES name ...] [GENERATED file ...]
 #              [APART file ...] [OPTIMISED level] [FUSED] [SEPARATE])
-# FOLDER: where its files lie, if not in host/NAME; programs there, *_bench.cpp, are not of the room. READS: further include roots. LINKS: libraries of which its headers, or its files, include something. GENERATED: sources
-# that CMake makes; like those of APART they stay units of their own, and others are compiled several at once. OPTIMISED: for rooms
-# that wait for others most of the time. FUSED: the compiler may fuse products and sums. Elsewhere it may not: sets of frames and truths
+# FOLDER: where its files lie, if not in host/NAME; programs there, *_bench.cpp, are not of the room. READS: further include roots.
+# LINKS: libraries of which its headers, or its files, include something. GENERATED: sources that CMake makes; like those of APART they
+# stay units of their own, and others are compiled several at once. OPTIMISED: for rooms that wait for others most of the time. FUSED: the compiler may fuse products and sums. Elsewhere it may not: sets of frames and truths
 # are the same on every machine (docs/set.md), which on x86-64 costs nothing. SEPARATE: no file is compiled together with another.
 function(gloam_room name)
   cmake_parse_arguments(room "FUSED;SEPARATE" "FOLDER;OPTIMISED" "USES;LINKS;DEFINES;GENERATED;APART;READS" ${ARGN})

@@ -57,5 +57,5 @@ EnvironmentMap read_environment(const std::filesystem::path& path, EnvironmentAx
 }  // namespace gloam
 
 /// Techniques that light with a map read it as frames are read. Programs that link gloam::frames ask for this symbol, so that the linker
-/// takes the file though no other calls it (CMakeLists.txt).
+/// takes the file though no other calls it (host/CMakeLists.txt).
 extern "C" const bool gloam_reads_environments = (gloam::set_environment_reader(gloam::read_environment), true);
