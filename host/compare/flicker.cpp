@@ -78,7 +78,7 @@ class Pair {
     if (has_cameras_ && now_.depth) {
       const std::optional<ViewRay> ray = view_ray(*now_.camera, {now_.window.x0 + x + 0.5, now_.window.y0 + y + 0.5});
       if (!ray) return {};
-      const glm::dvec3 point = camera_motion_.rotation * ray->at(depth) + camera_motion_.translation;
+      const glm::dvec3 point = camera_motion_.of_point(ray->at(depth));
       place.depth = -point.z;
       if (source_ == MotionSource::cameras) {
         const std::optional<glm::dvec2> at = pixel_of(*before_.camera, point);

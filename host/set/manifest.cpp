@@ -1,7 +1,6 @@
 #include "set/manifest.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/files.h"
 #include "base/json_text.h"

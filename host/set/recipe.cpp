@@ -1,7 +1,6 @@
 #include "set/recipe.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/lists.h"
 #include "gloam/error.h"
