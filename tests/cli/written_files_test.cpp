@@ -281,7 +281,7 @@ TEST(WhatOpensFiles, TellsTheLedger) {
   const std::map<std::string, std::string> others = {
       {"base/command_line.cpp", "the system's"},   {"base/file_lock.cpp", "gloam's own"},
       {"base/memory.cpp", "the system's"},         {"base/temporary_folder.cpp", "a folder"},
-      {"cli/view.cpp", "an earlier page"},         {"run/device.cpp", "the system's"},
+      {"cli/view/view.cpp", "an earlier page"},    {"run/device.cpp", "the system's"},
       {"measure/document.cpp", "the system's"},    {"measure/native.cpp", "the system's"},
       {"run/device_record.cpp", "gloam's own"},    {"run/effect_speeds.cpp", "gloam's own"},
       {"run/kept_folders.cpp", "gloam's own"},     {"run/kernel_cache.cpp", "gloam's own"},

@@ -1,0 +1,173 @@
+// gloam auto FRAME.exr -o OUT.exr
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "cli/auto/explanations.h"
+#include "cli/auto/frame.h"
+#include "cli/auto/goal.h"
+#include "cli/auto/report.h"
+#include "cli/auto/shot.h"
+#include "cli/flags/given_flags.h"
+#include "cli/flags/memory.h"
+#include "cli/flags/time_budget.h"
+#include "cli/shot/shot.h"
+#include "gloam/error.h"
+#include "gloam/visualise.h"
+
+namespace gloam::cli {
+namespace {
+
+void run_on_one_frame(const AutoCommand& flags) {
+  RunOptions options = flags.run_flags.run_options();
+  // Times to compare must not include what a device does only once.
+  if (flags.measure) options.repeat = std::max(options.repeat, 3);
+  const WriteOptions writing{flags.half, flags.compression};
+  std::vector<NamedPath> inputs = flags.frame.inputs();
+  inputs.emplace_back("--camera", flags.frame_flags.camera);
+  check_paths(inputs, {{"-o", flags.out},
+                       {"--composite", flags.composite.path},
+                       {"--explain", flags.explain},
+                       {"--json", flags.json.file()}});
+  const bool explains = !flags.explain.empty();
+  FrameFiles files = flags.frame.open(flags.frame_flags.read_options());
+  check_pictures({"--explain", flags.explain}, files.views());
+  std::vector<std::string> notes_on_light;
+  const AutoPurpose purpose{explains, flags.goal || !flags.composite.path.empty(),
+                            compose_options(flags.composite.light, files, notes_on_light)};
+  const PlanRequest asked = flags.technique_flags.request({});
+  AutoFrame planned = planned_auto(std::move(files), asked, purpose);
+  check_goal(flags.goal, planned);
+  check_has_depth(planned, flags.out);
+  std::optional<CompositeSource> source =
+      open_composite(flags.composite, flags.frame.files(), flags.frame_flags.read_options());
+  const unsigned long long memory = planned_memory(
+      flags.frame_flags, planned.files.name(), flags.run_flags.device,
+      [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory) + bytes_of(source); },
+      "crop or shrink the frame, ask for --resolution half, or for one view (--view)");
+  Device device = flags.run_flags.open();
+  Frame frame = read_and_judge(planned, asked, purpose);
+  note(frame.assumed);
+  check_goal(flags.goal, planned);
+  leave_out(source, planned.unfit);
+  if (flags.goal && !source) note(notes_on_light);
+  const Radius made = default_radius(frame, stated_radius(planned.files));
+  set_radius(planned, made.value);
+  options.progress = progress_bar();
+  const AutoSettings settings{.mask = flags.mask.value_or(MaskUse::measured),
+                              .measures = flags.measure,
+                              .purpose = purpose,
+                              .radius_from = made.from,
+                              .goal = flags.goal,
+                              .measuring = progress_bar()};
+  AutoResult result = compute_effects(planned, settings, frame, device, options);
+  std::vector<std::string> written;
+  if (!flags.out.empty()) written.push_back(flags.out);
+  if (explains) {
+    for (const View& view : frame.views) {
+      written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
+      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name),
+                        {planned.files.name(), totals_in_words(result, flags.goal)});
+    }
+  }
+  std::optional<Composition> composition;
+  if (source) {
+    read_colour(*source);
+    const Composite composite = make_composite(*source, result.frame);
+    composition = composite.composition;
+    note(composition->notes);
+    write_composite(flags.composite.path, composite, flags.compression);
+    written.push_back(flags.composite.path);
+  }
+  if (!flags.out.empty()) {
+    for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
+    write_frame(flags.out, result.frame, writing);
+  }
+  if (result.spent)
+    if (const std::string missed = note_on_goal(*result.spent, flags.goal); !missed.empty()) note({missed});
+  Json document = document_of(result, flags.goal, device.info());
+  document["memory_bytes"] = memory;
+  if (composition) document["composite"] = composition_document(*composition);
+  if (result.radius) result.radius->add_to(document);
+  flags.json.write(document, written);
+  if (flags.json.only_json()) return;
+  print(result, flags.goal);
+  if (result.radius) result.radius->print();
+  if (composition) fmt::print("{}\n", composition_in_words(*composition));
+  for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
+}
+
+/// Throws UsageError where nothing would be written, and for a flag that has no effect on any of the files.
+void check_files_written(const AutoCommand& flags) {
+  if (flags.out.empty() && flags.composite.path.empty() && flags.explain.empty())
+    throw UsageError(
+        "auto: nothing is to be written; give --output OUT.exr, --composite PICTURE.exr or --explain WHY.png");
+  if (!flags.out.empty()) return check_frame_name(flags.out, "-o");
+  for (const auto& [flag, is_given] : {std::pair("--half", flags.half), std::pair("--float", flags.shot.as_float),
+                                       std::pair("--keep-depth", flags.shot.keep_depth)}) {
+    if (is_given) throw UsageError("{}: is of -o OUT.exr, and none is written; leave it out", flag);
+  }
+}
+
+void auto_command(const AutoCommand& given, const CLI::App& command) {
+  AutoCommand flags = given;
+  check_files_written(flags);
+  check_picture_name(flags.explain, "--explain");
+  if (!flags.composite.path.empty()) check_frame_name(flags.composite.path, "--composite");
+  if (!flags.frame.history.empty())
+    throw UsageError("--history {}: auto takes nothing over from the frame before; leave it out, or use gloam run",
+                     flags.frame.history);
+  if (flags.frame.has_pattern()) {
+    flags.given = contents_in_words(command);
+    return run_auto_on_shot(flags);
+  }
+  check_no_shot(flags.frame, {{"-o", flags.out}, {"--composite", flags.composite.path}}, flags.shot.any());
+  run_on_one_frame(flags);
+}
+
+}  // namespace
+
+void add_auto(CLI::App& app) {
+  auto flags = std::make_shared<AutoCommand>();
+  CLI::App* command = app.add_subcommand("auto", "look at a frame, and compute only the effects that it calls for");
+  flags->frame.add_to(*command);
+  command->add_option("-o,--output", flags->out, "EXR file to write, with the planes of all effects")
+      ->type_name("OUT.exr");
+  command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
+      ->type_name("OUT.png");
+  add_choice(*command, "--mask", flags->mask,
+             {{"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}},
+             "whether an effect is computed only where the frame calls for it; measured (the default): both ways are "
+             "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more; of a shot: never");
+  command->add_flag("--measure", flags->measure,
+                    "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
+  CLI::Option* budget = add_parsed(*command, "--budget", flags->goal.ms, parse_budget,
+                                   "device time for all effects and for looking, such as 30ms: effects, presets and "
+                                   "resolutions are chosen for the least error of the picture");
+  budget->type_name("TIME");
+  add_number(*command, "--error", flags->goal.error, {1e-9, 1e9},
+             "RMS error of the picture (--composite): effects, presets and resolutions are chosen for the least time")
+      ->excludes(budget);
+  CLI::Option* half = command->add_flag("--half", flags->half, "write results as half instead of float");
+  add_compression(*command, flags->compression);
+  flags->technique_flags.add_to(*command, false);
+  flags->run_flags.add_to(*command);
+  flags->frame_flags.add_to(*command);
+  flags->shot.add_to(*command, false);
+  flags->composite.add_to(*command);
+  command->get_option("--float")->excludes(half);
+  flags->json.add_to(*command);
+  command->footer(
+      "What a frame does not call for is written as if computed: AO of 1, reflections of 0.\n"
+      "Examples:\n"
+      "  gloam auto frame.exr -o out.exr\n"
+      "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"
+      "  gloam auto frame.exr -o out.exr --budget 30ms\n"
+      "  gloam auto frame.exr --composite picture.exr\n"
+      "  gloam auto 'shot.####.exr' -o 'out.####.exr' --frames 1-48 --radius 0.5\n"
+      "Parameters are set with --set NAME=VALUE (gloam list techniques).");
+  command->callback([flags, command] { auto_command(*flags, *command); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,130 @@
+#include "cli/auto/budget.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "auto/effect_speeds.h"
+#include "base/lists.h"
+#include "base/statistics.h"
+
+namespace gloam::cli {
+namespace {
+
+constexpr double unlooked_at = std::numeric_limits<double>::quiet_NaN();
+
+/// The effect at its cheapest, with all that completes it.
+Plan plan_of_glance(const Technique& technique, const EffectProbe& probe) {
+  PlanRequest request = request_everywhere(technique, probe.asked);
+  request.resolution = 1;
+  request.with.clear();
+  request.adaptive.clear();
+  if (request.preset.empty() && !technique.presets.empty()) request.preset = technique.presets.front().name;
+  for (const Technique* more : techniques_that_complete(technique)) {
+    const std::vector<std::string>& reads = more->reads;
+    const bool has_all = std::all_of(reads.begin(), reads.end(), [&](const std::string& plane) {
+      return contains(probe.available, plane) || contains(outputs_of(technique), plane);
+    });
+    if (has_all) request.outputs.push_back(more->name);
+  }
+  return make_plan(with_known_settings(technique, request, probe.available, probe.holds), probe.available, probe.holds);
+}
+
+std::vector<std::string> planes_of(const Technique& technique) {
+  std::vector<std::string> planes = {technique.effect.changes};
+  for (const Technique* more : techniques_that_complete(technique)) planes.push_back(more->effect.changes);
+  return planes;
+}
+
+BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool with_mask, const EffectProbe& probe) {
+  BudgetedEffect effect;
+  effect.technique = candidate.technique;
+  const PlanRequest& request = outcome.decision.request;
+  if (with_mask) {
+    effect.mask = request.mask;
+    effect.elsewhere = request.elsewhere;
+  }
+  effect.options = options_of(find_technique(request.outputs.front()), probe);
+  return effect;
+}
+
+void take_budgeted(BudgetedEffect& effect, Outcome& outcome, Frame& out) {
+  outcome.change = effect.without;
+  outcome.lost = effect.lost;
+  if (effect.chosen == left_out) {
+    outcome.is_left_out = true;
+    return;
+  }
+  const EffectOption& option = effect.options[size_t(effect.chosen)];
+  outcome.setting = option.setting();
+  outcome.decision.request = option.request;
+  outcome.decision.effect.is_everywhere = !effect.is_masked;
+  outcome.is_masked = effect.is_masked;
+  outcome.ms += effect.ms;
+  outcome.plan = std::move(effect.plan);
+  outcome.outputs = outcome.plan->outputs;
+  take_planes(effect.result.frame, out);
+}
+
+double ms_everywhere(const Decision& decision, const EffectProbe& probe) {
+  const Plan plan = make_plan(decision.everywhere, probe.available, probe.holds);
+  return median(run(plan, probe.frame, probe.device, probe.options).total_ms);
+}
+
+}  // namespace
+
+Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions& composing,
+                 const ProbeFor& probe_for) {
+  const EffectProbe first = probe_for(candidates.possible.front());
+  Glance glance(first.frame, composing);
+  for (const Candidate& candidate : candidates.possible) {
+    if (!at_all && candidate.technique->effect.least_change == 0) continue;
+    const EffectProbe probe = probe_for(candidate);
+    glance.look(plan_of_glance(*candidate.technique, probe), true_per_seen_change(*candidate.technique), probe.device,
+                probe.options);
+  }
+  return glance;
+}
+
+double change_by(const Technique& technique, const Glance& glance) {
+  return contains(glance.planes(), technique.effect.changes) ? glance.change_by(planes_of(technique)) : unlooked_at;
+}
+
+void add_changes(Outcome& outcome, const Glance& glance) {
+  const Technique& technique = *outcome.decision.effect.technique;
+  if (!contains(glance.planes(), technique.effect.changes)) return;
+  for (const View& view : glance.small().views)
+    outcome.changes.emplace(view.name, glance.changes_by(planes_of(technique), view.name));
+}
+
+void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,
+                  const ProbeFor& probe_for, AutoResult& result) {
+  std::vector<BudgetedEffect> effects;
+  std::vector<Outcome*> owners;
+  double probing_ms = 0;
+  for (size_t i = 0; i < candidates.possible.size(); ++i) {
+    Outcome& outcome = result.outcomes[i];
+    probing_ms += outcome.decision.effect.classify_ms;
+    if (!outcome.decision.effect.is_wanted) continue;
+    effects.push_back(
+        budgeted(candidates.possible[i], outcome, settings.mask != MaskUse::never, probe_for(candidates.possible[i])));
+    owners.push_back(&outcome);
+  }
+  const EffectProbe probe = probe_for(candidates.possible.front());
+  EffectSpeeds speeds(probe.device.info());
+  const BudgetMeans means{.frame = probe.frame,
+                          .available = probe.available,
+                          .holds = probe.holds,
+                          .device = probe.device,
+                          .options = probe.options,
+                          .glance = glance,
+                          .probing_ms = probing_ms,
+                          .always_masked = settings.mask == MaskUse::always,
+                          .measuring = settings.measuring};
+  result.spent = spend(effects, settings.goal, means, speeds);
+  for (size_t i = 0; i < effects.size(); ++i) {
+    if (settings.measures) owners[i]->ms_everywhere = ms_everywhere(owners[i]->decision, probe);
+    take_budgeted(effects[i], *owners[i], result.frame);
+  }
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,346 @@
+// gloam bench -o DIR: the time that accuracy costs
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/elapsed.h"
+#include "base/files.h"
+#include "cli/bench/baseline.h"
+#include "cli/bench/chunks.h"
+#include "cli/bench/file.h"
+#include "cli/bench/google.h"
+#include "cli/bench/paper.h"
+#include "cli/bench/print.h"
+#include "cli/bench/processes.h"
+#include "cli/bench/request.h"
+#include "cli/bench/rows.h"
+#include "cli/bench/sequence.h"
+#include "cli/bench/set.h"
+#include "cli/flags/shot_flags.h"
+#include "cli/process/chunk_commands.h"
+#include "cli/report/compare.h"
+#include "gloam/error.h"
+#include "measure/document.h"
+#include "measure/effects.h"
+#include "measure/measurement.h"
+#include "measure/native.h"
+#include "report/comparison_page.h"
+
+namespace gloam::cli {
+namespace {
+
+using namespace gloam::bench;
+
+/// Throws UsageError for what cannot be divided, too.
+void print_chunks(const BenchCommand& flags) {
+  if (!flags.json.path.empty()) throw UsageError("--json {}: each chunk would write it; leave it out", flags.json.path);
+  Measurement unused;
+  DeviceInfo any;
+  any.has_double = true;  // the machine of each chunk says what it lacks
+  const BenchOptions options = options_of(flags, any, unused);
+  BenchChunks divided{
+      .repeated = flags.repeated, .folder = flags.folder, .has_growth = !flags.no_growth, .chunks = flags.chunks};
+  for (const SceneRecipe* scene : options.scenes) divided.scenes.push_back(scene->name);
+  const bool need_each_other = !flags.presets.empty() || !flags.sweeps.empty() ||
+                               std::any_of(options.techniques.begin(), options.techniques.end(),
+                                           [](const Technique* t) { return !needs_naming(*t).empty(); });
+  if (!flags.techniques.empty()) {
+    for (const Technique* t : options.techniques) divided.techniques.push_back(t->name);
+  }
+  divided.divides_techniques = !flags.techniques.empty() && !need_each_other;
+  if (divided.scenes.empty() && !divided.divides_techniques)
+    throw UsageError(
+        "--chunks {}: --frame {} is one frame, and its techniques are divided only where --techniques names "
+        "them, without --presets, --sweep and techniques of two views",
+        flags.chunks, flags.frame);
+  print_bench_chunks(divided);
+}
+
+/// The first flag given that says how frames are read; empty if there is none.
+std::string reading_flag(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() == "Reading the frame" && option->count() > 0) return option->get_name();
+  }
+  return "";
+}
+
+SequenceBenchFlags sequence_flags(const BenchCommand& flags) {
+  return {flags.sequence,         flags.truths,
+          flags.folder,           flags.choice,
+          flags.frame_flags,      reading_flag(*flags.app),
+          flags.size.has_value(), !flags.techniques.empty()};
+}
+
+/// Rows of an earlier result, and those of several processes, are measured whole: their figures are compared.
+bool measures_all(const BenchCommand& flags) {
+  return flags.all || !flags.rows.empty() || !flags.baseline.empty() || flags.processes > 1;
+}
+
+/// Measures rows of a set again; with --baseline says which are worse.
+void bench_rows_of_set(const BenchCommand& flags, Device& device, const std::vector<WantedRow>& rows,
+                       const report::Source& before) {
+  const std::filesystem::path file = std::filesystem::path(flags.folder) / "bench.json";
+  std::optional<ComparedWithBaseline> compared;
+  bench_set(flags, device, {rows, [&](Json& document) {
+                              if (flags.baseline.empty()) return;
+                              compared = compare_with_baseline(before, file);
+                              document["comparison"] =
+                                  report::document_of(compared->comparison, compared->before, compared->now);
+                            }});
+  if (compared) tell(*compared, flags.regression, flags.json.only_json());
+}
+
+/// Throws UsageError for flags about frames without frames.
+void check_flags(const BenchCommand& flags) {
+  if (flags.sequence.empty() && flags.choice.frames) throw UsageError("--frames: is for a shot; --sequence names one");
+  if (!flags.sequence.empty() && !flags.effects.empty())
+    throw UsageError("--effects {}: of a shot ambient occlusion alone is measured; leave it out", flags.effects);
+  if (flags.sequence.empty() && flags.frame.empty() && !flags.truths.empty())
+    throw UsageError("--truth {}: whose truth it is has to be said: --frame FRAME.exr, or --sequence 'shot.####.exr'",
+                     flags.truths.front());
+  if (!flags.sequence.empty()) return check(sequence_flags(flags));
+  const std::string reading = reading_flag(*flags.app);
+  if (flags.frame.empty() && !reading.empty())
+    throw UsageError("{}: says how frames are read, and there is none; --frame or --sequence names them", reading);
+}
+
+void bench_command(const BenchCommand& given) {
+  check_flags(given);
+  // An earlier result says what is measured.
+  const std::string& earlier = given.baseline.empty() ? given.rows : given.baseline;
+  std::optional<report::Source> before;
+  if (!earlier.empty()) before = result_of(earlier);
+  std::vector<WantedRow> rows;
+  const BenchCommand flags = before ? flags_for_rows(given, *before, rows) : given;
+  if (flags.chunks > 0) return print_chunks(flags);
+  if (!flags.paper.empty()) {
+    bench_paper({flags.paper, flags.folder, flags, flags.size, flags.rays, flags.rounds}, flags.json);
+    return;
+  }
+  if (!make_openmp_wait_passively())
+    note({"OMP_WAIT_POLICY=passive could not be set: threads of the native loop may take time from the others"});
+  Measurement result;
+  Device device = flags.open();
+  if (!flags.set.empty() && before) {
+    make_output_folder(flags.folder);
+    check_paths({{earlier, before->file.string()}}, {},
+                {{"-o", (std::filesystem::path(flags.folder) / "bench.json").string()}});
+    return bench_rows_of_set(flags, device, rows, *before);
+  }
+  if (!flags.set.empty()) return bench_set(flags, device);
+  BenchOptions options = options_of(flags, device.info(), result);
+  options.rows = rows;
+  if (!flags.sequence.empty())
+    return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
+  make_output_folder(options.scene.folder);
+  const std::filesystem::path folder = flags.folder;
+  std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
+  for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
+  if (before) inputs.emplace_back(earlier, before->file.string());
+  check_paths(inputs,
+              {{"-o", (options.scene.folder / "scene.exr").string()},
+               {"--google-benchmark", flags.google_benchmark},
+               {"--json", flags.json.file()}},
+              {{"-o", (folder / "bench.json").string()}});
+  const BenchFile written(flags.folder);
+  say_on_interruption("bench.json is as it was, and pictures and truths of this run may lie beside it; run it again");
+  std::vector<std::pair<std::string, RadiusReport>> radii;
+  unsigned long long memory = 0;
+  TimeLimit limit = measures_all(flags) ? TimeLimit() : TimeLimit(flags.time);
+  options.limit = limit;
+  if (limit.is_set())
+    options.progress = [&limit](const std::string& what, double share) {
+      show_status(fmt::format("{}, {} left", what, time_words(limit.left())), share);
+    };
+  size_t subjects = options.effects.size() * (flags.frame.empty() ? options.scenes.size() : 1);
+  if (!flags.frame.empty()) {
+    for (const std::string& effect : options.effects) {
+      MeasureOptions of_effect = for_effect(options, effect);
+      Subject subject =
+          own_subject(flags.frame, flags.frame_flags, flags.truths, effect, of_effect.techniques, options.scene);
+      written.check(subject);
+      memory = std::max(memory, subject.memory_bytes);
+      if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      of_effect.limit = limit.part(1.0 / double(subjects--));
+      measure(subject, of_effect, true, device, result);
+    }
+  }
+  for (size_t i = 0; i < options.scenes.size(); ++i) {
+    for (const std::string& effect : options.effects) {
+      MeasureOptions of_effect = for_effect(options, effect);
+      const auto start = std::chrono::steady_clock::now();
+      Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene);
+      written.check(subject);
+      limit.extend(seconds_since(start));  // capturing and tracing are done once, and their files stay
+      if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      of_effect.limit = limit.part(1.0 / double(subjects--));
+      measure(subject, of_effect, i == 0, device, result);
+    }
+  }
+  erase_status();
+  note(result.notes);
+  if (result.rows.empty() && !result.left_out.empty())
+    throw Error("--time {}: nothing could be measured in that time on this device; a longer one, or --all, measures",
+                time_words(flags.time));
+  if (result.rows.empty())
+    throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
+  Json document = document_of(result, options, device.info());
+  if (memory > 0) document["memory_bytes"] = memory;
+  document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
+  const std::filesystem::path file = written.path();
+  written.write(document);
+  if (flags.processes > 1) {
+    measure_in_more_processes({flags.processes, flags.repeated, folder, flags.rounds}, document);
+    written.write(document);
+  }
+  if (!flags.google_benchmark.empty()) write_google_benchmark(flags.google_benchmark, document);
+  std::optional<ComparedWithBaseline> compared;
+  if (!flags.baseline.empty()) {
+    compared = compare_with_baseline(*before, file);
+    document["comparison"] = report::document_of(compared->comparison, compared->before, compared->now);
+  }
+  flags.json.write(document);
+  if (compared) return tell(*compared, flags.regression, flags.json.only_json());
+  if (flags.json.only_json()) return;
+  if (before) return fmt::print("wrote {}\n", printable(file.string()));
+  print(result, options, device.info());
+  for (const auto& [name, radius] : radii) fmt::print("{}: {}\n", printable(name), radius.words());
+  fmt::print("wrote {}\n", printable((folder / "bench.json").string()));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app) {
+  auto flags = std::make_shared<BenchCommand>();
+  CLI::App* command =
+      app.add_subcommand("bench", "what accuracy costs in time: times, ratios and errors of techniques");
+  command
+      ->add_option("-o,--output", flags->folder,
+                   "folder for bench.json, images/ and scenes/; made where it is not there")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--effects", flags->effects,
+                   "planes that are measured: " + enumerate(effect_names()) +
+                       ", or all; default: those that --truth holds, or that --techniques make, else ao")
+      ->type_name("A,B");
+  command->add_option("--techniques", flags->techniques, "these only; default: all that make the effects of every view")
+      ->type_name("A,B");
+  command->add_option("--presets", flags->presets, "these only; default: all that a technique has")->type_name("A,B");
+  CLI::Option* scenes =
+      command->add_option("--scenes", flags->scenes, "built-in scenes, or all; default: " + enumerate(default_scenes))
+          ->type_name("A,B");
+  CLI::Option* frame =
+      command->add_option("--frame", flags->frame, "measure on this frame instead of scenes")->type_name("FRAME.exr");
+  command
+      ->add_option(
+          "--truth", flags->truths,
+          "the frame's truth, as gloam reference makes it, once for each effect, of all views, or once for each "
+          "view (REF_left.exr, REF_right.exr); default: traced where the frame shows a built-in scene")
+      ->expected(1)
+      ->take_all()
+      ->type_name("REF.exr");
+  CLI::Option* sequence =
+      command
+          ->add_option("--sequence", flags->sequence,
+                       "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
+          ->type_name("SHOT|FRAME.####.exr");
+  command
+      ->add_option(
+          "--set", flags->set,
+          "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
+      ->type_name("DIR");
+  command->add_option("--items", flags->items, "with --set: these items only")->needs("--set")->type_name("A,B");
+  add_frames(*command, flags->choice);
+  add_missing_without_hold(*command, flags->choice);
+  command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");
+  CLI::Option* size =
+      add_parsed(*command, "--size", flags->size, parse_size,
+                 "of the scenes' images; default 960x540, with --paper 1920x1080, with --sequence 640x360")
+          ->type_name("WxH");
+  frame->excludes(scenes)->excludes(size);
+  add_number(*command, "--rays", flags->rays, allowed_rays,
+             "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need")
+      ->type_name("N");
+  add_number(*command, "--radius", flags->radius, allowed_radii,
+             "scene units; default: the truth's, else the scene's own, else made from the frame")
+      ->type_name("R");
+  command
+      ->add_option("--variants", flags->variants,
+                   fmt::format("of one preset (medium, else the first): none, all or some of {}; default: {}",
+                               enumerate(variant_names()), enumerate(default_variants())))
+      ->type_name("A,B");
+  command
+      ->add_option("--sweep", flags->sweeps,
+                   "values of a parameter to measure in turn, as variants of the same preset, for techniques that have "
+                   "it (repeatable: every combination)")
+      ->type_name("NAME=V1,V2")
+      ->expected(1)
+      ->take_all();
+  add_choice(*command, "--ladder", flags->ladder,
+             {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
+             "where errors come from, step by step; all: of variants too; default presets");
+  add_number(*command, "--rounds", flags->rounds, allowed_rounds,
+             "each runs everything once, in turn; default 9 with --all, else 6 to 30: until the ratio of each setting "
+             "is known to 2 %")
+      ->type_name("N");
+  CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
+                                 "how long measuring may take, the front first, then the rest as time allows; what was "
+                                 "left out is said; capturing and "
+                                 "tracing built-in scenes does not count; default 1m")
+                          ->type_name("1m");
+  command->add_flag("--all", flags->all, "measure everything, however long it takes; of a shot and of --set always")
+      ->excludes(time);
+  command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");
+  command->add_flag("--no-checks", flags->no_checks,
+                    "leave out what changes with the resolution and what bare planes read");
+  command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
+  flags->DeviceFlags::add_to(*command);
+  CLI::Option* paper =
+      command
+          ->add_option("--paper", flags->paper,
+                       "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()))
+          ->type_name("NAME");
+  command
+      ->add_option("--google-benchmark", flags->google_benchmark,
+                   "also write the result in Google Benchmark's form, for tools that read it")
+      ->type_name("FILE.json")
+      ->group("Writing");
+  add_chunk_flags(*command, flags->chunks, flags->print, "the scenes, and named techniques,", "Several machines");
+  flags->frame_flags.add_to(*command);
+  add_rows_flags(*command, *flags);
+  const std::vector<std::string> shared = {"--output", "--size",      "--rounds", "--rays",
+                                           "--device", "--no-tuning", "--help",   "--paper"};
+  for (CLI::Option* option : command->get_options()) {
+    if (!contains(shared, option->get_name())) option->excludes(paper);
+  }
+  for (const char* option : {"--scenes", "--frame", "--variants", "--sweep", "--ladder", "--rounds", "--no-growth",
+                             "--no-checks", "--no-images", "--chunks", "--time", "--google-benchmark"})
+    sequence->excludes(command->get_option(option));
+  flags->app = command;
+  flags->json.add_to(*command);
+  command->footer(
+      "Frames and truths stay in DIR/scenes and are used again. Examples:\n"
+      "  gloam bench -o out/bench                       what fits in a minute\n"
+      "  gloam bench -o out/bench --all                 everything\n"
+      "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
+      "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
+      "  gloam bench -o 'out/bench.##' --scenes all --chunks 7 --print | parallel\n"
+      "  gloam bench -o out/shi2022 --paper shi2022\n"
+      "  gloam bench -o out/odssao2020 --paper odssao2020\n"
+      "  gloam bench -o out/walk --sequence gallery:walk --techniques hbao+,gtao\n"
+      "  gloam bench -o out/mine --frame frame.exr --truth ao_ref.exr --presets low,medium\n"
+      "  gloam bench -o out/before --techniques hbao+,gtao,ssao,hbao --processes 4\n"
+      "  gloam bench -o out/after --baseline out/before/bench.json\n"
+      "  gloam bench -o out/light --effects indirect,bounces,specular_occlusion,contact --scenes all");
+  command->callback([flags, command] {
+    flags->repeated = repeated_words(*command, flags->chunks > 0 ? not_of_bench_chunks() : not_of_further_processes());
+    // Other machines have no one who waits.
+    if (flags->chunks > 0 && !flags->all && command->get_option("--time")->count() == 0)
+      flags->repeated.push_back("--all");
+    bench_command(*flags);
+  });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,281 @@
+// gloam capture SCENE -o FRAME.exr
+#include "gloam/scene/capture.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "base/elapsed.h"
+#include "cli/capture/flags.h"
+#include "cli/capture/moving_scene.h"
+#include "cli/capture/result.h"
+#include "cli/capture/shots.h"
+#include "cli/flags/shot_flags.h"
+#include "gloam/display_json.h"
+#include "gloam/error.h"
+#include "gloam/light_field.h"
+#include "gloam/radius.h"
+#include "gloam/scene/light_field_capture.h"
+#include "gloam/scene/sky_map.h"
+#include "gloam/visualise.h"
+
+namespace gloam::cli {
+namespace {
+
+/// The scene's lit colour as a picture.
+void write_colour(const CaptureShot& shot, const Frame& frame) {
+  if (shot.picture.empty()) return;
+  for (const View& view : frame.views) {
+    write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1), view.planes.at("color"));
+  }
+}
+
+/// The radius is the same in all frames of a sequence.
+void state_radius(Frame& frame, CaptureFigures& figures) {
+  if (!figures.ao_radius) figures.ao_radius = radius_made_from(frame);
+  if (figures.ao_radius) frame.numbers["aoRadius"] = *figures.ao_radius;
+}
+
+void take(const CaptureShot& shot, const Tracer& tracer, CaptureOptions options, const WriteOptions& write,
+          CaptureFigures& figures) {
+  options.views = shot.views;
+  CaptureResult result = capture(tracer, options);
+  state_radius(result.frame, figures);
+  figures.trace += result.seconds;
+  figures.stochastic += result.stochastic_seconds;
+  figures.outlines += result.outline_seconds;
+  figures.rays += result.rays;
+  figures.layers.add(result.frame);
+  figures.surfaces += result.surfaces;
+  figures.visible = result.visible;
+  if (result.visible) figures.second = result.frame.views.back().camera;
+  if (options.stereo)
+    figures.shift = 0.5 * (result.frame.views.back().camera->cx - result.frame.views.front().camera->cx);
+  const auto start = std::chrono::steady_clock::now();
+  write_frame(shot.file, result.frame, write);
+  write_colour(shot, result.frame);
+  figures.write += seconds_since(start);
+  figures.files.push_back(shot.file);
+}
+
+/// Frames of a moving camera have numbers in their names; one frame has none.
+void check_moving_flags(const CaptureCommand& flags) {
+  if (!flags.path.empty() && !flags.shot.empty())
+    throw UsageError("--camera-path and --shot both move the camera; give one of them");
+  const std::string moving = flags.moving();
+  if (!moving.empty() && flags.camera.any())
+    throw UsageError("{} places the camera and has its field of view; leave out --camera, --eye, --target and --fov",
+                     moving);
+  if (!moving.empty()) return;
+  if (flags.choice.frames)
+    throw UsageError("--frames: one camera makes one frame; give --camera-path FILE.json or --shot NAME too");
+  for (const auto& [flag, name] : {std::pair("-o", flags.out), std::pair("--picture", flags.picture)}) {
+    if (FramePattern::is_pattern(name))
+      throw UsageError(
+          "{} {}: is the name of many frames, and one camera makes one; give --camera-path FILE.json or "
+          "--shot NAME too",
+          flag, name);
+  }
+}
+
+void check_flags(const CaptureCommand& flags) {
+  check_picture_name(flags.picture, "--picture");
+  check_frame_name(flags.out, "-o");
+  if (!flags.sky.empty()) check_frame_name(flags.sky, "--sky");
+  if (FramePattern::is_pattern(flags.sky))
+    throw UsageError("--sky {}: is the name of many files, and the sky is one; give a name without #", flags.sky);
+  check_second_view_flags(flags);
+  if (flags.display.empty() && !flags.modules.empty())
+    throw UsageError("--modules are for a light-field display; give --display FILE too");
+  if (flags.display.empty() && flags.separate)
+    throw UsageError("--separate is for the modules of a light-field display; give --display FILE too");
+  check_moving_flags(flags);
+  if (!flags.picture.empty() && !flags.planes.empty() && !contains(split_list(flags.planes, "--planes"), "color"))
+    throw UsageError("--picture shows the plane color; add it to --planes");
+}
+
+Choices<OutlineMethod> methods_by_name() {
+  Choices<OutlineMethod> choices;
+  for (const std::string& name : outline_methods()) choices.emplace_back(name, OutlineMethod(choices.size()));
+  return choices;
+}
+
+/// Throws UsageError if an output is also an input or another output.
+void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& shots) {
+  std::vector<NamedPath> outputs = {{"--json", flags.json.file()}, {"--sky", flags.sky}};
+  for (const CaptureShot& shot : shots) {
+    outputs.emplace_back("-o", shot.file);
+    outputs.emplace_back("--picture", shot.picture);
+    std::vector<std::string> views;
+    for (const CaptureView& view : shot.views) views.push_back(view.name);
+    check_pictures({"--picture", shot.picture}, views);
+  }
+  check_paths({{"the scene", find_builtin_scene(flags.scene.scene) ? "" : flags.scene.scene},
+               {"--camera", flags.camera.camera},
+               {"--camera-path", flags.path},
+               {"--display", flags.display}},
+              outputs);
+}
+
+CaptureOptions options_of(const CaptureCommand& flags) {
+  CaptureOptions options;
+  if (flags.size) std::tie(options.width, options.height) = *flags.size;
+  options.planes = planes_of(flags);
+  options.peel = flags.peel;
+  options.peel_light = flags.peel_light;
+  options.stochastic = stochastic_of(flags);
+  options.second_view = second_view_of(flags);
+  options.stereo = stereo_of(flags);
+  return options;
+}
+
+/// The path, for an image of the size of the frames, or of a small one that a display is fitted to. Reports a display's errors.
+std::optional<CameraPath> path_for(const CaptureCommand& flags, const CaptureOptions& options) {
+  if (flags.display.empty()) return path_of(flags, options.width, options.height);
+  const FittingSize size = fitting_size(read_display(flags.display));
+  return path_of(flags, size.width, size.height);
+}
+
+/// All frames of a path have the radius of its first frame, whichever of them are made.
+std::optional<double> radius_of_first_frame(const CaptureCommand& flags, const CameraPath& path, const Tracer& tracer,
+                                            CaptureOptions options) {
+  CaptureCommand first = flags;
+  first.choice.frames = {1};
+  options.views = (flags.display.empty() ? shots_of_path(first, path) : shots_of_display(first, tracer, options, &path))
+                      .front()
+                      .views;
+  options.planes.clear();
+  options.peel = options.stochastic.samples = 0;
+  options.peel_light = false;
+  return radius_made_from(capture(tracer, options).frame);
+}
+
+void capture_command(const CaptureCommand& flags) {
+  const WriteOptions write{flags.half, flags.compression};
+  check_flags(flags);
+  if (flags.moving().empty()) check_files(flags, {{flags.out, flags.picture, {}}});  // before the scene is loaded
+  CaptureOptions options = options_of(flags);
+  const std::optional<OutlineOptions> outlines = outlines_of(flags);
+  const std::optional<CameraPath> path = path_for(flags, options);
+  std::vector<CaptureShot> shots;
+  if (path && flags.display.empty()) {
+    shots = shots_of_path(flags, *path);
+    check_files(flags, shots);
+  }
+  MovingScene scene(flags.scene, path ? path->recipe : nullptr, outlines);
+  if (!flags.display.empty()) shots = shots_of_display(flags, scene.tracer(), options, path ? &*path : nullptr);
+  if (shots.empty()) shots.push_back(single_shot(flags, scene.scene(), options.width, options.height));
+  check_files(flags, shots);
+  CaptureFigures figures;
+  figures.camera = shots.front().views.front().camera.source;
+  figures.faces = scene.scene().faces();
+  figures.meshes = scene.scene().meshes.size();
+  if (scene.scene().ao_radius > 0)
+    figures.ao_radius = scene.scene().ao_radius;
+  else if (shots.front().frame > 1)
+    figures.ao_radius = radius_of_first_frame(flags, *path, scene.tracer(), options);
+  const auto bar = progress_bar();
+  int taken = 0;
+  if (bar) {
+    options.progress = [&](int done, int of) { bar(taken * 1000 + int(1000LL * done / of), int(shots.size()) * 1000); };
+  }
+  for (const CaptureShot& shot : shots) {
+    scene.go_to(shot.frame);
+    options.previous_scene = scene.previous();
+    options.outlines = scene.outlines();
+    take(shot, scene.tracer(), options, write, figures);
+    ++taken;
+  }
+  if (!flags.sky.empty()) {
+    write_frame(flags.sky, sky_map(scene.scene()), write);
+    figures.files.push_back(flags.sky);
+  }
+  figures.load = scene.load_seconds();
+  figures.build = scene.build_seconds();
+  if (figures.surfaces == 0) note({"nothing of the scene is in the picture; another --camera or --eye may see it"});
+  flags.json.write(capture_document(scene.scene(), options, figures), figures.files);
+  if (!flags.json.only_json()) print_capture(scene.scene(), options, figures);
+}
+
+}  // namespace
+
+void add_capture(CLI::App& app) {
+  auto flags = std::make_shared<CaptureCommand>();
+  CLI::App* command = app.add_subcommand("capture", "a G-buffer of a scene: an OBJ or glTF file, or a built-in one");
+  command->add_option("scene", flags->scene.scene, "OBJ or glTF file, or a name of gloam list scenes")
+      ->required()
+      ->type_name("SCENE");
+  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("FRAME.exr");
+  add_parsed(*command, "--size", flags->size, parse_size, "of the image; default 1920x1080")->type_name("WxH");
+  command->add_option("--planes", flags->planes, "these planes and depth only: " + enumerate(capture_planes()))
+      ->type_name("A,B");
+  add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64")->type_name("N");
+  command->add_flag("--peel-light", flags->peel_light,
+                    "with --peel: also colour and normal of each layer, for light from hidden surfaces (dp-indirect)");
+  add_number(*command, "--stochastic", flags->stochastic, {1, 16},
+             "samples of a stochastic depth map of all surfaces, 1 to 16")
+      ->type_name("S");
+  add_number(*command, "--alpha", flags->alpha, {0, 1},
+             "share of the samples that a surface is offered to; default 0.2")
+      ->type_name("A");
+  add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds, "of its random choices; default 0")
+      ->type_name("N");
+  add_number(*command, "--outlines", flags->outlines, {1e-15, 1e15},
+             "count per pixel the outlines, that many scene units around the objects, that it is in")
+      ->type_name("EXTENT");
+  add_choice(*command, "--outline-method", flags->outline_method, methods_by_name(),
+             "how outlines are made; default mitre");
+  add_number(*command, "--outline-angle", flags->outline_angle, {0, 90},
+             "degrees between face normals that count as one, 0 to 90; default 1")
+      ->type_name("DEGREES");
+  add_number(*command, "--view2", flags->view2, {-90, 90}, "also a second view, turned by that many degrees, -90 to 90")
+      ->type_name("ANGLE");
+  add_number(*command, "--stereo", flags->stereo, {0, 1e30},
+             "two views, left and right: eyes that many scene units apart, the camera between")
+      ->type_name("IPD");
+  add_number(*command, "--convergence", flags->convergence, {1e-30, 1e30},
+             "with --stereo: depth of no disparity; default: parallel eyes")
+      ->type_name("D");
+  command->add_flag("--toe-in", flags->toe_in, "with --convergence: turn the eyes, instead of shifting their frusta");
+  command
+      ->add_option("--display", flags->display,
+                   "the views of all optical modules of a light-field display (docs/light-field.md), in its size")
+      ->type_name("FILE.json");
+  command->add_option("--modules", flags->modules, "with --display: these only, by number: 0,5,10-19")
+      ->check(accepted_by(parse_modules, "--modules"))  // stays text: the display decides the number of modules
+      ->type_name("N,N-N");
+  command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
+  command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
+      ->type_name("FILE");
+  command
+      ->add_option("--shot", flags->shot,
+                   "a moving camera of a built-in scene, of gloam list shots: frames with motion")
+      ->type_name("NAME");
+  add_frames(*command, flags->choice);
+  command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
+  command
+      ->add_option("--sky", flags->sky,
+                   "also the scene's sky, without the sun, as a lat-long map for --environment (axes openexr)")
+      ->type_name("SKY.exr");
+  command->add_flag("--half", flags->half, "store bounded planes as half");
+  add_compression(*command, flags->compression);
+  flags->camera.add_to(*command);
+  flags->scene.add_settings_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Planes are sampled at pixel centres. Examples:\n"
+      "  gloam capture colonnade -o colonnade.exr --size 960x540 --picture colonnade.png\n"
+      "  gloam capture statue --faces 500000 -o statue.exr --peel 8\n"
+      "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
+      "  gloam capture courtyard -o courtyard.exr --outlines 0.5\n"
+      "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
+      "  gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-12 --size 960x540\n"
+      "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
+      "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
+      "  gloam capture gallery -o gallery.exr --sky sky.exr\n"
+      "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
+      "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");
+  command->callback([flags] { capture_command(*flags); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,85 @@
+#include "cli/capture/flags.h"
+
+#include <algorithm>
+
+#include "gloam/error.h"
+
+namespace gloam::cli {
+
+std::vector<std::string> planes_of(const CaptureCommand& flags) {
+  std::vector<std::string> planes =
+      flags.planes.empty() ? usual_capture_planes() : split_list(flags.planes, "--planes");
+  const bool moves = !flags.moving().empty();
+  if (contains(planes, "motion") && !moves)
+    throw UsageError("--planes motion needs cameras of two moments; give --camera-path FILE.json or --shot NAME");
+  if (moves) add_new(planes, "motion");
+  return planes;
+}
+
+StochasticOptions stochastic_of(const CaptureCommand& flags) {
+  StochasticOptions options;
+  if (!flags.stochastic) {
+    if (flags.alpha) throw UsageError("--alpha is for a stochastic depth map; give --stochastic S too");
+    if (flags.stochastic_seed)
+      throw UsageError("--stochastic-seed is for a stochastic depth map; give --stochastic S too");
+    return options;
+  }
+  options.samples = *flags.stochastic;
+  options.alpha = flags.alpha.value_or(options.alpha);
+  options.seed = flags.stochastic_seed.value_or(options.seed);
+  return options;
+}
+
+std::optional<OutlineOptions> outlines_of(const CaptureCommand& flags) {
+  if (!flags.outlines) {
+    if (flags.outline_method) throw UsageError("--outline-method is for outlines; give --outlines EXTENT too");
+    if (flags.outline_angle) throw UsageError("--outline-angle is for outlines; give --outlines EXTENT too");
+    return {};
+  }
+  OutlineOptions options;
+  options.extent = *flags.outlines;
+  options.method = flags.outline_method.value_or(options.method);
+  if (!flags.outline_angle) return options;
+  if (!has_angle(options.method))
+    throw UsageError(
+        "--outline-angle tells apart the normals that --outline-method mitre and integrated take the mean of; leave it "
+        "out");
+  options.angle_degrees = *flags.outline_angle;
+  return options;
+}
+
+std::optional<double> second_view_of(const CaptureCommand& flags) {
+  if (flags.view2 == 0.0)
+    throw UsageError("--view2 0 would be the first view again; give -90 to 90 degrees, but not 0");
+  return flags.view2;
+}
+
+std::optional<StereoRig> stereo_of(const CaptureCommand& flags) {
+  if (!flags.stereo) {
+    if (flags.convergence) throw UsageError("--convergence is for two eyes; give --stereo IPD too");
+    if (flags.toe_in) throw UsageError("--toe-in is for two eyes; give --stereo IPD and --convergence D too");
+    return {};
+  }
+  const StereoRig rig{*flags.stereo, flags.convergence, flags.toe_in};
+  if (flags.toe_in && !rig.convergence)
+    throw UsageError("--toe-in turns the eyes towards a depth; give --convergence D too");
+  return rig;
+}
+
+void check_second_view_flags(const CaptureCommand& flags) {
+  std::vector<std::string> given;
+  if (flags.view2) given.push_back("--view2");
+  if (flags.stereo) given.push_back("--stereo");
+  if (!flags.display.empty()) given.push_back("--display");
+  if (given.size() > 1)
+    throw UsageError("{} cannot be given together, as each says which views a frame has; give one of them",
+                     enumerate(given));
+  if (flags.view2 && !flags.moving().empty())
+    throw UsageError(
+        "--view2 and {} cannot be given together: the second view turns about what the first one shows in each frame, "
+        "so "
+        "it has no motion; give one of them, or --stereo IPD for two eyes that move",
+        flags.moving());
+}
+
+}  // namespace gloam::cli

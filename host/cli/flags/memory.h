@@ -1,0 +1,45 @@
+// Memory that a command will take: calculated from headers, noted and checked before anything is decoded.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/flags/options.h"
+
+namespace gloam::cli {
+
+/// Bytes, given whether the device shares the host's memory.
+using MemoryNeed = std::function<unsigned long long(bool shares_memory)>;
+
+/// Peak memory, bytes, of a command that computes on a device. Opens the device only if the need depends on its kind. Adds a note
+/// for more than 1 GiB. Throws Error for more than --limit-memory or than the machine has; `ways_out`: advice for less, in words.
+unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, const std::string& device,
+                                  const MemoryNeed& need, const std::string& ways_out);
+
+/// As above, for a command that uses no device.
+unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, unsigned long long need,
+                                  const std::string& ways_out);
+
+/// How much memory a command may take, and why: "--limit-memory 4G allows 4.0 GiB".
+struct MemoryLimit {
+  unsigned long long bytes = 0;
+  std::string words;
+};
+/// By --limit-memory, else what is available. `memory`: --memory of a shot, where that is less.
+MemoryLimit limit_of(const FrameFlags& flags, const std::string& memory = "");
+
+/// Memory of a process for code and libraries: without a device, and with a device that has compiled kernels.
+inline constexpr unsigned long long process_bytes = 48ull << 20, process_bytes_with_device = 160ull << 20;
+
+/// "4G", "512M" or "1.5G": powers of 1024, from 1M to 1024T. Throws UsageError.
+unsigned long long parse_memory(const std::string& text, const std::string& flag);
+
+/// Peak memory for reading planes of a frame of one file or two, and of its history.
+unsigned long long bytes_to_read(const FrameFiles& files, const std::vector<std::string>& planes);
+
+/// Peak memory of `gloam run` with a plan, for a frame that is read with these planes.
+unsigned long long bytes_of_run(const FrameFiles& files, const std::vector<std::string>& planes, const Plan& plan,
+                                bool shares_memory);
+
+}  // namespace gloam::cli

@@ -1,0 +1,72 @@
+#include "cli/flags/shot_flags.h"
+
+#include "cli/flags/memory.h"
+#include "cli/process/chunk_commands.h"
+#include "flags/typed.h"
+#include "gloam/frame_numbers.h"
+
+namespace gloam::cli {
+namespace {
+
+constexpr const char* group = "Shots";
+
+/// Adds --chunks, --print and --warm-up.
+void add_chunks(CLI::App& app, ShotFlags& flags) {
+  add_chunk_flags(app, flags.chunks, flags.print, "a shot", group);
+  add_number(app, "--warm-up", flags.warm_up, {0, 1000000},
+             "with --temporal: this many of the first frames are computed for those that follow, and not written")
+      ->type_name("N")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_frames(CLI::App& app, FrameChoice& choice) {
+  add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
+             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all")
+      ->type_name("A-B")
+      ->group(group);
+}
+
+void add_missing(CLI::App& app, FrameChoice& choice) {
+  add_choice(app, "--missing", choice.missing, missing_words,
+             "frames that are not there: refuse (the default), leave out, or take the nearest one before")
+      ->group(group);
+}
+
+void add_missing_without_hold(CLI::App& app, FrameChoice& choice) {
+  choice.may_hold = false;
+  add_choice(app, "--missing", choice.missing, {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}},
+             "frames that are not there: refuse (the default) or leave out")
+      ->group(group);
+}
+
+void add_resume(CLI::App& app, bool& resume) {
+  app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(group);
+}
+
+void ShotFlags::add_to(CLI::App& app, bool divides) {
+  add_frames(app, choice);
+  add_missing(app, choice);
+  add_resume(app, resume);
+  app.add_option("--memory", memory, "most memory for a shot: it decides how many frames are worked on at once")
+      ->check(accepted_by(parse_memory, "--memory"))
+      ->type_name("4G|512M")
+      ->group(group);
+  if (divides) add_chunks(app, *this);
+  app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
+  app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half")->group(group);
+}
+
+std::string ShotFlags::any(bool with_float) const {
+  if (choice.frames) return "--frames";
+  if (choice.missing) return "--missing";
+  if (resume) return "--resume";
+  if (!memory.empty()) return "--memory";
+  if (chunks > 0) return "--chunks";
+  if (warm_up > 0) return "--warm-up";
+  if (keep_depth) return "--keep-depth";
+  return as_float && with_float ? "--float" : "";
+}
+
+}  // namespace gloam::cli

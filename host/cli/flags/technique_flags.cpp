@@ -1,0 +1,124 @@
+#include "cli/flags/technique_flags.h"
+
+#include <map>
+
+#include "cli/flags/options.h"
+#include "gloam/error.h"
+#include "gloam/planes.h"
+#include "run/kept_folders.h"
+
+namespace gloam::cli {
+namespace {
+
+/// "bent_normal (mean unoccluded direction, view space), by bitmask, gtao; cone (...), by the same"
+std::string extras_in_words() {
+  std::map<std::string, std::vector<std::string>> makers;
+  for (const Technique& t : registry()) {
+    for (const std::string& plane : t.extras) makers[plane].push_back(t.name);
+  }
+  std::vector<std::string> words;
+  std::string last;
+  for (const auto& [plane, names] : makers) {
+    const std::string by = enumerate(names);
+    words.push_back(fmt::format("{} ({}), by {}", plane, plane_kind(plane).help, by == last ? "the same" : by));
+    last = by;
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+}  // namespace
+
+void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
+  app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->group("Technique")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")
+      ->type_name("NAME")
+      ->group("Technique");
+  app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
+      ->type_name("NAME")
+      ->group("Technique");
+  app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
+      ->type_name("A,B")
+      ->group("Technique");
+  add_choice(app, "--resolution", resolution, resolution_words,
+             "estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
+      ->group("Technique");
+  app.add_option("--adaptive", adaptive,
+                 "preset for tiles where AO hardly varies, by a base pass: --preset ultra --adaptive medium")
+      ->type_name("NAME")
+      ->group("Technique");
+  if (!with_mask) return;
+  app.add_option("--only", only,
+                 "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
+                 "technique that makes a mask, such as corner-mask")
+      ->type_name("MASK")
+      ->group("Technique");
+  app.add_flag("--temporal", temporal,
+               "AO and reflections become means over the frames of a sequence that showed each surface; a frame by "
+               "itself goes on "
+               "from --history")
+      ->group("Technique");
+  app.add_option("--elsewhere", elsewhere,
+                 "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao")
+      ->type_name("TECHNIQUE")
+      ->group("Technique");
+}
+
+PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
+  PlanRequest request{.outputs = outputs, .then = then, .preset = preset};
+  request.settings = parse_settings(settings, "--set");
+  request.mask = only;
+  request.elsewhere = elsewhere;
+  request.adaptive = adaptive;
+  if (!with.empty()) request.with = split_list(with, "--with");
+  request.resolution = resolution;
+  return request;
+}
+
+void DeviceFlags::add_to(CLI::App& app, const std::string& group) {
+  app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")
+      ->type_name("TEXT")
+      ->group(group);
+  app.add_flag("--no-tuning", no_tuning, "lanes and groups as for any device of its kind, not as gloam doctor measured")
+      ->group(group);
+}
+
+Device DeviceFlags::open() const {
+  Device opened(device, !no_tuning);
+  if (const std::string foreign = foreign_folders_note(); !foreign.empty()) note({foreign});
+  return opened;
+}
+
+std::string DeviceFlags::as_text() const {
+  return (device.empty() ? "" : " --device " + quoted_for_shell(device)) + (no_tuning ? " --no-tuning" : "");
+}
+
+void RunFlags::add_to(CLI::App& app) {
+  DeviceFlags::add_to(app, "Device");
+  add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item")
+      ->group("Device");
+  add_choice(app, "--math", math, math_words, "precise: the same bits at every lane width; default fast")
+      ->group("Device");
+  add_choice(app, "--real", real, real_words, "what kernels compute in; default float")->group("Device");
+  add_number(app, "--seed", seed, allowed_seeds, "of the random numbers; default: 0, or one more than --history had")
+      ->type_name("N")
+      ->group("Device");
+  add_number(app, "--repeat", repeat, {1, 10000}, "timed runs; more than one: after a warm-up")
+      ->type_name("N")
+      ->group("Device");
+}
+
+RunOptions RunFlags::run_options() const {
+  RunOptions options;
+  options.lanes = lanes;
+  options.math = math;
+  options.real = real;
+  options.seed = seed.value_or(options.seed);
+  options.repeat = repeat;
+  return options;
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,27 @@
+// Lists of techniques: all of them, one a line, or one in full.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/flags/options.h"
+
+namespace gloam::cli {
+
+/// JSON as documented: range, default, choices.
+Json parameter_document(const Parameter& parameter);
+/// The default of a parameter for people.
+std::string default_in_words(const Parameter& parameter);
+
+/// Everything about techniques, for programs.
+Json techniques_document(const std::vector<const Technique*>& techniques);
+/// Prints names and summaries, grouped by the planes that techniques make.
+void print_techniques();
+/// Prints parameters, defaults, presets, and the planes that the technique reads and writes. `settable`: parameters that the
+/// command has as flags; the others need --set.
+void print_technique(const Technique& technique, const std::set<std::string>& settable);
+/// Prints docs/techniques.md: one section per technique.
+void print_techniques_markdown();
+
+}  // namespace gloam::cli

@@ -1,0 +1,291 @@
+// gloam pick FRAME.exr --budget 20ms | --error 0.02: the setting to use
+#include "choose/pick.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "base/elapsed.h"
+#include "base/temporary_folder.h"
+#include "cli/bench/subjects.h"
+#include "cli/flags/shot_flags.h"
+#include "cli/flags/time_budget.h"
+#include "cli/pick/shot.h"
+#include "gloam/error.h"
+#include "measure/effects.h"
+
+namespace gloam::cli {
+namespace {
+
+using namespace gloam::bench;
+
+struct PickCommand : DeviceFlags {
+  std::vector<std::string> truths;
+  std::string frame, techniques;
+  std::optional<double> budget, error, radius;  ///< budget: milliseconds
+  PickBy by = PickBy::rmse;
+  int rays = 256, rounds = 9;
+  double time = 60;  ///< seconds
+  bool all = false;
+  FrameChoice choice;
+  FrameFlags frame_flags;
+  JsonFlag json;
+  const CLI::App* app = nullptr;
+};
+
+const Choices<PickBy> figures = {
+    {"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}, {"flicker", PickBy::flicker}};
+
+/// The plane that is picked for: that of the truths, else of the techniques that are named.
+std::string effect_for(const PickCommand& flags) {
+  if (FramePattern::is_pattern(flags.frame)) return "ao";
+  std::vector<std::string> effects;
+  if (flags.techniques.empty()) {
+    effects = effects_in(flags.truths);
+  } else {
+    for (const std::string& name : split_list(flags.techniques, "--techniques"))
+      add_new(effects, measured_plane(find_technique(name)));
+  }
+  if (effects.size() > 1)
+    throw UsageError("pick: {} are several effects; give the truth, or the techniques, of one", enumerate(effects));
+  return effects.empty() || effects.front().empty() ? "ao" : effects.front();
+}
+
+/// `left_out`: techniques that are tried only if the user names them.
+PickOptions options_of(const PickCommand& flags, const std::string& effect, std::vector<Skipped>& left_out) {
+  if (flags.budget.has_value() == flags.error.has_value())
+    throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
+  PickOptions options;
+  options.budget = flags.budget;
+  options.by = flags.by;
+  options.error = flags.error;
+  options.rounds = flags.rounds;
+  options.progress = show_status;
+  const bool all = flags.techniques.empty();
+  for (const std::string& name : all ? techniques_making({effect}) : split_list(flags.techniques, "--techniques")) {
+    const Technique& technique = find_technique(name);
+    if (const std::string why = why_not_measured(technique, {effect}); !why.empty())
+      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_making({effect})));
+    if (const std::string why = needs_naming(technique); all && !why.empty())
+      left_out.push_back({name, "", "", why});
+    else if (std::find(options.techniques.begin(), options.techniques.end(), &technique) == options.techniques.end())
+      options.techniques.push_back(&technique);
+  }
+  return options;
+}
+
+/// The given flags for reading the frame.
+std::string reading_flags(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() != "Reading the frame") continue;
+    for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted_for_shell(value);
+  }
+  return text;
+}
+
+std::string run_line(const PickCommand& flags, const Variation& v) {
+  const bool is_shot = FramePattern::is_pattern(flags.frame);
+  std::string line = fmt::format("gloam run {} {} -o {}", v.technique->name, quoted_for_shell(flags.frame),
+                                 is_shot ? "'ao.####.exr'" : measured_plane(*v.technique) + ".exr");
+  if (v.temporal) line += " --temporal";
+  if (!v.preset.empty()) line += " --preset " + v.preset;
+  std::string radius = radius_parameter(v.technique->parameters);
+  if (radius.empty()) radius = radius_parameter(source_of(*v.technique).parameters);
+  if (!radius.empty()) line += fmt::format(" --{} {}", radius, float(v.radius));
+  if (v.resolution > 1) line += " --resolution " + v.variant;
+  return line + flags.as_text() + reading_flags(*flags.app);
+}
+
+Json entry_of(const Choice& choice) {
+  Json entry = {{"technique", choice.variation.technique->name},
+                {"preset", choice.variation.name()},
+                {"resolution", choice.variation.resolution == 1 ? "full" : choice.variation.variant},
+                {"ms", choice.ms},
+                {"rmse", choice.rmse},
+                {"ssim", choice.ssim ? Json(*choice.ssim) : Json(nullptr)}};
+  if (choice.flip) entry["flip"] = *choice.flip;
+  return entry;
+}
+
+Json document_of(const Picked& picked, const std::string& command, const std::string& by, const DeviceInfo& device) {
+  Json document = {{"command", command}};
+  document.update(entry_of(picked.finalists[picked.best]));
+  document["device"] = device.name;
+  document["error_to"] = picked.truth;
+  document["by"] = by;
+  document["finalists"] = Json::array();
+  for (const Choice& choice : picked.finalists) document["finalists"].push_back(entry_of(choice));
+  document["skipped"] = Json::array();
+  for (const Skipped& s : picked.skipped)
+    document["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
+  document["left_out"] = Json::array();
+  for (const Skipped& s : picked.left_out)
+    document["left_out"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
+  return document;
+}
+
+std::string stand_in_warning(const Picked& picked) {
+  return fmt::format(
+      "NO TRUTH: errors are to {}: what errs as that does looks nearer to the truth than it is; --truth REF.exr takes "
+      "a ray-traced image "
+      "(gloam reference, or a renderer's own)",
+      picked.truth);
+}
+
+/// "medium and high of gtao: low takes 31 ms already; the time was over for 12 settings (--time 5m, --all)".
+void print_left_out(const Picked& picked) {
+  std::map<std::string, std::vector<std::string>> slow;
+  size_t out_of_time = 0;
+  for (const Skipped& s : picked.left_out) {
+    if (s.why == time_was_over)
+      ++out_of_time;
+    else
+      slow[s.why].push_back(s.preset);
+  }
+  for (const auto& [why, presets] : slow) fmt::print("left out {}: {}\n", fmt::join(presets, "; "), printable(why));
+  if (out_of_time > 0)
+    fmt::print("left out {} settings for want of time: --time 5m tries more, --all everything\n", out_of_time);
+}
+
+void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
+  const bool has_flip = by == PickBy::flip;
+  std::vector<std::vector<std::string>> rows = {{"", "technique", "preset", "resolution", "ms", "RMSE", "SSIM"}};
+  if (has_flip) rows[0].push_back("FLIP");
+  for (size_t i = 0; i < picked.finalists.size(); ++i) {
+    const Choice& c = picked.finalists[i];
+    rows.push_back({i == picked.best ? ">" : "", c.variation.technique->name, c.variation.name(),
+                    c.variation.resolution == 1 ? "full" : c.variation.variant, fmt::format("{:.2f}", c.ms),
+                    fmt::format("{:.4f}", c.rmse), c.ssim ? fmt::format("{:.4f}", *c.ssim) : "-"});
+    if (has_flip) rows.back().push_back(fmt::format("{:.4f}", *c.flip));
+  }
+  print_table(rows, 4);
+  fmt::print("{} of {} settings that were tried; {}; errors to {}; {} decides (--by)\n", picked.finalists.size(),
+             picked.tried, printable(device.name), printable(picked.truth), name_of(by));
+  print_left_out(picked);
+}
+
+SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& flags) {
+  SceneOptions scene;
+  scene.folder = folder;
+  scene.rays = flags.rays;
+  scene.radius = flags.radius;
+  scene.progress = show_status;
+  return scene;
+}
+
+void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
+  const TemporaryFolder scratch("pick");
+  const SceneOptions scene = truths_in(scratch.path(), flags);
+  Device device = flags.open();
+  const SequenceBenchFlags sequence{.sequence = flags.frame,
+                                    .truths = flags.truths,
+                                    .folder = scratch.path(),
+                                    .choice = flags.choice,
+                                    .frame_flags = flags.frame_flags,
+                                    .names_techniques = !flags.techniques.empty()};
+  pick_on_shot(sequence, options, scene, left_out, device, flags.json,
+               [&](const Variation& v) { return run_line(flags, v); });
+}
+
+void pick_command(const PickCommand& flags) {
+  std::vector<Skipped> left_out;
+  const std::string effect = effect_for(flags);
+  PickOptions options = options_of(flags, effect, left_out);
+  if (FramePattern::is_pattern(flags.frame) && flags.app->get_option("--time")->count() > 0)
+    throw UsageError("--time: of a shot all settings are tried; leave it out, or name fewer --techniques or --frames");
+  if (FramePattern::is_pattern(flags.frame)) return pick_shot(flags, options, left_out);
+  if (flags.choice.frames) throw UsageError("--frames: is for a shot, and {} is one frame", flags.frame);
+  if (options.by == PickBy::flicker)
+    throw UsageError("--by flicker: is of a shot, and {} is one frame; write its number as in shot.####.exr",
+                     flags.frame);
+  std::vector<NamedPath> inputs = {{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
+  for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
+  check_paths(inputs, {{"--json", flags.json.file()}});
+  if (!flags.all) options.limit = TimeLimit(flags.time);
+  const TemporaryFolder scratch("pick");
+  const SceneOptions scene = truths_in(scratch.path(), flags);
+  Device device = flags.open();
+  const auto start = std::chrono::steady_clock::now();
+  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, effect, options.techniques, scene);
+  // Tracing a truth is done once, and does not count.
+  if (flags.truths.empty() && subject.truth) options.limit.extend(seconds_since(start));
+  const RadiusReport radius = report_of(subject, options.techniques);
+  Picked picked = pick(subject, options, device);
+  picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
+  erase_status();
+  const std::string command = run_line(flags, picked.finalists[picked.best].variation);
+  Json document = document_of(picked, command, word_for(flags.by, figures), device.info());
+  radius.add_to(document);
+  document["memory_bytes"] = subject.memory_bytes;
+  if (!picked.has_truth) note({stand_in_warning(picked)});
+  document["notes"] = picked.has_truth ? Json::array() : Json::array({stand_in_warning(picked)});
+  flags.json.write(document);
+  if (flags.json.only_json()) return;
+  print(picked, options.by, device.info());
+  radius.print();
+  fmt::print("{}\n", command);
+}
+
+}  // namespace
+
+void add_pick(CLI::App& app) {
+  auto flags = std::make_shared<PickCommand>();
+  CLI::App* command = app.add_subcommand(
+      "pick", "the most accurate setting within a time on this device, or the cheapest within an error");
+  flags->app = command;
+  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  add_frames(*command, flags->choice);
+  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included")
+      ->type_name("20ms");
+  add_number(*command, "--error", flags->error, {0, 1},
+             "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
+      ->type_name("ERROR");
+  add_choice(*command, "--by", flags->by, figures,
+             "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye "
+             "sees, flicker, of a "
+             "shot, what moves without reason");
+  command
+      ->add_option("--truth", flags->truths,
+                   "ambient occlusion, or another effect, as gloam reference makes it, of all views, or once for each "
+                   "view (REF_left.exr, "
+                   "REF_right.exr); default: traced where the frame shows a built-in scene, else a converged estimate")
+      ->expected(1)
+      ->take_all()
+      ->type_name("REF.exr");
+  command
+      ->add_option("--techniques", flags->techniques,
+                   "these only; default: all that make the truth's effect of every view, without a truth ao")
+      ->type_name("A,B");
+  add_number(*command, "--radius", flags->radius, allowed_radii,
+             "scene units; default: the truth's, else the scene's own, else made from the frame")
+      ->type_name("R");
+  add_number(*command, "--rays", flags->rays, allowed_rays, "per pixel, for a truth that is traced; default 256")
+      ->type_name("N");
+  add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9")
+      ->type_name("N");
+  CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
+                                 "how long reading the frame, trying settings, the likeliest first, and timing the "
+                                 "best few in turn may take; tracing a truth comes on top; default 1m")
+                          ->type_name("1m");
+  command->add_flag("--all", flags->all, "try every setting, however long it takes; of a shot always")->excludes(time);
+  flags->DeviceFlags::add_to(*command);
+  flags->frame_flags.add_to(*command);
+  flags->json.add_to(*command);
+  command->footer(
+      "Tries presets at full and at half resolution on the frame, and prints the choice as a gloam run line. Left out "
+      "is what a faster setting\n"
+      "that is too slow already rules out, and what does not fit in the time.\n"
+      "Examples:\n"
+      "  gloam pick frame.exr --budget 20ms --truth ao_ref.exr\n"
+      "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -\n"
+      "  gloam pick 'shot.####.exr' --truth 'truth.####.exr' --frames 1-8 --budget 20ms --by flicker");
+  command->callback([flags] { pick_command(*flags); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,26 @@
+// What gloam reference traces: the same for a frame alone and for each frame of a shot.
+#pragma once
+
+#include <optional>
+
+#include "cli/reference/command.h"
+#include "cli/reference/scene_of_frame.h"
+#include "gloam/frame_files.h"
+#include "gloam/radius.h"
+#include "gloam/scene/reference.h"
+
+namespace gloam::cli {
+
+/// A frame as it was read, its truth, and the radius if there is one.
+struct TracedFrame {
+  Frame frame;
+  Reference truth;
+  std::optional<Radius> radius;
+};
+
+/// Reads a frame of one file and traces its truth. The radius of `options` becomes the frame's. Throws Error for a frame without
+/// depth or more memory than there is.
+TracedFrame trace_frame(const ReferenceCommand& flags, const ReferenceJob& job, FrameFiles& file, SceneOfFrame& scene,
+                        ReferenceOptions options);
+
+}  // namespace gloam::cli

@@ -1,0 +1,27 @@
+// The flags of gloam run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/flags/composite_flags.h"
+#include "cli/flags/options.h"
+#include "cli/flags/shot_flags.h"
+
+namespace gloam::cli {
+
+struct RunCommand {
+  std::string technique, out, into, outputs, picture, compression = "zip";
+  bool bare = false, half = false;
+  std::string given;                  ///< flags that decide what is written, as text
+  std::vector<std::string> repeated;  ///< words for a chunk of a shot
+  FrameArguments frame;
+  FrameFlags frame_flags;
+  TechniqueFlags technique_flags;
+  RunFlags run_flags;
+  ShotFlags shot;
+  CompositeFlags composite;
+  JsonFlag json;
+};
+
+}  // namespace gloam::cli

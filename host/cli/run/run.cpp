@@ -1,0 +1,81 @@
+// gloam run TECHNIQUE FRAME.exr -o OUT.exr
+#include <memory>
+#include <string>
+
+#include "cli/flags/given_flags.h"
+#include "cli/list/techniques.h"
+#include "cli/process/chunk_commands.h"
+#include "cli/run/frame.h"
+#include "cli/run/outputs.h"
+#include "cli/run/shot.h"
+#include "gloam/error.h"
+#include "gloam/frame_pattern.h"
+#include "technique/default_technique.h"
+
+namespace gloam::cli {
+namespace {
+
+/// Flags that each command of a chunk has in its own form.
+const std::set<std::string> not_of_chunks = {"--frames", "--warm-up", "--resume"};
+
+void run_command(const RunCommand& given, const CLI::App& command) {
+  RunCommand flags = given;
+  flags.technique = technique_for(given.technique);
+  find_technique(flags.technique);
+  PlanRequest request = flags.technique_flags.request({flags.technique});
+  if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
+  if (flags.frame.has_pattern()) {
+    flags.given = contents_in_words(command);
+    flags.repeated = repeated_words(command, not_of_chunks);
+    return run_on_shot(flags, request);
+  }
+  check_no_shot(flags.frame, outputs_of(flags).named(), flags.shot.any(flags.into.empty()));
+  run_on_frame(flags, request);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto flags = std::make_shared<RunCommand>();
+  CLI::App* command = app.add_subcommand("run", "run a technique on a frame, or on each frame of a shot");
+  command
+      ->add_option("technique", flags->technique,
+                   "gloam list techniques shows them; ao: the default of ambient occlusion")
+      ->required()
+      ->type_name("TECHNIQUE");
+  flags->frame.add_to(*command);
+  command->add_option("-o,--output", flags->out, "EXR file to write")->type_name("OUT.exr");
+  command
+      ->add_option("--into", flags->into, "a copy of the frame's file with all that it holds, and the result as a part")
+      ->type_name("COPY.exr");
+  command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
+      ->type_name("A,B");
+  command->add_option("--picture", flags->picture, "the first output as a picture for people")->type_name("OUT.png");
+  command->add_flag("--bare", flags->bare, "leave depth, normals and cameras out of OUT.exr");
+  CLI::Option* half = command->add_flag("--half", flags->half, "write AO as half instead of float");
+  add_compression(*command, flags->compression);
+  flags->technique_flags.add_to(*command);
+  flags->run_flags.add_to(*command);
+  flags->frame_flags.add_to(*command);
+  flags->composite.add_to(*command);
+  flags->shot.add_to(*command);
+  command->get_option("--float")->excludes(half);
+  flags->json.add_to(*command);
+  command->footer(
+      "Examples:\n"
+      "  gloam run ao frame.exr -o ao.exr --picture ao.png\n"
+      "  gloam run ao frame.exr --into with_ao.exr\n"
+      "  gloam run ao frame.exr --composite graded.exr --composite-strength 0.8 --tint 0.1,0.05,0\n"
+      "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
+      "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
+      "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"
+      "  gloam run gtao frame.exr -o ao.exr --only corner-mask\n"
+      "  gloam run temporal-sssr frame.0002.exr --history reflection.0001.exr -o reflection.0002.exr\n"
+      "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1001-1100 --resume\n"
+      "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1-1000 --chunks 25 --print | parallel\n"
+      "  gloam run normals depth_only.exr -o normals.exr --fov 60 --json -\n"
+      "Every parameter of the technique is a flag: gloam run TECHNIQUE --help shows them.");
+  command->callback([flags, command] { run_command(*flags, *command); });
+}
+
+}  // namespace gloam::cli

@@ -1,0 +1,36 @@
+// A shot: frames whose files are named by patterns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/command.h"
+#include "gloam/frame_files.h"
+#include "gloam/frame_pattern.h"
+#include "sequence/sequence_files.h"
+
+namespace gloam::cli {
+
+/// `SequenceFiles` by flags. Adds its notes to those of the command.
+class ShotFiles : public SequenceFiles {
+ public:
+  ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice);
+  /// Of any number of patterns.
+  ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice);
+
+ private:
+  ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice,
+            std::vector<std::string> notes);
+};
+
+/// Throws UsageError for outputs that are patterns, and for a flag of shots, with one frame. `flag`: empty if none is given.
+void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag);
+
+/// Names of outputs with their flags.
+using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
+
+/// As `check_paths`, with the outputs of all frames; what the shot reads it has told itself.
+void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
+
+}  // namespace gloam::cli
