@@ -15,7 +15,7 @@
 
 #include "support/integral.h"
 
-namespace gloam::test {
+namespace gloam::test::alchemy_test {
 namespace {
 
 constexpr double radius = 0.8;
@@ -139,4 +139,4 @@ TEST(AlchemyParameters, TheRadiusIsALimit) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::alchemy_test

@@ -10,7 +10,7 @@
 #include "support/estimate.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::bilateral_test {
 namespace {
 
 Channel filtered(Frame& frame, const Settings& settings = {}) {
@@ -227,4 +227,4 @@ TEST(Bilateral, RowsAndColumnsAlike) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bilateral_test

@@ -12,7 +12,8 @@
 #include "scene/built_in/mesh_builder.h"
 #include "support/traced_scene.h"
 
-namespace gloam::test {
+namespace gloam::test::bounces_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec3;
@@ -69,7 +70,7 @@ TEST(BouncesReference, IntegratingSphere) {
 // Plates without end that meet at 90 degrees fill half of each other's view from every point: with colours p and q of the plates,
 // G on p is 1/2 + 1/2 q G on q, and likewise on q.
 TEST(BouncesReference, CornerOfTwoColours) {
-  Scene scene = corner(4000, 0);
+  Scene scene = corner_of_meshes(4000, 0);
   scenes::add_material(scene, "wall", vec3(0));
   scene.meshes[1].material = 1;
   const dvec3 p(0.9, 0.5, 0.1), q(0.2, 0.7, 1.0);
@@ -91,7 +92,7 @@ double beyond(double c) { return c >= 1 ? 0 : (std::acos(c) - c * std::sqrt(1 - 
 // One reflection within a radius: where a direction meets the other plate at height b, that plate is open but for `beyond(b / R)`.
 TEST(BouncesReference, OneReflectionWithinARadius) {
   const double radius = 0.8, albedo = 0.7;
-  Scene scene = corner();
+  Scene scene = corner_of_meshes();
   colour(scene, 0, vec3(float(albedo)));
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
@@ -120,7 +121,7 @@ TEST(BouncesReference, OneReflectionWithinARadius) {
 
 // The same rays as those of AO: without reflections, and with black surfaces, it is AO.
 TEST(BouncesReference, WithoutReflectionsItIsAo) {
-  Scene scene = corner();
+  Scene scene = corner_of_meshes();
   colour(scene, 0, vec3(0));
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 32, 18);
@@ -135,7 +136,7 @@ TEST(BouncesReference, WithoutReflectionsItIsAo) {
 }
 
 TEST(BouncesReference, StatesWhatItIs) {
-  const Scene scene = corner();
+  const Scene scene = corner_of_meshes();
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
   const Reference a = bounces_reference(tracer, frame, options_with(0.8, 50, 3)),
@@ -150,7 +151,7 @@ TEST(BouncesReference, StatesWhatItIs) {
 }
 
 TEST(BouncesReference, RefusesSurfacesThatReflectMoreThanTheyGet) {
-  Scene scene = corner();
+  Scene scene = corner_of_meshes();
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
   for (const float wrong : {1.25f, -0.25f, std::numeric_limits<float>::quiet_NaN()}) {
@@ -169,4 +170,4 @@ TEST(BouncesReference, RefusesSurfacesThatReflectMoreThanTheyGet) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bounces_reference_test

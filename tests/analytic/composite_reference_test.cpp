@@ -13,7 +13,8 @@
 #include "support/traced_scene.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::composite_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec3;
@@ -69,7 +70,7 @@ double form_factor(double a, double b, double c) {
 // A floor before a wall that shines, under an even sky: the wall takes its form factor from the sky's light, and gives its own.
 TEST(CompositeReference, CornerUnderASky) {
   const dvec3 sky(0.5, 1, 2), shine(3, 1, 0.25), albedo(0.8, 0.5, 0.2);
-  Scene scene = corner(40, 1);
+  Scene scene = corner_of_meshes(40, 1);
   scenes::add_material(scene, "wall", vec3(0));
   scene.materials[0].albedo = vec3(albedo);
   scene.materials[1].emission = vec3(shine);
@@ -93,7 +94,7 @@ TEST(CompositeReference, CornerUnderASky) {
 
 // Metal has no diffuse light of its surroundings.
 TEST(CompositeReference, MetalStaysBlack) {
-  Scene scene = corner(40, 1);
+  Scene scene = corner_of_meshes(40, 1);
   scenes::add_material(scene, "wall", vec3(0));
   scene.materials[0].metallic = 1;
   scene.materials[1].emission = vec3(1);
@@ -108,7 +109,7 @@ TEST(CompositeReference, MetalStaysBlack) {
 }
 
 TEST(CompositeReference, IsWhatIsComposedOfItsParts) {
-  Scene scene = corner();
+  Scene scene = corner_of_meshes();
   set_sky(scene, vec3(1));
   const Tracer tracer(scene);
   const Frame frame = frame_with_light(tracer, 16, 9);
@@ -130,7 +131,7 @@ TEST(CompositeReference, IsWhatIsComposedOfItsParts) {
 }
 
 TEST(CompositeReference, ASunWithoutShadowsInColourGetsThem) {
-  Scene scene = corner();
+  Scene scene = corner_of_meshes();
   scene.light.sun = vec3(1);
   const Tracer tracer(scene);
   const Frame frame = frame_with_light(tracer, 16, 9);
@@ -145,4 +146,4 @@ TEST(CompositeReference, ASunWithoutShadowsInColourGetsThem) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::composite_reference_test

@@ -12,7 +12,8 @@
 #include "scene/built_in/mesh_builder.h"
 #include "support/traced_scene.h"
 
-namespace gloam::test {
+namespace gloam::test::contact_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec3;
@@ -197,4 +198,4 @@ TEST(ContactReference, RefusesASunWithoutADirection) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::contact_reference_test

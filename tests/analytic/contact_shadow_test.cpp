@@ -7,7 +7,7 @@
 #include "gloam/error.h"
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::contact_shadow_test {
 namespace {
 
 using glm::dvec3;
@@ -233,4 +233,4 @@ TEST(ContactShadow, TheMaskHasNearlyAllShadows) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::contact_shadow_test

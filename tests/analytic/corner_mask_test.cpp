@@ -7,7 +7,7 @@
 #include "support/estimate.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::corner_mask_test {
 namespace {
 
 Frame mask_of(const Frame& frame, const Settings& settings = {}) {
@@ -121,4 +121,4 @@ TEST(CornerMask, LittleIsMissedInARoom) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::corner_mask_test

@@ -10,7 +10,7 @@
 #include "support/estimate.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::dp_hbao_plus_test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -83,4 +83,4 @@ TEST(DpHbaoPlus, TheLargestContributionCounts) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::dp_hbao_plus_test

@@ -11,7 +11,8 @@
 
 #include "support/traced_scene.h"
 
-namespace gloam::test {
+namespace gloam::test::environment_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec2;
@@ -37,7 +38,7 @@ Reference traced(const Tracer& tracer, const Frame& frame, const EnvironmentMap&
 
 // With light that is the same from everywhere it is AO times that light, by the same rays.
 TEST(EnvironmentReference, EvenLightIsAo) {
-  const Scene scene = corner();
+  const Scene scene = corner_of_meshes();
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 32, 18);
   const dvec3 light(2, 0.5, 0.125);
@@ -59,7 +60,7 @@ std::function<dvec3(const dvec3&)> cosine_to(const dvec3& towards) {
 // In a corner of plates without end, for light with the cosine to each of the axes: the mean of the cosine to the normal over an open
 // hemisphere is 2/3, over half of one 1/3; to a direction at right angles to the normal, over the half on its side, 2 / (3 pi).
 TEST(EnvironmentReference, CosineLightInACorner) {
-  const Scene scene = corner(4000);
+  const Scene scene = corner_of_meshes(4000);
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
   const double own = 1.0 / 3, beside = 2 / (3 * pi);
@@ -81,7 +82,7 @@ TEST(EnvironmentReference, CosineLightInACorner) {
 }
 
 TEST(EnvironmentReference, CosineLightOverAPlane) {
-  Scene scene = corner(4000);
+  Scene scene = corner_of_meshes(4000);
   scene.meshes.pop_back();
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
@@ -109,7 +110,7 @@ dvec3 light_of_texel(const EnvironmentMap& map, int column, int row) {
 
 // A sun of one texel, which one in 12000 directions drawn evenly would meet.
 TEST(EnvironmentReference, SunOfOneTexel) {
-  Scene scene = corner(4000);
+  Scene scene = corner_of_meshes(4000);
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
   const int height = 128, row = 30;
@@ -137,7 +138,7 @@ TEST(EnvironmentReference, SunOfOneTexel) {
 }
 
 TEST(EnvironmentReference, StatesWhatItIs) {
-  const Scene scene = corner();
+  const Scene scene = corner_of_meshes();
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 16, 9);
   const EnvironmentMap map = map_of(cosine_to({0, 1, 0}), 32);
@@ -151,4 +152,4 @@ TEST(EnvironmentReference, StatesWhatItIs) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::environment_reference_test

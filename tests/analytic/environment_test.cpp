@@ -13,7 +13,7 @@
 #include "gloam/exr.h"
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::environment_test {
 namespace {
 
 using glm::dmat3;
@@ -272,4 +272,4 @@ TEST(Environment, ARoughSurfaceBlursTheMap) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::environment_test

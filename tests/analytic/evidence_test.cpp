@@ -10,7 +10,7 @@
 #include "support/estimate.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::evidence_test {
 namespace {
 
 /// What a built-in scene's own camera shows.
@@ -256,4 +256,4 @@ TEST(Evidence, IsolatedPixelsGetMoreSlices) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::evidence_test

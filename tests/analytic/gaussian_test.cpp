@@ -8,7 +8,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::gaussian_test {
 namespace {
 
 constexpr int width = 53, height = 41;
@@ -172,4 +172,4 @@ TEST(Gaussian, FollowsAnEstimateWhereItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::gaussian_test

@@ -18,7 +18,7 @@
 #include "support/integral.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::gtao_test {
 namespace {
 
 constexpr double radius = 0.8, pi = std::numbers::pi;
@@ -204,4 +204,4 @@ TEST(GtaoIntegral, HorizonsOverSmoothSurfaces) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::gtao_test

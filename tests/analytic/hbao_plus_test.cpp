@@ -9,7 +9,7 @@
 
 #include "support/integral.h"
 
-namespace gloam::test {
+namespace gloam::test::hbao_plus_test {
 namespace {
 
 constexpr double radius = 0.8, bias = 0.1;
@@ -40,4 +40,4 @@ TEST(HbaoPlusIntegral, Plane) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::hbao_plus_test

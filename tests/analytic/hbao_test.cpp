@@ -14,7 +14,7 @@
 #include "support/integral.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::hbao_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -175,4 +175,4 @@ TEST(HbaoBentNormal, BesideAWall) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::hbao_test

@@ -13,7 +13,8 @@
 #include "scene/built_in/mesh_builder.h"
 #include "support/traced_scene.h"
 
-namespace gloam::test {
+namespace gloam::test::indirect_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec3;
@@ -134,7 +135,7 @@ TEST(IndirectReference, StatesWhatItIs) {
 
 TEST(IndirectReference, RefusesScenesWithoutLight) {
   const auto message = [](const std::function<void(Scene&)>& change) {
-    Scene scene = corner();
+    Scene scene = corner_of_meshes();
     const Tracer tracer(scene);
     const Frame frame = frame_of(tracer, 16, 9);
     change(scene);
@@ -159,4 +160,4 @@ TEST(IndirectReference, RefusesScenesWithoutLight) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::indirect_reference_test

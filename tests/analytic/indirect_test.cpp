@@ -10,7 +10,7 @@
 #include "gloam/planes.h"
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::indirect_test {
 namespace {
 
 constexpr double radius = 0.8, pi = std::numbers::pi;
@@ -246,4 +246,4 @@ TEST(Indirect, FewerLayersOfLightThanOfDepthAreDark) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::indirect_test

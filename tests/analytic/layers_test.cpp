@@ -10,7 +10,7 @@
 #include "support/long.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::layers_test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -94,4 +94,4 @@ TEST_P(DepthLayers, ShowAHiddenOccluder) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::layers_test

@@ -19,7 +19,7 @@
 #include "support/long.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::light_field_test {
 namespace {
 
 using glm::dvec2;
@@ -761,4 +761,4 @@ TEST(LightFieldReuse, ViewsOfCameras) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::light_field_test

@@ -8,7 +8,7 @@
 #include "gloam/normalise.h"
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::multi_bounce_test {
 namespace {
 
 constexpr int steps = 65;
@@ -84,4 +84,4 @@ TEST_P(MultiBounce, TakesAlbedoThatIsNoneForTheNearestThatIs) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::multi_bounce_test

@@ -12,7 +12,7 @@
 #include "support/integral.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::multires_test {
 namespace {
 
 constexpr double radius = 0.8, bias = 0.1, max_reach = 0.25;
@@ -148,4 +148,4 @@ TEST(Multires, RunsAtALowerResolution) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::multires_test

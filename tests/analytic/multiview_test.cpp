@@ -13,7 +13,7 @@
 #include "support/long.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::multiview_test {
 namespace {
 
 /// A plane through a point, in view space.
@@ -155,4 +155,4 @@ TEST(Multiview, HalvesTheErrorBesideASlabThatLiesAlongTheView) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::multiview_test

@@ -8,7 +8,7 @@
 
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::normals_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -102,4 +102,4 @@ TEST(NormalsFromDepth, Ball) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::normals_test

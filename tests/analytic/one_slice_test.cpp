@@ -7,7 +7,7 @@
 
 #include "support/integral.h"
 
-namespace gloam::test {
+namespace gloam::test::one_slice_test {
 namespace {
 
 Settings slices(int directions) {
@@ -56,4 +56,4 @@ TEST(OneSlice, IsTheIntegralOnAverageOverSeeds) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::one_slice_test

@@ -7,7 +7,7 @@
 #include "gloam/planes.h"
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::open_directions_test {
 namespace {
 
 struct PlaneCase {
@@ -49,4 +49,4 @@ TEST_P(OpenDirections, OfAPlaneAreTheHemisphere) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::open_directions_test

@@ -19,7 +19,8 @@
 #include "gloam/scene/import.h"
 #include "scene/built_in/mesh_builder.h"
 
-namespace gloam::test {
+namespace gloam::test::outlines_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec3;
@@ -611,4 +612,4 @@ TEST(OutlineCount, NoRaySlipsThroughAnEdge) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::outlines_test

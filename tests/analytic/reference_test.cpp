@@ -13,13 +13,13 @@
 #include "support/long.h"
 #include "support/traced_scene.h"
 
-namespace gloam {
+namespace gloam::reference_test {
 namespace {
 
 using glm::dvec3;
 using glm::vec3;
 using test::add_floor;
-using test::corner;
+using test::corner_of_meshes;
 using test::frame_of;
 using test::mesh_of;
 using test::scene_with;
@@ -128,7 +128,7 @@ TEST(Reference, CanyonFloor) {
 // directions fill evenly.
 TEST(Reference, CornerWithinARadius) {
   const double radius = 0.8;
-  expect_truth(traced(corner(), options_with(radius)), [&](const dvec3& p, int mesh) {
+  expect_truth(traced(corner_of_meshes(), options_with(radius)), [&](const dvec3& p, int mesh) {
     const double a = mesh == 1 ? p.x : p.y;
     if (a < 1e-6) return unknown;
     const double c = a / radius;
@@ -161,7 +161,7 @@ TEST(Reference, CornerWithAFalloff) {
     }
     return 1 - sum / glm::pi<double>();
   };
-  expect_truth(traced(corner(), options, 16, 9), [&](const dvec3& p, int mesh) {
+  expect_truth(traced(corner_of_meshes(), options, 16, 9), [&](const dvec3& p, int mesh) {
     const double a = mesh == 1 ? p.x : p.y;
     return a < 1e-6 ? unknown : integral(a);
   });
@@ -170,7 +170,7 @@ TEST(Reference, CornerWithAFalloff) {
 // --- Other promises of the reference
 
 TEST(Reference, NothingDependsOnTheOrigin) {
-  Scene near = corner(), far = corner();
+  Scene near = corner_of_meshes(), far = corner_of_meshes();
   far.origin = {1e7, -3e6, 2e7};
   for (SceneCamera& camera : far.cameras) camera.pose.position += far.origin;
   AoReferenceOptions options = options_with(0.8);
@@ -187,19 +187,20 @@ TEST(Reference, NothingDependsOnTheOrigin) {
 TEST(Reference, SameSeedSameBitsAndItsNoiseFallsWithSamples) {
   AoReferenceOptions options = options_with(0.8);
   options.samples = 64;
-  const AoReference a = traced(corner(), options).reference, b = traced(corner(), options).reference;
+  const AoReference a = traced(corner_of_meshes(), options).reference,
+                    b = traced(corner_of_meshes(), options).reference;
   for (int y = 0; y < 18; ++y)
     for (int x = 0; x < 32; ++x)
       ASSERT_EQ(a.frame.views[0].planes.at("ao").channels[0].at(x, y),
                 b.frame.views[0].planes.at("ao").channels[0].at(x, y));
   options.samples = 1024;
-  EXPECT_LT(traced(corner(), options).reference.noise, 0.5 * a.noise);
+  EXPECT_LT(traced(corner_of_meshes(), options).reference.noise, 0.5 * a.noise);
   EXPECT_EQ(a.frame.numbers.at("aoSamples"), 64);
   EXPECT_FLOAT_EQ(float(a.frame.numbers.at("aoRadius")), 0.8f);
 }
 
 TEST(Reference, GoesOnWhereItWasInterrupted) {
-  const Scene scene = corner();
+  const Scene scene = corner_of_meshes();
   const Tracer tracer(scene);
   AoReferenceOptions options = options_with(0.8);
   options.samples = 256;
@@ -240,7 +241,7 @@ TEST(Reference, GoesOnWhereItWasInterrupted) {
 
 // A full disk loses the checkpoint, not the result.
 TEST(Reference, ACheckpointThatCannotBeWrittenIsOnlyANote) {
-  const Scene scene = corner();
+  const Scene scene = corner_of_meshes();
   AoReferenceOptions options = options_with(0.8);
   options.samples = 32;
   options.checkpoint = "/nonexistent/folder/ref.exr.partial";
@@ -274,7 +275,7 @@ TEST(Reference, LargeTrianglesDoNoHarm) {
 }
 
 TEST(Reference, RefusesTheFrameOfAnotherScene) {
-  Scene scene = corner(), other = corner();
+  Scene scene = corner_of_meshes(), other = corner_of_meshes();
   const Tracer tracer(scene);
   CaptureOptions options;
   options.width = 32, options.height = 18;
@@ -292,4 +293,4 @@ TEST(Reference, RefusesTheFrameOfAnotherScene) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::reference_test

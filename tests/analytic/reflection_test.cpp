@@ -20,7 +20,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::reflection_test {
 namespace {
 
 using glm::dvec3;
@@ -886,4 +886,4 @@ TEST_F(Kitchen, ReflectsAboutWhatItsRendererSays) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::reflection_test

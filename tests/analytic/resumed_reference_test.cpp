@@ -13,7 +13,8 @@
 #include "gloam/scene/specular_occlusion_reference.h"
 #include "support/traced_scene.h"
 
-namespace gloam::test {
+namespace gloam::test::resumed_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::vec3;
@@ -88,7 +89,7 @@ bool same_values(const Reference& a, const Reference& b, const std::string& plan
 }
 
 TEST(ResumedReference, EveryKindEndsWithTheSameBits) {
-  const Scene scene = corner();
+  const Scene scene = corner_of_meshes();
   const Tracer tracer(scene);
   const Frame frame = frame_of(tracer, 32, 18);
   std::string folder = (std::filesystem::temp_directory_path() / "gloam-resumed-XXXXXX").string();
@@ -131,4 +132,4 @@ TEST(ResumedReference, EveryKindEndsWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::resumed_reference_test

@@ -9,7 +9,7 @@
 #include "support/depth_layers.h"
 #include "support/estimate.h"
 
-namespace gloam::test {
+namespace gloam::test::sao_test {
 namespace {
 
 Settings with(const char* levels, const char* radius, const char* level_offset = "3") {
@@ -130,4 +130,4 @@ TEST(SaoLevels, ChangeLittle) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::sao_test

@@ -11,7 +11,7 @@
 #include "base/low_discrepancy.h"
 #include "loggia.h"
 
-namespace gloam::analytic {
+namespace gloam::analytic::scene_test {
 namespace {
 
 using glm::dvec3;
@@ -237,4 +237,4 @@ TEST_F(Loggia, NearbyObjectsAreAllThatMatters) {
 }
 
 }  // namespace
-}  // namespace gloam::analytic
+}  // namespace gloam::analytic::scene_test

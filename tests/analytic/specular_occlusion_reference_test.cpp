@@ -12,7 +12,8 @@
 #include "gloam/error.h"
 #include "support/traced_scene.h"
 
-namespace gloam::test {
+namespace gloam::test::specular_occlusion_reference_test {
+using gloam::Scene;
 namespace {
 
 using glm::dvec3;
@@ -21,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A corner without end, or a floor alone, of this roughness.
 Scene rough_corner(float roughness, bool has_wall = true) {
-  Scene scene = corner(4000);
+  Scene scene = corner_of_meshes(4000);
   scene.materials[0].roughness = roughness;
   if (!has_wall) scene.meshes.pop_back();
   return scene;
@@ -159,4 +160,4 @@ TEST(SpecularOcclusionReference, RoughnessIsTheFrames) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::specular_occlusion_reference_test

@@ -9,7 +9,7 @@
 
 #include "support/integral.h"
 
-namespace gloam::test {
+namespace gloam::test::specular_occlusion_test {
 namespace {
 
 using glm::dvec3;
@@ -234,4 +234,4 @@ TEST(SpecularOcclusion, OfAPlaneIsOpen) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::specular_occlusion_test

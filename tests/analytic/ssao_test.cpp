@@ -11,7 +11,7 @@
 #include "support/integral.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::ssao_test {
 namespace {
 
 constexpr double radius = 0.8;
@@ -99,4 +99,4 @@ TEST(SsaoDirections, LeanAwayFromAWall) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::ssao_test

@@ -15,7 +15,7 @@
 #include "support/long.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::stereo_test {
 namespace {
 
 using Planes = std::vector<std::string>;
@@ -681,4 +681,4 @@ TEST(Stereo, UpsamplingFromBothIsTheSameWithAnyNumberOfLanes) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stereo_test

@@ -10,7 +10,7 @@
 #include "support/estimate.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::stochastic_test {
 namespace {
 
 /// From the first camera, with all layers that can be stored.
@@ -307,4 +307,4 @@ TEST(StochasticDepth, LessCompensationIsNeverBrighterThanNone) {
 INSTANTIATE_TEST_SUITE_P(All, StochasticDepthOn, testing::Values("colonnade", "corridor"));
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stochastic_test

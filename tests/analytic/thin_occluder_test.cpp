@@ -9,7 +9,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::thin_occluder_test {
 namespace {
 
 constexpr double radius = 0.8, wall = 4, height = 0.55, half_width = 0.03, half_length = 2;
@@ -70,4 +70,4 @@ TEST(ThinOccluder, DoesNotShadeLikeAWall) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::thin_occluder_test

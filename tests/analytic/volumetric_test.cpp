@@ -10,7 +10,7 @@
 
 #include "support/integral.h"
 
-namespace gloam::test {
+namespace gloam::test::volumetric_test {
 namespace {
 
 constexpr double radius = 0.8;
@@ -83,4 +83,4 @@ TEST(VolumetricPlane, ReadsOpenAtTheHorizon) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::volumetric_test

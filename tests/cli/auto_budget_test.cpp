@@ -2,7 +2,7 @@
 #include "cli/gloam_process.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::auto_budget_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -166,4 +166,4 @@ TEST_F(AutoBudget, WhatIsWrongIsSaidInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::auto_budget_test

@@ -1,7 +1,7 @@
 // gloam auto on a shot: each frame is decided by itself, at one radius, and what was decided is told.
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::auto_shot_test {
 namespace {
 
 class AutoShot : public ShotTest {
@@ -95,4 +95,4 @@ TEST_F(AutoShot, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::auto_shot_test

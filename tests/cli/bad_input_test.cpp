@@ -6,7 +6,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::bad_input_test {
 namespace {
 
 void expect_refused(const Result& result, int status, const std::vector<std::string>& words) {
@@ -285,4 +285,4 @@ TEST_F(Cli, CtrlCLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bad_input_test

@@ -5,7 +5,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::bench_baseline_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -217,4 +217,4 @@ TEST_F(BenchBaseline, WritesWhatReadersOfGoogleBenchmarkNeed) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bench_baseline_test

@@ -5,7 +5,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::bench_effects_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -133,4 +133,4 @@ TEST_F(BenchEffects, AreThoseThatTruthsHold) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bench_effects_test

@@ -3,7 +3,7 @@
 
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::bench_sequence_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -152,4 +152,4 @@ TEST_F(BenchSequence, WhatCannotBeMeasuredIsSaidInALine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bench_sequence_test

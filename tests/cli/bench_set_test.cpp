@@ -3,7 +3,7 @@
 
 #include "cli/score_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::bench_set_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -127,4 +127,4 @@ TEST_F(BenchSet, RowsOfAnEarlierResultAreMeasuredAgain) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bench_set_test

@@ -7,7 +7,7 @@
 #include "picture/picture.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::bench_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -648,4 +648,4 @@ TEST_F(Cli, BenchComparesGtaoWithNaiveKernelsThatComputeTheSame) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bench_test

@@ -6,7 +6,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::bench_time_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -138,4 +138,4 @@ TEST_F(BenchTime, PickSaysLoudlyThatThereIsNoTruth) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::bench_time_test

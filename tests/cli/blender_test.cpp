@@ -14,7 +14,7 @@
 #include "scene/built_in/mesh_builder.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::blender_test {
 namespace {
 
 using glm::vec3;
@@ -150,4 +150,4 @@ TEST_F(Blender, AgreesWithBouncesWithinTheNoise) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::blender_test

@@ -9,7 +9,7 @@
 #include "cli/gloam_process.h"
 #include "support/seen_frame.h"
 
-namespace gloam::test {
+namespace gloam::test::camera_fit_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -458,4 +458,4 @@ TEST_F(BlenderCamera, LinesWriteTheCameraOfTheFrame) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::camera_fit_test

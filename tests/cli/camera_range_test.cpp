@@ -4,7 +4,7 @@
 #include "gloam/error.h"
 #include "gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::camera_range_test {
 namespace {
 
 class CameraRange : public Cli {
@@ -124,4 +124,4 @@ TEST_F(CameraRange, OfBackgroundIsThatOfFloat) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::camera_range_test

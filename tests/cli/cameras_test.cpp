@@ -15,7 +15,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::cameras_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -283,4 +283,4 @@ TEST_F(ForeignCameras, TheFieldOfViewTellsItsRange) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::cameras_test

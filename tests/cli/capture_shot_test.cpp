@@ -2,7 +2,7 @@
 #include "cli/shot_fixture.h"
 #include "gloam/projection.h"
 
-namespace gloam::test {
+namespace gloam::test::capture_shot_test {
 namespace {
 
 class CaptureShots : public ShotTest {
@@ -155,4 +155,4 @@ TEST_F(CaptureShots, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::capture_shot_test

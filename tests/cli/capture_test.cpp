@@ -8,7 +8,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::capture_test {
 namespace {
 
 class CaptureCommand : public Cli {
@@ -421,4 +421,4 @@ TEST_F(CaptureCommand, ListsScenes) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::capture_test

@@ -2,7 +2,7 @@
 // machines; elsewhere these tests are skipped.
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::captures_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -210,4 +210,4 @@ TEST_F(CaptureCli, EveryFileIsRunOrRefusedInOneLineWithinAGibibyte) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::captures_test

@@ -1,7 +1,7 @@
 // gloam stress and bench in chunks: commands for several processes, whose files join to what one process writes.
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::chunk_commands_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -169,4 +169,4 @@ TEST_F(ChunkCommands, AreRefusedWhereTheyCannotBeRunByThemselves) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::chunk_commands_test

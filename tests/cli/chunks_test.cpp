@@ -1,7 +1,7 @@
 // gloam run --chunks: commands for several processes, which together write what one process does.
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::chunks_test {
 namespace {
 
 using Chunks = ShotTest;
@@ -67,4 +67,4 @@ TEST_F(Chunks, AreRefusedWhereTheyCannotBeRunByThemselves) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::chunks_test

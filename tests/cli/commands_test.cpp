@@ -11,7 +11,7 @@
 #include "cli/gloam_process.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::commands_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -595,4 +595,4 @@ TEST_F(Cli, CompareTakesAResultBeforeTheDepthBesideIt) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::commands_test

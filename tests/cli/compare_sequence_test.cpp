@@ -5,7 +5,7 @@
 #include "cli/shot_fixture.h"
 #include "picture/picture.h"
 
-namespace gloam::test {
+namespace gloam::test::compare_sequence_test {
 namespace {
 
 class CompareSequence : public ShotTest {
@@ -220,4 +220,4 @@ TEST_F(CompareSequence, APlotWithoutPairsHasNoPanelOfThem) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::compare_sequence_test

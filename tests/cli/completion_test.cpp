@@ -1,7 +1,7 @@
 // Shell completion of `gloam`, tested in bash with the script that the command writes.
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::completion_test {
 namespace {
 
 class Completion : public Cli {
@@ -76,4 +76,4 @@ TEST_F(Completion, IsWrittenForTwoShellsAndNoOther) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::completion_test

@@ -9,7 +9,7 @@
 
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::composite_test {
 namespace {
 
 class Composite : public ShotTest {
@@ -218,4 +218,4 @@ TEST_F(Composite, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::composite_test

@@ -4,7 +4,7 @@
 #include "cli/gloam_process.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::contact_test {
 namespace {
 
 class CliContact : public Cli {
@@ -50,4 +50,4 @@ TEST_F(CliContact, SaysWhereLightComesFromWhereNothingStatesIt) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::contact_test

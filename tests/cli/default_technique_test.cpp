@@ -3,7 +3,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::default_technique_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -60,4 +60,4 @@ TEST_F(DefaultTechnique, IsPlannedOverTimeAsItRuns) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::default_technique_test

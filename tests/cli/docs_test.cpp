@@ -1,7 +1,7 @@
 // Pages of docs/ agree with the program. Their snippets are run by tests/docs.
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::docs_test {
 namespace {
 
 using Docs = Cli;
@@ -23,4 +23,4 @@ TEST_F(Docs, PageOnSequencesNamesEveryShot) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::docs_test

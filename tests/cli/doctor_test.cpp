@@ -1,7 +1,7 @@
 // gloam doctor: what it finds, what it keeps, and what becomes of kept kernels that are damaged.
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::doctor_test {
 namespace {
 
 /// Replaces each occurrence of some bytes; returns how many there were.
@@ -230,4 +230,4 @@ TEST_F(Doctor, SecondDeviceHasItsKernelsKeptByGloam) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::doctor_test

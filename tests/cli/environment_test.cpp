@@ -7,7 +7,7 @@
 #include "gloam/environment_file.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::environment_test {
 namespace {
 
 class CliEnvironment : public Cli {
@@ -90,4 +90,4 @@ TEST_F(CliEnvironment, RefusesANameThatIsNoSky) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::environment_test

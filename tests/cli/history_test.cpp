@@ -4,7 +4,7 @@
 #include "cli/gloam_process.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::history_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -102,4 +102,4 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::history_test

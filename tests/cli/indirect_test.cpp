@@ -4,7 +4,7 @@
 
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::indirect_test {
 namespace {
 
 using Settings = std::vector<std::string>;
@@ -190,4 +190,4 @@ TEST_F(CliIndirectOverTime, WhatIsNotAccumulatedIsRefused) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::indirect_test

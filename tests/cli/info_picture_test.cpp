@@ -1,7 +1,7 @@
 // gloam info --picture: the contact sheet of a file.
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::info_picture_test {
 namespace {
 
 /// Width and height from a PNG's header.
@@ -55,4 +55,4 @@ TEST_F(Cli, InfoPictureNeedsAPlane) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::info_picture_test

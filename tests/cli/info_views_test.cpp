@@ -2,7 +2,7 @@
 #include "cli/gloam_process.h"
 #include "unit/pictures.h"
 
-namespace gloam::test {
+namespace gloam::test::info_views_test {
 namespace {
 
 /// Three views of 96 x 54 pixels; `ao` is 1/4, 2/4 and 3/4 in them, and the row's number over 255 in the first ten columns.
@@ -171,4 +171,4 @@ TEST_F(InfoViews, FilesWithoutAKnownPlaneAreRefused) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::info_views_test

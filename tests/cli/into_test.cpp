@@ -22,7 +22,7 @@
 #include "cli/shot_fixture.h"
 #include "gloam/exr_copy.h"
 
-namespace gloam::test {
+namespace gloam::test::into_test {
 namespace {
 
 constexpr int into_width = 67, into_height = 45;
@@ -426,4 +426,4 @@ TEST_F(Into, NothingHalfWrittenStaysWhereSpaceIsLacking) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::into_test

@@ -4,7 +4,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::kernel_cache_test {
 namespace {
 
 /// Needs PoCL; other drivers keep nothing in POCL_CACHE_DIR.
@@ -115,4 +115,4 @@ TEST_F(KernelCache, TooLittleMemoryToCompileEndsAtOnce) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::kernel_cache_test

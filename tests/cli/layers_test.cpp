@@ -3,7 +3,7 @@
 #include "gloam/planes.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::layers_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -99,4 +99,4 @@ TEST_F(Cli, TwoViewsAreAskedForWhereTheyAreNeeded) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::layers_test

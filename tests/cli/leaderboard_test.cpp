@@ -6,7 +6,7 @@
 #include "cli/browser.h"
 #include "picture/picture.h"
 
-namespace gloam::test {
+namespace gloam::test::leaderboard_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -461,4 +461,4 @@ TEST_F(LeaderboardInBrowser, FitsANarrowScreen) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::leaderboard_test

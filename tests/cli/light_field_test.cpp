@@ -2,7 +2,7 @@
 #include "cli/gloam_process.h"
 #include "gloam/error.h"
 
-namespace gloam::test {
+namespace gloam::test::light_field_test {
 namespace {
 
 constexpr const char* small_display = R"({"name": "small", "observer": {"distance": 3},
@@ -311,4 +311,4 @@ TEST_F(Display, ADamagedHeaderIsToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::light_field_test

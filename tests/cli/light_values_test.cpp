@@ -14,7 +14,7 @@
 #include "cli/gloam_process.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::light_values_test {
 namespace {
 
 double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
@@ -383,4 +383,4 @@ TEST_F(CliLight, ACompositeTellsOfColourThatIsNoLight) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::light_values_test

@@ -4,7 +4,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::links_test {
 namespace {
 
 /// A Markdown page without the parts that are not links: fenced blocks, and code within a line.
@@ -115,4 +115,4 @@ TEST(Links, ABrokenOneIsFound) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::links_test

@@ -1,7 +1,7 @@
 // A command's memory is estimated beforehand, refused if it is too much, and close to the actual peak.
 #include "gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::memory_test {
 namespace {
 
 class Memory : public Cli {
@@ -111,4 +111,4 @@ TEST_F(Memory, RowsAreWorkedOnByOneThread) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::memory_test

@@ -6,7 +6,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::odd_files_test {
 namespace {
 
 class OddFiles : public Cli {
@@ -207,4 +207,4 @@ TEST_F(OddFiles, KeysOfAMillionLettersAreToldInALine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::odd_files_test

@@ -2,7 +2,7 @@
 #include "cli/gloam_process.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::only_test {
 namespace {
 
 class CliOnly : public Cli {
@@ -150,4 +150,4 @@ TEST_F(CliOnly, WhatTheFrameLacksIsSaidInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::only_test

@@ -2,7 +2,7 @@
 #include "cli/gloam_process.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::outlines_test {
 namespace {
 
 class OutlineCapture : public Cli {
@@ -127,4 +127,4 @@ TEST_F(OutlineCapture, HelpHasTheFlagsAndAnExample) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::outlines_test

@@ -7,7 +7,7 @@
 #include "support/long.h"
 #include "unit/pictures.h"
 
-namespace gloam::test {
+namespace gloam::test::paper_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -318,4 +318,4 @@ TEST_F(Cli, OnlyPapersThatAreKnown) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::paper_test

@@ -3,7 +3,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::pick_by_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -241,4 +241,4 @@ TEST_F(PickBy, FlipIsThatOfABenchedRow) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::pick_by_test

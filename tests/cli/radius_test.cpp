@@ -14,7 +14,7 @@
 #include "gloam/parameters.h"
 #include "gloam/technique.h"
 
-namespace gloam::test {
+namespace gloam::test::radius_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -378,4 +378,4 @@ TEST_F(Radius, OfTheListIsTheFrames) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::radius_test

@@ -4,7 +4,7 @@
 #include "base/lists.h"
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::reference_shot_test {
 namespace {
 
 class TruthsOfAShot : public ShotTest {
@@ -195,4 +195,4 @@ TEST_F(TruthsOfAShot, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::reference_shot_test

@@ -4,7 +4,7 @@
 #include "base/random.h"
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::report_compare_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -290,4 +290,4 @@ TEST_F(ReportCompare, RefusesFilesThatAreNoResults) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::report_compare_test

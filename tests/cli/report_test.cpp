@@ -5,7 +5,7 @@
 #include "cli/browser.h"
 #include "picture/picture.h"
 
-namespace gloam::test {
+namespace gloam::test::report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -980,4 +980,4 @@ TEST_F(Documentation, SaysWhatIsWrongAndWritesNothing) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::report_test

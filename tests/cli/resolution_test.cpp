@@ -4,7 +4,7 @@
 #include "support/long.h"
 #include "support/stress.h"
 
-namespace gloam::test {
+namespace gloam::test::resolution_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -167,4 +167,4 @@ TEST_F(CliResolution, ExtrasThatThereAreNot) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::resolution_test

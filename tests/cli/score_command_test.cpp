@@ -5,7 +5,7 @@
 #include "cli/browser.h"
 #include "cli/score_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::score_command_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -333,4 +333,4 @@ TEST_F(ScoreInBrowser, SubmittedMethodsAreMarked) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::score_command_test

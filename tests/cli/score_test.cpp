@@ -5,7 +5,7 @@
 #include "picture/picture.h"
 #include "picture/png_values.h"
 
-namespace gloam::test {
+namespace gloam::test::score_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -471,4 +471,4 @@ TEST_F(Score, AnImageThatTakesTooMuchMemoryIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::score_test

@@ -10,7 +10,7 @@
 #include "set/manifest.h"
 #include "set/recipe.h"
 
-namespace gloam::test {
+namespace gloam::test::set_test {
 namespace {
 
 using nlohmann::json;
@@ -264,4 +264,4 @@ TEST_F(Sets, AreFrozenWholly) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::set_test

@@ -5,7 +5,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::shared_folder_test {
 namespace {
 
 using SharedFolder = Cli;
@@ -48,4 +48,4 @@ TEST_F(SharedFolder, APictureThatDoesNotFitOnTheDiskNamesTheCause) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::shared_folder_test

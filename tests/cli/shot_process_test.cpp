@@ -10,7 +10,7 @@
 #include "sequence/frame_locks.h"
 #include "support/long.h"
 
-namespace gloam::test {
+namespace gloam::test::shot_process_test {
 namespace {
 
 class ShotProcess : public ShotTest {
@@ -332,4 +332,4 @@ TEST_F(ShotProcess, MemoryDoesNotGrowOverTenThousandFrames) {
 #endif
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::shot_process_test

@@ -1,7 +1,7 @@
 // gloam run and gloam info on a shot: what is written, and what happens to frames that are unlike the others.
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::shot_test {
 namespace {
 
 using Shot = ShotTest;
@@ -350,4 +350,4 @@ TEST_F(Shot, InfoTellsACameraThatIsNotUsed) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::shot_test

@@ -9,7 +9,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::stereo_capture_test {
 namespace {
 
 using glm::dvec2;
@@ -272,4 +272,4 @@ TEST_F(CapturedStereo, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stereo_capture_test

@@ -9,7 +9,7 @@
 #include "unit/pictures.h"
 #include "unit/read_channel.h"
 
-namespace gloam::test {
+namespace gloam::test::stereo_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -478,4 +478,4 @@ TEST_F(Cli, AChoiceOfChannelsThatFitsOneEyeIsRefused) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stereo_test

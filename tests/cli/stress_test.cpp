@@ -11,7 +11,7 @@
 #include "cli/gloam_process.h"
 #include "gloam/technique.h"
 
-namespace gloam::test {
+namespace gloam::test::stress_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -269,4 +269,4 @@ TEST(OptOuts, NameACaseAPartAndATechnique) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stress_test

@@ -1,7 +1,7 @@
 // gloam run --temporal: each frame of a shot goes on from the one before.
 #include "cli/shot_fixture.h"
 
-namespace gloam::test {
+namespace gloam::test::temporal_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -183,4 +183,4 @@ TEST_F(Temporal, SaysWhereNothingTellsOfMotion) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::temporal_test

@@ -6,7 +6,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::two_files_test {
 namespace {
 
 using glm::dvec3;
@@ -313,4 +313,4 @@ TEST_F(TwoFiles, EyesThatARendererWrote) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::two_files_test

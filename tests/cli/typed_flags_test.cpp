@@ -8,7 +8,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::typed_flags_test {
 namespace {
 
 /// Flags that take names and files: what is wrong with them a frame, a scene, a device or the registry says.
@@ -264,4 +264,4 @@ TEST_F(EveryCommand, TakesTheSameTimes) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::typed_flags_test

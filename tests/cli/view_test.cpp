@@ -9,7 +9,7 @@
 
 #include "cli/browser.h"
 
-namespace gloam::test {
+namespace gloam::test::view_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -954,4 +954,4 @@ TEST_F(ViewInBrowser, StaysUsableWithTheViewsOfADisplay) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::view_test

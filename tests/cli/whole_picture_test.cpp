@@ -4,7 +4,7 @@
 #include "cli/shot_fixture.h"
 #include "gloam/composition.h"
 
-namespace gloam::test {
+namespace gloam::test::whole_picture_test {
 namespace {
 
 class WholePicture : public ShotTest {
@@ -184,4 +184,4 @@ TEST_F(WholePicture, RefusesInOneLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::whole_picture_test

@@ -5,7 +5,7 @@
 
 #include "cli/gloam_process.h"
 
-namespace gloam::test {
+namespace gloam::test::written_files_test {
 namespace {
 
 /// A command, the files that it reads and the flags of the files that it writes. A word that begins with @ is a name in the test's folder.
@@ -300,4 +300,4 @@ TEST(WhatOpensFiles, TellsTheLedger) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::written_files_test

@@ -28,7 +28,7 @@ void add_floor(Scene& scene, float half, int material) {
                    {-half, 0, -half});
 }
 
-Scene corner(float half, int wall) {
+Scene corner_of_meshes(float half, int wall) {
   Scene scene = scene_with(looking_at("main", {1.2, 1.0, 1.2}, {0.2, 0, 0}, 60));
   add_floor(scene, half);
   scenes::add_quad(mesh_of(scene, "wall", wall), {0, 0, half}, {0, 0, -half}, {0, half, -half}, {0, half, half});

@@ -11,12 +11,12 @@
 namespace gloam::test {
 
 /// A scene with one grey material (index 0) and this camera.
-Scene scene_with(const SceneCamera& camera);
-Mesh& mesh_of(Scene& scene, const char* name, int material = 0);
+gloam::Scene scene_with(const SceneCamera& camera);
+Mesh& mesh_of(gloam::Scene& scene, const char* name, int material = 0);
 /// A square in the plane y = 0 about the origin.
-void add_floor(Scene& scene, float half, int material = 0);
+void add_floor(gloam::Scene& scene, float half, int material = 0);
 /// A floor and a wall at x = 0 that faces +x, both of this half size: a corner of 90 degrees. Materials: 0, and `wall`.
-Scene corner(float half = 40, int wall = 0);
+gloam::Scene corner_of_meshes(float half = 40, int wall = 0);
 
 /// Planes normal, position, instance and roughness of the scene's first camera.
 Frame frame_of(const Tracer& tracer, int width, int height);

@@ -15,7 +15,7 @@
 #include "support/techniques.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::arrays_test {
 namespace {
 
 constexpr int width = 48, height = 32;
@@ -204,4 +204,4 @@ TEST(Devices, TakeThreadsOneAfterAnother) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::arrays_test

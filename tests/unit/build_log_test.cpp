@@ -8,7 +8,7 @@
 
 #include "run/kept_folders.h"
 
-namespace gloam {
+namespace gloam::build_log_test {
 namespace {
 
 TEST(BuildLog, TheFirstErrorHasFileAndLine) {
@@ -48,4 +48,4 @@ TEST(BuildLog, LongNamesLeaveRoomForTheError) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::build_log_test

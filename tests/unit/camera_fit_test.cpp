@@ -11,7 +11,7 @@
 #include "camera/depth_relation.h"
 #include "support/seen_frame.h"
 
-namespace gloam {
+namespace gloam::camera_fit_test {
 namespace {
 
 using glm::dvec2;
@@ -247,4 +247,4 @@ TEST(DepthRelation, PlacesAnOrthographicCamera) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::camera_fit_test

@@ -19,6 +19,7 @@
 #include "gloam/error.h"
 #include "unit/read_channel.h"
 
+namespace gloam::camera_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -754,3 +755,5 @@ TEST_F(Captures, HalfSizeFrameUsesTheSameJson) {
 }
 
 }  // namespace
+
+}  // namespace gloam::camera_test

@@ -12,7 +12,7 @@
 #include "gloam/scene/capture.h"
 #include "scene/built_in/mesh_builder.h"
 
-namespace gloam {
+namespace gloam::capture_motion_test {
 namespace {
 
 using glm::dvec2;
@@ -168,4 +168,4 @@ TEST(CaptureMotion, ShotsMoveVerticesAloneAndSmoothly) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::capture_motion_test

@@ -19,7 +19,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam {
+namespace gloam::capture_test {
 namespace {
 
 using glm::dvec3;
@@ -842,4 +842,4 @@ TEST(Capture, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::capture_test

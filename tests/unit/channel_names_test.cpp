@@ -5,6 +5,7 @@
 
 #include "gloam/error.h"
 
+namespace gloam::channel_names_test {
 namespace {
 
 using namespace gloam;
@@ -297,3 +298,5 @@ TEST(ChannelNames, NothingKnownIsNoError) {
 }
 
 }  // namespace
+
+}  // namespace gloam::channel_names_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gloam::test {
+namespace gloam::test::choice_test {
 namespace {
 
 /// Two effects that change the picture by 3 and by 4, independently: without both it is 5 off.
@@ -82,4 +82,4 @@ TEST(Choice, WithoutEffectsThereIsNothingToChoose) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::choice_test

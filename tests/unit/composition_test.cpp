@@ -12,7 +12,7 @@
 #include "gloam/planes.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::composition_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -254,4 +254,4 @@ TEST(ColorHolds, IsAList) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::composition_test

@@ -9,7 +9,7 @@
 #include "gloam/visualise.h"
 #include "unit/pictures.h"
 
-namespace gloam {
+namespace gloam::contact_sheet_test {
 namespace {
 
 using namespace test;
@@ -313,4 +313,4 @@ TEST_F(ContactSheetTest, SaysWhatCannotBeDrawn) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::contact_sheet_test

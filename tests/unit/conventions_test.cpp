@@ -19,6 +19,7 @@
 #include "normalise/normals.h"
 #include "unit/read_channel.h"
 
+namespace gloam::conventions_test {
 namespace {
 
 using namespace gloam;
@@ -35,7 +36,7 @@ Channel row_of(const std::vector<float>& values) {
   return channel;
 }
 
-std::vector<float> values_of(const Channel& channel) {
+std::vector<float> values_in(const Channel& channel) {
   return {channel.row(0), channel.row(0) + channel.layout().width};
 }
 
@@ -60,7 +61,7 @@ Converted convert(const std::vector<float>& values, const StatedDepth& options =
   const Channel cover = row_of(alpha ? *alpha : values);
   Converted result;
   result.convention = to_view_depth(depth, alpha ? &cover : nullptr, window_of(depth), camera, options, result.assumed);
-  result.depth = values_of(depth);
+  result.depth = values_in(depth);
   return result;
 }
 
@@ -538,8 +539,8 @@ Frame frame_of(const std::map<std::string, std::vector<std::vector<float>>>& pla
   return frame;
 }
 
-std::vector<float> values_of(const Frame& frame, const std::string& plane, size_t component = 0) {
-  return values_of(frame.views[0].planes.at(plane).channels[component]);
+std::vector<float> values_in(const Frame& frame, const std::string& plane, size_t component = 0) {
+  return values_in(frame.views[0].planes.at(plane).channels[component]);
 }
 
 TEST(Normalise, DepthAndItsLayers) {
@@ -549,9 +550,9 @@ TEST(Normalise, DepthAndItsLayers) {
   frame.views[0].camera = plain_camera();
   frame.views[0].camera->far = 60;
   normalise(frame, 5.0f);
-  EXPECT_EQ(values_of(frame, "depth"), (std::vector<float>{1, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
-  EXPECT_EQ(values_of(frame, "back_depth"), (std::vector<float>{2, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
-  EXPECT_EQ(values_of(frame, "peel.00"), (std::vector<float>{3, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
+  EXPECT_EQ(values_in(frame, "depth"), (std::vector<float>{1, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
+  EXPECT_EQ(values_in(frame, "back_depth"), (std::vector<float>{2, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
+  EXPECT_EQ(values_in(frame, "peel.00"), (std::vector<float>{3, inf, inf, inf, inf, inf, 1e10f, inf, inf, inf}));
 }
 
 TEST(Normalise, NormalsAreUnitOrZero) {
@@ -562,15 +563,15 @@ TEST(Normalise, NormalsAreUnitOrZero) {
                             {4, 0, 1, 0, 0, 0, 0, nan, 1}}}});
   normalise(frame);
   const float diagonal = float(std::sqrt(0.5));
-  EXPECT_EQ(values_of(frame, "normal", 0), (std::vector<float>{0.6f, 0, 0, 0, diagonal, 1, 1, 0, 0}));
-  EXPECT_EQ(values_of(frame, "normal", 1), (std::vector<float>{0, 0, 0, 0, diagonal, 0, 0, 0, 0}));
-  EXPECT_EQ(values_of(frame, "normal", 2), (std::vector<float>{0.8f, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(values_in(frame, "normal", 0), (std::vector<float>{0.6f, 0, 0, 0, diagonal, 1, 1, 0, 0}));
+  EXPECT_EQ(values_in(frame, "normal", 1), (std::vector<float>{0, 0, 0, 0, diagonal, 0, 0, 0, 0}));
+  EXPECT_EQ(values_in(frame, "normal", 2), (std::vector<float>{0.8f, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(Normalise, NormalsWithoutDepthStay) {
   Frame frame = frame_of({{"normal", {{0}, {0}, {2}}}});
   normalise(frame);
-  EXPECT_EQ(values_of(frame, "normal", 2), std::vector<float>{1});
+  EXPECT_EQ(values_in(frame, "normal", 2), std::vector<float>{1});
 }
 
 TEST(Normalise, BoundedPlanesAndColours) {
@@ -578,9 +579,9 @@ TEST(Normalise, BoundedPlanesAndColours) {
                           {"albedo", {{0.5f, -0.1f, 1.5f, nan, inf, -inf}, {0, 0, 0, 0, 0, 0}, {1, 1, 1, 1, 1, 1}}},
                           {"color", {{0.5f, -0.1f, 1500, nan, inf, -inf}, {0, 0, 0, 0, 0, 0}, {1, 1, 1, 1, 1, 1}}}});
   normalise(frame);
-  EXPECT_EQ(values_of(frame, "ao"), (std::vector<float>{0.5f, 0, 1, 1, 1, 0}));
-  EXPECT_EQ(values_of(frame, "albedo"), (std::vector<float>{0.5f, 0, 1, 0, 1, 0}));
-  EXPECT_EQ(values_of(frame, "color"), (std::vector<float>{0.5f, -0.1f, 1500, 0, 0, 0}));
+  EXPECT_EQ(values_in(frame, "ao"), (std::vector<float>{0.5f, 0, 1, 1, 1, 0}));
+  EXPECT_EQ(values_in(frame, "albedo"), (std::vector<float>{0.5f, 0, 1, 0, 1, 0}));
+  EXPECT_EQ(values_in(frame, "color"), (std::vector<float>{0.5f, -0.1f, 1500, 0, 0, 0}));
 }
 
 TEST(Normalise, PaddingTakesTheOutsideValue) {
@@ -663,3 +664,5 @@ TEST_F(CapturedNormals, KitchenBackgroundShare) {
 }
 
 }  // namespace
+
+}  // namespace gloam::conventions_test

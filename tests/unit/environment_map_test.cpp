@@ -19,7 +19,7 @@
 #include "gloam/error.h"
 #include "message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::environment_map_test {
 namespace {
 
 using glm::dvec2;
@@ -165,4 +165,4 @@ TEST_F(EnvironmentFile, IsRefusedIfItIsNone) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::environment_map_test

@@ -10,7 +10,7 @@
 #include "unit/message_of.h"
 #include "unit/pictures.h"
 
-namespace gloam {
+namespace gloam::explanation_test {
 namespace {
 
 using namespace test;
@@ -247,4 +247,4 @@ TEST_F(ExplanationTest, SaysWhatItCannotExplain) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::explanation_test

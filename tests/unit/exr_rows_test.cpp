@@ -14,7 +14,7 @@
 #include "gloam/exr.h"
 #include "gloam/metrics.h"
 
-namespace gloam {
+namespace gloam::exr_rows_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST(Comparison, ByRowsGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::exr_rows_test

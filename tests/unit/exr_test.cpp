@@ -35,6 +35,7 @@
 #include "gloam/normalise.h"
 #include "gloam/planes.h"
 
+namespace gloam::exr_test {
 namespace {
 
 using namespace gloam;
@@ -1041,3 +1042,5 @@ TEST_F(ExrCaptures, EveryDamagedFileIsReadOrRefused) {
 }
 
 }  // namespace
+
+}  // namespace gloam::exr_test

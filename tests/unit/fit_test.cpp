@@ -6,7 +6,7 @@
 #include "gloam/technique.h"
 #include "unit/message_of.h"
 
-namespace gloam::bench {
+namespace gloam::bench::fit_test {
 namespace {
 
 /// To one sampling.
@@ -146,4 +146,4 @@ TEST(EvidenceSets, OtherSettingsTakeTheMostSimilarSet) {
 }
 
 }  // namespace
-}  // namespace gloam::bench
+}  // namespace gloam::bench::fit_test

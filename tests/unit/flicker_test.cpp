@@ -9,7 +9,7 @@
 
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::flicker_test {
 namespace {
 
 constexpr int width = 24, height = 16, all_pixels = width * height;
@@ -235,4 +235,4 @@ TEST(Flicker, RefusesFramesOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::flicker_test

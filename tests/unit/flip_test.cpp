@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gloam::test {
+namespace gloam::test::flip_test {
 namespace {
 
 using Colour = cv::Vec3d;
@@ -75,4 +75,4 @@ TEST(Flip, WhatScreensCannotShowIsCutOff) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::flip_test

@@ -20,6 +20,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 
+namespace gloam::frame_test {
 namespace {
 
 using namespace gloam;
@@ -476,3 +477,5 @@ TEST(ReadText, NamesWhatItCannotRead) {
 }
 
 }  // namespace
+
+}  // namespace gloam::frame_test

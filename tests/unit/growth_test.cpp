@@ -7,7 +7,7 @@
 
 #include "gloam/planes.h"
 
-namespace gloam::test {
+namespace gloam::test::growth_test {
 namespace {
 
 using namespace gloam::bench;
@@ -84,4 +84,4 @@ TEST(Growth, FewerLayersAndMoreViews) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::growth_test

@@ -10,7 +10,7 @@
 #include "support/stress.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::history_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST_F(HistoryTest, AnotherEyeOrWindowIsRefused) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::history_test

@@ -1,4 +1,6 @@
 // Scenes from files: contents, conventions, and broken files.
+#include "gloam/scene/import.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,9 +18,9 @@
 #include <vector>
 
 #include "gloam/error.h"
-#include "gloam/scene/import.h"
 #include "gloam/scene/scene.h"
 
+namespace gloam::import_test {
 namespace {
 
 using namespace gloam;
@@ -636,3 +638,5 @@ TEST(Import, DamagedFilesAreReadOrRefused) {
 }
 
 }  // namespace
+
+}  // namespace gloam::import_test

@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 
-namespace gloam::test {
+namespace gloam::test::intervals_test {
 namespace {
 
 using namespace gloam::bench;
@@ -135,4 +135,4 @@ TEST(IsNarrowEnough, ComparesHalfTheWidthWithTheMedian) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::intervals_test

@@ -6,7 +6,7 @@
 
 #include "base/lists.h"
 
-namespace gloam {
+namespace gloam::kernel_sources_test {
 namespace {
 
 std::vector<std::string> kernels_of(const std::string& text) {
@@ -39,4 +39,4 @@ TEST(KernelSources, KernelsNamedByAMacroStay) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::kernel_sources_test

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "report/student.h"
 
-namespace gloam::test {
+namespace gloam::test::levels_test {
 namespace {
 
 using namespace gloam::report;
@@ -151,4 +151,4 @@ TEST(Changes, HaveIntervalsThatHoldTheTruth) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::levels_test

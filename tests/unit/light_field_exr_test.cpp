@@ -11,7 +11,7 @@
 #include "support/light_field.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::light_field_exr_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,4 +197,4 @@ TEST_F(DisplayFile, ADisplayThatDoesNotFitIsToldFromADisplayWithAFault) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::light_field_exr_test

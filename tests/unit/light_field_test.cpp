@@ -19,7 +19,7 @@
 #include "plan/key_views.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::light_field_test {
 namespace {
 
 using glm::dmat3;
@@ -729,4 +729,4 @@ TEST(KeyViews, EveryViewHasOneNear) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::light_field_test

@@ -14,7 +14,7 @@
 #include "support/techniques.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::mask_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -261,4 +261,4 @@ INSTANTIATE_TEST_SUITE_P(All, Masked, ::testing::ValuesIn(cases()), [](const aut
 });
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::mask_test

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-namespace gloam {
+namespace gloam::memory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ TEST(Memory, InWords) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::memory_test

@@ -14,7 +14,7 @@
 #include "gloam/scene/camera_ray.h"
 #include "gloam/scene/tracer.h"
 
-namespace gloam::scenes {
+namespace gloam::scenes::mesh_builder_test {
 namespace {
 
 using glm::dvec3;
@@ -428,4 +428,4 @@ TEST(Corridor, ShellIsOneConnectedMeshWithConcaveCorners) {
 }
 
 }  // namespace
-}  // namespace gloam::scenes
+}  // namespace gloam::scenes::mesh_builder_test

@@ -14,7 +14,7 @@
 #include "compare/flip.h"
 #include "gloam/error.h"
 
-namespace gloam {
+namespace gloam::metrics_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -341,4 +341,4 @@ TEST(Metrics, BackgroundOfColoursSaysNothing) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::metrics_test

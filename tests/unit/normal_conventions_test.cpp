@@ -26,7 +26,8 @@
 #include "sequence/sequence_files.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::normal_conventions_test {
+using gloam::Scene;
 namespace {
 
 namespace fs = std::filesystem;
@@ -641,4 +642,4 @@ TEST_F(Depths, StairsOfAnOrthographicCameraAreTold) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::normal_conventions_test

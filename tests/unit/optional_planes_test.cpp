@@ -6,7 +6,7 @@
 #include "gloam/plan.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::optional_planes_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -136,4 +136,4 @@ TEST(FileParameter, ThatCannotBeReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::optional_planes_test

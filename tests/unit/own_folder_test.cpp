@@ -16,7 +16,7 @@
 #include "run/kept_folders.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::own_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST(WordsOfAnybody, JsonIsRefusedInOneShortLine) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::own_folder_test

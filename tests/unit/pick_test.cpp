@@ -6,7 +6,7 @@
 
 #include "measure/contest.h"
 
-namespace gloam::test {
+namespace gloam::test::pick_test {
 namespace {
 
 using namespace gloam::bench;
@@ -130,4 +130,4 @@ TEST_F(PickContest, TheTimeIsNotExceeded) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::pick_test

@@ -11,7 +11,7 @@
 
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::point_sets_test {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
@@ -230,4 +230,4 @@ TEST(PointSets, RefuseACountOutsideTheirRange) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::point_sets_test

@@ -12,7 +12,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::quotient_test {
 namespace {
 
 /// While it lives, every quotient in kernels is so many units in the last place too large.
@@ -73,4 +73,4 @@ INSTANTIATE_TEST_SUITE_P(All, Quotients, testing::ValuesIn(technique_names()),
                          [](const testing::TestParamInfo<std::string>& info) { return identifier(info.param); });
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::quotient_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gloam::test {
+namespace gloam::test::race_test {
 namespace {
 
 using namespace gloam::bench;
@@ -25,4 +25,4 @@ TEST(SplitEstimate, SplitsNothingWhereGathersAloneTakeLonger) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::race_test

@@ -4,7 +4,7 @@
 
 #include "gloam/technique.h"
 
-namespace gloam {
+namespace gloam::registry_test {
 namespace {
 
 /// A pass written without its members' names compiles when these change their order, and then binds no plane or no file.
@@ -21,4 +21,4 @@ TEST(Registry, EveryPassBindsPlanesOfAFileThatExists) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::registry_test

@@ -14,7 +14,7 @@
 #include "results/front.h"
 #include "results/joined.h"
 
-namespace gloam::report {
+namespace gloam::report::report_front_test {
 namespace {
 
 using Indices = std::vector<size_t>;
@@ -335,4 +335,4 @@ TEST(Joined, TakesMoreTechniquesOnTheSameSceneButNothingTwice) {
 }
 
 }  // namespace
-}  // namespace gloam::report
+}  // namespace gloam::report::report_front_test

@@ -20,7 +20,7 @@
 #include "technique/kernel_sources.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::resolution_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -501,4 +501,4 @@ TEST(Upsampling, DoesNotBleedOverADepthEdge) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::resolution_test

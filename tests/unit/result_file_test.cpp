@@ -13,7 +13,7 @@
 #include "support/long.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::result_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ TEST_F(ResultFiles, WrongTypesAreOneLineThatNamesThePlace) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::result_file_test

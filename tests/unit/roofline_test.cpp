@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gloam::bench {
+namespace gloam::bench::roofline_test {
 namespace {
 
 double loads(const char* technique, const char* preset, const char* pass) {
@@ -39,4 +39,4 @@ TEST(OperationCounts, AreMissingForWhatWasNotCounted) {
 }
 
 }  // namespace
-}  // namespace gloam::bench
+}  // namespace gloam::bench::roofline_test

@@ -6,7 +6,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::run_test {
 namespace {
 
 Plane level(const std::string& name, const Layout& layout, float value) {
@@ -28,4 +28,4 @@ TEST(Run, APlaneThatAViewCameWithIsNoResultOfIt) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::run_test

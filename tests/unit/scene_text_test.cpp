@@ -13,6 +13,7 @@
 #include "gloam/scene/scene.h"
 #include "gloam/scene/tracer.h"
 
+namespace gloam::scene_text_test {
 namespace {
 
 using namespace gloam;
@@ -146,3 +147,5 @@ TEST_F(SceneText, WhatIsTooFarAwayToTraceIsRefusedWithItsNumber) {
 }
 
 }  // namespace
+
+}  // namespace gloam::scene_text_test

@@ -13,7 +13,7 @@
 #include "gloam/scene/scene.h"
 #include "support/long.h"
 
-namespace gloam {
+namespace gloam::scenes_organic_test {
 namespace {
 
 const Mesh& mesh_named(const Scene& scene, const std::string& name) {
@@ -212,4 +212,4 @@ TEST(FenceAndFoliage, HaveNoSettings) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::scenes_organic_test

@@ -7,7 +7,7 @@
 
 #include "gloam/technique.h"
 
-namespace gloam::bench {
+namespace gloam::bench::schedule_test {
 namespace {
 
 TEST(Schedule, ALimitEndsAtItsTimeAndPartsEndEarlier) {
@@ -75,4 +75,4 @@ TEST(Schedule, TimesAreToldInWords) {
 }
 
 }  // namespace
-}  // namespace gloam::bench
+}  // namespace gloam::bench::schedule_test

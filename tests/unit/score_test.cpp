@@ -9,7 +9,7 @@
 #include "score/fit.h"
 #include "score/submitted_files.h"
 
-namespace gloam::test {
+namespace gloam::test::score_test {
 namespace {
 
 std::vector<score::Target> targets_for_names() {
@@ -134,4 +134,4 @@ TEST(GreyFlip, IsFlipOfThreeEqualChannels) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::score_test

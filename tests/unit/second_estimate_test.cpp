@@ -12,7 +12,7 @@
 #include "support/techniques.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::second_estimate_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -385,4 +385,4 @@ TEST(HiddenMask, NorDoesWhatIsLowerThanWhatIsSeen) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::second_estimate_test

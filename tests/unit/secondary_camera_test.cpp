@@ -14,7 +14,7 @@
 #include "gloam/error.h"
 #include "gloam/scene/scene.h"
 
-namespace gloam {
+namespace gloam::secondary_camera_test {
 namespace {
 
 using glm::dvec2;
@@ -229,4 +229,4 @@ TEST(VisibleDepths, ArePercentilesOfWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::secondary_camera_test

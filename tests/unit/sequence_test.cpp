@@ -20,7 +20,7 @@
 #include "sequence/pipeline.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::sequence_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -358,4 +358,4 @@ TEST(Chunks, WordsAreReadBackByAShell) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::sequence_test

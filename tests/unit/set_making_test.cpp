@@ -10,7 +10,7 @@
 #include "gloam/scene/tracer.h"
 #include "set/hard_frames.h"
 
-namespace gloam {
+namespace gloam::set_making_test {
 namespace {
 
 /// Two squares in the plane z = -3, one a little larger, whose triangles differ: any of them is met in one place.
@@ -133,4 +133,4 @@ TEST(HardFrames, HaveTruthsWithinTheirRange) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::set_making_test

@@ -8,6 +8,7 @@
 #include "set/manifest.h"
 #include "set/sha256.h"
 
+namespace gloam::set_manifest_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,3 +106,5 @@ TEST(SetManifest, SaysInOneLineWhatIsWrong) {
 }
 
 }  // namespace
+
+}  // namespace gloam::set_manifest_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace gloam::test {
+namespace gloam::test::sources_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,4 +171,4 @@ TEST_F(MadeSources, AHeaderThatShowsWhatIsNotPublicIsFound) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::sources_test

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "unit/message_of.h"
 
-namespace gloam::bench {
+namespace gloam::bench::spectrum_test {
 namespace {
 
 constexpr int width = 128, height = 96;
@@ -60,4 +60,4 @@ TEST(Spectrum, CountsFlatSurfacesAlone) {
 }
 
 }  // namespace
-}  // namespace gloam::bench
+}  // namespace gloam::bench::spectrum_test

@@ -15,7 +15,7 @@
 #include "support/techniques.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::stack_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST_F(StackFiles, AViewWithoutLayersIsNamed) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stack_test

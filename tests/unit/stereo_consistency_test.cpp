@@ -13,7 +13,7 @@
 #include "support/stress.h"
 #include "unit/message_of.h"
 
-namespace gloam::test {
+namespace gloam::test::stereo_consistency_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -374,4 +374,4 @@ TEST(StereoConsistency, ValuesThatAreNotFiniteAreNamedWhereTheyCount) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::stereo_consistency_test

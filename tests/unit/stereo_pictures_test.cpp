@@ -5,7 +5,7 @@
 #include "unit/message_of.h"
 #include "unit/pictures.h"
 
-namespace gloam {
+namespace gloam::stereo_pictures_test {
 namespace {
 
 using namespace test;
@@ -114,4 +114,4 @@ TEST_F(StereoPictures, ViewsOfDifferentSizeAreRefused) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::stereo_pictures_test

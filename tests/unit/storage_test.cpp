@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gloam::test {
+namespace gloam::test::storage_test {
 namespace {
 
 using namespace gloam::bench;
@@ -55,4 +55,4 @@ TEST(Storage, DepthsAreRoundedInRelationToTheirMedian) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::storage_test

@@ -7,7 +7,7 @@
 
 #include "gloam/compute.h"
 
-namespace gloam::test {
+namespace gloam::test::strips_test {
 namespace {
 
 constexpr int width = 64, height = 400;
@@ -111,4 +111,4 @@ TEST(Strips, AreRefusedWhereAnImageDependsOnAllOfAnother) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::strips_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gloam::test {
+namespace gloam::test::subsample_test {
 namespace {
 
 /// Sizes that the scale does not divide; planes that begin left of and above the display window.
@@ -58,4 +58,4 @@ TEST(Subsample, APlaneThatIsNotThereIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::subsample_test

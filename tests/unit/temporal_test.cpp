@@ -7,7 +7,7 @@
 #include "support/stress.h"
 #include "support/techniques.h"
 
-namespace gloam::test {
+namespace gloam::test::temporal_test {
 namespace {
 
 constexpr int width = 96, height = 64;
@@ -231,4 +231,4 @@ TEST(Temporal, OnlyPlansThatMakeAoOrReflectionsGoOn) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::temporal_test

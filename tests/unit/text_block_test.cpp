@@ -6,7 +6,7 @@
 #include "gloam/error.h"
 #include "picture/table.h"
 
-namespace gloam {
+namespace gloam::text_block_test {
 namespace {
 
 const TextStyle style{11};
@@ -102,4 +102,4 @@ TEST(PictureTable, ARowIsAsHighAsItsTallestCell) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::text_block_test

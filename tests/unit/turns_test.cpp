@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace gloam::test {
+namespace gloam::test::turns_test {
 namespace {
 
 std::vector<int> range(int first, int last) {
@@ -70,4 +70,4 @@ TEST(Turns, WhatGoesOnFromAFrameThatIsNotWholeIsWrittenAgain) {
 }
 
 }  // namespace
-}  // namespace gloam::test
+}  // namespace gloam::test::turns_test

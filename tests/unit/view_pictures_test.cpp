@@ -11,7 +11,7 @@
 #include "unit/message_of.h"
 #include "unit/pictures.h"
 
-namespace gloam {
+namespace gloam::view_pictures_test {
 namespace {
 
 using namespace test;
@@ -74,11 +74,11 @@ class ViewPicturesTest : public PictureTest {
  protected:
   Picture sheet(const Frame& frame, const std::string& plane, const std::string& title = "a.exr") {
     write_view_sheet(folder / "sheet.png", frame, {title, plane});
-    return read_png(folder / "sheet.png");
+    return test::read_png(folder / "sheet.png");
   }
   Picture lines(const Frame& frame, const std::string& plane, int row, const std::string& title = "a.exr") {
     write_scan_lines(folder / "lines.png", frame, {title, plane, row});
-    return read_png(folder / "lines.png");
+    return test::read_png(folder / "lines.png");
   }
 };
 
@@ -343,4 +343,4 @@ TEST_F(ViewPicturesTest, SaysWhatCannotBeDrawn) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::view_pictures_test

@@ -11,7 +11,7 @@
 #include "gloam/error.h"
 #include "unit/pictures.h"
 
-namespace gloam {
+namespace gloam::visualise_test {
 namespace {
 
 using namespace test;
@@ -28,11 +28,11 @@ class Visualise : public test::PictureTest {
   Picture difference(const Plane& test, const Plane& truth, const Mask& mask,
                      const DifferencePicture& options = {"a.exr", "b.exr"}, const std::string& name = "d.png") {
     write_difference_picture(folder / name, test, truth, mask, compare(test, truth, mask), options);
-    return read_png(folder / name);
+    return test::read_png(folder / name);
   }
   Picture single(const Plane& plane) {
     write_picture(folder / "p.png", plane);
-    return read_png(folder / "p.png");
+    return test::read_png(folder / "p.png");
   }
 };
 
@@ -210,4 +210,4 @@ TEST_F(Visualise, SaysWhatCannotBeDrawn) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::visualise_test

@@ -16,7 +16,7 @@
 #include "support/seen_frame.h"
 #include "unit/message_of.h"
 
-namespace gloam {
+namespace gloam::writer_cameras_test {
 namespace {
 
 using glm::dvec2;
@@ -145,4 +145,4 @@ TEST(WriterCameras, RefusesImpossibleValues) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::writer_cameras_test

@@ -21,7 +21,7 @@
 #include "gloam/exr.h"
 #include "unit/message_of.h"
 
-namespace gloam {
+namespace gloam::zip_rows_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -254,4 +254,4 @@ INSTANTIATE_TEST_SUITE_P(Each, ChunksOf, testing::Bool(),
                          [](const auto& kind) { return kind.param ? "tiles" : "rows"; });
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::zip_rows_test
