@@ -22,6 +22,9 @@ class Buffers {
   /// Allocates a stack that is computed, filled with the value outside the image, which stays where nothing is computed.
   void allocate_stack(const std::string& name, const Layout& layout, size_t layers);
 
+  /// Lays a plane, which is never moved to the host, into the memory of an allocated one that no pass reads any more when it is written.
+  void share(const std::string& name, const std::string& memory) { buffers_[name] = buffers_.at(memory); }
+
   std::vector<cl::Buffer>& of(const std::string& name) { return buffers_.at(name); }
 
   /// Moves a computed plane back to the host.

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "base/lists.h"
 #include "gloam/error.h"
-#include "gloam/planes.h"
 #include "plan/layouts.h"
+#include "plan/lifetimes.h"
 #include "run/checks.h"
 #include "run/driver.h"
 #include "run/kernels.h"
@@ -14,19 +13,13 @@
 namespace gloam {
 
 unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views) {
-  const Layouts layouts(plan, layout);
-  unsigned long long bytes = 0;
-  for (const std::string& name : planes_of(plan)) bytes += bytes_of(plan, layouts, name);
-  return views_at_once(plan, views) * bytes;
+  return views_at_once(plan, views) * bytes_of_planes(plan, Layouts(plan, layout));
 }
 
 unsigned long long bytes_beside_frame(const Plan& plan, const Layout& layout, size_t views, bool shares_memory) {
   const Layouts layouts(plan, layout);
-  unsigned long long buffers = 0, results = 0;
-  for (const std::string& name : planes_of(plan)) {
-    const bool is_in_place = contains(plan.inputs, name) && plan.stacks.count(name) == 0;
-    if (!is_in_place) buffers += bytes_of(plan, layouts, name);
-  }
+  const unsigned long long buffers = bytes_of_planes(plan, layouts, true);
+  unsigned long long results = 0;
   for (const std::string& name : plan.outputs) results += bytes_of(plan, layouts, name);
   const size_t at_once = std::min(views_at_once(plan, views), views);
   // Results of the earlier views; those of the last views are still buffers.

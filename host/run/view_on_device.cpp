@@ -6,6 +6,7 @@
 #include "frame/check.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "plan/lifetimes.h"
 
 namespace gloam {
 namespace {
@@ -20,6 +21,7 @@ const Plane& input_plane(const Plan& plan, const Frame& frame, const View& view,
 void fill(ViewOnDevice& target, const Plan& plan) {
   std::map<std::string, const Plane*> inputs;
   for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, target.frame, target.view, name);
+  const std::map<std::string, std::string> shared = shared_memory(plan, target.layouts);
   for (const std::string& name : planes_of(plan)) {
     if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) {
       std::vector<const Plane*> layers;
@@ -31,10 +33,11 @@ void fill(ViewOnDevice& target, const Plan& plan) {
       target.planes.insert(name);
     } else if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name)) {
       target.buffers.allocate_stack(name, target.layouts.of(name), layers);
-    } else {
+    } else if (!shared.contains(name)) {
       target.buffers.allocate(name, target.layouts.of(name));
     }
   }
+  for (const auto& [name, memory] : shared) target.buffers.share(name, memory);
 }
 
 }  // namespace
