@@ -368,4 +368,10 @@ void probe_closely(EffectChoice& choice, const EffectProbe& probe) {
   choice.seen = std::move(closer.seen);
 }
 
+void take_planes(Frame& from, Frame& to) {
+  for (View& view : from.views) {
+    for (auto& [name, plane] : view.planes) to.view(view.name).planes[name] = std::move(plane);
+  }
+}
+
 }  // namespace gloam

@@ -7,10 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gloam/device.h"
-#include "gloam/frame.h"
-#include "gloam/plan.h"
-#include "gloam/run.h"
+#include "gloam/auto.h"
 
 namespace gloam {
 
@@ -35,27 +32,6 @@ struct EffectProbe {
   /// RMS change of the picture by the effect, as a share of the picture's RMS; none: not known.
   std::optional<double> change = {};
   ProbedMasks* masks = nullptr;  ///< of this frame, from other effects; null: none are kept
-};
-
-/// The choice for one effect, or for a technique that refines one.
-struct EffectChoice {
-  const Technique* technique = nullptr;
-  bool is_wanted = false;
-  bool is_too_faint = false;          ///< the mask wants it, but it hardly changes the picture
-  bool is_everywhere = false;         ///< wanted on so much of the image that no mask is made
-  std::string why;                    ///< in words, with the share
-  double share = 0;                   ///< share of the probed tiles, over all views
-  double classify_ms = 0;             ///< time of probing, on the device
-  std::string cells;                  ///< the plane of `seen`; empty if nothing was probed
-  std::shared_ptr<const Frame> seen;  ///< one pixel per tile of each view: above 0 where the effect is called for
-};
-
-/// The decision for an effect.
-struct Decision {
-  EffectChoice effect;
-  std::vector<EffectChoice> refinements;  ///< at most one is wanted; it replaces the effect's technique
-  PlanRequest request;                    ///< for the pixels that call for the effect
-  PlanRequest everywhere;                 ///< for all pixels, without probing
 };
 
 /// The request without settings that none of its passes has: those of resampling have a radius, which at full resolution nothing may
@@ -90,9 +66,6 @@ Decision decide(const Technique& technique, const EffectProbe& probe);
 /// A mask that saves less than 5 % is not worth the pixels that it leaves out.
 inline constexpr double most_of_everywhere = 0.95;
 
-/// Whether an effect is computed through its mask, if the decision has one, or everywhere: as stated, or whichever is faster.
-enum class MaskUse { measured, always, never };
-
 /// The planes computed for an effect, and their time.
 struct Computed {
   RunResult result;
@@ -108,5 +81,8 @@ Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use);
 
 /// Computes the cells of an effect's mask, as `EffectChoice::seen`, at the mask's full accuracy.
 void probe_closely(EffectChoice& choice, const EffectProbe& probe);
+
+/// Moves all planes, view by view, to a frame of the same views.
+void take_planes(Frame& from, Frame& to);
 
 }  // namespace gloam

@@ -14,13 +14,6 @@
 
 namespace gloam {
 
-/// One of both is given, or none: then there is no budget.
-struct BudgetGoal {
-  std::optional<double> ms;     ///< device time, the glance included
-  std::optional<double> error;  ///< expected RMS error of the picture
-  explicit operator bool() const { return ms || error; }
-};
-
 /// An effect that the frame calls for: its options, and after `spend` what was chosen and computed.
 struct BudgetedEffect {
   const Technique* technique = nullptr;  ///< of the effect
@@ -36,15 +29,6 @@ struct BudgetedEffect {
   double lost =
       0;  ///< expected RMS error of the picture that the choice for this effect brings, or that leaving it out does
   double without = 0;  ///< RMS change of the true picture by the effect, as expected
-};
-
-struct Spent {
-  double expected_error = 0;  ///< RMS of the picture
-  double glance_ms = 0;       ///< of looking: probes for masks, and the glance
-  /// The goal was not met: no choice is expected to reach the error, or nothing fits the time that the glance leaves.
-  bool is_missed = false;
-  double cheapest_ms = 0;  ///< of the fastest option of any effect, the glance included
-  std::string cheapest;    ///< the effect and the option
 };
 
 /// What spending a budget needs besides the effects.

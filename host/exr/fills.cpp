@@ -8,8 +8,8 @@
 
 #include "base/lists.h"
 #include "base/words.h"
-#include "frame/unfit.h"
 #include "gloam/error.h"
+#include "gloam/unfit.h"
 
 namespace gloam {
 namespace {

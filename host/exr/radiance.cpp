@@ -1,8 +1,8 @@
 #include "exr/radiance.h"
 
 #include "base/lists.h"
-#include "frame/unfit.h"
 #include "gloam/error.h"
+#include "gloam/unfit.h"
 
 namespace gloam {
 

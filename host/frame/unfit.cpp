@@ -1,4 +1,4 @@
-#include "frame/unfit.h"
+#include "gloam/unfit.h"
 
 #include <algorithm>
 #include <optional>

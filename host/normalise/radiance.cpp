@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/lists.h"
-#include "frame/unfit.h"
 #include "gloam/error.h"
+#include "gloam/unfit.h"
 #include "normalise/each_row.h"
 
 namespace gloam {

@@ -9,10 +9,6 @@
 namespace gloam {
 namespace {
 
-std::string holdings(const std::vector<std::string>& planes) {
-  return planes.empty() ? "the frame has no plane" : "the frame has only " + enumerate(planes);
-}
-
 /// Whether the radius of a request's plan comes from its settings.
 bool has_radius(const PlanRequest& request, const Plan& plan) {
   const std::optional<Radius> radius = radius_of(plan, request, RadiusSource::frame);
@@ -35,6 +31,10 @@ std::string warning_about_views(const Plan& plan, const Frame& frame) {
 
 }  // namespace
 
+std::string planes_in_words(const std::vector<std::string>& planes) {
+  return planes.empty() ? "the frame has no plane" : "the frame has only " + enumerate(planes);
+}
+
 std::vector<std::string> notes_about_views(const Plan& plan, const Frame& frame) {
   std::vector<std::string> notes;
   if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) notes.push_back(warning);
@@ -51,7 +51,7 @@ std::vector<std::string> notes_about_views(const Plan& plan, const Frame& frame)
 Computation plan_on(const PlanRequest& request, const Frame& frame, const std::vector<std::string>& also) {
   check(frame);
   std::vector<std::string> planes = common_planes(frame);
-  const std::string holds = holdings(planes);
+  const std::string holds = planes_in_words(planes);
   add_new(planes, also);
   Computation computation{make_plan(request, planes, holds), {}, {}};
   computation.radius = radius_of(computation.plan, request, RadiusSource::flag);

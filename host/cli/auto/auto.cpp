@@ -6,11 +6,11 @@
 
 #include "cli/auto/explanations.h"
 #include "cli/auto/frame.h"
-#include "cli/auto/goal.h"
 #include "cli/auto/report.h"
 #include "cli/auto/shot.h"
 #include "cli/flags/given_flags.h"
 #include "cli/flags/memory.h"
+#include "cli/flags/radius.h"
 #include "cli/flags/time_budget.h"
 #include "cli/shot/shot.h"
 #include "gloam/error.h"
@@ -62,6 +62,8 @@ void run_on_one_frame(const AutoCommand& flags) {
                               .goal = flags.goal,
                               .measuring = progress_bar()};
   AutoResult result = compute_effects(planned, settings, frame, device, options);
+  std::optional<RadiusReport> radius;
+  if (result.used_radius) radius.emplace(*result.used_radius, frame, result.radius_cap);
   std::vector<std::string> written;
   if (!flags.out.empty()) written.push_back(flags.out);
   if (explains) {
@@ -89,11 +91,11 @@ void run_on_one_frame(const AutoCommand& flags) {
   Json document = document_of(result, flags.goal, device.info());
   document["memory_bytes"] = memory;
   if (composition) document["composite"] = composition_document(*composition);
-  if (result.radius) result.radius->add_to(document);
+  if (radius) radius->add_to(document);
   flags.json.write(document, written);
   if (flags.json.only_json()) return;
   print(result, flags.goal);
-  if (result.radius) result.radius->print();
+  if (radius) radius->print();
   if (composition) fmt::print("{}\n", composition_in_words(*composition));
   for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
 }

@@ -5,6 +5,7 @@
 #include "auto/automatic.h"
 #include "cli/flags/memory.h"
 #include "gloam/exr_copy.h"
+#include "sequence/auto_files.h"
 
 namespace gloam::cli {
 namespace {
@@ -18,19 +19,8 @@ std::array<double, 3> parse_radiance(const std::string& text, const std::string&
   return radiance;
 }
 
-std::string text_of(const FrameFiles& files, const char* attribute) {
-  for (const FrameFile& file : files.files()) {
-    if (std::string text = file.text_attribute(attribute); !text.empty()) return text;
-  }
-  return "";
-}
-
 ColorHolds holds_of(const LightFlags& flags, const FrameFiles& files, std::vector<std::string>& notes) {
-  if (flags.holds) return *flags.holds;
-  const std::string stated = text_of(files, color_holds_attribute);
-  if (!stated.empty()) return parse_color_holds(stated, fmt::format("{}: {}", files.name(), color_holds_attribute));
-  notes.push_back(note_on_assumed_holds());
-  return {};
+  return flags.holds ? *flags.holds : gloam::holds_of(files, notes);
 }
 
 /// The names of effects that read colour.
@@ -133,26 +123,6 @@ Composite make_composite(CompositeSource& source, const Frame& computed) {
 void write_composite(const std::string& path, const Composite& composite, const std::string& compression) {
   write_frame_like(path, composite.like, composite.part, composite.picture,
                    {false, compression, composite.half_planes});
-}
-
-Json composition_document(const Composition& composition) {
-  Json parts = Json::array();
-  for (const ComposedPart& part : composition.parts)
-    parts.push_back({{"plane", part.plane}, {"used", part.is_used}, {"how", part.how}});
-  return parts;
-}
-
-std::string composition_in_words(const Composition& composition) {
-  std::vector<std::string> used, left_out;
-  for (const ComposedPart& part : composition.parts) {
-    if (part.is_used)
-      used.push_back(fmt::format("{} {}", part.plane, part.how));
-    else
-      left_out.push_back(fmt::format("{} is left out: {}", part.plane, part.how));
-  }
-  if (used.empty()) used.emplace_back("colour as it was");
-  used.insert(used.end(), left_out.begin(), left_out.end());
-  return fmt::format("composite: {}", fmt::join(used, "; "));
 }
 
 }  // namespace gloam::cli

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "auto/report.h"
 #include "cli/flags/options.h"
 #include "cli/run/colour_layer.h"
-#include "frame/unfit.h"
 #include "gloam/composition.h"
+#include "gloam/unfit.h"
 
 namespace gloam::cli {
 
@@ -65,10 +66,5 @@ void read_colour(CompositeSource& source);
 /// Takes the colour that was read. `computed`: the planes of the effects, and how they were made.
 Composite make_composite(CompositeSource& source, const Frame& computed);
 void write_composite(const std::string& path, const Composite& composite, const std::string& compression);
-
-/// [{"plane": "ao", "used": true, "how": "darkens ambient light"}, ...]
-Json composition_document(const Composition& composition);
-/// "composite: ao darkens ambient light; contact is left out: the colour holds shadows already"
-std::string composition_in_words(const Composition& composition);
 
 }  // namespace gloam::cli

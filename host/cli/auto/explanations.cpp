@@ -1,6 +1,6 @@
 #include "cli/auto/explanations.h"
 
-#include "cli/auto/report.h"
+#include "auto/report.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/auto/frame.h"
+#include "gloam/auto.h"
 #include "gloam/explanation.h"
 
 namespace gloam::cli {

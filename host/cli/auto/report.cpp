@@ -2,65 +2,14 @@
 
 #include <cmath>
 
-#include "base/json_text.h"
-#include "cli/auto/goal.h"
 #include "cli/flags/options.h"
 
 namespace gloam::cli {
 namespace {
 
-Json document_of(const EffectChoice& choice) {
-  return {{"name", choice.technique->effect.name},
-          {"technique", choice.technique->name},
-          {"wanted", choice.is_wanted},
-          {"everywhere", choice.is_everywhere},
-          {"why", choice.why},
-          {"share_of_tiles", choice.share}};
-}
-
-Json document_of(const Outcome& o) {
-  Json effect = document_of(o.decision.effect);
-  effect["runs"] = o.runs() ? Json(o.decision.request.outputs.front()) : Json(nullptr);
-  effect["ms"] = o.ms;
-  effect["ms_everywhere"] = or_null(o.ms_everywhere);
-  effect["ms_masked"] = or_null(o.ms_masked);
-  effect["masked"] = o.is_masked;
-  effect["change"] = or_null(o.change);
-  effect["lost"] = or_null(o.lost);
-  effect["refinements"] = Json::array();
-  for (const EffectChoice& refinement : o.decision.refinements)
-    effect["refinements"].push_back(document_of(refinement));
-  return effect;
-}
-
-/// What a budget has chosen, as scripts outside rely on.
-Json chosen_of(const std::vector<Outcome>& outcomes) {
-  Json chosen = Json::array();
-  for (const Outcome& o : outcomes) {
-    if (!o.runs() || o.setting.empty()) continue;
-    const PlanRequest& request = o.decision.request;
-    chosen.push_back({{"effect", o.decision.effect.technique->effect.name},
-                      {"technique", request.outputs.front()},
-                      {"outputs", request.outputs},
-                      {"planes", o.outputs},
-                      {"preset", request.preset},
-                      {"resolution", request.resolution},
-                      {"masked", o.is_masked},
-                      {"expected_ms", o.ms - o.decision.effect.classify_ms},
-                      {"expected_error", or_null(o.lost)}});
-  }
-  return chosen;
-}
-
 std::string milliseconds_or_dash(double ms) { return std::isnan(ms) ? "-" : fmt::format("{:.2f}", ms); }
 
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
-
-double ms_of(const AutoResult& result) {
-  double ms = result.glance_ms;
-  for (const Outcome& o : result.outcomes) ms += o.ms;
-  return ms;
-}
 
 const char* wanted_in_words(const Outcome& o) {
   if (o.is_left_out) return "left out";
@@ -68,48 +17,6 @@ const char* wanted_in_words(const Outcome& o) {
 }
 
 }  // namespace
-
-Json document_of(const AutoResult& result, const BudgetGoal& goal, const DeviceInfo& device) {
-  Json effects = Json::array();
-  double classify_ms = 0;
-  for (const Outcome& o : result.outcomes) {
-    effects.push_back(document_of(o));
-    classify_ms += o.decision.effect.classify_ms;
-  }
-  Json document = {{"effects", effects},
-                   {"classify_ms", classify_ms},
-                   {"glance_ms", result.glance_ms},
-                   {"total_ms", ms_of(result)},
-                   {"device", device.name}};
-  if (!result.spent) return document;
-  document["chosen"] = chosen_of(result.outcomes);
-  if (goal.ms) document["budget_ms"] = *goal.ms;
-  if (goal.error) document["error_goal"] = *goal.error;
-  document["expected_error"] = result.spent->expected_error;
-  document["goal_met"] = !result.spent->is_missed;
-  return document;
-}
-
-std::string runs_in_words(const Outcome& o) {
-  if (!o.runs()) return "";
-  const std::string techniques = fmt::format("{}", fmt::join(o.decision.request.outputs, " + "));
-  return o.setting.empty() ? techniques : techniques + ", " + o.setting;
-}
-
-std::string where_in_words(const EffectChoice& choice) {
-  if (choice.is_everywhere) return "everywhere";
-  if (choice.cells.empty() || choice.share == 0) return "-";
-  return choice.share < 0.01 ? "less than 1 %" : fmt::format("{:.0f} %", 100 * choice.share);
-}
-
-std::string saved_in_words(const Outcome& o) {
-  const bool leaves_out = !o.runs() || o.is_masked;
-  const double ms = o.ms_everywhere - o.ms;
-  // Two times of one computation differ by chance: nothing was saved then.
-  return leaves_out && ms > 0 ? fmt::format("{:.1f} of {:.1f} ms", ms, o.ms_everywhere) : "";
-}
-
-std::string lost_in_words(const Outcome& o) { return std::isnan(o.lost) ? "" : fmt::format("{:.4f}", o.lost); }
 
 void print(const AutoResult& result, const BudgetGoal& goal) {
   std::vector<std::vector<std::string>> rows = {
@@ -128,17 +35,6 @@ void print(const AutoResult& result, const BudgetGoal& goal) {
   }
   print_table(rows, rows.front().size());
   fmt::print("{}\n", totals_in_words(result, goal));
-}
-
-std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal) {
-  double looking = result.glance_ms;
-  for (const Outcome& o : result.outcomes) looking += o.decision.effect.classify_ms;
-  if (!result.spent)
-    return fmt::format("{:.1f} ms for all effects, {:.1f} ms of them to find where the frame calls for them",
-                       ms_of(result), looking);
-  return fmt::format(
-      "{}: {:.2f} ms on the device, {:.2f} of it for looking; expected error of the picture {:.4f} (RMSE)",
-      in_words(goal), ms_of(result), result.spent->glance_ms, result.spent->expected_error);
 }
 
 }  // namespace gloam::cli

@@ -1,23 +1,9 @@
-// What gloam auto tells of effects: JSON and a table.
+// What gloam auto prints of effects.
 #pragma once
 
-#include "cli/auto/frame.h"
+#include "auto/report.h"
 
 namespace gloam::cli {
-
-Json document_of(const AutoResult& result, const BudgetGoal& goal, const DeviceInfo& device);
-
-/// "evidence + multi-bounce, medium, half": what runs for an effect, with the setting that a budget chose.
-std::string runs_in_words(const Outcome& outcome);
-/// "everywhere", "34 %" or "-".
-std::string where_in_words(const EffectChoice& choice);
-/// What the mask, or leaving the effect out, saves: "1.2 of 8.1 ms"; empty: not known.
-std::string saved_in_words(const Outcome& outcome);
-/// The expected error that the choice for an effect brings to the picture: ".0021"; empty: not known.
-std::string lost_in_words(const Outcome& outcome);
-
-/// The time of all effects, and what a budget came to: a sentence.
-std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal);
 
 /// The table of effects, and for a budget a line of what was spent.
 void print(const AutoResult& result, const BudgetGoal& goal);

@@ -6,7 +6,6 @@
 
 #include "base/page_pool.h"
 #include "cli/auto/frame.h"
-#include "cli/auto/goal.h"
 #include "cli/shot/memory.h"
 #include "cli/shot/start.h"
 #include "cli/shot/steps.h"
@@ -126,6 +125,7 @@ class AutoShotWork {
     const Frame frame = first.files.read(first.planes);
     set_radius(first, settings_.radius);
     const AutoResult result = compute_effects(first, computing_, frame, device_, settings_.options);
+    note(result.notes);
     computing_.fixed = fixed_by(result);
     std::vector<std::string> lines;
     for (const auto& [technique, fixed] : *computing_.fixed) {
@@ -157,6 +157,7 @@ class AutoShotWork {
   bool compute(size_t i) {
     return step(i, &StepTimes::compute, [&](InFlight& flight) {
       AutoResult result = compute_effects(*flight.planned, computing_, flight.frame, device_, settings_.options);
+      note(result.notes);
       flight.result = std::move(result.frame);
       compose(i, flight);
       keep_first_outputs(flight.result, result.outcomes);

@@ -23,6 +23,9 @@ struct Computation {
 /// as `make_plan` and `check` (frame.h) do.
 Computation plan_on(const PlanRequest& request, const Frame& frame, const std::vector<std::string>& also = {});
 
+/// The names of a frame's planes, as `make_plan` takes them: "the frame has only depth and normal".
+std::string planes_in_words(const std::vector<std::string>& planes);
+
 /// Notes, a sentence each: two eyes have no surface in common (most likely they show two scenes, or have each other's cameras); what
 /// techniques take for something that the views do not state.
 std::vector<std::string> notes_about_views(const Plan& plan, const Frame& frame);

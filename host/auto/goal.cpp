@@ -1,18 +1,18 @@
-#include "cli/auto/goal.h"
+#include "auto/goal.h"
 
 #include "base/lists.h"
 #include "gloam/error.h"
 
-namespace gloam::cli {
+namespace gloam {
 std::string in_words(const BudgetGoal& goal) {
   return goal.ms ? fmt::format("--budget {:g}ms", *goal.ms) : fmt::format("--error {:g}", *goal.error);
 }
 
-void check_goal(const BudgetGoal& goal, const AutoFrame& planned) {
+void check_goal(const BudgetGoal& goal, const AutoPlan& planned) {
   if (!goal) return;
   const std::string flag =
       goal.ms ? fmt::format("--budget {:g}ms", *goal.ms) : fmt::format("--error {:g}", *goal.error);
-  if (is_of_display(planned.files))
+  if (planned.facts.is_of_display)
     throw UsageError(
         "{}: weighs effects by the picture of one camera, and a light-field display has many; leave it out", flag);
   for (const Unfit& each : planned.unfit) {
@@ -22,11 +22,11 @@ void check_goal(const BudgetGoal& goal, const AutoFrame& planned) {
           "color=CHANNELS has it taken",
           flag, each.why);
   }
-  if (!contains(planned.files.common_planes(), "color"))
+  if (!contains(planned.facts.planes, "color"))
     throw UsageError(
         "{}: needs the frame's colour to tell what effects change in it, and {} has none; name it with "
         "--plane color=LAYER, or leave the flag out",
-        flag, planned.files.name());
+        flag, planned.facts.name);
 }
 
 std::string note_on_goal(const Spent& spent, const BudgetGoal& goal) {
@@ -40,4 +40,4 @@ std::string note_on_goal(const Spent& spent, const BudgetGoal& goal) {
       *goal.ms, spent.glance_ms, spent.cheapest, spent.cheapest_ms);
 }
 
-}  // namespace gloam::cli
+}  // namespace gloam

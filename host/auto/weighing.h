@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "cli/auto/frame.h"
+#include "auto/budget.h"
 
-namespace gloam::cli {
+namespace gloam {
 
 /// How an effect's probe is made on the frame at hand.
 using ProbeFor = std::function<EffectProbe(const Candidate&)>;
@@ -23,4 +23,4 @@ void add_changes(Outcome& outcome, const Glance& glance);
 void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,
                   const ProbeFor& probe_for, AutoResult& result);
 
-}  // namespace gloam::cli
+}  // namespace gloam

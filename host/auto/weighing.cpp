@@ -1,4 +1,4 @@
-#include "cli/auto/budget.h"
+#include "auto/weighing.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 
-namespace gloam::cli {
+namespace gloam {
 namespace {
 
 constexpr double unlooked_at = std::numeric_limits<double>::quiet_NaN();
@@ -127,4 +127,4 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
   }
 }
 
-}  // namespace gloam::cli
+}  // namespace gloam
